@@ -1,0 +1,79 @@
+# make          sets up .venv, generates the joint library, prints the operation counts
+# make check    sets up .venv and runs every check
+# make help     lists the targets
+
+# The interpreter that .venv is made with.
+PYTHON ?= python3
+
+BIN := .venv/bin
+STAMP := .venv/.stamp
+LOCK := .ci/requirements.lock
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+unexport PYTHONHOME PYTHONPATH
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.SUFFIXES:
+.PHONY: all setup generate flops check lint types imports test current lock clean help
+
+all: generate flops ## set up, generate the joint library, print the operation counts (default)
+
+setup: $(STAMP) ## set up .venv from the lock
+
+generate: $(STAMP) ## regenerate generated/
+	$(BIN)/jointgen generate
+
+flops: $(STAMP) ## print the comparison of operation counts
+	$(BIN)/jointgen flops
+
+check: lint types imports test current ## run every check, stop at the first that fails
+
+lint: $(STAMP) ## ruff: rules and format
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(STAMP) ## mypy, strict
+	$(BIN)/mypy
+
+imports: $(STAMP) ## import-linter: imports point one way
+	$(BIN)/lint-imports
+
+test: $(STAMP) ## pytest on two cores; make test ARGS='-k lower'
+	$(BIN)/pytest -n 2 $(ARGS)
+
+current: $(STAMP) ## fail if generated/ is not what would be generated now
+	$(BIN)/jointgen generate --check
+
+lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
+	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
+		--extra measure --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
+	@printf '%s\n' '# Pinned by "make lock" for Python 3.11 on Linux x86_64. Do not edit.' | cat - $(LOCK) > $(LOCK).new
+	@mv $(LOCK).new $(LOCK)
+
+clean: ## remove .venv, caches and build products; generated/ stays
+	rm -rf .venv build dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find . -name .git -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+
+# A usable .venv is brought up to date; a missing, broken or too old one is made anew.
+USABLE = import pip, sys; sys.exit(sys.version_info < (3, 11))
+
+$(STAMP): $(LOCK) pyproject.toml setup.py
+	@if ! $(BIN)/python -c '$(USABLE)' 2>/dev/null; then \
+		command -v $(PYTHON) >/dev/null || \
+			{ echo 'error: $(PYTHON) is not installed; remedy: apt-get install python3 python3-venv' >&2; exit 1; }; \
+		$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+			{ echo "error: $(PYTHON) is $$($(PYTHON) --version 2>&1), jointgen needs 3.11 or newer;" \
+				'remedy: install one and name it, make PYTHON=python3.11' >&2; exit 1; }; \
+		$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+			{ echo 'error: $(PYTHON) cannot make virtual environments; remedy: apt-get install python3-venv' >&2; exit 1; }; \
+		echo 'Making .venv with' "$$($(PYTHON) --version)"; \
+		$(PYTHON) -m venv --clear .venv; \
+	fi
+	$(BIN)/python -m pip install -q --require-hashes -r $(LOCK)
+	$(BIN)/python -m pip install -qq --no-deps --no-build-isolation -e .
+	@touch $@

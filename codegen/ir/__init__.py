@@ -1,0 +1,1 @@
+"""The intermediate representation: a frozen scalar program in static single assignment."""

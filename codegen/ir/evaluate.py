@@ -1,0 +1,158 @@
+"""Evaluate a program over a number type: float, numpy array, Fraction, Arb ball, mpmath number, or any other with operators.
+
+A `Domain` says how an exact constant becomes a number and how the transcendental functions are called; sums and products
+are the type's own operators.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from codegen.errors import InternalError
+from codegen.ir.ops import Constant, Op
+from codegen.ir.program import Program
+
+Number = Any
+"""A value of the domain: the evaluator uses its operators only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Domain:
+    """A number type.
+
+    Attributes:
+        name: for messages.
+        constant: exact constant -> number.
+        sqrt: square root.
+        sin: sine.
+        cos: cosine.
+        atan2: angle of (y, x).
+    """
+
+    name: str
+    constant: Callable[[Constant], Number]
+    sqrt: Callable[[Number], Number]
+    sin: Callable[[Number], Number]
+    cos: Callable[[Number], Number]
+    atan2: Callable[[Number, Number], Number]
+
+
+def _float_constant(constant: Constant) -> float:
+    return float(constant.rational) * math.pi**constant.pi_power if constant.pi_power else float(constant.rational)
+
+
+def _fraction_constant(constant: Constant) -> Fraction:
+    if constant.pi_power:
+        raise ArithmeticError("pi is not rational")
+    return constant.rational
+
+
+def _not_rational(*_: Number) -> Number:
+    raise ArithmeticError("the program is not rational")
+
+
+def float_domain() -> Domain:
+    """Python floats (IEEE double)."""
+    return Domain("float", _float_constant, math.sqrt, math.sin, math.cos, math.atan2)
+
+
+def fraction_domain() -> Domain:
+    """Exact rationals; a program with roots or angles raises `ArithmeticError`."""
+    return Domain("Fraction", _fraction_constant, _not_rational, _not_rational, _not_rational, _not_rational)
+
+
+def numpy_domain() -> Domain:
+    """Numpy arrays, elementwise: many poses at once."""
+    import numpy
+
+    return Domain("numpy", _float_constant, numpy.sqrt, numpy.sin, numpy.cos, numpy.arctan2)
+
+
+def arb_domain() -> Domain:
+    """Arb balls of python-flint at the precision set in ``flint.ctx.prec``: rigorous enclosures."""
+    import flint
+
+    def constant(value: Constant) -> Number:
+        rational = flint.arb(value.rational.numerator) / value.rational.denominator
+        return rational * flint.arb.pi() ** value.pi_power if value.pi_power else rational
+
+    return Domain(
+        "arb", constant, lambda x: x.sqrt(), lambda x: x.sin(), lambda x: x.cos(), lambda y, x: flint.arb.atan2(y, x)
+    )
+
+
+def mpmath_domain() -> Domain:
+    """Mpmath numbers at the precision set in ``mpmath.mp``."""
+    import mpmath
+
+    def constant(value: Constant) -> Number:
+        return mpmath.mpf(value.rational.numerator) / value.rational.denominator * mpmath.pi**value.pi_power
+
+    return Domain("mpmath", constant, mpmath.sqrt, mpmath.sin, mpmath.cos, mpmath.atan2)
+
+
+def evaluate(
+    program: Program, inputs: Mapping[str, Sequence[Number]], domain: Domain | None = None
+) -> dict[str, list[Number]]:
+    """Evaluate every output of the program.
+
+    Args:
+        program: what to evaluate.
+        inputs: for each used argument its entries, column-major.
+        domain: the number type; floats if left out.
+
+    Returns:
+        For each output its structural nonzeros in storage order.
+
+    Raises:
+        KeyError: an argument that the program uses is missing.
+        ArithmeticError: the domain cannot represent an operation.
+    """
+    domain = domain or float_domain()
+    values: list[Number] = []
+    for instruction in program.instructions:
+        operands = [values[operand] for operand in instruction.operands]
+        if instruction.op is Op.CONSTANT:
+            if instruction.constant is None:
+                raise InternalError("a constant without a value")
+            values.append(domain.constant(instruction.constant))
+        elif instruction.op is Op.INPUT:
+            if instruction.source is None:
+                raise InternalError("an input without a source")
+            values.append(inputs[instruction.source[0]][instruction.source[1]])
+        else:
+            values.append(_apply(instruction.op, operands, domain))
+    return {output.name: [values[position] for position in output.values] for output in program.outputs}
+
+
+def _apply(op: Op, operands: list[Number], domain: Domain) -> Number:
+    match op:
+        case Op.NEGATE:
+            return -operands[0]
+        case Op.ADD:
+            return operands[0] + operands[1]
+        case Op.SUBTRACT:
+            return operands[0] - operands[1]
+        case Op.MULTIPLY:
+            return operands[0] * operands[1]
+        case Op.DIVIDE:
+            return operands[0] / operands[1]
+        case Op.SQRT:
+            return domain.sqrt(operands[0])
+        case Op.SIN:
+            return domain.sin(operands[0])
+        case Op.COS:
+            return domain.cos(operands[0])
+        case Op.SINCOS:
+            return domain.sin(operands[0]), domain.cos(operands[0])
+        case Op.SINE_OF:
+            return operands[0][0]
+        case Op.COSINE_OF:
+            return operands[0][1]
+        case Op.ATAN2:
+            return domain.atan2(operands[0], operands[1])
+    raise InternalError(f"no evaluation for {op}")

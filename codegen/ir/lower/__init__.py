@@ -1,0 +1,6 @@
+"""Lowering: from staged matrix expressions (sympy) to a scalar program. The one place of ``ir`` that knows sympy."""
+
+from codegen.ir.lower.lowering import Block, SymbolicOutput, lower
+from codegen.ir.lower.nodes import Dot, Tilde
+
+__all__ = ["Block", "Dot", "SymbolicOutput", "Tilde", "lower"]

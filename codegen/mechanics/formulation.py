@@ -1,0 +1,223 @@
+"""`Formulation`: the rows of a joint's constraint and everything that is needed to derive from them.
+
+The conventional form follows S1 section 2, the parametric form section 3. The variation decides the axes in which vectors
+are kept: in ``body`` variation relative quantities (``A_ij``, ``d'_ij = A_i^T d_ij``), in ``world`` variation world vectors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import sympy
+
+from codegen.ir.lower import Tilde
+from codegen.mechanics import frames, mixed
+from codegen.mechanics.basic import SCREW_PARTIALS, constraint, on_manifold_theta, screw_stages, theta
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, r_i, r_j, s_i, s_j
+from codegen.mechanics.terms import Algebra, Factors, unit
+from codegen.spec.joints import JointType
+from codegen.spec.request import Variant
+
+_AXES = "fgh"
+
+
+@dataclass(frozen=True)
+class Formulation:
+    """A constraint ready to be differentiated.
+
+    Attributes:
+        algebra: normal form in force.
+        stages: named intermediates and their definitions.
+        aliases: names of products for readers only.
+        rows: scalars and [3] vectors, in row order.
+        displacements: virtual displacement symbols with the column each starts at.
+        virtual: variation of the root symbols under the displacements.
+        rates: variation of the root symbols under the velocity.
+        velocities: velocity symbols, one for each displacement.
+        velocity_rates: rate of a velocity symbol at zero acceleration, where its axes turn.
+        partials: known partial derivatives of scalar stages.
+        substitution: what the joint relation makes of ``A_ij`` and ``d'_ij`` (derivative ``substituted``), else empty.
+        coordinates: number of alphas.
+    """
+
+    algebra: Algebra
+    stages: dict[Any, Any]
+    aliases: dict[Factors, str]
+    rows: tuple[Any, ...]
+    displacements: tuple[tuple[Any, int], ...]
+    virtual: dict[Any, Any]
+    rates: dict[Any, Any]
+    velocities: tuple[Any, ...]
+    velocity_rates: dict[Any, Any] = field(default_factory=dict)
+    partials: dict[Any, dict[Any, Any]] = field(default_factory=dict)
+    substitution: dict[Any, Any] = field(default_factory=dict)
+    coordinates: int = 0
+
+    @property
+    def row_count(self) -> int:
+        """Number of scalar rows."""
+        return sum(height(row) for row in self.rows)
+
+    @property
+    def column_count(self) -> int:
+        """Length of the variation vector."""
+        return 12 + self.coordinates
+
+
+def height(row: Any) -> int:
+    """Scalar rows of an entry of ``Formulation.rows``."""
+    return 3 if isinstance(row, sympy.matrices.expressions.matexpr.MatrixExpr) else 1
+
+
+def formulation(joint: JointType, variant: Variant) -> Formulation:
+    """Formulate a joint in the form and with the options of a variant."""
+    return _conventional(joint, variant) if variant.form == "conventional" else _parametric(joint, variant)
+
+
+def relative_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
+    """Vectors in the axes of body i: ``A_ij = A_i^T A_j`` and ``d'_ij = A_i^T d_ij`` are named."""
+    stages = {
+        A_ij: sympy.MatMul(sympy.Transpose(A_i), A_j),
+        d_ij: sympy.MatAdd(r_j, sympy.MatMul(A_j, s_j), sympy.MatMul(-1, r_i), sympy.MatMul(-1, A_i, s_i)),
+        dp_ij: sympy.MatMul(sympy.Transpose(A_i), d_ij),
+    }
+    names: dict[Factors, Any] = {
+        (sympy.Transpose(A_i), A_j): A_ij,
+        (sympy.Transpose(A_j), A_i): sympy.Transpose(A_ij),
+        (sympy.Transpose(A_i), d_ij): dp_ij,
+    }
+    aliases: dict[Factors, str] = {(C_i, unit(k)): f"{_AXES[k]}_i" for k in range(3)}
+    aliases |= {(C_j, unit(k)): f"{_AXES[k]}_j" for k in range(3)}
+    aliases |= {(C_i, H, unit(k)): f"{_AXES[k]}_star" for k in range(3)}
+    aliases |= {(C_i, H, sympy.Transpose(C_j)): "A_ij"}
+    rotations = frozenset({A_i, A_j, A_ij, C_i, C_j, H})
+    algebra = Algebra(rotations, names, pulled=frozenset({A_i}), flipped=frozenset({A_ij}))
+    return algebra, stages, aliases
+
+
+def world_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
+    """Vectors in world axes: the axes of the joint frames and the attachments are named."""
+    stages: dict[Any, Any] = {}
+    names: dict[Factors, Any] = {}
+    for A, C, body in ((A_i, C_i, "i"), (A_j, C_j, "j")):
+        for k, axis in enumerate(_AXES):
+            names[A, C, unit(k)] = frames.vector(f"{axis}_{body}")
+    attachments = {(A_i, s_i): frames.vector("s_i_world"), (A_j, s_j): frames.vector("s_j_world")}
+    names |= attachments
+    stages |= {symbol: sympy.MatMul(*chain) for chain, symbol in names.items()}
+    s_i_world, s_j_world = attachments.values()
+    stages[d_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i), sympy.MatMul(-1, s_i_world))
+    return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, {}
+
+
+def _conventional(joint: JointType, variant: Variant) -> Formulation:
+    algebra, stages, aliases = relative_algebra() if variant.variation == "body" else world_algebra()
+    virtual = _body_motion(frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j, variant.variation)
+    rates = _body_motion(frames.v_i, frames.omega_i, frames.v_j, frames.omega_j, variant.variation)
+    if joint.is_screw:
+        stages |= screw_stages(algebra)
+        if variant.derivative == "substituted":
+            turns = (frames.delta_pi_i, frames.delta_pi_j), (frames.omega_i, frames.omega_j)
+            for motion, (turn_i, turn_j) in zip((virtual, rates), turns, strict=True):
+                relative = _relative_turn(turn_i, turn_j, variant.variation)
+                motion[theta] = on_manifold_theta(relative, algebra)
+    return Formulation(
+        algebra,
+        stages,
+        aliases,
+        tuple(constraint(kind, algebra) for kind in joint.conventional),
+        _displacements(0),
+        virtual,
+        rates,
+        (frames.v_i, frames.omega_i, frames.v_j, frames.omega_j),
+        partials=SCREW_PARTIALS if joint.is_screw else {},
+    )
+
+
+def _relative_turn(turn_i: Any, turn_j: Any, variation: str) -> Any:
+    if variation == "world":
+        return sympy.MatAdd(turn_j, sympy.MatMul(-1, turn_i))
+    return sympy.MatAdd(sympy.MatMul(A_j, turn_j), sympy.MatMul(-1, A_i, turn_i))
+
+
+def _body_motion(move_i: Any, turn_i: Any, move_j: Any, turn_j: Any, variation: str) -> dict[Any, Any]:
+    """Variation of positions and rotations, translations in world axes (SPEC S0)."""
+    motion: dict[Any, Any] = {r_i: move_i, r_j: move_j}
+    for A, turn in ((A_i, turn_i), (A_j, turn_j)):
+        motion[A] = sympy.MatMul(A, Tilde(turn)) if variation == "body" else sympy.MatMul(Tilde(turn), A)
+    return motion
+
+
+def _displacements(coordinates: int) -> tuple[tuple[Any, int], ...]:
+    symbols = (frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j)
+    bodies = tuple((symbol, 3 * k) for k, symbol in enumerate(symbols))
+    return bodies + tuple((symbol, 12 + k) for k, symbol in enumerate(frames.delta_alpha(coordinates)))
+
+
+def coordinate_count(joint: JointType, rows: str | None) -> int:
+    """Number of alphas of a joint in the parametric form."""
+    if joint.is_screw:
+        return 1
+    return joint.translations + (4 if rows == "quaternion" else joint.rotations)
+
+
+def _parametric(joint: JointType, variant: Variant) -> Formulation:
+    algebra, stages, aliases = relative_algebra()
+    count = coordinate_count(joint, variant.rows)
+    algebra = replace(algebra, displacements=frozenset((*frames.delta_alpha(count), *frames.alpha_dot(count))))
+    alphas = frames.alpha(count)
+    turning = alphas if joint.is_screw else alphas[joint.translations :]
+    if variant.rows == "quaternion":
+        rotation = mixed.quaternion_rotation(turning)
+    else:
+        rotation = mixed.euler_rotation(mixed.ROTATION_AXES[joint.rotations], turning)
+    stages[H] = rotation.definition
+    if joint.is_screw:
+        stages[mixed.advance] = mixed.screw_advance(alphas[0])
+    d_of_alpha = mixed.translation(joint.translations, alphas, joint.is_screw)
+    rows = (
+        mixed.translational_rows(d_of_alpha),
+        *mixed.rotational_rows(variant.rows or "regular", joint.rotations, rotation, algebra),
+    )
+    symbols = (frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j)
+    velocities = (frames.v_i, frames.omega_i, frames.v_j, frames.omega_j)
+    substituted = variant.derivative == "substituted"
+    rotation_of_alpha = sympy.MatMul(C_i, H, sympy.Transpose(C_j)) if joint.rotations else sympy.MatMul(C_i, sympy.Transpose(C_j))
+    return Formulation(
+        algebra,
+        stages,
+        aliases,
+        rows,
+        _displacements(count),
+        _mixed_motion(symbols, frames.delta_alpha(count), alphas, rotation, variant.variation),
+        _mixed_motion(velocities, frames.alpha_dot(count), alphas, rotation, variant.variation),
+        (*velocities, *frames.alpha_dot(count)),
+        _turning_axes(velocities) if variant.variation == "body" else {},
+        substitution={A_ij: rotation_of_alpha, dp_ij: d_of_alpha} if substituted else {},
+        coordinates=count,
+    )
+
+
+def _mixed_motion(
+    bodies: tuple[Any, ...], changes: tuple[Any, ...], alphas: tuple[Any, ...], rotation: mixed.RelativeRotation, variation: str
+) -> dict[Any, Any]:
+    """Variation in the mixed coordinates; translations in body axes, ``delta r = A delta r'``, in body variation."""
+    motion = _body_motion(*bodies, variation)
+    if variation == "body":
+        motion |= {r_i: sympy.MatMul(A_i, bodies[0]), r_j: sympy.MatMul(A_j, bodies[2])}
+    motion |= dict(zip(alphas, changes, strict=True))
+    change_of = dict(zip(alphas, changes, strict=True))
+    turns = [
+        sympy.MatMul(change_of[coordinate], rate)
+        for coordinate, rate in zip(rotation.coordinates, rotation.rates, strict=True)
+    ]
+    if turns:
+        motion[H] = sympy.MatAdd(*turns) if len(turns) > 1 else turns[0]
+    return motion
+
+
+def _turning_axes(velocities: tuple[Any, ...]) -> dict[Any, Any]:
+    """Rate of ``A^T rdot`` at ``rddot = 0``: its axes turn with the body."""
+    v_i, omega_i, v_j, omega_j = velocities
+    return {v_i: sympy.MatMul(-1, Tilde(omega_i), v_i), v_j: sympy.MatMul(-1, Tilde(omega_j), v_j)}

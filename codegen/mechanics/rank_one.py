@@ -1,0 +1,48 @@
+"""The identity behind every rotational block of a second derivative: ``a~ R b~ = (R b)(R^T a)^T - (a . R b) R``.
+
+It holds for a rotation R. Its right-hand side costs two outer products of vectors that the Jacobian has already, where the
+left-hand side costs two products of matrices (SPEC S1.6).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+
+from codegen.ir.lower import Tilde
+from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, transposed_chain
+
+
+def rank_one(expression: Any, algebra: Algebra) -> Any:
+    """Rewrite every ``a~ R b~`` with a rotation between the two tildes; ``a~ b~`` alone is cheaper as it stands."""
+    rewritten: Terms = []
+    for coefficient, factors in algebra.terms(expression):
+        rewritten += [(coefficient * c, chain) for c, chain in _rewrite(factors, algebra)]
+    return algebra.normal(assemble(rewritten, expression.shape))
+
+
+def _rewrite(factors: Factors, algebra: Algebra) -> Terms:
+    tildes = [k for k, factor in enumerate(factors) if isinstance(factor, Tilde)]
+    for first, second in zip(tildes, tildes[1:], strict=False):
+        between = factors[first + 1 : second]
+        if not between or not all(_is_rotation(factor, algebra) for factor in between):
+            continue
+        a, b = factors[first].vector, factors[second].vector
+        before, after = factors[:first], factors[second + 1 :]
+        sign, a_row = _row(a)
+        outer = (*before, *between, b, *a_row, *between, *after)
+        b_turned = assemble([(sympy.S.One, (*between, b))], (3, 1))
+        return [(sympy.Integer(sign), outer), (-algebra.dot(a, b_turned), (*before, *between, *after))]
+    return [(sympy.S.One, factors)]
+
+
+def _row(vector: Any) -> tuple[int, Factors]:
+    if isinstance(vector, sympy.MatMul) and vector.as_coeff_matrices()[0] == 1:
+        return transposed_chain(tuple(vector.as_coeff_matrices()[1]))
+    return transposed_chain((vector,))
+
+
+def _is_rotation(factor: Any, algebra: Algebra) -> bool:
+    plain = factor.arg if isinstance(factor, sympy.Transpose) else factor
+    return plain in algebra.rotations

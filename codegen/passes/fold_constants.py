@@ -1,0 +1,43 @@
+"""Evaluate operations on constants, exactly."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from codegen.ir.builder import Builder
+from codegen.ir.ops import Constant, Op
+from codegen.ir.program import Instruction, Program
+from codegen.passes.rewrite import rebuild
+
+
+def fold_constants(program: Program) -> Program:
+    """Replace each operation whose operands are constants by its exact value, where that is a rational times a power of pi."""
+    return rebuild(program, _place)
+
+
+def _place(builder: Builder, instruction: Instruction) -> int:
+    values = [builder.value_of(operand) for operand in instruction.operands]
+    known = [value for value in values if value is not None]
+    if known and len(known) == len(values):
+        folded = _fold(instruction.op, known)
+        if folded is not None:
+            return builder.constant(folded)
+    return builder.append(instruction)
+
+
+def _fold(op: Op, values: list[Constant]) -> Constant | None:
+    first, second = values[0], values[-1]
+    if op is Op.NEGATE:
+        return -first
+    if op is Op.MULTIPLY:
+        return Constant(first.rational * second.rational, first.pi_power + second.pi_power)
+    if op is Op.DIVIDE and not second.is_zero:
+        return Constant(first.rational / second.rational, first.pi_power - second.pi_power)
+    if op in (Op.ADD, Op.SUBTRACT) and first.pi_power == second.pi_power:
+        sign = 1 if op is Op.ADD else -1
+        return Constant(first.rational + sign * second.rational, first.pi_power)
+    if op is Op.SIN and first.is_zero:
+        return first
+    if op is Op.COS and first.is_zero:
+        return Constant(Fraction(1))
+    return None

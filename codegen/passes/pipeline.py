@@ -1,0 +1,22 @@
+"""The order of the passes."""
+
+from __future__ import annotations
+
+from codegen.ir.program import Program
+from codegen.passes.absorb_negations import absorb_negations
+from codegen.passes.drop_unused import drop_unused
+from codegen.passes.eliminate_zeros import compress, eliminate_zeros
+from codegen.passes.fold_constants import fold_constants
+from codegen.passes.pair_sincos import pair_sincos
+from codegen.passes.schedule import schedule
+from codegen.passes.share_subexpressions import share_subexpressions
+
+
+def simplify(program: Program) -> Program:
+    """Bring a freshly lowered program into the form that is emitted and counted."""
+    while True:
+        smaller = drop_unused(share_subexpressions(eliminate_zeros(fold_constants(program))))
+        if len(smaller.instructions) == len(program.instructions):
+            break
+        program = smaller
+    return schedule(absorb_negations(pair_sincos(compress(smaller))))

@@ -1,0 +1,55 @@
+"""What the passes share: rebuild a program instruction by instruction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from codegen.ir.builder import Builder
+from codegen.ir.ops import Op
+from codegen.ir.program import Instruction, Program
+
+
+def rebuild(program: Program, place: Callable[[Builder, Instruction], int]) -> Program:
+    """Rebuild a program; ``place`` appends each instruction, its operands mapped already, and gives its new position."""
+    builder = Builder()
+    moved: list[int] = []
+    for instruction in program.instructions:
+        operands = tuple(moved[operand] for operand in instruction.operands)
+        position = place(builder, instruction.with_operands(operands))
+        if instruction.label is not None:
+            builder.label(position, instruction.label)
+        moved.append(position)
+    return _with(program, builder, moved)
+
+
+def reorder(program: Program, order: Sequence[int]) -> Program:
+    """Give the program with only these instructions, in this order; operands must come before their uses."""
+    new_place = {old: new for new, old in enumerate(order)}
+    instructions = tuple(
+        program.instructions[old].with_operands(
+            tuple(new_place[operand] for operand in program.instructions[old].operands)
+        )
+        for old in order
+    )
+    outputs = tuple(
+        replace(output, values=tuple(new_place[value] for value in output.values)) for output in program.outputs
+    )
+    return replace(program, instructions=instructions, outputs=outputs)
+
+
+def _with(program: Program, builder: Builder, moved: list[int]) -> Program:
+    outputs = tuple(replace(output, values=tuple(moved[value] for value in output.values)) for output in program.outputs)
+    return Program(program.arguments, tuple(builder.instructions), outputs, program.legend)
+
+
+def is_constant(builder: Builder, position: int, value: int) -> bool:
+    """Whether a value under construction is exactly that integer."""
+    constant = builder.value_of(position)
+    return constant is not None and constant.equals(value)
+
+
+def negated(builder: Builder, position: int) -> int:
+    """Append the negative of a value; of a constant, the negative constant."""
+    constant = builder.value_of(position)
+    return builder.constant(-constant) if constant is not None else builder.emit(Op.NEGATE, position)

@@ -1,0 +1,1 @@
+"""What is asked for: frozen, validated data; no algebra."""

@@ -1,0 +1,224 @@
+"""A request for routines: joint, form and options, validated all at once.
+
+Two routines that differ in an option have different symbols; the defaults leave no trace in them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.spec.joints import JointType
+
+FORMS = ("conventional", "parametric")
+ROWS = ("regular", "table4", "quaternion")
+DERIVATIVES = ("exact", "substituted")
+VARIATIONS = ("body", "world")
+REALS = ("double", "float")
+
+QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
+"""What the fused routine of the library evaluates."""
+
+PRODUCTS = ("phi_q_v", "phi_q_t_lambda")
+"""Products with the Jacobian, for solvers that never form it."""
+
+OUTPUTS = (*QUANTITIES, *PRODUCTS, "all")
+"""Everything that can be asked for; ``all`` is the fused routine."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One joint in one form with one set of options.
+
+    Attributes:
+        joint: name in the catalogue.
+        form: ``conventional`` or ``parametric``.
+        rows: rows of the rotational constraint; None in the conventional form.
+        derivative: ``exact``, or ``substituted`` (S1: the joint relation is inserted before the second differentiation).
+        variation: axes of the virtual rotations: ``body`` or ``world``.
+    """
+
+    joint: str
+    form: str
+    rows: str | None
+    derivative: str = "exact"
+    variation: str = "body"
+
+    @property
+    def stem(self) -> str:
+        """Start of the C symbols: ``jg_<joint>_<form>[_<variant>]``."""
+        words = ["jg", self.joint, self.form]
+        words += [self.rows] if self.rows not in (None, "regular") else []
+        words += [self.derivative] if self.derivative != "exact" else []
+        words += [self.variation] if self.variation != "body" else []
+        return "_".join(str(word) for word in words)
+
+    @property
+    def file_stem(self) -> str:
+        """Name of the source file, without ending."""
+        return self.stem.removeprefix("jg_")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What the command line asks for; None means every value that the joint admits.
+
+    Attributes:
+        joints: names in the catalogue; empty means the library.
+        form: see `Variant`.
+        rows: see `Variant`.
+        derivative: see `Variant`.
+        variation: see `Variant`.
+        real: ``double`` or ``float``.
+        outputs: names out of `OUTPUTS`; empty means all of them.
+    """
+
+    joints: tuple[str, ...] = ()
+    form: str | None = None
+    rows: str | None = None
+    derivative: str | None = None
+    variation: str | None = None
+    real: str = "double"
+    outputs: tuple[str, ...] = ()
+
+
+def incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
+    """Say why a joint has no such variant, or None where it has."""
+    if variant.form == "conventional":
+        return _conventional_incompatibility(joint, variant)
+    if variant.rows == "quaternion" and joint.rotations != 3:
+        return Mistake(
+            f"{joint.name} --rows quaternion",
+            f"quaternion rows need three rotational freedoms, {joint.name} has {joint.rotations}",
+            "use --rows regular, or a joint with rot3 such as ball",
+        )
+    if variant.variation == "world" and variant.derivative == "substituted":
+        return Mistake(
+            f"{joint.name} --variation world",
+            "the substituted derivative exists in body axes only (SPEC S1.2)",
+            "use --variation body, or --derivative exact",
+        )
+    return None
+
+
+def _conventional_incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
+    if not joint.conventional:
+        return Mistake(
+            f"{joint.name} --form conventional", f"{joint.name} exists in the parametric form only", "use --form parametric"
+        )
+    if variant.rows is not None:
+        return Mistake(
+            f"{joint.name} --rows {variant.rows}",
+            "the conventional form has no choice of rows",
+            "leave --rows out, or use --form parametric",
+        )
+    if variant.derivative == "substituted" and not joint.is_screw:
+        return Mistake(
+            f"{joint.name} --derivative substituted",
+            f"the conventional {joint.name} has only the exact derivative (the screw has also its angle on the manifold)",
+            "use --derivative exact, or --form parametric",
+        )
+    return None
+
+
+def distinct_rows(joint: JointType) -> tuple[str, ...]:
+    """The sets of rows that differ for this joint: ``table4`` is ``regular`` where nothing rotates."""
+    return ("regular", "table4") if joint.rotations else ("regular",)
+
+
+def library_variants(joint: JointType) -> tuple[Variant, ...]:
+    """The variants of the committed library: see the README."""
+    conventional = [
+        Variant(joint.name, "conventional", None, "exact", variation) for variation in VARIATIONS if joint.conventional
+    ]
+    parametric = [
+        Variant(joint.name, "parametric", rows, derivative)
+        for rows in distinct_rows(joint)
+        for derivative in DERIVATIVES
+    ]
+    return (*conventional, *parametric)
+
+
+def selected_variants(
+    options: Options, library: Mapping[str, JointType], pairs: Mapping[str, JointType]
+) -> tuple[Variant, ...]:
+    """Choose the variants that the options ask for.
+
+    An option that is left out ranges over the library's values; one that is given is taken as it is, also where the library
+    does not have it (quaternion rows, pairs).
+
+    Raises:
+        SpecificationError: unknown names, or options that do not go together; all of them at once.
+    """
+    known = {**library, **pairs}
+    mistakes = [
+        Mistake(f"joint {name}", "there is no such joint", nearest(name, known)) for name in options.joints if name not in known
+    ]
+    mistakes += _unknown_values(options)
+    if mistakes:
+        raise SpecificationError(mistakes)
+    joints = [known[name] for name in dict.fromkeys(options.joints)] or list(library.values())
+    variants: list[Variant] = []
+    for joint in joints:
+        found, problems = _of_joint(joint, options)
+        variants += found
+        mistakes += problems if not found and (options.joints or not variants) else []
+    if mistakes and (options.joints or not variants):
+        raise SpecificationError(mistakes[:1] if not options.joints else mistakes)
+    return tuple(variants)
+
+
+def _unknown_values(options: Options) -> list[Mistake]:
+    choices: Iterable[tuple[str, str | None, tuple[str, ...]]] = (
+        ("--form", options.form, FORMS),
+        ("--rows", options.rows, ROWS),
+        ("--derivative", options.derivative, DERIVATIVES),
+        ("--variation", options.variation, VARIATIONS),
+        ("--real", options.real, REALS),
+        *(("--outputs", output, OUTPUTS) for output in options.outputs),
+    )
+    return [
+        Mistake(name, f'there is no "{value}"', nearest(value, known))
+        for name, value, known in choices
+        if value is not None and value not in known
+    ]
+
+
+def _of_joint(joint: JointType, options: Options) -> tuple[list[Variant], list[Mistake]]:
+    """Candidates of one joint: those that exist, and why the others do not."""
+    forms = (options.form,) if options.form else _forms(joint, options)
+    found: list[Variant] = []
+    problems: list[Mistake] = []
+    for variant in dict.fromkeys(variant for form in forms for variant in _of_form(joint, form, options)):
+        problem = incompatibility(joint, variant)
+        if problem is None:
+            found.append(variant)
+        else:
+            problems.append(problem)
+    return found, problems
+
+
+def _forms(joint: JointType, options: Options) -> tuple[str, ...]:
+    """Forms meant where none is named: rows and the substituted derivative are the parametric form's."""
+    if options.rows or not joint.conventional or (options.derivative == "substituted" and not joint.is_screw):
+        return ("parametric",)
+    return FORMS
+
+
+def _of_form(joint: JointType, form: str, options: Options) -> list[Variant]:
+    if form == "conventional":
+        derivative = options.derivative or "exact"
+        variations = (options.variation,) if options.variation else VARIATIONS
+        return [Variant(joint.name, form, options.rows, derivative, variation) for variation in variations]
+    rows = (options.rows,) if options.rows else distinct_rows(joint)
+    derivatives = (options.derivative,) if options.derivative else DERIVATIVES
+    if options.variation == "world" and not options.derivative:
+        derivatives = ("exact",)
+    if not joint.rotations:
+        rows = tuple(dict.fromkeys("regular" if choice == "table4" else choice for choice in rows))
+    return [
+        Variant(joint.name, form, choice, derivative, options.variation or "body")
+        for choice in rows
+        for derivative in derivatives
+    ]

@@ -1,0 +1,1 @@
+"""Operation counts: of programs, of emitted C, by the paper's rules; and the tables that compare them."""

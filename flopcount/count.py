@@ -1,0 +1,28 @@
+"""Count the operations of a program."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from codegen.ir.ops import Op
+from codegen.ir.program import Program
+from flopcount.counts import Counts
+
+_KIND: dict[Op, str] = {
+    Op.ADD: "add",
+    Op.SUBTRACT: "add",
+    Op.MULTIPLY: "mul",
+    Op.DIVIDE: "div",
+    Op.SQRT: "sqrt",
+    Op.SINCOS: "sincos",
+    Op.SIN: "sin",
+    Op.COS: "cos",
+    Op.ATAN2: "atan2",
+    Op.NEGATE: "neg",
+}
+
+
+def count(program: Program) -> Counts:
+    """Count every instruction of the program; inputs, constants and projections are free."""
+    kinds = Counter(_KIND[instruction.op] for instruction in program.instructions if instruction.op in _KIND)
+    return Counts(**kinds)

@@ -1,0 +1,63 @@
+"""`Counts`: how many operations of each kind.
+
+The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair, single sine
+or cosine and arc tangent is one operation. A change of sign is free and listed; loads, stores and constants are free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """Operations by kind.
+
+    Attributes:
+        add: additions and subtractions.
+        mul: multiplications.
+        div: divisions.
+        sqrt: square roots.
+        sincos: pairs of sine and cosine of one angle.
+        sin: single sines.
+        cos: single cosines.
+        atan2: arc tangents.
+        neg: changes of sign; free.
+    """
+
+    add: int = 0
+    mul: int = 0
+    div: int = 0
+    sqrt: int = 0
+    sincos: int = 0
+    sin: int = 0
+    cos: int = 0
+    atan2: int = 0
+    neg: int = 0
+
+    @property
+    def total(self) -> int:
+        """All operations; changes of sign are not counted."""
+        return sum(getattr(self, kind.name) for kind in fields(self)) - self.neg
+
+    @property
+    def arithmetic(self) -> int:
+        """Additions, subtractions, multiplications and divisions: what the paper counts."""
+        return self.add + self.mul + self.div
+
+    def __add__(self, other: Counts) -> Counts:
+        return Counts(*(getattr(self, kind.name) + getattr(other, kind.name) for kind in fields(self)))
+
+    def as_dict(self) -> dict[str, int]:
+        """Kind -> number, with the total."""
+        return {kind.name: getattr(self, kind.name) for kind in fields(self)} | {"total": self.total}
+
+    @staticmethod
+    def of(kinds: Mapping[str, int]) -> Counts:
+        """Build from a mapping of kinds; a ``total`` in it is left out."""
+        return Counts(**{kind: number for kind, number in kinds.items() if kind != "total"})
+
+    def __str__(self) -> str:
+        parts = [f"{getattr(self, kind.name)} {kind.name}" for kind in fields(self) if getattr(self, kind.name)]
+        return f"{self.total} ({', '.join(parts)})" if parts else "0"

@@ -1,0 +1,1 @@
+"""Compile and call generated C routines from their manifest alone."""

@@ -1,7 +1,7 @@
-"""The printed numbers of S1 (Lee, Lee and Bae, 2013), as data: Tables 1, 2, 5, 7 and 8, and the misprints in them.
+"""The printed numbers of S1 (Lee, Lee and Bae, 2013): Tables 1, 2, 5, 7 and 8, and their misprints.
 
-Input: none. Output: literal tables. Nothing here is computed but the rates that can be checked against the printed ones; what
-the numbers mean, and how far they can be reproduced, is the matter of `flopcount.rules`.
+Input: none. Output: literal tables. Nothing here is computed but the rates that can be checked against the
+printed ones; what the numbers mean, and how far they can be reproduced, is the matter of `flopcount.rules`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Literal
 
 Derivative = Literal["phi_q", "phi_q_t_lambda_q"]
-"""The two quantities that the paper counts: the Jacobian, and the derivative of its transpose times lambda."""
+"""The two quantities that the paper counts: the Jacobian, and d(Jacobian^T lambda)."""
 
 DERIVATIVES: tuple[Derivative, ...] = ("phi_q", "phi_q_t_lambda_q")
 

@@ -17,9 +17,40 @@ from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, transpose
 def rank_one(expression: Any, algebra: Algebra) -> Any:
     """Rewrite every ``a~ R b~`` with a rotation between the two tildes; ``a~ b~`` alone is cheaper as it stands."""
     rewritten: Terms = []
-    for coefficient, factors in algebra.terms(expression):
+    for coefficient, factors in collect_pairs(algebra.terms(expression), algebra):
         rewritten += [(coefficient * c, chain) for c, chain in _rewrite(factors, algebra)]
     return algebra.normal(assemble(rewritten, expression.shape))
+
+
+def collect_pairs(terms: Terms, algebra: Algebra) -> Terms:
+    """Collect products of two tildes that share one: ``l1 a~ R b~ + l2 c~ R b~ = (l1 a + l2 c)~ R b~``."""
+    return min((_collected(terms, side, algebra) for side in (1, 0)), key=len)
+
+
+def _collected(terms: Terms, first_side: int, algebra: Algebra) -> Terms:
+    for side in (first_side, 1 - first_side):
+        groups: dict[Factors, Terms] = {}
+        order: list[tuple[Factors | None, Any, Factors]] = []
+        for coefficient, factors in terms:
+            places = [k for k, factor in enumerate(factors) if isinstance(factor, Tilde)]
+            if len(places) != 2 or not algebra.is_plain(coefficient):
+                order.append((None, coefficient, factors))
+                continue
+            k = places[side]
+            key = (sympy.Integer(k), *factors[:k], *factors[k + 1 :])
+            if key not in groups:
+                order.append((key, coefficient, factors))
+            groups.setdefault(key, []).append((coefficient, (factors[k].vector,)))
+        terms = [_joined(groups[key], key, algebra) if key else (c, factors) for key, c, factors in order]
+    return terms
+
+
+def _joined(group: Terms, key: Factors, algebra: Algebra) -> tuple[Any, Factors]:
+    k, rest = int(key[0]), key[1:]
+    if len(group) == 1:
+        coefficient, (vector,) = group[0]
+        return coefficient, (*rest[:k], Tilde(vector), *rest[k:])
+    return sympy.S.One, (*rest[:k], Tilde(algebra.normal(assemble(group, (3, 1)))), *rest[k:])
 
 
 def _rewrite(factors: Factors, algebra: Algebra) -> Terms:

@@ -30,9 +30,19 @@ def skew(vector: Any) -> Any:
     return sympy.ImmutableDenseMatrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
+def scalar_products(expression: Any) -> list[Dot]:
+    """The scalar products in an expression, each once, in order of appearance."""
+    if isinstance(expression, Dot):
+        return [expression]
+    found = (dot for part in expression.args for dot in scalar_products(part))
+    return list(dict.fromkeys(found))
+
+
 def expand(expression: Any) -> Any:
     """Expand a scalar; scalar products of vectors count as symbols, their arguments stay as they are."""
-    stand_ins = {dot: sympy.Symbol(f"__dot_{k}") for k, dot in enumerate(sorted(expression.atoms(Dot), key=str))}
+    stand_ins = {dot: sympy.Symbol(f"__dot_{k}") for k, dot in enumerate(scalar_products(expression))}
+    if not stand_ins:
+        return sympy.expand(expression)
     back = {stand_in: dot for dot, stand_in in stand_ins.items()}
     return sympy.expand(expression.xreplace(stand_ins)).xreplace(back)
 

@@ -16,7 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from codegen.errors import InternalError
 from codegen.ir.lower import Dot, Tilde
-from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, expand, transposed_chain
+from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, expand, scalar_products, transposed_chain
 
 
 class Variation:
@@ -75,7 +75,7 @@ class Variation:
         if isinstance(factor, sympy.MatAdd):
             return self._matrix(factor)
         if isinstance(factor, MatrixBase):
-            symbols = sorted(factor.free_symbols, key=str)
+            symbols = sorted(factor.free_symbols, key=lambda symbol: symbol.name)
             changes = [(self._symbol(symbol), symbol) for symbol in symbols]
             return [
                 (change, (sympy.ImmutableDenseMatrix(factor.diff(symbol)),))
@@ -106,12 +106,11 @@ class Variation:
     def _scalar(self, expression: Any) -> Any:
         if expression.is_Number:
             return sympy.S.Zero
-        dots = sorted(expression.atoms(Dot), key=str)
-        stand_ins = {dot: sympy.Symbol(f"__dot_{k}") for k, dot in enumerate(dots)}
+        stand_ins = {dot: sympy.Symbol(f"__dot_{k}") for k, dot in enumerate(scalar_products(expression))}
         plain = expression.xreplace(stand_ins)
         back = {stand_in: dot for dot, stand_in in stand_ins.items()}
         change = sympy.S.Zero
-        for symbol in sorted(plain.free_symbols, key=str):
+        for symbol in sorted(plain.free_symbols, key=lambda symbol: symbol.name):
             rate = self._dot(back[symbol]) if symbol in back else self._symbol(symbol)
             if rate is not None and rate != 0:
                 change += plain.diff(symbol).xreplace(back) * rate
@@ -169,7 +168,7 @@ def _rows(expression: Any, displacement: Any, algebra: Algebra) -> Terms:
     """Terms of the gradient of a scalar that is linear in the displacement."""
     collected: Terms = []
     for term in sympy.Add.make_args(expand(expression)):
-        dots = [dot for dot in term.atoms(Dot) if dot.has(displacement)]
+        dots = [dot for dot in scalar_products(term) if dot.has(displacement)]
         if not dots:
             continue
         if len(dots) > 1:

@@ -1,9 +1,10 @@
-"""The conventional method: derivatives of the four basic constraints, and the joints of Table 1 that they make (S1 eqs 4 to 9).
+"""The conventional method: the four basic constraints and the joints that they make (S1 eqs 4 to 9).
 
-Input: names of the vectors. Output: `Part`s. Variations: (delta r_i, delta pi_i, delta r_j, delta pi_j), delta r in world axes,
-delta pi in body axes. Blocks of dot-2 are grouped as the paper prints them in eqs (8) and (9), with their misprints corrected;
-those that it does not print are grouped as they come out of the differentiation. d_ij is in world axes, all other vectors are
-fixed in their body and in its axes, and ``A_ij = A_i^T A_j``.
+Input: names of the vectors. Output: `Part`s. Variations: (delta r_i, delta pi_i, delta r_j, delta pi_j),
+delta r in world axes, delta pi in body axes. Blocks of dot-2 are grouped as the paper prints them in eqs (8)
+and (9), with their misprints corrected; those that it does not print are grouped as they come out of the
+differentiation. d_ij is in world axes, all other vectors are fixed in their body and in its axes, and ``A_ij
+= A_i^T A_j``.
 """
 
 from __future__ import annotations
@@ -90,8 +91,9 @@ def spherical() -> Part:
 def screw() -> Part:
     """Constraint ``h_i . d_ij - p (theta + 2 pi n + theta_0) = 0``, p the advance per radian.
 
-    Dot-2 of h_i, less p times ``delta theta = h_i^T (A_ij delta pi_j - delta pi_i)``, which holds on the manifold (h_i parallel
-    to h_j). That form is not symmetric: the block (pi_j, pi_i) has a term with p that (pi_i, pi_j) lacks.
+    Dot-2 of h_i, less p times ``delta theta = h_i^T (A_ij delta pi_j - delta pi_i)``, which holds on the
+    manifold (h_i parallel to h_j). That form is not symmetric: the block (pi_j, pi_i) has a term with p that
+    (pi_i, pi_j) lacks.
     """
     name, h = "screw", Vec("h_i")
     pitch = Transpose(Vec("p h_i"))

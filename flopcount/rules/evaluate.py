@@ -1,6 +1,7 @@
 """The value of an expression: the proof that what is counted is the right formula.
 
-Input: an expression and the values of its names. Output: a numpy array. It shares nothing with the counting but the data.
+Input: an expression and the values of its names. Output: a numpy array. It shares nothing with the counting
+    but the data.
 """
 
 from __future__ import annotations
@@ -53,14 +54,18 @@ def evaluate(expression: Expr, values: Mapping[str, Array]) -> Array:
         case Negate(operand):
             return -evaluate(operand, values)
         case Scale(factor, operand):
-            return evaluate(factor, values)[0, 0] * evaluate(operand, values)
+            scale = float(evaluate(factor, values)[0, 0])
+            return scale * evaluate(operand, values)
         case Product(factors):
             result = evaluate(factors[0], values)
             for factor in factors[1:]:
                 result = result @ evaluate(factor, values)
             return result
         case Sum(terms):
-            return np.sum([evaluate(term, values) for term in terms], axis=0)
+            result = evaluate(terms[0], values)
+            for term in terms[1:]:
+                result = result + evaluate(term, values)
+            return result
 
 
 def skew(vector: Array) -> Array:

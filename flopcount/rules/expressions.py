@@ -1,8 +1,9 @@
 """Matrix expressions as data: what the paper writes, before anybody counts or evaluates it.
 
-Input: names of scalars, vectors and matrices. Output: immutable trees. A tree says how the paper groups a formula; it does not
-say what it costs (`flopcount.rules.ledger`) nor what its value is (`flopcount.rules.evaluate`).
-Vectors are columns of three numbers, matrices are 3 x 3. ``Skew(a)`` is the paper's a with a tilde: ``a~ b = a x b``.
+Input: names of scalars, vectors and matrices. Output: immutable trees. A tree says how the paper groups a
+formula; it does not say what it costs (`flopcount.rules.ledger`) nor what its value is
+(`flopcount.rules.evaluate`). Vectors are columns of three numbers, matrices are 3 x 3. ``Skew(a)`` is the
+paper's a with a tilde: ``a~ b = a x b``.
 """
 
 from __future__ import annotations
@@ -110,8 +111,8 @@ class Part:
         name: ``dot-1``, ``dot-2``, ``spherical``, ``screw``, ``trn0`` to ``trn3`` or ``rot0`` to ``rot3``.
         label: the name with its vectors.
         phi_q: blocks of the Jacobian, row by row.
-        phi_q_t_lambda_q: blocks of the second derivative in the order in which the paper forms them: column by column; those
-            of (Phi_Z^T lambda)_alpha before those of (Phi_alpha^T lambda)_alpha.
+        phi_q_t_lambda_q: blocks of the second derivative in the order in which the paper forms them: column
+            by column; those of (Phi_Z^T lambda)_alpha before those of (Phi_alpha^T lambda)_alpha.
         carrier: the vector in which a scalar constraint is linear, None for the others.
     """
 
@@ -147,11 +148,11 @@ def text(expression: Expr) -> str:
         case Transpose(operand):
             return f"{_atom(operand)}^T"
         case Negate(operand):
-            return f"-{_factor(operand)}"
+            return f"-{_enclosed(operand, (Sum, Negate))}"
         case Scale(factor, operand):
-            return f"{_factor(factor)} {_factor(operand)}"
+            return f"{_enclosed(factor, (Sum, Negate))} {_enclosed(operand, (Sum, Negate))}"
         case Product(factors):
-            return " ".join(_factor(factor) for factor in factors)
+            return " ".join(_enclosed(factor, (Product, Scale, Sum, Negate)) for factor in factors)
         case Sum(terms):
             return _sum_text(terms)
 
@@ -160,16 +161,15 @@ def _sum_text(terms: tuple[Expr, ...]) -> str:
     words = [text(terms[0])]
     for term in terms[1:]:
         sign, operand = ("-", term.operand) if isinstance(term, Negate) else ("+", term)
-        words.append(f"{sign} {_factor(operand) if isinstance(operand, Sum) else text(operand)}")
+        words.append(f"{sign} {_enclosed(operand, (Sum, Negate))}")
     return " ".join(words)
 
 
-def _factor(expression: Expr) -> str:
+def _enclosed(expression: Expr, kinds: tuple[type, ...]) -> str:
     inside = text(expression)
-    return f"({inside})" if isinstance(expression, Product | Sum | Negate | Scale) else inside
+    return f"({inside})" if isinstance(expression, kinds) else inside
 
 
 def _atom(expression: Expr) -> str:
     inside = text(expression)
-    bare = isinstance(expression, Scalar | Vec | Mat) and " " not in inside
-    return inside if bare or isinstance(expression, Skew) else f"({inside})"
+    return f"({inside})" if " " in inside else inside

@@ -1,7 +1,8 @@
-"""When two expressions are the same up to sign and transposition, which the paper's counting takes for free (R0, R3).
+"""When two expressions are equal up to sign and transposition, which is free (R0, R3).
 
-Input: expressions. Output: hashable keys. Transposition is pushed to the leaves and signs are pulled out; products are
-flattened, so that the key of a chain does not depend on its grouping. No other identity of algebra is used.
+Input: expressions. Output: hashable keys. Transposition is pushed to the leaves and signs are pulled out;
+products are flattened, so that the key of a chain does not depend on its grouping. No other identity of
+algebra is used.
 """
 
 from __future__ import annotations
@@ -22,12 +23,12 @@ from flopcount.rules.expressions import (
 )
 
 Key: TypeAlias = str
-"""Equal for two expressions that are equal up to sign and transposition."""
+"""Equal for two expressions that are equal up to sign."""
 
 
-def key(expression: Expr) -> Key:
-    """Name an expression up to sign and transposition."""
-    return min(_normal(expression, False)[1], _normal(expression, True)[1])
+def key(expression: Expr, *, transposed: bool = False) -> Key:
+    """Name an expression, or its transpose, up to sign."""
+    return _normal(expression, transposed)[1]
 
 
 def factors_of(expression: Expr) -> tuple[Expr, ...]:

@@ -1,16 +1,16 @@
-"""The parametric method: derivatives of the trn and rot constraints, and the joints that they make (S1 eqs 13 to 38).
+"""The parametric method: the trn and rot constraints and the joints that they make (S1 eqs 13 to 38).
 
-Input: numbers of coordinates. Output: `Part`s. Variations: (delta r'_i, delta pi_i, delta r'_j, delta pi_j, delta alpha), all in
-body axes. Both derivatives are the paper's *substituted* ones: ``A_ij = C_i H(alpha) C_j^T`` is inserted in phi_q, which then
-depends on alpha alone. The rows of rot are those of Table 4. Nothing is transcribed from eqs (20) to (38): with H(alpha) of
-Table 3, the row ``a_i . b_j`` of rot has ``phi_pi_i = (a x H b)^T C_i^T``, ``phi_pi_j = (b x H^T a)^T C_j^T`` and
-``phi_alpha = -d(H_ab)/d alpha``.
+Input: numbers of coordinates. Output: `Part`s. Variations: (delta r'_i, delta pi_i, delta r'_j, delta pi_j,
+delta alpha), all in body axes. Both derivatives are the paper's *substituted* ones: ``A_ij = C_i H(alpha)
+C_j^T`` is inserted in phi_q, which then depends on alpha alone. The rows of rot are those of Table 4.
+Nothing is transcribed from eqs (20) to (38): with H(alpha) of Table 3, the row ``a_i . b_j`` of rot has
+``phi_pi_i = (a x H b)^T C_i^T``, ``phi_pi_j = (b x H^T a)^T C_j^T`` and ``phi_alpha = -d(H_ab)/d alpha``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from types import MappingProxyType
+from collections.abc import Callable, Iterator
+from functools import cache
 
 from flopcount.paper import TABLE_5
 from flopcount.rules import trig
@@ -131,8 +131,8 @@ def _rotation_second(angles: int, offset: int) -> Iterator[Block]:
     """(Phi_Z^T lambda)_alpha, column by column (eq. 36)."""
     arms = _arms(angles)
     for m in range(angles):
-        for body, side in (("i", 0), ("j", 1)):
-            slope = [_weighted([arm[side][axis] for arm in arms], m + 1) for axis in range(3)]
+        for body, sides in (("i", [on_i for on_i, _, _ in arms]), ("j", [on_j for _, on_j, _ in arms])):
+            slope = [_weighted([side[axis] for side in sides], m + 1) for axis in range(3)]
             if any(slope):
                 block = _combination((slope[0], slope[1], slope[2]), body, transposed=False)
                 yield Block(f"pi_{body}", f"alpha_{offset + m + 1}", block)
@@ -156,20 +156,26 @@ def _weighted(rows: list[Polynomial], angle: int) -> Polynomial:
 
 
 def _combination(components: Vector, body: str, *, transposed: bool) -> Expr:
-    """A combination of f, g, h of one body; a coefficient of +1 or -1 is a sign.
+    """A combination of f, g, h of one body.
 
-    The angle that acts last on a body's axes stands last in a product: alpha_1 for body i, the last one for body j.
+    The angle that acts last on a body's axes stands last in a product: alpha_1 for body i, the last one for
+    body j.
     """
+    order = _descending if body == "i" else _ascending
     terms: list[Expr] = []
     for axis, coefficient in zip("fgh", components, strict=True):
-        vector: Expr = Vec(f"{axis}_{body}")
-        vector = Transpose(vector) if transposed else vector
-        if coefficient and tuple(coefficient) == ((),):
-            terms.append(vector if coefficient[()] > 0 else Negate(vector))
-        elif coefficient:
-            order = _descending if body == "i" else _ascending
-            terms.append(Scale(trig.expression(coefficient, order), vector))
+        vector = Vec(f"{axis}_{body}")
+        if coefficient:
+            terms.append(_multiple(coefficient, Transpose(vector) if transposed else vector, order))
     return total(terms)
+
+
+def _multiple(coefficient: Polynomial, vector: Expr, order: Callable[[str], tuple[int, int]]) -> Expr:
+    """A vector times a polynomial that is not zero; a coefficient of +1 or -1 is a sign."""
+    negative = len(coefficient) == 1 and min(coefficient.values()) < 0
+    positive = trig.minus(coefficient) if negative else coefficient
+    multiple = vector if tuple(positive) == ((),) else Scale(trig.expression(positive, order), vector)
+    return Negate(multiple) if negative else multiple
 
 
 def _ascending(name: str) -> tuple[int, int]:
@@ -181,7 +187,13 @@ def _descending(name: str) -> tuple[int, int]:
     return first, -angle
 
 
-def _joint(name: str) -> tuple[Part, Part]:
+@cache
+def joint(name: str) -> tuple[Part, ...]:
+    """The parts of a joint of Table 5 (corrected): trn and rot.
+
+    Raises:
+        KeyError: there is no such joint.
+    """
     composition = TABLE_5[name]
     if name == "screw":
         return translation(1, 1, pitched=True), rotation(1)
@@ -189,7 +201,3 @@ def _joint(name: str) -> tuple[Part, Part]:
         translation(composition.translation, composition.rotation),
         rotation(composition.rotation, composition.translation),
     )
-
-
-JOINTS: Mapping[str, tuple[Part, ...]] = MappingProxyType({name: _joint(name) for name in TABLE_5})
-"""The joints of Table 5 (corrected): trn and rot of each."""

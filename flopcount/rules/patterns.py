@@ -1,7 +1,8 @@
 """Structural patterns of vectors and matrices, and what the schoolbook operations on them cost (rule R1).
 
-Input: which entries are structurally non-zero. Output: numbers of multiplications and additions, each 1. The costs that the
-paper's readers know (27 for matrix times skew, 15 for skew times skew, ...) all follow; none is written down.
+Input: which entries are structurally non-zero. Output: numbers of multiplications and additions, each 1. The
+costs that the paper's readers know (27 for matrix times skew, 15 for skew times skew, ...) all follow; none
+is written down.
 """
 
 from __future__ import annotations

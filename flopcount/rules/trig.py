@@ -1,7 +1,8 @@
-"""Polynomials in named quantities with integer coefficients: just enough algebra to derive H(alpha) and its derivatives.
+"""Polynomials in named quantities: just enough algebra to derive H(alpha) and its derivatives.
 
-Input: angles numbered from 1, whose cosine and sine are ``c1``, ``s1``, ... Output: polynomials as mappings from monomials to
-coefficients. A monomial is a sorted tuple of names; here no name occurs twice in one, so c^2 + s^2 never has to be simplified.
+Input: angles numbered from 1, whose cosine and sine are ``c1``, ``s1``, ... Output: polynomials as mappings
+from monomials to coefficients. A monomial is a sorted tuple of names; here no name occurs twice in one, so
+c^2 + s^2 never has to be simplified.
 """
 
 from __future__ import annotations
@@ -50,7 +51,10 @@ def derivative(polynomial: Polynomial, angle: int) -> Polynomial:
     slope = {cosine: (sine, -1), sine: (cosine, 1)}
     return plus(
         *(
-            {tuple(sorted((*monomial[:at], slope[name][0], *monomial[at + 1 :]))): slope[name][1] * coefficient}
+            {
+                tuple(sorted((*monomial[:at], slope[name][0], *monomial[at + 1 :]))): slope[name][1]
+                * coefficient
+            }
             for monomial, coefficient in polynomial.items()
             for at, name in enumerate(monomial)
             if name in slope

@@ -1,7 +1,7 @@
 """jointgen: specialised constraint routines for multibody mechanisms, derived symbolically.
 
-The pipeline, one way: ``spec`` -> ``mechanics`` (symbolic model) -> ``ir`` (program) -> ``passes`` -> ``emit`` -> ``report``.
-:mod:`codegen.build` is that pipeline in one place.
+The pipeline, one way: ``spec`` -> ``mechanics`` (symbolic model) -> ``ir`` (program) -> ``passes`` -> ``emit`` ->
+``report``. :mod:`codegen.build` is that pipeline in one place.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Errors: what a user did wrong (`SpecificationError`, `OutputError`) and what we did wrong (`InternalError`).
 
-A user's mistake is a place, what is wrong there, and the remedy. All mistakes of one input are reported at once, one line
-each, by the command line, which then leaves with exit code 2.
+A user's mistake is a place, what is wrong there, and the remedy. All mistakes of one input are reported at once, one
+line each, by the command line, which then leaves with exit code 2.
 """
 
 from __future__ import annotations

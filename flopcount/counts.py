@@ -1,7 +1,8 @@
 """`Counts`: how many operations of each kind.
 
-The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair, single sine
-or cosine and arc tangent is one operation. A change of sign is free and listed; loads, stores and constants are free.
+The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair,
+single sine or cosine and arc tangent is one operation. A change of sign is free and listed; loads, stores and
+constants are free.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ class Counts:
     @property
     def total(self) -> int:
         """All operations; changes of sign are not counted."""
-        return sum(getattr(self, kind.name) for kind in fields(self)) - self.neg
+        return self.arithmetic + self.sqrt + self.sincos + self.sin + self.cos + self.atan2
 
     @property
     def arithmetic(self) -> int:

@@ -1,7 +1,7 @@
 """`Builder`: appends instructions one by one and freezes them into a `Program`.
 
-The builder interns what it appends (the same operation on the same operands is one value), so that lowering and passes may
-ask for a value as often as they like; it makes no other simplification.
+The builder interns what it appends (the same operation on the same operands is one value), so that lowering and
+passes may ask for a value as often as they like; it makes no other simplification.
 """
 
 from __future__ import annotations
@@ -60,7 +60,10 @@ class Builder:
             self.instructions[position] = Instruction(instruction.op, instruction.operands, label=label)
 
     def freeze(
-        self, arguments: tuple[Argument, ...], outputs: tuple[Output, ...], legend: Mapping[str, str] | None = None
+        self,
+        arguments: tuple[Argument, ...],
+        outputs: tuple[Output, ...],
+        legend: Mapping[str, str] | None = None,
     ) -> Program:
         """Give the program of everything appended so far."""
         return Program(arguments, tuple(self.instructions), outputs, tuple((legend or {}).items()))

@@ -1,7 +1,7 @@
-"""Evaluate a program over a number type: float, numpy array, Fraction, Arb ball, mpmath number, or any other with operators.
+"""Evaluate a program over a number type: float, numpy array, Fraction, Arb ball, mpmath number, any with operators.
 
-A `Domain` says how an exact constant becomes a number and how the transcendental functions are called; sums and products
-are the type's own operators.
+A `Domain` says how an exact constant becomes a number and how the transcendental functions are called; sums and
+products are the type's own operators.
 """
 
 from __future__ import annotations
@@ -81,7 +81,12 @@ def arb_domain() -> Domain:
         return rational * flint.arb.pi() ** value.pi_power if value.pi_power else rational
 
     return Domain(
-        "arb", constant, lambda x: x.sqrt(), lambda x: x.sin(), lambda x: x.cos(), lambda y, x: flint.arb.atan2(y, x)
+        "arb",
+        constant,
+        lambda x: x.sqrt(),
+        lambda x: x.sin(),
+        lambda x: x.cos(),
+        lambda y, x: flint.arb.atan2(y, x),
     )
 
 

@@ -1,7 +1,7 @@
 """The operations of a program: what each takes, and whether it costs anything.
 
-This is the one definition of an operation. ``SINCOS`` yields the pair of sine and cosine of one angle; ``SIN`` and ``COS``
-of a pair are free projections of it (``SINE_OF``, ``COSINE_OF``).
+This is the one definition of an operation. ``SINCOS`` yields the pair of sine and cosine of one angle; ``SIN`` and
+``COS`` of a pair are free projections of it (``SINE_OF``, ``COSINE_OF``).
 """
 
 from __future__ import annotations

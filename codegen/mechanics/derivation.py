@@ -1,8 +1,8 @@
 """Derive the quantities of a routine from the rows of a formulation.
 
-``phi``; ``phi_q``, S1 Eqs. (5) to (8), (13), (20), (32); ``phi_q_t_lambda_q`` = d(phi_q^T lambda)/dq, Eqs. (9), (14), (25),
-(36), (37); ``gamma``, the right-hand side of ``phi_q a = gamma``; and the products ``phi_q v`` and ``phi_q^T lambda``.
-All of them are read off variations; no derivative is typed in.
+``phi``; ``phi_q``, S1 Eqs. (5) to (8), (13), (20), (32); ``phi_q_t_lambda_q`` = d(phi_q^T lambda)/dq, Eqs. (9), (14),
+(25), (36), (37); ``gamma``, the right-hand side of ``phi_q a = gamma``; and the products ``phi_q v`` and
+``phi_q^T lambda``. All of them are read off variations; no derivative is typed in.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class Derivation:
 
     @cached_property
     def jacobian_blocks(self) -> list[tuple[int, int, Any]]:
-        """Blocks of phi_q: (row, column, expression); a scalar row's block is its gradient, a vector to be transposed."""
+        """Blocks of phi_q: (row, column, expression); the block of a scalar row is its gradient, to be transposed."""
         blocks = []
         for start, row in self._places:
             varied = self._virtual.of(row)

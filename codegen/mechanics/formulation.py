@@ -1,7 +1,8 @@
 """`Formulation`: the rows of a joint's constraint and everything that is needed to derive from them.
 
-The conventional form follows S1 section 2, the parametric form section 3. The variation decides the axes in which vectors
-are kept: in ``body`` variation relative quantities (``A_ij``, ``d'_ij = A_i^T d_ij``), in ``world`` variation world vectors.
+The conventional form follows S1 section 2, the parametric form section 3. The variation decides the axes in which
+vectors are kept: in ``body`` variation relative quantities (``A_ij``, ``d'_ij = A_i^T d_ij``), in ``world``
+variation world vectors.
 """
 
 from __future__ import annotations
@@ -90,7 +91,8 @@ def relative_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     aliases: dict[Factors, str] = {(C_i, unit(k)): f"{_AXES[k]}_i" for k in range(3)}
     aliases |= {(C_j, unit(k)): f"{_AXES[k]}_j" for k in range(3)}
     aliases |= {(C_i, H, unit(k)): f"{_AXES[k]}_star" for k in range(3)}
-    aliases |= {(C_i, H, sympy.Transpose(C_j)): "A_ij"}
+    aliases |= {(C_i, H, sympy.Transpose(C_j)): A_ij.name, (sympy.Transpose(A_i), A_j): A_ij.name}
+    aliases |= {(sympy.Transpose(A_i), d_ij): dp_ij.name}
     rotations = frozenset({A_i, A_j, A_ij, C_i, C_j, H})
     algebra = Algebra(rotations, names, pulled=frozenset({A_i}), flipped=frozenset({A_ij}))
     return algebra, stages, aliases
@@ -108,13 +110,14 @@ def world_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     stages |= {symbol: sympy.MatMul(*chain) for chain, symbol in names.items()}
     s_i_world, s_j_world = attachments.values()
     stages[d_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i), sympy.MatMul(-1, s_i_world))
-    return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, {}
+    aliases = {chain: symbol.name for chain, symbol in names.items()}
+    return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, aliases
 
 
 def _conventional(joint: JointType, variant: Variant) -> Formulation:
     algebra, stages, aliases = relative_algebra() if variant.variation == "body" else world_algebra()
-    virtual = _body_motion(frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j, variant.variation)
-    rates = _body_motion(frames.v_i, frames.omega_i, frames.v_j, frames.omega_j, variant.variation)
+    virtual = _body_motion(frames.BODY_DISPLACEMENTS, variant.variation)
+    rates = _body_motion(frames.BODY_VELOCITIES, variant.variation)
     if joint.is_screw:
         stages |= screw_stages(algebra)
         if variant.derivative == "substituted":
@@ -130,7 +133,7 @@ def _conventional(joint: JointType, variant: Variant) -> Formulation:
         _displacements(0),
         virtual,
         rates,
-        (frames.v_i, frames.omega_i, frames.v_j, frames.omega_j),
+        frames.BODY_VELOCITIES,
         partials=SCREW_PARTIALS if joint.is_screw else {},
     )
 
@@ -141,8 +144,14 @@ def _relative_turn(turn_i: Any, turn_j: Any, variation: str) -> Any:
     return sympy.MatAdd(sympy.MatMul(A_j, turn_j), sympy.MatMul(-1, A_i, turn_i))
 
 
-def _body_motion(move_i: Any, turn_i: Any, move_j: Any, turn_j: Any, variation: str) -> dict[Any, Any]:
-    """Variation of positions and rotations, translations in world axes (SPEC S0)."""
+def _body_motion(bodies: tuple[Any, ...], variation: str) -> dict[Any, Any]:
+    """Variation of positions and rotations, translations in world axes (SPEC S0).
+
+    Args:
+        bodies: translation and rotation of body i, then of body j.
+        variation: axes of the rotations.
+    """
+    move_i, turn_i, move_j, turn_j = bodies
     motion: dict[Any, Any] = {r_i: move_i, r_j: move_j}
     for A, turn in ((A_i, turn_i), (A_j, turn_j)):
         motion[A] = sympy.MatMul(A, Tilde(turn)) if variation == "body" else sympy.MatMul(Tilde(turn), A)
@@ -150,8 +159,7 @@ def _body_motion(move_i: Any, turn_i: Any, move_j: Any, turn_j: Any, variation: 
 
 
 def _displacements(coordinates: int) -> tuple[tuple[Any, int], ...]:
-    symbols = (frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j)
-    bodies = tuple((symbol, 3 * k) for k, symbol in enumerate(symbols))
+    bodies = tuple((symbol, 3 * k) for k, symbol in enumerate(frames.BODY_DISPLACEMENTS))
     return bodies + tuple((symbol, 12 + k) for k, symbol in enumerate(frames.delta_alpha(coordinates)))
 
 
@@ -180,30 +188,34 @@ def _parametric(joint: JointType, variant: Variant) -> Formulation:
         mixed.translational_rows(d_of_alpha),
         *mixed.rotational_rows(variant.rows or "regular", joint.rotations, rotation, algebra),
     )
-    symbols = (frames.delta_r_i, frames.delta_pi_i, frames.delta_r_j, frames.delta_pi_j)
-    velocities = (frames.v_i, frames.omega_i, frames.v_j, frames.omega_j)
     substituted = variant.derivative == "substituted"
-    rotation_of_alpha = sympy.MatMul(C_i, H, sympy.Transpose(C_j)) if joint.rotations else sympy.MatMul(C_i, sympy.Transpose(C_j))
+    rotation_of_alpha = (
+        sympy.MatMul(C_i, H, sympy.Transpose(C_j)) if joint.rotations else sympy.MatMul(C_i, sympy.Transpose(C_j))
+    )
     return Formulation(
         algebra,
         stages,
         aliases,
         rows,
         _displacements(count),
-        _mixed_motion(symbols, frames.delta_alpha(count), alphas, rotation, variant.variation),
-        _mixed_motion(velocities, frames.alpha_dot(count), alphas, rotation, variant.variation),
-        (*velocities, *frames.alpha_dot(count)),
-        _turning_axes(velocities) if variant.variation == "body" else {},
+        _mixed_motion(frames.BODY_DISPLACEMENTS, frames.delta_alpha(count), alphas, rotation, variant.variation),
+        _mixed_motion(frames.BODY_VELOCITIES, frames.alpha_dot(count), alphas, rotation, variant.variation),
+        (*frames.BODY_VELOCITIES, *frames.alpha_dot(count)),
+        _turning_axes() if variant.variation == "body" else {},
         substitution={A_ij: rotation_of_alpha, dp_ij: d_of_alpha} if substituted else {},
         coordinates=count,
     )
 
 
 def _mixed_motion(
-    bodies: tuple[Any, ...], changes: tuple[Any, ...], alphas: tuple[Any, ...], rotation: mixed.RelativeRotation, variation: str
+    bodies: tuple[Any, ...],
+    changes: tuple[Any, ...],
+    alphas: tuple[Any, ...],
+    rotation: mixed.RelativeRotation,
+    variation: str,
 ) -> dict[Any, Any]:
     """Variation in the mixed coordinates; translations in body axes, ``delta r = A delta r'``, in body variation."""
-    motion = _body_motion(*bodies, variation)
+    motion = _body_motion(bodies, variation)
     if variation == "body":
         motion |= {r_i: sympy.MatMul(A_i, bodies[0]), r_j: sympy.MatMul(A_j, bodies[2])}
     motion |= dict(zip(alphas, changes, strict=True))
@@ -217,7 +229,7 @@ def _mixed_motion(
     return motion
 
 
-def _turning_axes(velocities: tuple[Any, ...]) -> dict[Any, Any]:
+def _turning_axes() -> dict[Any, Any]:
     """Rate of ``A^T rdot`` at ``rddot = 0``: its axes turn with the body."""
-    v_i, omega_i, v_j, omega_j = velocities
+    v_i, omega_i, v_j, omega_j = frames.BODY_VELOCITIES
     return {v_i: sympy.MatMul(-1, Tilde(omega_i), v_i), v_j: sympy.MatMul(-1, Tilde(omega_j), v_j)}

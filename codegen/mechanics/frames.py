@@ -40,6 +40,9 @@ delta_pi_i, delta_pi_j = vector("delta_pi_i"), vector("delta_pi_j")
 v_i, v_j = vector("v_i"), vector("v_j")
 omega_i, omega_j = vector("omega_i"), vector("omega_j")
 
+BODY_DISPLACEMENTS = (delta_r_i, delta_pi_i, delta_r_j, delta_pi_j)
+BODY_VELOCITIES = (v_i, omega_i, v_j, omega_j)
+
 pitch, theta_0, revolutions = sympy.symbols("pitch theta_0 revolutions")
 
 GEOMETRY = ((s_i, 0), (C_i, 3), (s_j, 12), (C_j, 15))
@@ -76,10 +79,21 @@ def arguments(joint: JointType, coordinates: int, rows: int) -> tuple[Argument, 
         coordinates: number of alphas; 0 in the conventional form.
         rows: number of constraint rows.
     """
-    bodies = (Argument("r_i", (3, 1)), Argument("A_i", (3, 3)), Argument("r_j", (3, 1)), Argument("A_j", (3, 3)))
+    bodies = (
+        Argument("r_i", (3, 1)),
+        Argument("A_i", (3, 3)),
+        Argument("r_j", (3, 1)),
+        Argument("A_j", (3, 3)),
+    )
     parametric = (Argument("alpha", (coordinates, 1)),) if coordinates else ()
     geometry = Argument("geometry", (PARAMETERS_OFFSET + len(joint.parameters), 1))
-    return (*bodies, *parametric, geometry, Argument("velocity", (12 + coordinates, 1)), Argument("lambda", (rows, 1)))
+    return (
+        *bodies,
+        *parametric,
+        geometry,
+        Argument("velocity", (12 + coordinates, 1)),
+        Argument("lambda", (rows, 1)),
+    )
 
 
 def inputs(coordinates: int, rows: int) -> dict[Any, tuple[str, int]]:
@@ -87,7 +101,7 @@ def inputs(coordinates: int, rows: int) -> dict[Any, tuple[str, int]]:
     places: dict[Any, tuple[str, int]] = {symbol: (symbol.name, 0) for symbol in (r_i, A_i, r_j, A_j)}
     places |= {symbol: ("geometry", offset) for symbol, offset in GEOMETRY}
     places |= {p: ("geometry", PARAMETERS_OFFSET + k) for k, p in enumerate((pitch, theta_0, revolutions))}
-    places |= {symbol: ("velocity", 3 * k) for k, symbol in enumerate((v_i, omega_i, v_j, omega_j))}
+    places |= {symbol: ("velocity", 3 * k) for k, symbol in enumerate(BODY_VELOCITIES)}
     places |= {symbol: ("alpha", k) for k, symbol in enumerate(alpha(coordinates))}
     places |= {symbol: ("velocity", 12 + k) for k, symbol in enumerate(alpha_dot(coordinates))}
     places |= {symbol: ("lambda", k) for k, symbol in enumerate(multipliers(rows))}

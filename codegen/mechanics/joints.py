@@ -1,4 +1,4 @@
-"""The catalogue of joints: S1 Table 1 (conventional) and Table 5 (parametric, planar corrected), and the 16 trn x rot pairs.
+"""The catalogue of joints: S1 Table 1 (conventional), Table 5 (parametric, planar corrected), the 16 trn x rot pairs.
 
 A new joint is one entry here; everything else follows from it.
 """
@@ -13,9 +13,7 @@ JOINTS: dict[str, JointType] = {
     joint.name: joint
     for joint in (
         JointType("revolute", 1, (Spherical(), Dot1("f", "h"), Dot1("g", "h")), 0, 1),
-        JointType(
-            "translational", 1, (Dot1("f", "h"), Dot1("g", "h"), Dot1("f", "g"), Dot2("f"), Dot2("g")), 1, 0
-        ),
+        JointType("translational", 1, (Dot1("f", "h"), Dot1("g", "h"), Dot1("f", "g"), Dot2("f"), Dot2("g")), 1, 0),
         JointType(
             "screw",
             1,

@@ -1,7 +1,7 @@
 """The parametric form (S1 section 3): translational constraints trn0 to trn3 and rotational constraints rot0 to rot3.
 
-``trn_k``: ``A_i^T d_ij - d'(alpha)``, S1 Eq. (17). ``rot_k``: three rows that say ``C_i^T A_ij C_j = H(alpha)``, S1 Table 3
-and Table 4 (rows ``table4``), or the rows that keep full rank at every alpha (``regular``, SPEC S1.2).
+``trn_k``: ``A_i^T d_ij - d'(alpha)``, S1 Eq. (17). ``rot_k``: three rows that say ``C_i^T A_ij C_j = H(alpha)``, S1
+Table 3 and Table 4 (rows ``table4``), or the rows that keep full rank at every alpha (``regular``, SPEC S1.2).
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def about(axis: int, angle: Any) -> Any:
 
 
 def euler_rotation(axes: tuple[int, ...], angles: tuple[Any, ...]) -> RelativeRotation:
-    """Product of rotations about coordinate axes (S1 Table 3), with its variation ``delta H = H (sum w_k delta alpha_k)~``."""
+    """Product of rotations about coordinate axes (S1 Table 3); ``delta H = H (sum w_k delta alpha_k)~``."""
     definition = sympy.ImmutableDenseMatrix(sympy.eye(3))
     for axis, angle in zip(axes, angles, strict=True):
         definition = definition * about(axis, angle)
@@ -68,7 +68,7 @@ def euler_rotation(axes: tuple[int, ...], angles: tuple[Any, ...]) -> RelativeRo
 
 
 def quaternion_rotation(parameters: tuple[Any, ...]) -> RelativeRotation:
-    """Euler parameters, homogeneous form ``H = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~``; a rotation where their norm is 1."""
+    """Euler parameters in the homogeneous form ``(e0^2 - e.e) I + 2 e e^T + 2 e0 e~``; a rotation at norm 1."""
     e0, *vector = parameters
     e = sympy.ImmutableDenseMatrix(vector)
     definition = (e0**2 - e.dot(e)) * sympy.eye(3) + 2 * e * e.T + 2 * e0 * skew(e)

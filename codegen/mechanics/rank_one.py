@@ -1,11 +1,12 @@
 """The identity behind every rotational block of a second derivative: ``a~ R b~ = (R b)(R^T a)^T - (a . R b) R``.
 
-It holds for a rotation R. Its right-hand side costs two outer products of vectors that the Jacobian has already, where the
-left-hand side costs two products of matrices (SPEC S1.6).
+It holds for a rotation R. Its right-hand side costs two outer products of vectors that the Jacobian has already,
+where the left-hand side costs two products of matrices (SPEC S1.6).
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import sympy
@@ -55,7 +56,7 @@ def _joined(group: Terms, key: Factors, algebra: Algebra) -> tuple[Any, Factors]
 
 def _rewrite(factors: Factors, algebra: Algebra) -> Terms:
     tildes = [k for k, factor in enumerate(factors) if isinstance(factor, Tilde)]
-    for first, second in zip(tildes, tildes[1:], strict=False):
+    for first, second in pairwise(tildes):
         between = factors[first + 1 : second]
         if not between or not all(_is_rotation(factor, algebra) for factor in between):
             continue

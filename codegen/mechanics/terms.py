@@ -126,7 +126,9 @@ class Algebra:
         if isinstance(expression, sympy.MatMul):
             coefficient, factors = expression.as_coeff_matrices()
             return [(coefficient * c, chain) for c, chain in self._flat_chain(factors)]
-        if isinstance(expression, sympy.ZeroMatrix) or (isinstance(expression, MatrixBase) and expression.is_zero_matrix):
+        if isinstance(expression, sympy.ZeroMatrix) or (
+            isinstance(expression, MatrixBase) and expression.is_zero_matrix
+        ):
             return []
         if isinstance(expression, sympy.Identity):
             return [(sympy.S.One, ())]

@@ -1,9 +1,9 @@
 """Variations of staged expressions, and the linear forms they are read as.
 
-A model names its stages (``A_ij``, ``d_ij`` ...). The variation of a root symbol is given (``delta A_i = A_i delta pi_i~``);
-that of a stage follows from its definition, once, and stays in named terms. A Jacobian is read off a variation by moving
-the virtual displacement to the right (S1 Eqs. (5) to (8)); the same product rule with velocities in place of virtual
-displacements gives time derivatives.
+A model names its stages (``A_ij``, ``d_ij`` ...). The variation of a root symbol is given (``delta A_i = A_i delta
+pi_i~``); that of a stage follows from its definition, once, and stays in named terms. A Jacobian is read off a
+variation by moving the virtual displacement to the right (S1 Eqs. (5) to (8)); the same product rule with velocities
+in place of virtual displacements gives time derivatives.
 """
 
 from __future__ import annotations
@@ -16,7 +16,15 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from codegen.errors import InternalError
 from codegen.ir.lower import Dot, Tilde
-from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, expand, scalar_products, transposed_chain
+from codegen.mechanics.terms import (
+    Algebra,
+    Factors,
+    Terms,
+    assemble,
+    expand,
+    scalar_products,
+    transposed_chain,
+)
 
 
 class Variation:
@@ -26,8 +34,8 @@ class Variation:
         algebra: normal form in force.
         stages: symbol -> definition.
         roots: symbol -> its variation, a matrix expression (or a scalar for scalar symbols); others are constant.
-        partials: scalar stage -> its partial derivatives by other scalar stages, where they are known in better terms than
-            those of its definition.
+        partials: scalar stage -> its partial derivatives by other scalar stages, where they are known in better
+            terms than those of its definition.
     """
 
     def __init__(

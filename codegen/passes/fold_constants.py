@@ -11,7 +11,7 @@ from codegen.passes.rewrite import rebuild
 
 
 def fold_constants(program: Program) -> Program:
-    """Replace each operation whose operands are constants by its exact value, where that is a rational times a power of pi."""
+    """Replace operations on constants by their exact value, where that is a rational times a power of pi."""
     return rebuild(program, _place)
 
 

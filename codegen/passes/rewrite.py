@@ -11,7 +11,7 @@ from codegen.ir.program import Instruction, Program
 
 
 def rebuild(program: Program, place: Callable[[Builder, Instruction], int]) -> Program:
-    """Rebuild a program; ``place`` appends each instruction, its operands mapped already, and gives its new position."""
+    """Rebuild a program; ``place`` appends each instruction, operands mapped already, and gives its new position."""
     builder = Builder()
     moved: list[int] = []
     for instruction in program.instructions:
@@ -39,7 +39,9 @@ def reorder(program: Program, order: Sequence[int]) -> Program:
 
 
 def _with(program: Program, builder: Builder, moved: list[int]) -> Program:
-    outputs = tuple(replace(output, values=tuple(moved[value] for value in output.values)) for output in program.outputs)
+    outputs = tuple(
+        replace(output, values=tuple(moved[value] for value in output.values)) for output in program.outputs
+    )
     return Program(program.arguments, tuple(builder.instructions), outputs, program.legend)
 
 

@@ -1,6 +1,7 @@
 """Order the instructions depth-first, output by output, so that few values are alive at a time.
 
-The heavier operand of each operation comes first (Sethi and Ullman). The C emitter stores each result where it is ready.
+The heavier operand of each operation comes first (Sethi and Ullman). The C emitter stores each result where it is
+ready.
 """
 
 from __future__ import annotations

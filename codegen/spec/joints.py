@@ -47,7 +47,8 @@ class JointType:
     Attributes:
         name: as in the C symbols.
         dof: degrees of freedom left between the two bodies.
-        conventional: basic constraints in row order (S1 Table 1); empty where the joint exists in the parametric form only.
+        conventional: basic constraints in row order (S1 Table 1); empty where the joint exists in the parametric
+            form only.
         translations: k of ``trn_k`` (S1 Table 5).
         rotations: k of ``rot_k`` (S1 Table 5).
         is_screw: the translation is the advance of the rotation; one coordinate for both.

@@ -105,7 +105,9 @@ def incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
 def _conventional_incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
     if not joint.conventional:
         return Mistake(
-            f"{joint.name} --form conventional", f"{joint.name} exists in the parametric form only", "use --form parametric"
+            f"{joint.name} --form conventional",
+            f"{joint.name} exists in the parametric form only",
+            "use --form parametric",
         )
     if variant.rows is not None:
         return Mistake(
@@ -116,7 +118,7 @@ def _conventional_incompatibility(joint: JointType, variant: Variant) -> Mistake
     if variant.derivative == "substituted" and not joint.is_screw:
         return Mistake(
             f"{joint.name} --derivative substituted",
-            f"the conventional {joint.name} has only the exact derivative (the screw has also its angle on the manifold)",
+            f"the conventional {joint.name} has only the exact derivative",
             "use --derivative exact, or --form parametric",
         )
     return None
@@ -145,15 +147,17 @@ def selected_variants(
 ) -> tuple[Variant, ...]:
     """Choose the variants that the options ask for.
 
-    An option that is left out ranges over the library's values; one that is given is taken as it is, also where the library
-    does not have it (quaternion rows, pairs).
+    An option that is left out ranges over the library's values; one that is given is taken as it is, also where the
+    library does not have it (quaternion rows, pairs).
 
     Raises:
         SpecificationError: unknown names, or options that do not go together; all of them at once.
     """
     known = {**library, **pairs}
     mistakes = [
-        Mistake(f"joint {name}", "there is no such joint", nearest(name, known)) for name in options.joints if name not in known
+        Mistake(f"joint {name}", "there is no such joint", nearest(name, known))
+        for name in options.joints
+        if name not in known
     ]
     mistakes += _unknown_values(options)
     if mistakes:
@@ -163,9 +167,10 @@ def selected_variants(
     for joint in joints:
         found, problems = _of_joint(joint, options)
         variants += found
-        mistakes += problems if not found and (options.joints or not variants) else []
+        if not found:
+            mistakes += problems
     if mistakes and (options.joints or not variants):
-        raise SpecificationError(mistakes[:1] if not options.joints else mistakes)
+        raise SpecificationError(dict.fromkeys(mistakes))
     return tuple(variants)
 
 

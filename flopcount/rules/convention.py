@@ -61,12 +61,14 @@ RULES: Mapping[str, Rule] = MappingProxyType(
             "but (alpha_3, alpha_3) cannot take a term out of it.",
         ),
         "R4": Rule(
-            statement="In a scalar constraint's second derivative each distinct block is scaled by lambda "
-            "(9).",
+            statement="In a scalar constraint's second derivative each distinct block is scaled by lambda (9).",
             reading="Each distinct product of a block is scaled once. What contains a finished block as an "
             "operand has its lambda already: (pi_j, pi_j) of dot-2 and screw is -(pi_j, pi_i) "
             "A_ij. In screw the product A_ij^T h_i~ is formed once for s_j~ A_ij^T h_i~ and for p "
-            "A_ij^T h_i~, and each of these two is scaled, by lambda and by p lambda.",
+            "A_ij^T h_i~, and each of these two is scaled, by lambda and by p lambda: 276, as "
+            "printed. The same block costs 285 with p first and lambda on the sum, and 303 with "
+            "A_ij^T (p h_i)~. Likewise dot-1, whose blocks the paper does not print, costs 141 with "
+            "(A_ij h_j)~, and 153 if grouped as eq. (9) groups dot-2.",
         ),
         "R5": Rule(
             statement="trn and rot are added; A_ij s_j~ is always counted; Phi_alpha is free.",

@@ -2,9 +2,9 @@
 
 Input: names of the vectors. Output: `Part`s. Variations: (delta r_i, delta pi_i, delta r_j, delta pi_j),
 delta r in world axes, delta pi in body axes. Blocks of dot-2 are grouped as the paper prints them in eqs (8)
-and (9), with their misprints corrected; those that it does not print are grouped as they come out of the
-differentiation. d_ij is in world axes, all other vectors are fixed in their body and in its axes, and ``A_ij
-= A_i^T A_j``.
+and (9), with their misprints corrected, and those of screw alike. The paper prints none of dot-1 and
+spherical; they are grouped as they come out of the differentiation, with skew matrices of turned vectors.
+d_ij is in world axes, all other vectors are fixed in their body and in its axes; A_ij = A_i^T A_j.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def dot_1(first: str, second: str) -> Part:
 
 
 def dot_2(first: str) -> Part:
-    """Constraint ``first . d_ij = 0`` of a vector of body i and the vector between the bodies (eqs 8 and 9, corrected)."""
+    """Constraint ``first . d_ij = 0`` of a vector of body i and d_ij (eqs 8 and 9, corrected)."""
     name, a = "dot-2", Vec(first)
     return Part(
         name=name,
@@ -93,7 +93,8 @@ def screw() -> Part:
 
     Dot-2 of h_i, less p times ``delta theta = h_i^T (A_ij delta pi_j - delta pi_i)``, which holds on the
     manifold (h_i parallel to h_j). That form is not symmetric: the block (pi_j, pi_i) has a term with p that
-    (pi_i, pi_j) lacks.
+    (pi_i, pi_j) lacks. The paper does not print these blocks; what they cost depends on where p is written
+    (R4 in `flopcount.rules.convention`).
     """
     name, h = "screw", Vec("h_i")
     pitch = Transpose(Vec("p h_i"))

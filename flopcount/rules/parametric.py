@@ -39,7 +39,7 @@ ROTATION_AXES = ("", "z", "zx", "zyx")
 """Table 3: the elementary rotations of which rot0 to rot3 are made."""
 
 ROTATION_ROWS = (("gh", "hf", "fg"), ("fh", "gh", "ff"), ("hf", "ff", "hh"), ("ff", "hf", "hh"))
-"""Table 4: each row is the scalar product of an axis of frame i and one of frame j, less its value in H(alpha)."""
+"""Table 4: each row is an axis of frame i times an axis of frame j, less their product in H(alpha)."""
 
 PITCHED_ALPHA = Product((Scalar("p"), Sum((Scalar("alpha"), Scalar("2 pi n"), Scalar("alpha_0")))))
 """The displacement of the screw joint: ``p (alpha + 2 pi n + alpha_0)``."""

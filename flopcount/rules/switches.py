@@ -98,9 +98,7 @@ def _double_planar_sum(part: Part, derivative: Derivative, terms: Terms) -> Term
     if part.name != "trn2" or derivative != "phi_q":
         return terms
     again = (
-        replace(term, text=f"again {term.text}", rule="planar-twice")
-        for term in terms
-        if term.place == "(trn2, pi_i)"
+        replace(term, text=f"again {term.text}", rule="planar-twice") for term in terms if term.place == "(trn2, pi_i)"
     )
     return (*terms, *again)
 
@@ -135,10 +133,9 @@ SWITCHES: Mapping[str, Switch] = MappingProxyType(
         ),
         "zero-row": Switch(
             name="zero-row",
-            assumption="The third row of dA_ij/dalpha is structurally zero for the first rotational "
-            "coordinate.",
-            justification="D^T lambda then costs 9 for 15. It holds if C_i = I (h_i along the body's third "
-            "axis, as in the paper's Fig. 1): the third row of d(Rz)/dalpha is zero. It "
+            assumption="The third row of dA_ij/dalpha is structurally zero for the first rotational coordinate.",
+            justification="D^T lambda then costs 9 for 15. It holds if C_i = I (joint axes parallel to the "
+            "axes of body i), since the third row of d(Rz)/dalpha is zero. It "
             "explains all five second derivatives that are 6 too high. Against it: the same "
             "formulas count f_i, g_i, h_i as general vectors, and the ball joint moves away "
             "from its cell.",

@@ -97,9 +97,7 @@ def explain(
     for switch in switches:
         _known("switch", switch, SWITCHES if order == "paper" else ())
     assumptions = [SWITCHES[switch] for switch in SWITCHES if switch in switches]
-    return tuple(
-        term for part in parts(name, form) for term in _terms(part, derivative, ORDERS[order], assumptions)
-    )
+    return tuple(term for part in parts(name, form) for term in _terms(part, derivative, ORDERS[order], assumptions))
 
 
 def tally(

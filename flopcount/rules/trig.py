@@ -51,10 +51,7 @@ def derivative(polynomial: Polynomial, angle: int) -> Polynomial:
     slope = {cosine: (sine, -1), sine: (cosine, 1)}
     return plus(
         *(
-            {
-                tuple(sorted((*monomial[:at], slope[name][0], *monomial[at + 1 :]))): slope[name][1]
-                * coefficient
-            }
+            {tuple(sorted((*monomial[:at], slope[name][0], *monomial[at + 1 :]))): slope[name][1] * coefficient}
             for monomial, coefficient in polynomial.items()
             for at, name in enumerate(monomial)
             if name in slope

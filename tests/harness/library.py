@@ -169,19 +169,13 @@ class Library:
         select: Callable[[Entry], bool] | None = None,
     ) -> Library:
         """Compile the sources of the (selected) entries of `manifest`; flags follow the standard ones."""
-        entries = [
-            entry
-            for entry in json.loads(manifest.read_text())["functions"]
-            if select is None or select(entry)
-        ]
+        entries = [entry for entry in json.loads(manifest.read_text())["functions"] if select is None or select(entry)]
         sources = sorted({entry["source"] for entry in entries})
         return cls(entries, compile_library(manifest.parent, sources, cache_dir, flags, compiler))
 
     def find(self, **fields: Any) -> list[Entry]:
         """Entries whose fields have the given values, e.g. find(joint="ball", storage="nz")."""
-        return [
-            e for e in self.entries.values() if all(e.get(name) == value for name, value in fields.items())
-        ]
+        return [e for e in self.entries.values() if all(e.get(name) == value for name, value in fields.items())]
 
     def call(
         self, symbol: str, inputs: Mapping[str, Any], *, canary: bool = False, dense: bool = False

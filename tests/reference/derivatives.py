@@ -130,9 +130,7 @@ def tensors(
         raise ValueError(f"unknown derivative {derivative!r}")
     varied = step(moved, inner, form, variation)
     if screw == "manifold" and form == "conventional" and joint == "screw":
-        values = phi_conventional(
-            joint, varied, geometry, theta_on_manifold(pose, moved, geometry, variation)
-        )
+        values = phi_conventional(joint, varied, geometry, theta_on_manifold(pose, moved, geometry, variation))
     else:
         values = phi(joint, form, rows, varied, geometry)
     return np.array([x.inner for x in values]), np.array([x.cross for x in values])
@@ -208,9 +206,7 @@ def evaluate(
     pose, geometry = pose_of(inputs), unpack_geometry(inputs["geometry"])
     if output == "phi":
         return phi(joint, form, rows, pose, geometry)
-    first, second = tensors(
-        joint, form, rows, pose, geometry, derivative=derivative, variation=variation, screw=screw
-    )
+    first, second = tensors(joint, form, rows, pose, geometry, derivative=derivative, variation=variation, screw=screw)
     if output == "phi_q":
         return first
     if output == "phi_q_t_lambda_q":
@@ -224,13 +220,8 @@ def evaluate(
     raise ValueError(f"unknown output {output!r}")
 
 
-def evaluate_entry(
-    entry: Mapping[str, Any], inputs: Mapping[str, Any], *, screw: str = "exact"
-) -> dict[str, Array]:
+def evaluate_entry(entry: Mapping[str, Any], inputs: Mapping[str, Any], *, screw: str = "exact") -> dict[str, Array]:
     """Truth of every output of a manifest entry, dense, by name."""
     outputs = entry["outputs"] if entry["output"] == "all" else [entry["output"]]
     options = {"rows": entry["rows"], "derivative": entry["derivative"], "variation": entry["variation"]}
-    return {
-        name: evaluate(entry["joint"], entry["form"], name, inputs, screw=screw, **options)
-        for name in outputs
-    }
+    return {name: evaluate(entry["joint"], entry["form"], name, inputs, screw=screw, **options) for name in outputs}

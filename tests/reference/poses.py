@@ -25,10 +25,7 @@ LARGEST_PITCH_ANGLE = 1.2  # rad: rot3 loses a coordinate at a2 = +-pi/2
 
 def random_geometry(joint: str, rng: np.random.Generator) -> NDArray[np.float64]:
     """geometry [24], screw [27]: s_i, C_i, s_j, C_j (C column-major), pitch m/rad, theta_0 rad, turns."""
-    frames = [
-        np.concatenate([rng.normal(scale=0.5, size=3), random_rotation(rng).ravel(order="F")])
-        for _ in range(2)
-    ]
+    frames = [np.concatenate([rng.normal(scale=0.5, size=3), random_rotation(rng).ravel(order="F")]) for _ in range(2)]
     screw = [rng.uniform(0.05, 0.3), rng.uniform(-1.0, 1.0), float(rng.integers(-2, 3))]
     return np.concatenate([*frames, screw if joint == "screw" else []])
 
@@ -125,9 +122,7 @@ def sample(
     return inputs | {"velocity": tangent_velocity(first, rng), "lambda": rng.normal(size=len(first))}
 
 
-def residual(
-    joint: str, form: str, inputs: Mapping[str, Any], rows: str | None = None
-) -> NDArray[np.float64]:
+def residual(joint: str, form: str, inputs: Mapping[str, Any], rows: str | None = None) -> NDArray[np.float64]:
     """phi [m] of inputs as floats."""
     values = phi(joint, form, rows, pose_of(inputs), unpack_geometry(inputs["geometry"]))
     return np.asarray(values, dtype=float)

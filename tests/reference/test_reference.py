@@ -102,9 +102,7 @@ def test_phi_q_equals_complex_step(joint: str, form: str, rows: str | None, vari
         n = 12 + len(pose.alpha)
         stepped = [moved(pose, 1e-30j * q, form, variation) for q in np.eye(n)]
         columns = [np.imag(phi(joint, form, rows, there, geometry)) * 1e30 for there in stepped]
-        close(
-            evaluate(joint, form, "phi_q", inputs, rows=rows, variation=variation), np.array(columns).T, 1e-14
-        )
+        close(evaluate(joint, form, "phi_q", inputs, rows=rows, variation=variation), np.array(columns).T, 1e-14)
 
 
 @every_case
@@ -179,9 +177,7 @@ def test_substituted_is_exact_along_the_manifold(joint: str, form: str, rows: st
     pose, geometry = pose_of(inputs), unpack_geometry(inputs["geometry"])
     options: dict[str, Any] = {"rows": rows, "variation": variation}
     exact, second = tensors(joint, form, rows, pose, geometry, variation=variation)
-    first, substituted = tensors(
-        joint, form, rows, pose, geometry, variation=variation, derivative="substituted"
-    )
+    first, substituted = tensors(joint, form, rows, pose, geometry, variation=variation, derivative="substituted")
     close(first, exact, 1e-14)
     v = inputs["velocity"]
     close(np.tensordot(substituted, v, axes=(1, 0)), np.tensordot(second, v, axes=(1, 0)), 1e-13)

@@ -101,18 +101,14 @@ def test_screw_variation_on_the_manifold() -> None:
     inputs = sample("screw", "conventional", 4)
     exact = evaluate("screw", "conventional", "phi_q", inputs)
     geometry = unpack_geometry(inputs["geometry"])
-    np.testing.assert_allclose(
-        evaluate("screw", "conventional", "phi_q", inputs, screw="manifold"), exact, atol=1e-14
-    )
+    np.testing.assert_allclose(evaluate("screw", "conventional", "phi_q", inputs, screw="manifold"), exact, atol=1e-14)
     h_i, A_ij = geometry.C_i[:, 2], inputs["A_i"].T @ inputs["A_j"]
     d = inputs["A_i"].T @ (inputs["r_j"] - inputs["r_i"]) + A_ij @ geometry.s_j - geometry.s_i
     pi_i = skew(h_i) @ (d + geometry.s_i) + geometry.pitch * h_i
     pi_j = -h_i @ A_ij @ skew(geometry.s_j) - geometry.pitch * h_i @ A_ij
     np.testing.assert_allclose(exact[4, 3:6], pi_i, atol=1e-14)
     np.testing.assert_allclose(exact[4, 9:12], pi_j, atol=1e-14)
-    tangent = [
-        evaluate("screw", "conventional", "phi_q_t_lambda_q", inputs, screw=s) for s in ("exact", "manifold")
-    ]
+    tangent = [evaluate("screw", "conventional", "phi_q_t_lambda_q", inputs, screw=s) for s in ("exact", "manifold")]
     np.testing.assert_allclose(tangent[0] @ inputs["velocity"], tangent[1] @ inputs["velocity"], atol=1e-13)
     gammas = [evaluate("screw", "conventional", "gamma", inputs, screw=s) for s in ("exact", "manifold")]
     np.testing.assert_allclose(gammas[0], gammas[1], atol=1e-13)

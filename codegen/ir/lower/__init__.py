@@ -2,5 +2,6 @@
 
 from codegen.ir.lower.lowering import Block, SymbolicOutput, lower
 from codegen.ir.lower.nodes import Dot, Tilde
+from codegen.ir.lower.notation import notation
 
-__all__ = ["Block", "Dot", "SymbolicOutput", "Tilde", "lower"]
+__all__ = ["Block", "Dot", "SymbolicOutput", "Tilde", "lower", "notation"]

@@ -100,6 +100,9 @@ def scale(factor: int, grid: Grid, builder: Builder) -> Grid:
 def add(grids: list[Grid], builder: Builder) -> Grid:
     """Sum of grids of one shape, over structural nonzeros."""
     return tuple(
-        tuple(total([entry for entry in places if _class_of(entry, builder)], builder) for places in zip(*rows, strict=True))
+        tuple(
+            total([entry for entry in places if _class_of(entry, builder)], builder)
+            for places in zip(*rows, strict=True)
+        )
         for rows in zip(*grids, strict=True)
     )

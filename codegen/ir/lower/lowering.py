@@ -1,7 +1,7 @@
 """Lower staged matrix expressions to a scalar program.
 
-Input: the symbols that are arguments, the named stages with their definitions, and for each output its blocks. Output: a
-plain `Program`; simplification is left to the passes. Stage names survive as labels of the values they name.
+Input: the symbols that are arguments, the named stages with their definitions, and for each output its blocks.
+Output: a plain `Program`; simplification is left to the passes. Stage names survive as labels of the values they name.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from codegen.ir.builder import Builder
 from codegen.ir.lower.chain import Chains, Factors
 from codegen.ir.lower.grid import Grid, add, multiply, scale, skew, total, transpose
 from codegen.ir.lower.nodes import Dot, Tilde
+from codegen.ir.lower.notation import chain_notation, notation, product_name
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
@@ -128,7 +129,7 @@ class _Lowering:
                 tuple(self.builder.input(name, offset + i + nrow * j) for j in range(ncol)) for i in range(nrow)
             )
         grid = self.matrix(self._stages[symbol])
-        self._name(symbol.name, str(self._stages[symbol]), grid)
+        self._name(symbol.name, notation(self._stages[symbol], self._aliases), grid)
         return grid
 
     def _name(self, name: str, definition: str, grid: Grid) -> None:
@@ -159,7 +160,7 @@ class _Lowering:
         """Label short products of plain symbols, as ``A_ij_h_j``, for readers."""
         name = product_name(factors, self._aliases)
         if name:
-            self._name(name, " ".join(str(factor) for factor in factors), grid)
+            self._name(name, chain_notation(factors, self._aliases), grid)
 
     def scalar(self, expression: Any) -> int:
         known = self._scalars.get(expression)
@@ -194,7 +195,7 @@ class _Lowering:
         if place is not None:
             return self.builder.input(*place)
         value = self.scalar(self._stages[symbol])
-        self._name(symbol.name, str(self._stages[symbol]), ((value,),))
+        self._name(symbol.name, notation(self._stages[symbol], self._aliases), ((value,),))
         return value
 
     def _scalar_product(self, expression: Any) -> int:
@@ -218,27 +219,3 @@ class _Lowering:
         for _ in range(abs(int(exponent)) - 1):
             result = self.builder.emit(Op.MULTIPLY, result, base)
         return self.builder.emit(Op.DIVIDE, self.builder.constant(1), result) if exponent < 0 else result
-
-
-def product_name(factors: Factors, aliases: Mapping[Factors, str]) -> str:
-    """Name a product of at most three symbols and named products, or give "" where no short name reads well."""
-    words: list[str] = []
-    position = 0
-    while position < len(factors):
-        for end in range(len(factors), position, -1):
-            word = aliases.get(factors[position:end]) or (_symbol_name(factors[position]) if end == position + 1 else "")
-            if word:
-                break
-        if not word or len(words) == 3:
-            return ""
-        words.append(word)
-        position = end
-    return "_".join(words)
-
-
-def _symbol_name(factor: Any) -> str:
-    if isinstance(factor, sympy.Transpose) and isinstance(factor.arg, sympy.MatrixSymbol):
-        return f"{factor.arg.name}t"
-    if isinstance(factor, Tilde):
-        return _symbol_name(factor.vector) and f"{_symbol_name(factor.vector)}_cross"
-    return factor.name if isinstance(factor, sympy.MatrixSymbol) else ""

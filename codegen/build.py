@@ -1,0 +1,297 @@
+"""The pipeline in one place.
+
+Stages, each a pure function of the one before:
+
+1. ``spec``       options -> variants (:func:`codegen.spec.request.selected_variants`)
+2. ``mechanics``  variant -> formulation -> derivation, symbolic (:mod:`codegen.mechanics`)
+3. ``ir``         derivation -> program (:func:`codegen.ir.lower.lower`)
+4. ``passes``     program -> program (:func:`codegen.passes.simplify`)
+5. ``emit``       program -> C, CasADi, manifest (:mod:`codegen.emit`)
+
+Writing is the last step: a package appears whole or not at all (:mod:`codegen.output`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import codegen
+from codegen.emit.package import Unit, package, specification_hash, unit
+from codegen.emit.routine import Routine
+from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.ir import text
+from codegen.ir.lower import SymbolicOutput, lower, notation
+from codegen.ir.program import Program
+from codegen.mechanics import frames
+from codegen.mechanics.derivation import Derivation
+from codegen.mechanics.equations import equations
+from codegen.mechanics.formulation import Formulation, coordinate_count, formulation
+from codegen.mechanics.joints import JOINTS, PAIRS
+from codegen.parallel import parallel
+from codegen.passes import simplify
+from codegen.spec.joints import JointType
+from codegen.spec.request import (
+    OUTPUTS,
+    PRODUCTS,
+    QUANTITIES,
+    Options,
+    Variant,
+    incompatibility,
+    library_variants,
+    selected_variants,
+)
+from flopcount.compare import ComparisonRow, compare
+from flopcount.count import count
+from flopcount.counts import Counts
+from flopcount.paper import DERIVATIVES
+
+Progress = Callable[[str], None]
+"""Told the name of each variant that is finished."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """The symbolic model of one variant: mechanics' result, from which programs are lowered."""
+
+    joint: JointType
+    variant: Variant
+    form: Formulation
+    derivation: Derivation
+
+    def outputs(self, names: Iterable[str]) -> tuple[SymbolicOutput, ...]:
+        """Derive the named quantities."""
+        return tuple(self.derivation.quantity(name) for name in names)
+
+    def text(self, names: Iterable[str]) -> str:
+        """Write the blocks of the named quantities in the notation of the papers."""
+        lines = [
+            f"{symbol} = {notation(definition, self.form.aliases)}" for symbol, definition in self.form.stages.items()
+        ]
+        for output in self.outputs(names):
+            lines.append(f"{output.name} {output.shape[0]}x{output.shape[1]}")
+            lines += [f"  [{b.row},{b.column}] = {notation(b.expression, self.form.aliases)}" for b in output.blocks]
+        return "\n".join(lines) + "\n"
+
+    def program(self, names: Iterable[str]) -> Program:
+        """Lower the named quantities to one simplified program."""
+        form = self.form
+        arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
+        places = frames.inputs(form.coordinates, form.row_count)
+        return simplify(lower(arguments, places, form.stages, self.outputs(names), form.aliases))
+
+
+def joint_type(name: str) -> JointType:
+    """Find a joint in the catalogue or among the trn x rot pairs.
+
+    Raises:
+        SpecificationError: there is none of that name.
+    """
+    known = {**JOINTS, **PAIRS}
+    if name not in known:
+        raise SpecificationError([Mistake(f"joint {name}", "there is no such joint", nearest(name, known))])
+    return known[name]
+
+
+def model(variant: Variant) -> Model:
+    """Run the first two stages for a variant.
+
+    Raises:
+        SpecificationError: the joint is unknown or has no such variant.
+    """
+    joint = joint_type(variant.joint)
+    mistake = incompatibility(joint, variant)
+    if mistake is not None:
+        raise SpecificationError([mistake])
+    form = formulation(joint, variant)
+    return Model(joint, variant, form, Derivation(form))
+
+
+def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Say which quantities each routine evaluates: those asked for one by one, and their fusion ``all``.
+
+    Without a choice the library's routines: each quantity and product alone, and ``all`` of the four quantities.
+    """
+    if not outputs:
+        singles: tuple[str, ...] = (*QUANTITIES, *PRODUCTS)
+        fused: tuple[str, ...] = QUANTITIES
+    else:
+        singles = tuple(name for name in OUTPUTS if name in outputs and name != "all")
+        fused = singles or QUANTITIES
+    routines = {name: (name,) for name in singles}
+    return routines | ({"all": fused} if len(fused) > 1 else {})
+
+
+def routines(variant: Variant, outputs: Sequence[str] = ()) -> tuple[Routine, ...]:
+    """Run the stages up to programs for one variant."""
+    symbolic = model(variant)
+    built = []
+    for name, quantities in quantities_of(outputs).items():
+        program = symbolic.program(quantities)
+        words = equations(symbolic.joint, variant, name)
+        built.append(Routine(symbolic.joint, variant, name, program, count(program), words))
+    return tuple(built)
+
+
+def casadi_function(
+    joint: str,
+    form: str = "conventional",
+    output: str = "all",
+    rows: str | None = None,
+    derivative: str = "exact",
+    variation: str = "body",
+) -> Any:
+    """Build a joint routine as a ``casadi.Function``.
+
+    Args:
+        joint: name in the catalogue, or ``trnK_rotN``.
+        form: ``conventional`` or ``parametric``.
+        output: a quantity, a product, or ``all``.
+        rows: of the parametric form; ``regular`` if left out.
+        derivative: ``exact`` or ``substituted``.
+        variation: ``body`` or ``world``.
+
+    Raises:
+        SpecificationError: unknown names, or options that do not go together.
+    """
+    from codegen.emit import casadi
+
+    options = Options((joint,), form, rows, derivative, variation, outputs=(output,))
+    chosen = variants(options)[0]
+    program = model(chosen).program(quantities_of([output])[output])
+    return casadi.casadi_function(f"{chosen.stem}_{output}", program)
+
+
+@dataclass(frozen=True, slots=True)
+class _Job:
+    variant: Variant
+    outputs: tuple[str, ...]
+    real: str
+    specification: str
+
+
+def _emit_unit(job: _Job) -> Unit:
+    """All stages for one variant, in a worker process."""
+    from codegen.emit import casadi
+
+    built = routines(job.variant, job.outputs)
+    serialised = {
+        f"{job.variant.file_stem}_{routine.output}": casadi.serialised(
+            casadi.casadi_function(f"{job.variant.stem}_{routine.output}", routine.program)
+        )
+        for routine in built
+    }
+    return unit(built, codegen.__version__, job.real, job.specification, serialised)
+
+
+def variants(options: Options) -> tuple[Variant, ...]:
+    """Choose the variants of a request.
+
+    Raises:
+        SpecificationError: the options cannot be met; all mistakes at once.
+    """
+    return selected_variants(options, JOINTS, PAIRS)
+
+
+def generate(options: Options, progress: Progress = lambda _: None) -> dict[str, bytes]:
+    """Generate a package in memory.
+
+    Args:
+        options: what is asked for.
+        progress: told each variant as it is done.
+
+    Returns:
+        Path below the package's folder -> content.
+
+    Raises:
+        SpecificationError: the options cannot be met; all mistakes at once.
+    """
+    chosen = variants(options)
+    joints = [joint_type(name) for name in dict.fromkeys(variant.joint for variant in chosen)]
+    asked = {"outputs": list(options.outputs), "real": options.real}
+    specification = specification_hash(codegen.__version__, joints, chosen, asked)
+    jobs = [_Job(variant, options.outputs, options.real, specification) for variant in chosen]
+    units = parallel(_emit_unit, jobs, lambda job: progress(job.variant.file_stem))
+    return package(units, codegen.__version__, options.real, specification)
+
+
+def dump(options: Options, stage: str) -> Iterator[str]:
+    """Give a stage of every routine of a request as text.
+
+    Args:
+        options: what is asked for.
+        stage: ``model`` (the symbolic blocks) or ``program``.
+
+    Raises:
+        SpecificationError: unknown stage, or options that cannot be met.
+    """
+    if stage not in ("model", "program"):
+        raise SpecificationError(
+            [Mistake("--dump", f'there is no stage "{stage}"', nearest(stage, ("model", "program")))]
+        )
+    for variant in variants(options):
+        symbolic = model(variant)
+        for name, quantities in quantities_of(options.outputs).items():
+            if stage == "model" and name == "all":
+                continue
+            heading = f"# {variant.stem}_{name}\n"
+            yield heading + (symbolic.text(quantities) if stage == "model" else text.dump(symbolic.program(quantities)))
+
+
+def counted_variants() -> tuple[Variant, ...]:
+    """The variants whose operations the tables compare: those of the library."""
+    return tuple(variant for joint in JOINTS.values() for variant in library_variants(joint))
+
+
+def comparison(progress: Progress = lambda _: None) -> tuple[ComparisonRow, ...]:
+    """Count the derivatives of every joint of the library and put the paper's counts beside them."""
+    chosen = counted_variants()
+    counted = parallel(_count_derivatives, chosen, lambda variant: progress(variant.file_stem))
+    emitted: dict[tuple[str, str], dict[str, Counts]] = {
+        (joint, derivative): {} for joint in JOINTS for derivative in DERIVATIVES
+    }
+    for variant, counts in zip(chosen, counted, strict=True):
+        column = variant.stem.removeprefix(f"jg_{variant.joint}_")
+        for derivative, number in counts.items():
+            emitted[variant.joint, derivative][column] = number
+    return compare(emitted)
+
+
+def _count_derivatives(variant: Variant) -> dict[str, Counts]:
+    symbolic = model(variant)
+    return {derivative: count(symbolic.program([derivative])) for derivative in DERIVATIVES}
+
+
+def catalogue_size() -> int:
+    """Number of steps of `catalogue`."""
+    return 2 * len(JOINTS)
+
+
+def catalogue(progress: Progress = lambda _: None) -> list[dict[str, object]]:
+    """Describe every joint: forms, degrees of freedom, rows, coordinates, operations of all quantities at once."""
+    chosen = [
+        variant
+        for name in JOINTS
+        for variant in (Variant(name, "conventional", None), Variant(name, "parametric", "regular"))
+    ]
+    counted = parallel(_count_all, chosen, lambda variant: progress(variant.file_stem))
+    totals = {(variant.joint, variant.form): counts.total for variant, counts in zip(chosen, counted, strict=True)}
+    return [
+        {
+            "joint": joint.name,
+            "forms": "conventional, parametric",
+            "dof": joint.dof,
+            "conventional_rows": joint.conventional_rows,
+            "parametric_rows": 6,
+            "coordinates": coordinate_count(joint, "regular"),
+            "constraints": f"trn{joint.translations} + rot{joint.rotations}",
+            "operations_conventional": totals[joint.name, "conventional"],
+            "operations_parametric": totals[joint.name, "parametric"],
+        }
+        for joint in JOINTS.values()
+    ]
+
+
+def _count_all(variant: Variant) -> Counts:
+    return count(model(variant).program(QUANTITIES))

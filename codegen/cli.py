@@ -1,0 +1,154 @@
+"""The ``jointgen`` command.
+
+Exit codes: 0 done; 1 the thing asked for fell short; 2 bad input, one line a mistake on stderr; never a traceback.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+
+import codegen
+from codegen.errors import JointgenError, Mistake, OutputError
+
+_LIBRARY = Path("generated")
+
+
+class _Commands(click.Group):
+    """A group whose commands report the user's mistakes on stderr and leave with exit code 2."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except JointgenError as error:
+            for mistake in error.mistakes:
+                click.echo(str(mistake), err=True)
+            ctx.exit(2)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(codegen.__version__, prog_name="jointgen")
+def main() -> None:
+    """Generate specialised constraint routines for multibody mechanisms."""
+
+
+@main.command()
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def joints(as_json: bool) -> None:
+    """List the catalogue: joint, forms, degrees of freedom, rows, coordinates, operations of all quantities at once."""
+    from codegen import build
+
+    with _progress(build.catalogue_size(), "counting") as advance:
+        rows = build.catalogue(advance)
+    if as_json:
+        click.echo(json.dumps(rows, indent=1))
+        return
+    from codegen.report import tables
+
+    tables.console().print(tables.catalogue_table(rows))
+
+
+@main.command()
+@click.argument("joint", nargs=-1)
+@click.option("--form", help="conventional or parametric; both if left out.")
+@click.option("--rows", help="Rows of the parametric form: regular, table4, or quaternion (rot3 only).")
+@click.option("--derivative", help="exact or substituted.")
+@click.option("--variation", help="Axes of the virtual rotations: body or world.")
+@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), default=_LIBRARY, show_default=True)
+@click.option(
+    "--check",
+    is_flag=True,
+    help="Write nothing; exit 1 if the output directory is not what would be written.",
+)
+@click.option("--dump", help="Print a stage of every routine instead of writing: model or program.")
+def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None, **options: str | None) -> None:
+    """Emit routines for JOINT... (names of the catalogue, or trnK_rotN); without arguments the whole library."""
+    from codegen import build, output
+
+    request = _request(joint, options)
+    if dump is not None:
+        _dump(request, dump)
+        return
+    if not check:
+        output.check_target(target)
+    with _progress(len(build.variants(request)), "generating") as advance:
+        files = build.generate(request, advance)
+    if check:
+        _report_differences(target, output.differences(target, files))
+        return
+    lost = output.functions_lost(target, files)
+    if lost and joint:
+        what = f"holds {lost} other functions, which this request would remove"
+        raise OutputError([Mistake(str(target), what, "name another directory with -o, or generate the whole library")])
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
+def _request(joint: tuple[str, ...], options: dict[str, str | None]) -> Any:
+    from codegen.spec.request import Options
+
+    chosen = {name: value for name, value in options.items() if value is not None}
+    outputs = tuple(name.strip() for name in chosen.pop("outputs", "").split(",") if name.strip())
+    return Options(joint, outputs=outputs, **chosen)
+
+
+def _dump(request: Any, stage: str) -> None:
+    from codegen import build
+
+    for text in build.dump(request, stage):
+        click.echo(text)
+
+
+def _report_differences(target: Path, differences: list[str]) -> None:
+    for difference in differences:
+        click.echo(f"{target}/{difference}", err=True)
+    if differences:
+        click.echo(f"{target} is not current: run jointgen generate", err=True)
+        sys.exit(1)
+    click.echo(f"{target} is current")
+
+
+@main.command()
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def flops(as_json: bool) -> None:
+    """Print the paper's Table 7 beside the operations of the emitted routines."""
+    from codegen import build
+    from flopcount.paper import DERIVATIVES
+
+    with _progress(len(build.counted_variants()), "counting") as advance:
+        rows = build.comparison(advance)
+    if as_json:
+        click.echo(json.dumps([row.as_dict() for row in rows], indent=1))
+        return
+    from codegen.report import tables
+
+    for derivative in DERIVATIVES:
+        tables.console().print(tables.comparison_table(rows, derivative))
+
+
+@contextlib.contextmanager
+def _progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
+    """A progress bar on a terminal, silence in a pipe."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(words, total=total)
+
+        def advance(name: str) -> None:
+            bar.update(task, advance=1, description=f"{words} {name}")
+
+        yield advance

@@ -1,0 +1,137 @@
+"""Emit C: a header a joint, a source a variant, by the ABI of DESIGN 3.2."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from codegen.emit.environment import render
+from codegen.emit.parameters import parameters
+from codegen.emit.routine import Parameter, Routine
+from codegen.emit.statements import Statements
+from codegen.ir.program import Output, Sparsity
+
+_WIDTH = 116
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One C function.
+
+    Attributes:
+        symbol: its name.
+        storage: ``vector``, ``nz`` or ``dense``.
+        routine: what it evaluates.
+        parameters: of its signature.
+        temporaries: number of local values.
+        text: its definition.
+    """
+
+    symbol: str
+    storage: str
+    routine: Routine
+    parameters: tuple[Parameter, ...]
+    temporaries: int
+    text: str
+
+    @property
+    def signature(self) -> str:
+        """Return type, name and parameters, as declared."""
+        return _signature(self.symbol, self.parameters)
+
+
+def entries(routine: Routine) -> tuple[Entry, ...]:
+    """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
+    stored = parameters(routine.joint, routine.variant, routine.program, dense=False)
+    statements = Statements(routine.program, _views(stored))
+    storage = "nz" if routine.is_matrix else "vector"
+    body = _unpacking(stored, statements.used_views) + _wrapped(statements.lines)
+    text = render("c/function.c.j2", signature=_signature(routine.symbol, stored), body=body)
+    first = Entry(routine.symbol, storage, routine, stored, statements.temporaries, text)
+    return (first, _dense_entry(routine, stored)) if routine.is_matrix else (first,)
+
+
+def sparsity_symbol(routine: Routine, output: Output) -> str:
+    """Name of the function that gives the pattern of an output."""
+    return f"{routine.variant.stem}_{output.name}_sparsity"
+
+
+def sparsity_functions(routine: Routine) -> tuple[tuple[str, str, Sparsity], ...]:
+    """Symbol, text and pattern of the functions that export the patterns of a single-quantity routine."""
+    return tuple(
+        (
+            sparsity_symbol(routine, output),
+            render(
+                "c/sparsity.c.j2",
+                symbol=sparsity_symbol(routine, output),
+                rows=_pattern_rows(output.sparsity),
+            ),
+            output.sparsity,
+        )
+        for output in routine.program.outputs
+        if output.sparsity.ncol > 1
+    )
+
+
+def _pattern_rows(pattern: Sparsity) -> list[str]:
+    numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
+    return textwrap.wrap(", ".join(str(number) for number in numbers), _WIDTH - 8)
+
+
+def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
+    dense = parameters(routine.joint, routine.variant, routine.program, dense=True)
+    matrices = [p for p in stored if p.layout == "compressed-columns"]
+    text = render(
+        "c/dense.c.j2",
+        signature=_signature(routine.dense_symbol, dense),
+        symbol=routine.symbol,
+        arguments=[f"{p.name}_nz" if p in matrices else p.name for p in stored],
+        matrices=[(p.name, p.length, sparsity_symbol(routine, routine.program.output(p.name))) for p in matrices],
+    )
+    temporaries = sum(p.length for p in matrices)
+    return Entry(routine.dense_symbol, "dense", routine, dense, temporaries, text)
+
+
+def _signature(symbol: str, declared: Sequence[Parameter]) -> str:
+    """Declaration of a function; lines break between parameters only."""
+    kinds = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
+    words = [f"{kinds[p.direction]} {p.name}" for p in declared]
+    lines = [f"void {symbol}("]
+    for k, word in enumerate(words):
+        piece = word + (", " if k + 1 < len(words) else ")")
+        if len(lines[-1]) + len(piece.rstrip()) > _WIDTH:
+            lines.append("    ")
+        lines[-1] += piece
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def _views(declared: Sequence[Parameter]) -> dict[str, tuple[tuple[str, int, int], ...]]:
+    return {
+        p.name: tuple((name, offset, shape[0] * shape[1]) for name, offset, shape, _ in p.members)
+        for p in declared
+        if p.members
+    }
+
+
+def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
+    """Name the parts of compound arguments."""
+    lines = []
+    for parameter in declared:
+        for name, offset, shape, _ in parameter.members:
+            if name not in used:
+                continue
+            if shape == (1, 1):
+                lines.append(f"const jg_real {name} = {parameter.name}[{offset}];")
+            else:
+                lines.append(f"const jg_real *const {name} = {parameter.name}{f' + {offset}' if offset else ''};")
+    return lines
+
+
+def _wrapped(lines: Sequence[str]) -> list[str]:
+    wrapped: list[str] = []
+    for line in lines:
+        wrapped += textwrap.wrap(
+            line, _WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+        )
+    return wrapped

@@ -1,0 +1,87 @@
+"""The manifest: everything a program must know to call any routine."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import Any
+
+from codegen.emit.c import Entry, sparsity_symbol
+from codegen.emit.routine import Parameter
+
+SCHEMA_VERSION = 1
+
+
+def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str, Any]:
+    """Describe one C function.
+
+    Args:
+        entry: the function.
+        header: path of its header, from the folder of the manifest.
+        source: path of its source, from the folder of the manifest.
+        real: number type of the package.
+    """
+    routine, variant = entry.routine, entry.routine.variant
+    matrices = [output for output in routine.program.outputs if output.sparsity.ncol > 1]
+    return {
+        "symbol": entry.symbol,
+        "header": header,
+        "source": source,
+        "joint": variant.joint,
+        "form": variant.form,
+        "rows": variant.rows,
+        "derivative": variant.derivative,
+        "variation": variant.variation,
+        "real": real,
+        "output": routine.output,
+        "storage": entry.storage,
+        "outputs": [output.name for output in routine.program.outputs],
+        "arguments": [_parameter_record(parameter) for parameter in entry.parameters],
+        "sparsity": {
+            output.name: {
+                "nrow": output.sparsity.nrow,
+                "ncol": output.sparsity.ncol,
+                "colind": list(output.sparsity.colind),
+                "row": list(output.sparsity.row),
+                "function": sparsity_symbol(routine, output),
+            }
+            for output in matrices
+        },
+        "operations": routine.counts.as_dict(),
+        "temporaries": entry.temporaries,
+        "equations": routine.equations,
+        "sha256": hashlib.sha256(entry.text.encode()).hexdigest(),
+    }
+
+
+def _parameter_record(parameter: Parameter) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "name": parameter.name,
+        "direction": parameter.direction,
+        "shape": list(parameter.shape),
+        "length": parameter.length,
+        "layout": parameter.layout,
+        "frame": parameter.frame,
+        "unit": parameter.unit,
+    }
+    if parameter.members:
+        record["members"] = [
+            {"name": name, "offset": offset, "shape": list(shape), "meaning": meaning}
+            for name, offset, shape, meaning in parameter.members
+        ]
+    return record
+
+
+def manifest(
+    version: str, real: str, specification: str, functions: list[dict[str, Any]], casadi: list[dict[str, Any]]
+) -> str:
+    """Write the manifest of a package."""
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "generator": {"name": "jointgen", "version": version},
+        "specification_sha256": specification,
+        "real": real,
+        "functions": functions,
+        "casadi": casadi,
+    }
+    return json.dumps(document, indent=1, ensure_ascii=True) + "\n"

@@ -1,0 +1,75 @@
+"""`Routine`: one emitted function, with everything a caller must know of it.
+
+The same data feed the C comment, the CasADi function and the manifest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.ir.program import Program
+from codegen.spec.joints import JointType
+from codegen.spec.request import Variant
+from flopcount.counts import Counts
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of the C function.
+
+    Attributes:
+        name: as in the signature.
+        direction: ``in`` or ``out``.
+        shape: rows and columns of the matrix it holds.
+        length: scalars in the array.
+        layout: ``column-major``, or ``compressed-columns`` for nonzeros only.
+        frame: axes of its components.
+        unit: unit of its components.
+        members: parts of a compound array: (name, offset, shape, meaning).
+    """
+
+    name: str
+    direction: str
+    shape: tuple[int, int]
+    length: int
+    layout: str
+    frame: str
+    unit: str
+    members: tuple[tuple[str, int, tuple[int, int], str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Routine:
+    """One program under one name.
+
+    Attributes:
+        joint: its type.
+        variant: form and options.
+        output: a quantity, or ``all``.
+        program: what it evaluates.
+        counts: operations of the program.
+        equations: where the formulas come from.
+    """
+
+    joint: JointType
+    variant: Variant
+    output: str
+    program: Program
+    counts: Counts
+    equations: str
+
+    @property
+    def is_matrix(self) -> bool:
+        """Whether an output has a sparsity pattern, so that there are entries for nonzeros and dense storage."""
+        return any(output.sparsity.ncol > 1 for output in self.program.outputs)
+
+    @property
+    def symbol(self) -> str:
+        """The C symbol of the entry that stores nonzeros (or the vector)."""
+        stem = f"{self.variant.stem}_{self.output}"
+        return f"{stem}_nz" if self.is_matrix and self.output != "all" else stem
+
+    @property
+    def dense_symbol(self) -> str:
+        """The C symbol of the entry that stores dense matrices."""
+        return f"{self.variant.stem}_{self.output}_dense"

@@ -1,0 +1,74 @@
+"""Names and definitions of stages in the notation of the papers, for the readers of the emitted code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy
+from sympy.matrices.matrixbase import MatrixBase
+
+from codegen.ir.lower.nodes import Dot, Tilde
+
+Factors = tuple[Any, ...]
+
+
+def notation(expression: Any, aliases: Mapping[Factors, str]) -> str:
+    """Write a definition on one line: ``A_i^T A_j``, ``r_j + A_j s_j - r_i - A_i s_i``, ``tilde(f_i) x``."""
+    if isinstance(expression, sympy.MatAdd):
+        terms = [notation(term, aliases) for term in expression.args]
+        return " + ".join(terms).replace("+ -", "- ")
+    if isinstance(expression, sympy.MatMul):
+        coefficient, factors = expression.as_coeff_matrices()
+        chain = chain_notation(tuple(factors), aliases)
+        if coefficient in (1, -1):
+            return chain if coefficient == 1 else f"-{chain}"
+        return f"({coefficient}) {chain}"
+    if isinstance(expression, sympy.Transpose):
+        return f"{notation(expression.arg, aliases)}^T"
+    if isinstance(expression, Tilde):
+        return f"tilde({notation(expression.vector, aliases)})"
+    if isinstance(expression, Dot):
+        return " . ".join(notation(side, aliases) for side in expression.args)
+    if isinstance(expression, MatrixBase):
+        rows = "; ".join(", ".join(str(entry) for entry in expression.row(k)) for k in range(expression.shape[0]))
+        return f"[{rows}]"
+    return str(expression)
+
+
+def chain_notation(factors: Factors, aliases: Mapping[Factors, str]) -> str:
+    """Write a product of factors, with named products under their names."""
+    words: list[str] = []
+    position = 0
+    while position < len(factors):
+        ends = [end for end in range(len(factors), position + 1, -1) if factors[position:end] in aliases]
+        end = ends[0] if ends else position + 1
+        words.append(aliases[factors[position:end]] if ends else notation(factors[position], aliases))
+        position = end
+    return " ".join(words)
+
+
+def product_name(factors: Factors, aliases: Mapping[Factors, str]) -> str:
+    """Name a product of at most three symbols and named products, or give "" where no short name reads well."""
+    words: list[str] = []
+    position = 0
+    while position < len(factors):
+        for end in range(len(factors), position, -1):
+            word = aliases.get(factors[position:end]) or (
+                _symbol_name(factors[position]) if end == position + 1 else ""
+            )
+            if word:
+                break
+        if not word or len(words) == 3:
+            return ""
+        words.append(word)
+        position = end
+    return "_".join(words)
+
+
+def _symbol_name(factor: Any) -> str:
+    if isinstance(factor, sympy.Transpose) and isinstance(factor.arg, sympy.MatrixSymbol):
+        return f"{factor.arg.name}t"
+    if isinstance(factor, Tilde):
+        return _symbol_name(factor.vector) and f"{_symbol_name(factor.vector)}_cross"
+    return factor.name if isinstance(factor, sympy.MatrixSymbol) else ""

@@ -62,7 +62,7 @@ help: ## list the targets
 # A usable .venv is brought up to date; a missing, broken or too old one is made anew.
 USABLE = import pip, sys; sys.exit(sys.version_info < (3, 11))
 
-$(STAMP): $(LOCK) pyproject.toml setup.py
+$(STAMP): $(LOCK) pyproject.toml
 	@if ! $(BIN)/python -c '$(USABLE)' 2>/dev/null; then \
 		command -v $(PYTHON) >/dev/null || \
 			{ echo 'error: $(PYTHON) is not installed; remedy: apt-get install python3 python3-venv' >&2; exit 1; }; \

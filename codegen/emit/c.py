@@ -10,7 +10,7 @@ from codegen.emit.environment import render
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Parameter, Routine
 from codegen.emit.statements import Statements
-from codegen.ir.program import Output, Sparsity
+from codegen.ir.program import Output, Program, Sparsity
 
 _WIDTH = 116
 
@@ -44,12 +44,18 @@ class Entry:
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
     stored = parameters(routine.joint, routine.variant, routine.program, dense=False)
-    statements = Statements(routine.program, _views(stored))
+    text, temporaries = definition(routine.symbol, stored, routine.program)
     storage = "nz" if routine.is_matrix else "vector"
-    body = _unpacking(stored, statements.used_views) + _wrapped(statements.lines)
-    text = render("c/function.c.j2", signature=_signature(routine.symbol, stored), body=body)
-    first = Entry(routine.symbol, storage, routine, stored, statements.temporaries, text)
+    first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
     return (first, _dense_entry(routine, stored)) if routine.is_matrix else (first,)
+
+
+def definition(symbol: str, declared: Sequence[Parameter], program: Program) -> tuple[str, int]:
+    """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
+    statements = Statements(program, _views(declared))
+    body = _unpacking(declared, statements.used_views) + _wrapped(statements.lines)
+    text = render("c/function.c.j2", signature=_signature(symbol, declared), body=body)
+    return text, statements.temporaries
 
 
 def sparsity_symbol(routine: Routine, output: Output) -> str:

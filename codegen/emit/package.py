@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from codegen.emit.c import Entry, entries, sparsity_functions
+from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
 from codegen.emit.manifest import entry_record, manifest
@@ -31,6 +32,7 @@ class Unit:
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
         casadi: name -> serialised CasADi function.
+        external: text of the source of the CasADi externals.
     """
 
     variant: Variant
@@ -38,6 +40,7 @@ class Unit:
     declarations: tuple[tuple[tuple[str, ...], str], ...]
     records: tuple[dict[str, Any], ...]
     casadi: Mapping[str, bytes]
+    external: str
 
 
 def banner(version: str) -> str:
@@ -93,6 +96,7 @@ def unit(routines: Sequence[Routine], version: str, real: str, specification: st
         tuple(declarations),
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
+        external_source(routines, header, banner(version), _options_line(variant, "double"), specification),
     )
 
 
@@ -136,12 +140,20 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
     records = [record for u in units for record in u.records]
     casadi = [_casadi_record(u.variant, name) for u in units for name in u.casadi]
     files["manifest.json"] = manifest(version, real, specification, records, casadi)
+    files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units}
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}
 
 
 def _casadi_record(variant: Variant, name: str) -> dict[str, Any]:
-    return {"name": name, "file": f"casadi/{name}.casadi", **asdict(variant)}
+    output = name.removeprefix(f"{variant.file_stem}_")
+    record = {"name": f"jg_{name}", "file": f"casadi/{name}.casadi", **asdict(variant), "output": output}
+    if output in EXTERNALS:
+        record["external"] = {
+            "name": external_name(variant, output),
+            "source": f"casadi/external/{variant.file_stem}.c",
+        }
+    return record
 
 
 def _header(joint: str, units: Sequence[Unit], version: str) -> str:

@@ -94,7 +94,7 @@ def _alpha_unit(joint: JointType, variant: Variant) -> str:
 def _output(output: Output, variant: Variant, dense: bool) -> Parameter:
     pattern = output.sparsity
     is_matrix = pattern.ncol > 1
-    frame, unit = _OUTPUT_WORDS[output.name]
+    frame, unit = _OUTPUT_WORDS.get(output.name, ("partial derivatives by the entries of an argument", "mixed"))
     if output.name != "phi":
         frame = f"{frame}; {axes(variant)}"
     stored_dense = dense or not is_matrix

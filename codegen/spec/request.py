@@ -35,7 +35,7 @@ class Variant:
         joint: name in the catalogue.
         form: ``conventional`` or ``parametric``.
         rows: rows of the rotational constraint; None in the conventional form.
-        derivative: ``exact``, or ``substituted`` (S1: the joint relation is inserted before the second differentiation).
+        derivative: ``exact``, or ``substituted`` (S1: the joint relation is inserted before differentiating again).
         variation: axes of the virtual rotations: ``body`` or ``world``.
     """
 

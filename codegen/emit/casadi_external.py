@@ -1,0 +1,135 @@
+"""The C routines as CasADi externals, with ``jac_`` functions from the exact derivative of the same program.
+
+``casadi.external`` reads inputs, outputs and patterns from functions of fixed names beside the routine's own; what it
+needs of the derivative is the function ``jac_NAME``, one block for each output and input.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from codegen.emit.c import definition
+from codegen.emit.environment import render
+from codegen.emit.parameters import parameters
+from codegen.emit.routine import Routine
+from codegen.ir.program import Argument, Output, Program, Sparsity
+from codegen.passes import simplify
+from codegen.passes.differentiate import differentiate
+from codegen.spec.request import Variant
+
+EXTERNALS = ("phi", "phi_q_v", "phi_q_t_lambda")
+"""The quantities that residuals are made of: those that a solver differentiates."""
+
+
+@dataclass(frozen=True, slots=True)
+class Port:
+    """An input or output of an external.
+
+    Attributes:
+        name: as in the C signature.
+        length: number of stored entries.
+        pattern: rows of numbers {nrow, ncol, colind..., row...}.
+    """
+
+    name: str
+    length: int
+    pattern: tuple[str, ...]
+
+    @property
+    def quoted(self) -> str:
+        """The name as a C string."""
+        return f'"{self.name}"'
+
+
+@dataclass(frozen=True, slots=True)
+class External:
+    """One function in CasADi's calling convention.
+
+    Attributes:
+        name: by which ``casadi.external`` finds it.
+        symbol: the C routine behind it.
+        inputs: what CasADi passes.
+        called_inputs: which of them the routine takes.
+        outputs: what it returns.
+    """
+
+    name: str
+    symbol: str
+    inputs: tuple[Port, ...]
+    called_inputs: tuple[int, ...]
+    outputs: tuple[Port, ...]
+
+    @property
+    def longest_input(self) -> int:
+        """Length of the longest input."""
+        return max(port.length for port in self.inputs)
+
+
+def external_name(variant: Variant, output: str) -> str:
+    """Name of the external of a routine."""
+    return f"{variant.stem}_{output}_external"
+
+
+def external_source(routines: Sequence[Routine], header: str, banner: str, options: str, specification: str) -> str:
+    """Write the externals of a variant as one C source."""
+    jacobians, externals = [], []
+    for routine in routines:
+        if routine.output in EXTERNALS:
+            jacobian = simplify(differentiate(routine.program))
+            symbol = f"{routine.symbol}_jacobian"
+            declared = parameters(routine.joint, routine.variant, jacobian, dense=False)
+            jacobians.append(definition(symbol, declared, jacobian)[0])
+            externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
+    return render(
+        "casadi/external.c.j2",
+        file=f"{routines[0].variant.file_stem}.c",
+        banner=banner,
+        options=options,
+        specification=specification,
+        header=header,
+        jacobians=jacobians,
+        externals=externals,
+    )
+
+
+def _function(routine: Routine) -> External:
+    inputs = _inputs(routine.program)
+    outputs = tuple(_output(output) for output in routine.program.outputs)
+    return External(
+        external_name(routine.variant, routine.output), routine.symbol, inputs, tuple(range(len(inputs))), outputs
+    )
+
+
+def _jacobian(routine: Routine, jacobian: Program, symbol: str) -> External:
+    """CasADi passes the inputs and the nominal outputs, and wants one block for each output and input."""
+    nominal = tuple(
+        Port(f"out_{output.name}", 0, _pattern(Sparsity.of_entries(output.sparsity.nrow, output.sparsity.ncol, ())))
+        for output in routine.program.outputs
+    )
+    inputs = _inputs(routine.program)
+    names = [port.name for port in inputs]
+    called = tuple(names.index(argument.name) for argument in jacobian.used_arguments())
+    outputs = tuple(_output(output) for output in jacobian.outputs)
+    return External(f"jac_{external_name(routine.variant, routine.output)}", symbol, inputs + nominal, called, outputs)
+
+
+def _inputs(program: Program) -> tuple[Port, ...]:
+    return tuple(
+        Port(argument.name, argument.length, _pattern(_dense(argument))) for argument in program.used_arguments()
+    )
+
+
+def _dense(argument: Argument) -> Sparsity:
+    nrow, ncol = argument.shape
+    return Sparsity.of_entries(nrow, ncol, [(row, column) for row in range(nrow) for column in range(ncol)])
+
+
+def _output(output: Output) -> Port:
+    return Port(output.name, len(output.values), _pattern(output.sparsity))
+
+
+def _pattern(pattern: Sparsity) -> tuple[str, ...]:
+    numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
+    return tuple(textwrap.wrap(", ".join(str(number) for number in numbers), 108))

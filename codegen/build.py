@@ -22,7 +22,7 @@ from codegen.emit.package import Unit, package, specification_hash, unit
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
-from codegen.ir.lower import SymbolicOutput, lower, notation
+from codegen.ir.lower import SymbolicOutput, definition_notation, lower, notation
 from codegen.ir.program import Program
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import Derivation
@@ -67,7 +67,8 @@ class Model:
     def text(self, names: Iterable[str]) -> str:
         """Write the blocks of the named quantities in the notation of the papers."""
         lines = [
-            f"{symbol} = {notation(definition, self.form.aliases)}" for symbol, definition in self.form.stages.items()
+            f"{symbol} = {definition_notation(str(symbol), definition, self.form.aliases)}"
+            for symbol, definition in self.form.stages.items()
         ]
         for output in self.outputs(names):
             lines.append(f"{output.name} {output.shape[0]}x{output.shape[1]}")

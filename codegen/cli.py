@@ -20,25 +20,13 @@ from codegen.errors import JointgenError, Mistake, OutputError
 _LIBRARY = Path("generated")
 
 
-class _Commands(click.Group):
-    """A group whose commands report the user's mistakes on stderr and leave with exit code 2."""
-
-    def invoke(self, ctx: click.Context) -> Any:
-        try:
-            return super().invoke(ctx)
-        except JointgenError as error:
-            for mistake in error.mistakes:
-                click.echo(str(mistake), err=True)
-            ctx.exit(2)
-
-
-@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(codegen.__version__, prog_name="jointgen")
-def main() -> None:
+def jointgen() -> None:
     """Generate specialised constraint routines for multibody mechanisms."""
 
 
-@main.command()
+@jointgen.command()
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def joints(as_json: bool) -> None:
     """List the catalogue: joint, forms, degrees of freedom, rows, coordinates, operations of all quantities at once."""
@@ -54,7 +42,7 @@ def joints(as_json: bool) -> None:
     tables.console().print(tables.catalogue_table(rows))
 
 
-@main.command()
+@jointgen.command()
 @click.argument("joint", nargs=-1)
 @click.option("--form", help="conventional or parametric; both if left out.")
 @click.option("--rows", help="Rows of the parametric form: regular, table4, or quaternion (rot3 only).")
@@ -113,11 +101,11 @@ def _report_differences(target: Path, differences: list[str]) -> None:
         click.echo(f"{target}/{difference}", err=True)
     if differences:
         click.echo(f"{target} is not current: run jointgen generate", err=True)
-        sys.exit(1)
+        raise click.exceptions.Exit(1)
     click.echo(f"{target} is current")
 
 
-@main.command()
+@jointgen.command()
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def flops(as_json: bool) -> None:
     """Print the paper's Table 7 beside the operations of the emitted routines."""
@@ -152,3 +140,28 @@ def _progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
             bar.update(task, advance=1, description=f"{words} {name}")
 
         yield advance
+
+
+def main() -> None:
+    """Run the command line and leave with its exit code."""
+    sys.exit(_run(sys.argv[1:]))
+
+
+def _run(arguments: list[str]) -> int:
+    try:
+        return int(jointgen.main(arguments, prog_name="jointgen", standalone_mode=False) or 0)
+    except JointgenError as error:
+        for mistake in error.mistakes:
+            click.echo(str(mistake), err=True)
+        return 2
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
+        return 2
+    except click.UsageError as error:
+        command = error.ctx.command_path if error.ctx else "jointgen"
+        message = error.format_message().rstrip(".").replace("\n", " ")
+        click.echo(f"{command}: {message}; see {command} --help", err=True)
+        return 2
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("jointgen: interrupted; nothing was written", err=True)
+        return 1

@@ -2,6 +2,6 @@
 
 from codegen.ir.lower.lowering import Block, SymbolicOutput, lower
 from codegen.ir.lower.nodes import Dot, Tilde
-from codegen.ir.lower.notation import notation
+from codegen.ir.lower.notation import definition_notation, notation
 
-__all__ = ["Block", "Dot", "SymbolicOutput", "Tilde", "lower", "notation"]
+__all__ = ["Block", "Dot", "SymbolicOutput", "Tilde", "definition_notation", "lower", "notation"]

@@ -20,7 +20,7 @@ from codegen.ir.builder import Builder
 from codegen.ir.lower.chain import Chains, Factors
 from codegen.ir.lower.grid import Grid, add, multiply, scale, skew, total, transpose
 from codegen.ir.lower.nodes import Dot, Tilde
-from codegen.ir.lower.notation import chain_notation, notation, product_name
+from codegen.ir.lower.notation import chain_notation, definition_notation, product_name
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
@@ -129,7 +129,7 @@ class _Lowering:
                 tuple(self.builder.input(name, offset + i + nrow * j) for j in range(ncol)) for i in range(nrow)
             )
         grid = self.matrix(self._stages[symbol])
-        self._name(symbol.name, notation(self._stages[symbol], self._aliases), grid)
+        self._name(symbol.name, definition_notation(symbol.name, self._stages[symbol], self._aliases), grid)
         return grid
 
     def _name(self, name: str, definition: str, grid: Grid) -> None:
@@ -160,7 +160,8 @@ class _Lowering:
         """Label short products of plain symbols, as ``A_ij_h_j``, for readers."""
         name = product_name(factors, self._aliases)
         if name:
-            self._name(name, chain_notation(factors, self._aliases), grid)
+            others = {chain: alias for chain, alias in self._aliases.items() if alias != name}
+            self._name(name, chain_notation(factors, others), grid)
 
     def scalar(self, expression: Any) -> int:
         known = self._scalars.get(expression)
@@ -195,7 +196,7 @@ class _Lowering:
         if place is not None:
             return self.builder.input(*place)
         value = self.scalar(self._stages[symbol])
-        self._name(symbol.name, notation(self._stages[symbol], self._aliases), ((value,),))
+        self._name(symbol.name, definition_notation(symbol.name, self._stages[symbol], self._aliases), ((value,),))
         return value
 
     def _scalar_product(self, expression: Any) -> int:

@@ -36,6 +36,11 @@ def notation(expression: Any, aliases: Mapping[Factors, str]) -> str:
     return str(expression)
 
 
+def definition_notation(name: str, expression: Any, aliases: Mapping[Factors, str]) -> str:
+    """Write the definition of a name, which may not stand for itself in it."""
+    return notation(expression, {chain: alias for chain, alias in aliases.items() if alias != name})
+
+
 def chain_notation(factors: Factors, aliases: Mapping[Factors, str]) -> str:
     """Write a product of factors, with named products under their names."""
     words: list[str] = []

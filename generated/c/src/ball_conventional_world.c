@@ -28,9 +28,9 @@ void jg_ball_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_rea
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -53,7 +53,7 @@ void jg_ball_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const j
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     phi_q[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -66,7 +66,7 @@ void jg_ball_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const j
     phi_q[9] = JG_REAL(1.0);
     phi_q[10] = JG_REAL(1.0);
     phi_q[11] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q[14] = s_j_world_2;
     phi_q[12] = -s_j_world_2;
@@ -91,7 +91,7 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real t1 = lambda[2] * s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -107,7 +107,7 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
     phi_q_t_lambda_q[6] = -(lambda[2] * s_i_world_0);
     phi_q_t_lambda_q[7] = -(lambda[2] * s_i_world_1);
     phi_q_t_lambda_q[8] = t3 + t5;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real t7 = lambda[2] * s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -141,7 +141,7 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real *const s_j = geometry + 12;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -151,7 +151,7 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
@@ -177,10 +177,10 @@ void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -208,14 +208,14 @@ void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, c
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1;
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q_t_lambda[4] = lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2;
     phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2;
@@ -233,10 +233,10 @@ void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real *const s_j = geometry + 12;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     phi_q[17] = s_j_world_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q[6] = s_i_world_0;
     /* d_ij = r_j + s_j_world - r_i - s_i_world */

@@ -44,7 +44,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -69,9 +69,9 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real t17 = cosine_0 * cosine_2;
     const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -91,7 +91,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
     const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -104,7 +104,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
@@ -132,7 +132,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     phi_q[3] = t7;
@@ -140,7 +140,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real t9 = s_i[1] + dp_ij_1;
     phi_q[13] = t9;
     phi_q[4] = -t9;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -167,7 +167,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real t22 = cosine_0 * cosine_2;
     const jg_real H_4 = t22 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
@@ -181,7 +181,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real H_6 = sine_0 * sine_2 + sine_1 * t22;
     const jg_real H_7 = t20 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
@@ -192,7 +192,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
@@ -296,7 +296,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -320,7 +320,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t12 = cosine_0 * cosine_2;
     const jg_real H_4 = t12 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     const jg_real t16 = g_star_2 * lambda[3];
     const jg_real t17 = A_ij_h_j_2 * t16;
@@ -336,7 +336,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real H_6 = sine_0 * sine_2 + sine_1 * t12;
     const jg_real H_7 = t10 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
     const jg_real t30 = h_star_2 * lambda[4];
     const jg_real t31 = A_ij_f_j_2 * t30;
@@ -348,7 +348,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     const jg_real t40 = f_star_2 * lambda[5];
     const jg_real t41 = A_ij_g_j_2 * t40;
@@ -364,7 +364,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t53 = s_i[2] + dp_ij_2;
     const jg_real t54 = lambda[2] * t53;
@@ -838,7 +838,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -848,7 +848,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t13 = s_j[1] * JG_REAL(2.0);
     const jg_real t14 = s_j[2] * JG_REAL(2.0);
@@ -942,7 +942,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real t67 = cosine_0 * cosine_2;
     const jg_real H_4 = t67 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -987,7 +987,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real t104 = C_i[1] * t101 + C_i[4] * t102;
     const jg_real t105 = C_i[2] * t101 + C_i[5] * t102;
     const jg_real t106 = JG_REAL(2.0) * alphadot[0];
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
@@ -1018,7 +1018,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real t134 = C_i[1] * t130 + C_i[4] * t131 + C_i[7] * t132;
     const jg_real t135 = C_i[2] * t130 + C_i[5] * t131 + C_i[8] * t132;
     const jg_real t136 = alphadot[1] * alphadot[1];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
@@ -1218,10 +1218,10 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -1276,7 +1276,7 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real t38 = cosine_0 * cosine_2;
     const jg_real H_4 = t38 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
@@ -1290,11 +1290,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real H_1 = cosine_1 * sine_0;
     const jg_real H_7 = t36 * sine_1 - cosine_0 * sine_2;
     const jg_real t53 = H_1 * H_8 + sine_1 * H_7;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
@@ -1393,12 +1393,12 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t9 = s_i[1] + dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -1504,7 +1504,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real t82 = sine_2 * H_3 + cosine_2 * H_6;
     const jg_real t83 = sine_2 * H_4 + cosine_2 * H_7;
     const jg_real t84 = sine_2 * H_5 + cosine_2 * H_8;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
@@ -1512,11 +1512,11 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
         sine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t82 + C_i[3] * t83 + C_i[6] * t84) + A_ij_g_j_1 * (C_i[1] * t82
         + C_i[4] * t83 + C_i[7] * t84) + A_ij_g_j_2 * (C_i[2] * t82 + C_i[5] * t83 + C_i[8] * t84)) + lambda[4] *
         (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
@@ -1547,7 +1547,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -1572,9 +1572,9 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real t17 = cosine_0 * cosine_2;
     const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -1604,7 +1604,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
     const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -1618,7 +1618,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;

@@ -41,7 +41,7 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -66,9 +66,9 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real t17 = cosine_0 * cosine_2;
     const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -88,7 +88,7 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
     const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -101,7 +101,7 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
@@ -171,7 +171,7 @@ void jg_ball_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, c
     phi_q[16] = C_i_H_5;
     const jg_real C_i_H_8 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
     phi_q[17] = C_i_H_8;
-    /* A_ij = A_ij */
+    /* A_ij = C_i H C_j^T */
     const jg_real A_ij_0 = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_j[6] * C_i_H_6;
     phi_q[18] = A_ij_0;
     const jg_real A_ij_1 = C_j[0] * C_i_H_1 + C_j[3] * C_i_H_4 + C_j[6] * C_i_H_7;
@@ -472,12 +472,12 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
         (C_i[2] * t100 + C_i[5] * t101)) + cosine_0 * t102;
     const jg_real t103 = H_0 * H_8 + sine_0 * H_6;
     const jg_real t104 = H_1 * H_8 + sine_0 * H_7;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
     const jg_real t108 = alphadot[1] * alphadot[2];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_0;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_0;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_0;
@@ -489,7 +489,7 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
         cosine_1 * t113;
     const jg_real t114 = H_0 * H_5 + sine_0 * H_3;
     const jg_real t115 = H_1 * H_5 + sine_0 * H_4;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
@@ -562,20 +562,20 @@ void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, co
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     phi_q_v[2] = C_i[2] * t17 + C_i[5] * t21 + C_i[8] * t24 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     phi_q_v[3] = omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2 + (alphadot[2] - (C_j[0] *
         omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2]) - sine_1 * alphadot[0]);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     const jg_real t43 = cosine_1 * alphadot[0];
     phi_q_v[4] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2 + (cosine_2 * alphadot[1] -
         (C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2]) + sine_2 * t43);
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
@@ -672,7 +672,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -699,10 +699,10 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     phi_q[46] = H_5;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     phi_q[6] = g_star_0;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -725,7 +725,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     phi_q[47] = H_8;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     phi_q[7] = h_star_0;
     /* A_ij_f_j = A_ij f_j */
@@ -741,7 +741,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = cosine_1 * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     phi_q[5] = f_star_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];

@@ -33,13 +33,13 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -50,12 +50,12 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[1] = d_ij_0 * g_i_0 + d_ij_1 * g_i_1 + d_ij_2 * g_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -71,11 +71,11 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[18] = f_i_0;
     phi_q[0] = -f_i_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[19] = g_i_0;
     phi_q[1] = -g_i_0;
@@ -91,10 +91,10 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi_q[23] = g_i_2;
     phi_q[5] = -g_i_2;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -106,7 +106,7 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     /* g_i_cross_d_ij = tilde(g_i) d_ij */
     const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
     phi_q[7] = s_i_world_2 * g_i_1 - s_i_world_1 * g_i_2 + g_i_cross_d_ij_0;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
@@ -174,9 +174,9 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t2 = f_i_2 * lambda[0] + g_i_2 * lambda[1];
     phi_q_t_lambda_q[2] = t2;
@@ -212,9 +212,9 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     phi_q_t_lambda_q[7] = t11;
     phi_q_t_lambda_q[31] = t11;
     phi_q_t_lambda_q[37] = t11;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -226,7 +226,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     const jg_real t20 = s_i_world_1 + d_ij_1;
     const jg_real t21 = t6 * t20;
     const jg_real t22 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t24 = h_j_2 * t22;
     const jg_real t25 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
@@ -332,7 +332,7 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -342,9 +342,9 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -391,7 +391,7 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
         omega_j_cross_s_j_world_1 + omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * v_j[0] + omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0)
         * (omega_i_cross_f_i_0 * v_i[0] + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -417,7 +417,7 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
         omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2]
         * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 +
         v_i[2] * omega_i_cross_g_i_2));
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -456,14 +456,14 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = f_i_2 * omega_i[1] - f_i_1 * omega_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -489,7 +489,7 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
         omega_i_cross_f_i_1 * d_ij_1 + omega_i_cross_f_i_2 * d_ij_2 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
         omega_i_cross_s_i_world_1 + f_i_2 * omega_i_cross_s_i_world_2 + (f_i_0 * v_i[0] + f_i_1 * v_i[1] + f_i_2 *
         v_i[2]))));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -502,7 +502,7 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
         d_ij_1 * omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
         omega_i_cross_s_i_world_1 * g_i_1 + omega_i_cross_s_i_world_2 * g_i_2 + (v_i[0] * g_i_0 + v_i[1] * g_i_1 +
         v_i[2] * g_i_2))));
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -524,10 +524,10 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t1 = f_i_0 * lambda[0];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t3 = g_i_0 * lambda[1];
     const jg_real t4 = t1 + t3;
@@ -547,9 +547,9 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
     const jg_real t14 = t11 + t13;
     phi_q_t_lambda[8] = t14;
     phi_q_t_lambda[2] = -t14;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -557,7 +557,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real t21 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t23 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -596,13 +596,13 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[18] = f_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -616,7 +616,7 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi_q[22] = f_i_2;
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[19] = g_i_0;
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
@@ -624,7 +624,7 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi_q[23] = g_i_2;
     phi[1] = d_ij_0 * g_i_0 + d_ij_1 * g_i_1 + d_ij_2 * g_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];

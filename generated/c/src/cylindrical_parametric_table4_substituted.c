@@ -39,14 +39,14 @@ void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - C_i[6] * alpha[0];
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi[1] = dp_ij_1 - C_i[7] * alpha[0];
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2 - C_i[8] * alpha[0];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -104,7 +104,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RES
     /* C_i_H = C_i H */
     const jg_real C_i_H_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real C_i_H_3 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    /* A_ij = A_ij */
+    /* A_ij = C_i H C_j^T */
     const jg_real A_ij_0 = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_i[6] * C_j[6];
     phi_q[18] = A_ij_0;
     const jg_real C_i_H_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -389,7 +389,7 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real t7 = C_i[6] * alpha[0];
     phi[0] = dp_ij_0 - t7;
@@ -399,7 +399,7 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t11 = C_i[8] * alpha[0];
     phi[2] = dp_ij_2 - t11;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];

@@ -33,27 +33,27 @@ void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[0] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -74,7 +74,7 @@ void jg_planar_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[12] = h_i_0;
     phi_q[0] = -h_i_0;
@@ -84,25 +84,25 @@ void jg_planar_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     phi_q[14] = h_i_2;
     phi_q[2] = -h_i_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
     const jg_real f_i_cross_h_j_0 = f_i_1 * h_j_2 - f_i_2 * h_j_1;
     phi_q[3] = f_i_cross_h_j_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = h_j_2 * g_i_1 - h_j_1 * g_i_2;
     phi_q[4] = g_i_cross_h_j_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -161,7 +161,7 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t1 = h_i_2 * lambda[2];
     phi_q_t_lambda_q[2] = t1;
@@ -195,9 +195,9 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     phi_q_t_lambda_q[7] = t8;
     phi_q_t_lambda_q[31] = t8;
     phi_q_t_lambda_q[37] = t8;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -208,12 +208,12 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real t17 = lambda[2] * s_i_world_1 + lambda[2] * d_ij_1;
     const jg_real t18 = h_i_1 * t17;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t21 = f_i_2 * lambda[0] + g_i_2 * lambda[1];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t23 = h_j_2 * t21;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -317,7 +317,7 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -327,7 +327,7 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
@@ -352,7 +352,7 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
         omega_j_cross_omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * omega_j_cross_h_j_0 + omega_i_cross_f_i_1 * omega_j_cross_h_j_1 + omega_i_cross_f_i_2
         * omega_j_cross_h_j_2));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -372,7 +372,7 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
         omega_j_cross_omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_omega_j_cross_h_j_2 * g_i_2) + JG_REAL(2.0) *
         (omega_j_cross_h_j_0 * omega_i_cross_g_i_0 + omega_j_cross_h_j_1 * omega_i_cross_g_i_1 + omega_j_cross_h_j_2
         * omega_i_cross_g_i_2));
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
@@ -382,9 +382,9 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
     /* omega_i_cross_omega_i_cross_h_i = tilde(omega_i) tilde(omega_i) h_i */
     const jg_real omega_i_cross_omega_i_cross_h_i_0 = omega_i[1] * omega_i_cross_h_i_2 - omega_i[2] *
         omega_i_cross_h_i_1;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -445,12 +445,12 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = omega_i[2] * f_i_0 - omega_i[0] * f_i_2;
@@ -463,7 +463,7 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real omega_j_cross_h_j_2 = h_j_1 * omega_j[0] - h_j_0 * omega_j[1];
     phi_q_v[0] = omega_i_cross_f_i_0 * h_j_0 + omega_i_cross_f_i_1 * h_j_1 + omega_i_cross_f_i_2 * h_j_2 + (f_i_0 *
         omega_j_cross_h_j_0 + f_i_1 * omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_h_j_2);
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -473,14 +473,14 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     phi_q_v[1] = h_j_0 * omega_i_cross_g_i_0 + h_j_1 * omega_i_cross_g_i_1 + h_j_2 * omega_i_cross_g_i_2 +
         (omega_j_cross_h_j_0 * g_i_0 + omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_h_j_2 * g_i_2);
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -516,7 +516,7 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t1 = h_i_0 * lambda[2];
     phi_q_t_lambda[6] = t1;
@@ -529,14 +529,14 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
     const jg_real t5 = h_i_2 * lambda[2];
     phi_q_t_lambda[8] = t5;
     phi_q_t_lambda[2] = -t5;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real t7 = f_i_1 * lambda[0];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t9 = g_i_1 * lambda[1];
     const jg_real t10 = t7 + t9;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real t13 = f_i_2 * lambda[0];
@@ -544,9 +544,9 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
     const jg_real t15 = g_i_2 * lambda[1];
     const jg_real t16 = t13 + t15;
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -592,27 +592,27 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[0] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[12] = h_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];

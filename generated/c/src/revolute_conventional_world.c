@@ -32,9 +32,9 @@ void jg_revolute_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -47,16 +47,16 @@ void jg_revolute_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[3] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
@@ -73,22 +73,22 @@ void jg_revolute_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, con
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     phi_q[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q[11] = s_i_world_1;
     phi_q[4] = -s_i_world_1;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
     const jg_real f_i_cross_h_j_0 = f_i_1 * h_j_2 - f_i_2 * h_j_1;
     phi_q[5] = f_i_cross_h_j_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_i_cross_h_j = tilde(g_i) h_j */
@@ -112,7 +112,7 @@ void jg_revolute_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, con
     phi_q[15] = JG_REAL(1.0);
     phi_q[16] = JG_REAL(1.0);
     phi_q[17] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q[22] = s_j_world_2;
     phi_q[18] = -s_j_world_2;
@@ -146,12 +146,12 @@ void jg_revolute_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t2 = f_i_2 * lambda[3] + g_i_2 * lambda[4];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t4 = h_j_2 * t2;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -162,7 +162,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real t10 = t4 + t9;
     phi_q_t_lambda_q[3] = t10;
     phi_q_t_lambda_q[18] = t10;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real t12 = lambda[2] * s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -213,7 +213,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real t35 = -t32;
     phi_q_t_lambda_q[16] = t35;
     phi_q_t_lambda_q[26] = t35;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real t37 = lambda[2] * s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -249,7 +249,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -259,7 +259,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
@@ -274,7 +274,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
     gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -284,7 +284,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
@@ -309,7 +309,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
         omega_j_cross_omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * omega_j_cross_h_j_0 + omega_i_cross_f_i_1 * omega_j_cross_h_j_1 + omega_i_cross_f_i_2
         * omega_j_cross_h_j_2));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -342,10 +342,10 @@ void jg_revolute_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, cons
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -360,12 +360,12 @@ void jg_revolute_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, cons
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
     phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
         omega_j_cross_s_j_world_2);
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = omega_i[2] * f_i_0 - omega_i[0] * f_i_2;
@@ -378,7 +378,7 @@ void jg_revolute_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, cons
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * h_j_1 - omega_j[1] * h_j_0;
     phi_q_v[3] = omega_i_cross_f_i_0 * h_j_0 + omega_i_cross_f_i_1 * h_j_1 + omega_i_cross_f_i_2 * h_j_2 + (f_i_0 *
         omega_j_cross_h_j_0 + f_i_1 * omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_h_j_2);
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -403,14 +403,14 @@ void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real t1 = f_i_1 * lambda[3];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t3 = g_i_1 * lambda[4];
     const jg_real t4 = t1 + t3;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real t7 = f_i_2 * lambda[3];
@@ -418,7 +418,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_
     const jg_real t9 = g_i_2 * lambda[4];
     const jg_real t10 = t7 + t9;
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q_t_lambda[3] = t4 * h_j_2 - t10 * h_j_1 + (lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1);
@@ -431,7 +431,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q_t_lambda[4] = t10 * h_j_0 - t19 * h_j_2 + (lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2);
     phi_q_t_lambda[5] = t19 * h_j_1 - t4 * h_j_0 + (lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2 + (t7 * h_j_1 - t1 * h_j_2 + (t9 * h_j_1 -
@@ -454,10 +454,10 @@ void jg_revolute_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     phi_q[27] = s_j_world_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q[8] = s_i_world_0;
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
@@ -475,16 +475,16 @@ void jg_revolute_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[3] = s_i_world_2;
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[3] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];

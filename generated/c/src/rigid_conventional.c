@@ -43,7 +43,7 @@ void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
     phi[2] = d_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -83,7 +83,7 @@ void jg_rigid_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_rea
     phi_q[4] = A_i_s_i_cross_1;
     const jg_real A_i_s_i_cross_2 = A_i[5] * s_i[2] - A_i[8] * s_i[1];
     phi_q[5] = A_i_s_i_cross_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -168,7 +168,7 @@ void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, c
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -342,7 +342,7 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
         omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t8 + A_i[4] * t10 + A_i[7] * t11));
     gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
         omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t8 + A_i[5] * t10 + A_i[8] * t11));
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
@@ -461,7 +461,7 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
     const jg_real A_j_omega_j_cross_s_j_2 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] *
         omega_j_cross_s_j_2;
     phi_q_v[2] = A_i[2] * t0 + A_i[5] * t1 + A_i[8] * t2 + (v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
@@ -533,7 +533,7 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -604,7 +604,7 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
     phi[2] = d_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];

@@ -32,9 +32,9 @@ void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -47,21 +47,21 @@ void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[3] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[4] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
@@ -78,28 +78,28 @@ void jg_rigid_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const 
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     phi_q[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q[13] = s_i_world_1;
     phi_q[4] = -s_i_world_1;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
     const jg_real f_i_cross_h_j_0 = f_i_1 * h_j_2 - f_i_2 * h_j_1;
     phi_q[5] = f_i_cross_h_j_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = h_j_2 * g_i_1 - h_j_1 * g_i_2;
     phi_q[6] = g_i_cross_h_j_0;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* f_i_cross_g_j = tilde(f_i) g_j */
@@ -128,7 +128,7 @@ void jg_rigid_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const 
     phi_q[18] = JG_REAL(1.0);
     phi_q[19] = JG_REAL(1.0);
     phi_q[20] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q[26] = s_j_world_2;
     phi_q[21] = -s_j_world_2;
@@ -164,13 +164,13 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t2 = g_i_2 * lambda[4];
     const jg_real t3 = f_i_2 * lambda[3] + t2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t5 = h_j_2 * t3;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -180,14 +180,14 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real t11 = h_j_1 * t9;
     const jg_real t12 = t5 + t11;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t14 = g_j_2 * lambda[5];
     const jg_real t15 = f_i_2 * t14;
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real t17 = g_j_1 * lambda[5];
     const jg_real t18 = f_i_1 * t17;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real t20 = lambda[2] * s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -260,7 +260,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     phi_q_t_lambda_q[20] = -(t57 + g_j_2 * t67);
     const jg_real t68 = h_j_2 * t2;
     const jg_real t69 = h_j_1 * t8;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real t71 = lambda[2] * s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -304,7 +304,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -314,7 +314,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
@@ -329,7 +329,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
     gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -339,7 +339,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
@@ -364,7 +364,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
         omega_j_cross_omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * omega_j_cross_h_j_0 + omega_i_cross_f_i_1 * omega_j_cross_h_j_1 + omega_i_cross_f_i_2
         * omega_j_cross_h_j_2));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -384,7 +384,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
         omega_j_cross_omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_omega_j_cross_h_j_2 * g_i_2) + JG_REAL(2.0) *
         (omega_j_cross_h_j_0 * omega_i_cross_g_i_0 + omega_j_cross_h_j_1 * omega_i_cross_g_i_1 + omega_j_cross_h_j_2
         * omega_i_cross_g_i_2));
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
@@ -417,10 +417,10 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -435,12 +435,12 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
     phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
         omega_j_cross_s_j_world_2);
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = omega_i[2] * f_i_0 - omega_i[0] * f_i_2;
@@ -453,7 +453,7 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * h_j_1 - omega_j[1] * h_j_0;
     phi_q_v[3] = omega_i_cross_f_i_0 * h_j_0 + omega_i_cross_f_i_1 * h_j_1 + omega_i_cross_f_i_2 * h_j_2 + (f_i_0 *
         omega_j_cross_h_j_0 + f_i_1 * omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_h_j_2);
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -463,7 +463,7 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     phi_q_v[4] = h_j_0 * omega_i_cross_g_i_0 + h_j_1 * omega_i_cross_g_i_1 + h_j_2 * omega_i_cross_g_i_2 +
         (omega_j_cross_h_j_0 * g_i_0 + omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_h_j_2 * g_i_2);
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
@@ -488,25 +488,25 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t2 = g_i_1 * lambda[4];
     const jg_real t3 = f_i_1 * lambda[3] + t2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t7 = g_i_2 * lambda[4];
     const jg_real t8 = f_i_2 * lambda[3] + t7;
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t11 = g_j_2 * lambda[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real t13 = g_j_1 * lambda[5];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1 + (t3 * h_j_2 - t8 * h_j_1 + (f_i_1 * t11
@@ -525,7 +525,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
         - f_i_1 * t22));
     const jg_real t24 = t13 + lambda[3] * h_j_1;
     const jg_real t25 = t11 + lambda[3] * h_j_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2 + (f_i_2 * t24 - f_i_1 * t25 + (t7 * h_j_1
@@ -549,10 +549,10 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     phi_q[32] = s_j_world_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q[9] = s_i_world_0;
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
@@ -570,21 +570,21 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[3] = s_i_world_2;
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[3] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[4] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];

@@ -44,13 +44,13 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[0] = C_i[0] * dp_ij_0 + C_i[1] * dp_ij_1 + C_i[2] * dp_ij_2;
     phi[1] = C_i[3] * dp_ij_0 + C_i[4] * dp_ij_1 + C_i[5] * dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -127,14 +127,14 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t16 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t18 = s_i[1] + dp_ij_1;
     phi_q[9] = C_i[1] * t16 - C_i[2] * t18;
     phi_q[10] = C_i[4] * t16 - C_i[5] * t18;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -271,7 +271,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real t11 = A_i[2] * t1 - A_i[5] * t3;
     phi_q_t_lambda_q[8] = t11;
     phi_q_t_lambda_q[35] = t11;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -324,7 +324,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t59 = s_i[2] + dp_ij_2;
     const jg_real t60 = t0 * t59;
@@ -698,7 +698,7 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -730,7 +730,7 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
@@ -935,7 +935,7 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -955,7 +955,7 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
     const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
@@ -1072,7 +1072,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real t5 = A_i[2] * t0 + A_i[5] * t1 + A_i[8] * t2;
     phi_q_t_lambda[8] = t5;
     phi_q_t_lambda[2] = -t5;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -1106,7 +1106,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t34 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -1167,13 +1167,13 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[0] = C_i[0] * dp_ij_0 + C_i[1] * dp_ij_1 + C_i[2] * dp_ij_2;
     phi[1] = C_i[3] * dp_ij_0 + C_i[4] * dp_ij_1 + C_i[5] * dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];

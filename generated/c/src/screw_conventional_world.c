@@ -36,13 +36,13 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real pitch = geometry[24];
     const jg_real theta_0 = geometry[25];
     const jg_real revolutions = geometry[26];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -53,18 +53,18 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[1] = d_ij_0 * g_i_0 + d_ij_1 * g_i_1 + d_ij_2 * g_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[2] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
     phi[3] = g_i_0 * h_j_0 + g_i_1 * h_j_1 + g_i_2 * h_j_2;
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -74,7 +74,7 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real cosine_theta = f_i_0 * f_j_0 + f_i_1 * f_j_1 + f_i_2 * f_j_2;
     /* theta = atan2(sine_theta, cosine_theta) */
     const jg_real theta = jg_atan2(sine_theta, cosine_theta);
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
@@ -91,15 +91,15 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[24] = f_i_0;
     phi_q[0] = -f_i_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[25] = g_i_0;
     phi_q[1] = -g_i_0;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[26] = h_i_0;
     phi_q[2] = -h_i_0;
@@ -121,10 +121,10 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     phi_q[32] = h_i_2;
     phi_q[8] = -h_i_2;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -136,7 +136,7 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     /* g_i_cross_d_ij = tilde(g_i) d_ij */
     const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
     phi_q[10] = s_i_world_2 * g_i_1 - s_i_world_1 * g_i_2 + g_i_cross_d_ij_0;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
@@ -145,7 +145,7 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = g_i_1 * h_j_2 - g_i_2 * h_j_1;
     phi_q[12] = g_i_cross_h_j_0;
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -241,11 +241,11 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t3 = h_i_2 * lambda[4];
     const jg_real t4 = f_i_2 * lambda[0] + g_i_2 * lambda[1] + t3;
@@ -286,7 +286,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     phi_q_t_lambda_q[7] = t17;
     phi_q_t_lambda_q[31] = t17;
     phi_q_t_lambda_q[37] = t17;
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -321,9 +321,9 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     /* f_i_cross_f_j = tilde(f_i) f_j */
     const jg_real f_i_cross_f_j_0 = f_i_1 * f_j_2 - f_i_2 * f_j_1;
     const jg_real t46 = f_i_cross_f_j_0 * t44;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -335,7 +335,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real t55 = s_i_world_1 + d_ij_1;
     const jg_real t56 = t10 * t55;
     const jg_real t57 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t59 = h_j_2 * t57;
     const jg_real t60 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
@@ -528,7 +528,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -538,9 +538,9 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -587,7 +587,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_s_j_world_1 + omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * v_j[0] + omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0)
         * (omega_i_cross_f_i_0 * v_i[0] + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -613,7 +613,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2]
         * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 +
         v_i[2] * omega_i_cross_g_i_2));
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -638,7 +638,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_omega_j_cross_h_j_1 + g_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_g_i_0 * omega_j_cross_h_j_0 + omega_i_cross_g_i_1 * omega_j_cross_h_j_1 + omega_i_cross_g_i_2
         * omega_j_cross_h_j_2));
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -654,7 +654,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real t57 = t55 * t56;
     const jg_real t58 = theta_sine * t57;
     const jg_real t59 = omega_i_cross_f_i_0 * f_j_0 + omega_i_cross_f_i_1 * f_j_1 + omega_i_cross_f_i_2 * f_j_2;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
@@ -727,14 +727,14 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = f_i_2 * omega_i[1] - f_i_1 * omega_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -760,7 +760,7 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         omega_i_cross_f_i_1 * d_ij_1 + omega_i_cross_f_i_2 * d_ij_2 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
         omega_i_cross_s_i_world_1 + f_i_2 * omega_i_cross_s_i_world_2 + (f_i_0 * v_i[0] + f_i_1 * v_i[1] + f_i_2 *
         v_i[2]))));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -773,7 +773,7 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         d_ij_1 * omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
         omega_i_cross_s_i_world_1 * g_i_1 + omega_i_cross_s_i_world_2 * g_i_2 + (v_i[0] * g_i_0 + v_i[1] * g_i_1 +
         v_i[2] * g_i_2))));
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -785,7 +785,7 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         omega_j_cross_h_j_0 + f_i_1 * omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_h_j_2);
     phi_q_v[3] = omega_i_cross_g_i_0 * h_j_0 + omega_i_cross_g_i_1 * h_j_1 + omega_i_cross_g_i_2 * h_j_2 + (g_i_0 *
         omega_j_cross_h_j_0 + g_i_1 * omega_j_cross_h_j_1 + g_i_2 * omega_j_cross_h_j_2);
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -799,7 +799,7 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * f_j_2 - omega_j[2] * f_j_1;
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * f_j_0 - omega_j[0] * f_j_2;
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * f_j_1 - omega_j[1] * f_j_0;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
@@ -830,13 +830,13 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t1 = f_i_0 * lambda[0];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t3 = g_i_0 * lambda[1];
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t5 = h_i_0 * lambda[4];
     const jg_real t6 = t1 + t3 + t5;
@@ -860,7 +860,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real t20 = t15 + t17 + t19;
     phi_q_t_lambda[8] = t20;
     phi_q_t_lambda[2] = -t20;
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -876,9 +876,9 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real t30 = t27 * theta_sine;
     const jg_real t31 = f_i_1 * t28 - g_i_1 * t30;
     const jg_real t32 = f_i_2 * t28 - g_i_2 * t30;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -886,7 +886,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real t39 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t41 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -935,13 +935,13 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[24] = f_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -955,7 +955,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi_q[30] = f_i_2;
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[25] = g_i_0;
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
@@ -963,13 +963,13 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi_q[31] = g_i_2;
     phi[1] = d_ij_0 * g_i_0 + d_ij_1 * g_i_1 + d_ij_2 * g_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[2] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
     phi[3] = g_i_0 * h_j_0 + g_i_1 * h_j_1 + g_i_2 * h_j_2;
-    /* f_j = f_j */
+    /* f_j = A_j C_j [1; 0; 0] */
     const jg_real f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
@@ -979,7 +979,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real cosine_theta = f_i_0 * f_j_0 + f_i_1 * f_j_1 + f_i_2 * f_j_2;
     /* theta = atan2(sine_theta, cosine_theta) */
     const jg_real theta = jg_atan2(sine_theta, cosine_theta);
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[26] = h_i_0;
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];

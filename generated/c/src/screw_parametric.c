@@ -44,7 +44,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
@@ -53,7 +53,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi[1] = dp_ij_1 - C_i[7] * advance;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2 - C_i[8] * advance;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -62,7 +62,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -82,7 +82,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi[4] = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -111,7 +111,7 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     phi_q[3] = t7;
@@ -119,7 +119,7 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real t9 = s_i[1] + dp_ij_1;
     phi_q[13] = t9;
     phi_q[4] = -t9;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -147,7 +147,7 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -241,14 +241,14 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     const jg_real t8 = lambda[2] * t7;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t10 = s_i[1] + dp_ij_1;
     const jg_real t11 = lambda[1] * t10;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -257,7 +257,7 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     const jg_real t19 = g_star_2 * lambda[3];
     const jg_real t20 = A_ij_h_j_2 * t19;
@@ -277,7 +277,7 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real t33 = A_ij_f_j_1 * t32;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     const jg_real t36 = f_star_2 * lambda[5];
     const jg_real t37 = A_ij_g_j_2 * t36;
@@ -546,7 +546,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -556,7 +556,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t13 = s_j[1] * JG_REAL(2.0);
     const jg_real t14 = s_j[2] * JG_REAL(2.0);
@@ -635,7 +635,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -657,7 +657,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
     const jg_real t74 = alphadot * alphadot;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -778,10 +778,10 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -824,7 +824,7 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
@@ -840,7 +840,7 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -915,12 +915,12 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t9 = s_i[1] + dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
@@ -987,11 +987,11 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
         (C_j[2] * t56 - C_j[0] * t52)));
     phi_q_t_lambda[11] = s_j[0] * t46 - s_j[1] * t45 + (C_j[3] * t49 - C_j[4] * t54 + (C_j[7] * t55 - C_j[6] * t50 +
         (C_j[0] * t53 - C_j[1] * t56)));
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -1026,7 +1026,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
@@ -1035,7 +1035,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi[1] = dp_ij_1 - C_i[7] * advance;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2 - C_i[8] * advance;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -1047,7 +1047,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
@@ -1075,7 +1075,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi[4] = t31;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;

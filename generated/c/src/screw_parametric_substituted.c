@@ -42,7 +42,7 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
@@ -51,7 +51,7 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     phi[1] = dp_ij_1 - C_i[7] * advance;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2 - C_i[8] * advance;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -60,7 +60,7 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -80,7 +80,7 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     phi[4] = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -132,7 +132,7 @@ void jg_screw_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, 
     phi_q[15] = C_i_H_2;
     const jg_real C_i_H_5 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     phi_q[16] = C_i_H_5;
-    /* A_ij = A_ij */
+    /* A_ij = C_i H C_j^T */
     const jg_real A_ij_0 = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_i[6] * C_j[6];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_1 = C_j[0] * C_i_H_1 + C_j[3] * C_i_H_4 + C_i[7] * C_j[6];
@@ -279,12 +279,12 @@ void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, con
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[2] * t21 + C_i[5] * t22 + (C_i[5] * t25 - C_i[2] *
         t26 + (C_i[6] * t29 - C_i[7] * t31)) + omega_i_cross_v_i_2));
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     gamma[3] = -(alphadot * (omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2));
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -341,13 +341,13 @@ void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, c
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
     phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (t21 * omega_i[1] - t18 * omega_i[0] + (A_ij_v_j_2 -
         v_i[2] - C_i[8] * t16));
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q_v[3] = omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2 - (C_j[0] * omega_j[0] +
         C_j[1] * omega_j[1] + C_j[2] * omega_j[2]);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
@@ -429,7 +429,7 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
@@ -444,7 +444,7 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     phi_q[17] = C_i[8];
     const jg_real t12 = C_i[8] * advance;
     phi[2] = dp_ij_2 - t12;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -453,7 +453,7 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     phi_q[6] = g_star_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
@@ -476,7 +476,7 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     phi[4] = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[5] = f_star_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];

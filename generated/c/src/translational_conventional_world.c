@@ -33,28 +33,28 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[0] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     phi[2] = f_i_0 * g_j_0 + f_i_1 * g_j_1 + f_i_2 * g_j_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -76,11 +76,11 @@ void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[21] = f_i_0;
     phi_q[0] = -f_i_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[22] = g_i_0;
     phi_q[1] = -g_i_0;
@@ -96,7 +96,7 @@ void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi_q[26] = g_i_2;
     phi_q[5] = -g_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_cross_h_j = tilde(f_i) h_j */
@@ -105,16 +105,16 @@ void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = h_j_2 * g_i_1 - h_j_1 * g_i_2;
     phi_q[7] = g_i_cross_h_j_0;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* f_i_cross_g_j = tilde(f_i) g_j */
     const jg_real f_i_cross_g_j_0 = f_i_1 * g_j_2 - f_i_2 * g_j_1;
     phi_q[8] = f_i_cross_g_j_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -193,9 +193,9 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t2 = f_i_2 * lambda[3] + g_i_2 * lambda[4];
     phi_q_t_lambda_q[2] = t2;
@@ -231,16 +231,16 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     phi_q_t_lambda_q[7] = t11;
     phi_q_t_lambda_q[31] = t11;
     phi_q_t_lambda_q[37] = t11;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t16 = h_j_2 * lambda[0];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t18 = g_j_2 * lambda[2];
     const jg_real t19 = lambda[3] * s_i_world_2 + t16 + t18 + lambda[3] * d_ij_2;
@@ -367,7 +367,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -377,7 +377,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     /* omega_i_cross_omega_i_cross_f_i = tilde(omega_i) tilde(omega_i) f_i */
     const jg_real omega_i_cross_omega_i_cross_f_i_0 = omega_i[1] * omega_i_cross_f_i_2 - omega_i[2] *
         omega_i_cross_f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
@@ -402,7 +402,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
         omega_j_cross_omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * omega_j_cross_h_j_0 + omega_i_cross_f_i_1 * omega_j_cross_h_j_1 + omega_i_cross_f_i_2
         * omega_j_cross_h_j_2));
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -422,7 +422,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
         omega_j_cross_omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_omega_j_cross_h_j_2 * g_i_2) + JG_REAL(2.0) *
         (omega_j_cross_h_j_0 * omega_i_cross_g_i_0 + omega_j_cross_h_j_1 * omega_i_cross_g_i_1 + omega_j_cross_h_j_2
         * omega_i_cross_g_i_2));
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
@@ -442,9 +442,9 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
         omega_j_cross_omega_j_cross_g_j_1 + f_i_2 * omega_j_cross_omega_j_cross_g_j_2) + JG_REAL(2.0) *
         (omega_i_cross_f_i_0 * omega_j_cross_g_j_0 + omega_i_cross_f_i_1 * omega_j_cross_g_j_1 + omega_i_cross_f_i_2
         * omega_j_cross_g_j_2));
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -510,12 +510,12 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = omega_i[2] * f_i_0 - omega_i[0] * f_i_2;
@@ -528,7 +528,7 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real omega_j_cross_h_j_2 = h_j_1 * omega_j[0] - h_j_0 * omega_j[1];
     phi_q_v[0] = omega_i_cross_f_i_0 * h_j_0 + omega_i_cross_f_i_1 * h_j_1 + omega_i_cross_f_i_2 * h_j_2 + (f_i_0 *
         omega_j_cross_h_j_0 + f_i_1 * omega_j_cross_h_j_1 + f_i_2 * omega_j_cross_h_j_2);
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -538,7 +538,7 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     phi_q_v[1] = h_j_0 * omega_i_cross_g_i_0 + h_j_1 * omega_i_cross_g_i_1 + h_j_2 * omega_i_cross_g_i_2 +
         (omega_j_cross_h_j_0 * g_i_0 + omega_j_cross_h_j_1 * g_i_1 + omega_j_cross_h_j_2 * g_i_2);
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
@@ -548,9 +548,9 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * g_j_1 - omega_j[1] * g_j_0;
     phi_q_v[2] = omega_i_cross_f_i_0 * g_j_0 + omega_i_cross_f_i_1 * g_j_1 + omega_i_cross_f_i_2 * g_j_2 + (f_i_0 *
         omega_j_cross_g_j_0 + f_i_1 * omega_j_cross_g_j_1 + f_i_2 * omega_j_cross_g_j_2);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -588,10 +588,10 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t1 = f_i_0 * lambda[3];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t3 = g_i_0 * lambda[4];
     const jg_real t4 = t1 + t3;
@@ -611,9 +611,9 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real t14 = t11 + t13;
     phi_q_t_lambda[8] = t14;
     phi_q_t_lambda[2] = -t14;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
@@ -621,11 +621,11 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real t21 = f_i_1 * lambda[0] + g_i_1 * lambda[1];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t23 = f_i_2 * lambda[0] + g_i_2 * lambda[1];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t26 = g_j_2 * lambda[2];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -667,10 +667,10 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[21] = f_i_0;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     phi_q[23] = f_i_1;
@@ -679,7 +679,7 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[25] = f_i_2;
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi[0] = f_i_0 * h_j_0 + f_i_1 * h_j_1 + f_i_2 * h_j_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[22] = g_i_0;
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
@@ -687,14 +687,14 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     phi_q[26] = g_i_2;
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     phi[2] = f_i_0 * g_j_0 + f_i_1 * g_j_1 + f_i_2 * g_j_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;

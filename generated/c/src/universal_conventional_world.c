@@ -32,9 +32,9 @@ void jg_universal_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
@@ -47,9 +47,9 @@ void jg_universal_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -68,15 +68,15 @@ void jg_universal_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, co
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     phi_q[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q[9] = s_i_world_1;
     phi_q[4] = -s_i_world_1;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -96,7 +96,7 @@ void jg_universal_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, co
     phi_q[12] = JG_REAL(1.0);
     phi_q[13] = JG_REAL(1.0);
     phi_q[14] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q[18] = s_j_world_2;
     phi_q[15] = -s_j_world_2;
@@ -127,9 +127,9 @@ void jg_universal_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t2 = h_j_2 * lambda[3];
     const jg_real t3 = h_i_2 * t2;
@@ -139,7 +139,7 @@ void jg_universal_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
     const jg_real t7 = h_i_1 * t6;
     const jg_real t8 = t3 + t7;
     phi_q_t_lambda_q[3] = t8;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real t10 = lambda[2] * s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -186,7 +186,7 @@ void jg_universal_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
     phi_q_t_lambda_q[19] = -t33;
     const jg_real t34 = h_j_2 * t32;
     phi_q_t_lambda_q[20] = -t34;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real t36 = lambda[2] * s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
@@ -235,7 +235,7 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -245,7 +245,7 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
@@ -260,7 +260,7 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
     gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
@@ -270,7 +270,7 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     /* omega_i_cross_omega_i_cross_h_i = tilde(omega_i) tilde(omega_i) h_i */
     const jg_real omega_i_cross_omega_i_cross_h_i_0 = omega_i[1] * omega_i_cross_h_i_2 - omega_i[2] *
         omega_i_cross_h_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
     const jg_real omega_i_cross_omega_i_cross_h_i_1 = omega_i[2] * omega_i_cross_h_i_0 - omega_i[0] *
@@ -308,10 +308,10 @@ void jg_universal_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, con
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
@@ -326,12 +326,12 @@ void jg_universal_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, con
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
     phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
         omega_j_cross_s_j_world_2);
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real omega_i_cross_h_i_1 = omega_i[2] * h_i_0 - omega_i[0] * h_i_2;
@@ -359,15 +359,15 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t2 = h_j_2 * lambda[3];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real t5 = h_j_1 * lambda[3];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     phi_q_t_lambda[3] = h_i_1 * t2 - h_i_2 * t5 + (lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1);
@@ -379,7 +379,7 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
     phi_q_t_lambda[5] = h_i_0 * t5 - h_i_1 * t9 + (lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0);
     const jg_real t12 = h_i_2 * lambda[3];
     const jg_real t13 = h_i_1 * lambda[3];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     phi_q_t_lambda[9] = h_j_1 * t12 - h_j_2 * t13 + (lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2);
@@ -400,10 +400,10 @@ void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     phi_q[22] = s_j_world_0;
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     phi_q[7] = s_i_world_0;
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
@@ -421,9 +421,9 @@ void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const j
     phi_q[3] = s_i_world_2;
     const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     phi[2] = d_ij_2;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];

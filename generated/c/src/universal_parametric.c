@@ -42,14 +42,14 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi[1] = dp_ij_1;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -65,7 +65,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t18 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -82,7 +82,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t32 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
@@ -91,7 +91,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -119,7 +119,7 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     phi_q[3] = t7;
@@ -127,7 +127,7 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real t9 = s_i[1] + dp_ij_1;
     phi_q[13] = t9;
     phi_q[4] = -t9;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -160,14 +160,14 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real H_6 = sine_1 * sine_0;
     const jg_real t28 = cosine_1 * sine_0;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t28 + C_i[7] * cosine_0;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t28 + C_i[8] * cosine_0;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
@@ -265,14 +265,14 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     const jg_real t8 = lambda[2] * t7;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t10 = s_i[1] + dp_ij_1;
     const jg_real t11 = lambda[1] * t10;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -288,7 +288,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t21 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
     const jg_real t23 = g_star_2 * lambda[3];
     const jg_real t24 = A_ij_h_j_2 * t23;
@@ -303,7 +303,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t34 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t34 + C_i[8] * cosine_1;
     const jg_real t36 = h_star_2 * lambda[4];
     const jg_real t37 = A_ij_f_j_2 * t36;
@@ -313,7 +313,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     const jg_real t41 = A_ij_f_j_1 * t40;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     const jg_real t44 = f_star_2 * lambda[5];
     const jg_real t45 = A_ij_g_j_2 * t44;
@@ -644,7 +644,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -654,7 +654,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t13 = s_j[1] * JG_REAL(2.0);
     const jg_real t14 = s_j[2] * JG_REAL(2.0);
@@ -740,7 +740,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t64 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t64 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -764,7 +764,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real t78 = alphadot[1] * alphadot[1];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t80 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t80 + C_i[6] * cosine_1;
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t80 + C_i[7] * cosine_1;
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t80 + C_i[8] * cosine_1;
@@ -775,7 +775,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real t88 = C_i[4] * t85 - C_i[1] * t86;
     const jg_real t89 = C_i[5] * t85 - C_i[2] * t86;
     const jg_real t90 = alphadot[0] * alphadot[0];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -916,10 +916,10 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -968,7 +968,7 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t36 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t36 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
@@ -986,11 +986,11 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t49 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t49 + C_i[6] * cosine_1;
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t49 + C_i[7] * cosine_1;
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t49 + C_i[8] * cosine_1;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
@@ -1069,12 +1069,12 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t7 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real t9 = s_i[1] + dp_ij_1;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
@@ -1156,7 +1156,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
         (C_j[1] * t65 - C_j[0] * t60)));
     const jg_real t67 = cosine_0 * H_4 + sine_0 * t30;
     const jg_real t68 = cosine_0 * t18 + sine_0 * H_6;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
     const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
@@ -1164,11 +1164,11 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
         C_i[1] * t68) + A_ij_g_j_2 * (C_i[5] * t67 - C_i[2] * t68)) + lambda[4] * (A_ij_f_j_0 * f_star_0 +
         A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * sine_0 - lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 *
         f_star_1 + A_ij_h_j_2 * f_star_2) * cosine_0;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t30 + C_i[6] * cosine_0;
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t30 + C_i[7] * cosine_0;
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t30 + C_i[8] * cosine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_0;
     const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_0;
     const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_0;
@@ -1199,14 +1199,14 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi[1] = dp_ij_1;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -1225,7 +1225,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t18 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
@@ -1249,7 +1249,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t33 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t33 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t33 + C_i[7] * cosine_1;
@@ -1259,7 +1259,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi[4] = t39;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;

@@ -40,14 +40,14 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi[1] = dp_ij_1;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -63,7 +63,7 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t18 = cosine_1 * sine_0;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -80,7 +80,7 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t32 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
@@ -89,7 +89,7 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -147,7 +147,7 @@ void jg_universal_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alp
     phi_q[16] = C_i_H_5;
     const jg_real C_i_H_8 = C_i[2] * H_6 - C_i[5] * t9 + C_i[8] * cosine_1;
     phi_q[17] = C_i_H_8;
-    /* A_ij = A_ij */
+    /* A_ij = C_i H C_j^T */
     const jg_real A_ij_0 = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_j[6] * C_i_H_6;
     phi_q[18] = A_ij_0;
     const jg_real A_ij_1 = C_j[0] * C_i_H_1 + C_j[3] * C_i_H_4 + C_j[6] * C_i_H_7;
@@ -359,19 +359,19 @@ void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
     const jg_real t63 = cosine_0 * t13 + sine_0 * H_6;
     gamma[3] = -(alphadot[0] * (omega_i[0] * (C_i[3] * t62 - C_i[0] * t63) + omega_i[1] * (C_i[4] * t62 - C_i[1] *
         t63) + omega_i[2] * (C_i[5] * t62 - C_i[2] * t63)));
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
     const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
     const jg_real t67 = alphadot[0] * (omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2);
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t18 + C_i[6] * cosine_0;
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t18 + C_i[7] * cosine_0;
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t18 + C_i[8] * cosine_0;
     const jg_real t71 = alphadot[0] * alphadot[1];
     gamma[4] = cosine_0 * t67 - alphadot[1] * (omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] *
         h_star_2) - cosine_0 * t71;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t13 + C_i[6] * sine_0;
     const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t13 + C_i[7] * sine_0;
     const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t13 + C_i[8] * sine_0;
@@ -431,19 +431,19 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     phi_q_v[2] = C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q_v[3] = omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2 + (alphadot[1] - (C_j[0] *
         omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2]));
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t9 + C_i[6] * sine_1;
     const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t9 + C_i[7] * sine_1;
     const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t9 + C_i[8] * sine_1;
     phi_q_v[4] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2 + (sine_1 * alphadot[0] -
         (C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2]));
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t14 + C_i[6] * cosine_1;
     const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t14 + C_i[7] * cosine_1;
     const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t14 + C_i[8] * cosine_1;
@@ -527,14 +527,14 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi[1] = dp_ij_1;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -552,7 +552,7 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t18 = cosine_1 * sine_0;
     phi_q[45] = sine_1;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
     phi_q[6] = g_star_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
@@ -572,7 +572,7 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t32 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
     phi_q[7] = h_star_0;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -584,7 +584,7 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[5] = f_star_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];

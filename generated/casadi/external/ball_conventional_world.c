@@ -158,7 +158,7 @@ static void jg_ball_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     jac_phi_q_v_velocity[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -171,7 +171,7 @@ static void jg_ball_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_v_velocity[9] = JG_REAL(1.0);
     jac_phi_q_v_velocity[10] = JG_REAL(1.0);
     jac_phi_q_v_velocity[11] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_v_velocity[14] = s_j_world_2;
     jac_phi_q_v_velocity[12] = -s_j_world_2;
@@ -265,7 +265,7 @@ static void jg_ball_conventional_world_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[6] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     jac_phi_q_t_lambda_lambda[7] = s_i_world_2;
     jac_phi_q_t_lambda_lambda[1] = -s_i_world_2;
@@ -274,7 +274,7 @@ static void jg_ball_conventional_world_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_lambda[3] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[15] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     jac_phi_q_t_lambda_lambda[4] = s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];

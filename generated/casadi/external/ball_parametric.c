@@ -80,7 +80,7 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real H_4 = t14 * sine_2 + t15;
     const jg_real H_5 = cosine_1 * sine_2;
     const jg_real t18 = H_5 * C_i[6];
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t18;
     const jg_real t20 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[3] = g_star_0 * t20;
@@ -90,14 +90,14 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t24 = t23 - sine_1 * t12;
     const jg_real H_8 = cosine_1 * cosine_2;
     const jg_real t26 = H_8 * C_i[6];
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t24 + t26;
     const jg_real t28 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = h_star_0 * t28;
     const jg_real t29 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = sine_0 * cosine_1;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
     jac_phi_A_i[5] = t29 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
@@ -228,7 +228,7 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_A_j[51] = A_i[2] * C_j[8] * g_star_0 + A_i[5] * C_j[8] * g_star_1 + A_i[8] * C_j[8] * g_star_2;
     jac_phi_A_j[52] = A_i[2] * C_j[2] * h_star_0 + A_i[5] * C_j[2] * h_star_1 + A_i[8] * C_j[2] * h_star_2;
     jac_phi_A_j[53] = A_i[2] * C_j[5] * f_star_0 + A_i[5] * C_j[5] * f_star_1 + A_i[8] * C_j[5] * f_star_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[36] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -417,7 +417,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real H_4 = t31 * sine_2 + t32;
     const jg_real H_5 = cosine_1 * sine_2;
     const jg_real t35 = H_5 * C_i[7];
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t35;
     const jg_real t37 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real t38 = omega_i[2] * t37;
@@ -437,9 +437,9 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t52 = sine_1 * t49 - t51;
     const jg_real t53 = C_i[0] * t47 - C_i[3] * t52;
     const jg_real t54 = H_8 * C_i[6];
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t49 + t54;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
     const jg_real t57 = H_5 * C_i[6];
     const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t57;
@@ -900,7 +900,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         omega_i[2] * t280) + f_star_1 * (omega_i[2] * t279 - omega_i[0] * t281) + f_star_2 * (omega_i[0] * t280 -
         omega_i[1] * t279)) - alphadot[1] * (t279 * t90 + t280 * t148 + t281 * t167) + (A_i[2] * omega_j_cross_g_j_2
         * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 + A_i[8] * omega_j_cross_g_j_2 * f_star_2);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_v_velocity[20] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
@@ -1198,7 +1198,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t402 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t402;
@@ -1406,10 +1406,10 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_A_i[10] = -(t47 * t92 * lambda[5] + t28 * t93 * lambda[3] * sine_2 + t45 * t93 * lambda[4] *
         cosine_2);
     const jg_real t94 = H_8 * C_i[6];
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t40 * C_i[3] + t94;
     const jg_real t96 = H_5 * C_i[6];
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t96;
     jac_phi_q_t_lambda_A_i[11] = t28 * h_star_0 * lambda[3] - t45 * g_star_0 * lambda[4];
     const jg_real t98 = s_i[0] * A_i[4];
@@ -1979,7 +1979,7 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
         t391 * t178 + t390 * t238) * sine_2 + lambda[4] * (t400 * t93 + t395 * t178 + t394 * t238) * cosine_2);
     jac_phi_q_t_lambda_A_j[80] = lambda[3] * (t398 * h_star_0 + t391 * h_star_1 + t390 * h_star_2) - lambda[4] *
         (g_star_0 * t400 + g_star_1 * t395 + g_star_2 * t394);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
@@ -2503,7 +2503,7 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t639 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[10] = t639;

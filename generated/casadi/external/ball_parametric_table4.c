@@ -233,7 +233,7 @@ static void jg_ball_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_geometry[5] = t56;
     jac_phi_geometry[7] = t56;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -729,7 +729,7 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_geometry[6] = t245 * omega_i[1] - t242 * omega_i[2] - omega_i[1];
     jac_phi_q_v_geometry[7] = omega_i[2] * t237 - t245 * omega_i[0] + omega_i[0];
     jac_phi_q_v_geometry[8] = t244 - t238;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -838,7 +838,7 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t298 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t298;
@@ -1414,7 +1414,7 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[6] = lambda[1] * t275 + lambda[2] * t272;
     jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t269 + lambda[0] * t275);
     jac_phi_q_t_lambda_geometry[8] = t270 - t274;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
@@ -1561,7 +1561,7 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t334 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[10] = t334;

@@ -233,11 +233,11 @@ static void jg_cylindrical_conventional_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t110 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
     jac_phi_geometry[4] = -(t107 * C_i[0] + t109 * C_i[1] + t110 * C_i[2]);
     jac_phi_geometry[5] = -(t107 * C_i[3] + t109 * C_i[4] + t110 * C_i[5]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     jac_phi_geometry[6] = dp_ij_0;
     jac_phi_geometry[12] = dp_ij_0;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -739,7 +739,7 @@ static void jg_cylindrical_conventional_phi_q_v_jacobian(const jg_real *JG_RESTR
         C_i[1]));
     jac_phi_q_v_geometry[5] = -(t285 * C_i[3] + t286 * C_i[4] + t287 * C_i[5] + (omega_i[1] * C_i[3] - omega_i[0] *
         C_i[4]));
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -750,7 +750,7 @@ static void jg_cylindrical_conventional_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
     /* A_it_v_j = A_i^T v_j */
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -1286,10 +1286,10 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t206 = lambda[0] * A_i[2];
     jac_phi_q_t_lambda_geometry[16] = t206;
     jac_phi_q_t_lambda_geometry[11] = -t206;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t208 = s_i[2] + dp_ij_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];

@@ -30,11 +30,11 @@ static void jg_cylindrical_conventional_world_phi_jacobian(const jg_real *JG_RES
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_r_j[0] = f_i_0;
     jac_phi_r_i[0] = -f_i_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_r_j[1] = g_i_0;
     jac_phi_r_i[1] = -g_i_0;
@@ -50,15 +50,15 @@ static void jg_cylindrical_conventional_world_phi_jacobian(const jg_real *JG_RES
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_r_j[5] = g_i_2;
     jac_phi_r_i[5] = -g_i_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = s_j_world_0 + r_j[0] - r_i[0] - s_i_world_0;
     jac_phi_A_i[0] = d_ij_0 * C_i[0] - s_i[0] * f_i_0;
     jac_phi_A_i[1] = d_ij_0 * C_i[3] - s_i[0] * g_i_0;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[2] = C_i[0] * h_j_0;
     jac_phi_A_i[3] = C_i[3] * h_j_0;
@@ -197,7 +197,7 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_q_v_velocity[22] = f_i_2;
     const jg_real f_i_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
@@ -206,7 +206,7 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     const jg_real omega_i_cross_f_i_0 = f_i_2 * omega_i[1] - f_i_1 * omega_i[2];
     jac_phi_q_v_r_j[0] = omega_i_cross_f_i_0;
     jac_phi_q_v_r_i[0] = -omega_i_cross_f_i_0;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_q_v_velocity[23] = g_i_2;
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
@@ -231,9 +231,9 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     jac_phi_q_v_r_j[5] = omega_i_cross_g_i_2;
     jac_phi_q_v_r_i[5] = -omega_i_cross_g_i_2;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_1 = s_j_world_1 + r_j[1] - r_i[1] - s_i_world_1;
@@ -256,7 +256,7 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     jac_phi_q_v_A_i[1] = d_ij_1 * t24 - s_i[0] * omega_i_cross_g_i_0 - d_ij_2 * t25 - (omega_i_cross_s_i_world_0 *
         C_i[3] + t21 * g_i_1 - t22 * g_i_2 + v_i[0] * C_i[3]) + omega_j_cross_s_j_world_0 * C_i[3] + v_j[0] *
         C_i[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
@@ -545,11 +545,11 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[8] = f_i_2;
     const jg_real t1 = lambda[0] * f_i_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     jac_phi_q_t_lambda_lambda[20] = g_i_2;
     const jg_real t3 = lambda[1] * g_i_2;
@@ -593,14 +593,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_A_i[0] = t21;
     jac_phi_q_t_lambda_A_i[6] = t21;
     jac_phi_q_t_lambda_A_i[12] = t21;
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = s_j_world_2 + r_j[2] - r_i[2] - s_i_world_2;
     const jg_real t25 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t27 = t20 * d_ij_2 + t4 * s_i[0] + (t18 * s_i_world_2 - t1 * s_i[0] + (t19 * s_i_world_2 - t3 *
         s_i[0])) + t25 * h_j_2;

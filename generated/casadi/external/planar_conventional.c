@@ -149,7 +149,7 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
         C_i[8]);
     jac_phi_geometry[2] = -(t49 * C_i[6] + t50 * C_i[7] + (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]) *
         C_i[8]);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -169,7 +169,7 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real A_ij_h_j_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
     jac_phi_geometry[5] = A_ij_h_j_2;
     jac_phi_geometry[8] = A_ij_h_j_2;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     jac_phi_geometry[9] = dp_ij_0;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -510,7 +510,7 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t185 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
     jac_phi_q_v_geometry[2] = -((omega_i[2] * t183 - omega_i[1] * t185) * C_i[6] + (omega_i[0] * t185 - omega_i[2] *
         t179) * C_i[7] + (t180 - t184) * C_i[8] + (omega_i[1] * C_i[6] - omega_i[0] * C_i[7]));
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -544,7 +544,7 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t206 = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
     jac_phi_q_v_geometry[5] = t206;
     jac_phi_q_v_geometry[8] = t206;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -1033,7 +1033,7 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[6] = C_i[7] * t212 + C_i[8] * t209;
     jac_phi_q_t_lambda_geometry[7] = -(C_i[8] * t206 + C_i[6] * t212);
     jac_phi_q_t_lambda_geometry[8] = t207 - t211;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -1104,7 +1104,7 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[39] = -t3;
     jac_phi_q_t_lambda_geometry[40] = -t9;
     jac_phi_q_t_lambda_geometry[41] = -t15;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t250 = lambda[2] * dp_ij_2 + lambda[2] * s_i[2];
     jac_phi_q_t_lambda_geometry[53] = t250;

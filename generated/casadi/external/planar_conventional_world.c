@@ -30,7 +30,7 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_r_j[0] = h_i_0;
     jac_phi_r_i[0] = -h_i_0;
@@ -40,13 +40,13 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_r_j[2] = h_i_2;
     jac_phi_r_i[2] = -h_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[0] = C_i[0] * h_j_0;
     jac_phi_A_i[1] = h_j_0 * C_i[3];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_0 = s_j_world_0 + r_j[0] - r_i[0] - s_i_world_0;
@@ -83,10 +83,10 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     jac_phi_A_i[24] = C_i[2] * h_j_2;
     jac_phi_A_i[25] = h_j_2 * C_i[5];
     jac_phi_A_i[26] = C_i[8] * d_ij_2 - s_i[2] * h_i_2;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_A_j[0] = f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_A_j[1] = C_j[6] * g_i_0;
     jac_phi_A_j[2] = s_j[0] * h_i_0;
@@ -158,7 +158,7 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_q_v_velocity[14] = h_i_2;
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
@@ -175,7 +175,7 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real omega_i_cross_h_i_2 = omega_i[0] * h_i_1 - omega_i[1] * h_i_0;
     jac_phi_q_v_r_j[2] = omega_i_cross_h_i_2;
     jac_phi_q_v_r_i[2] = -omega_i_cross_h_i_2;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     const jg_real t7 = C_i[0] * omega_i[2];
     const jg_real h_j_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
@@ -186,9 +186,9 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real t11 = omega_i[2] * C_i[3];
     const jg_real t12 = omega_i[1] * C_i[3];
     jac_phi_q_v_A_i[1] = h_j_1 * t11 - h_j_2 * t12 + omega_j_cross_h_j_0 * C_i[3];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_1 = s_j_world_1 + r_j[1] - r_i[1] - s_i_world_1;
@@ -284,7 +284,7 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     jac_phi_q_v_A_i[26] = t56 * d_ij_0 - t61 * d_ij_1 - s_i[2] * omega_i_cross_h_i_2 - (h_i_0 * t58 - h_i_1 * t62 +
         C_i[8] * omega_i_cross_s_i_world_2 + C_i[8] * v_i[2]) + C_i[8] * omega_j_cross_s_j_world_2 + C_i[8] *
         v_j[2];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -292,7 +292,7 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real t66 = C_j[6] * omega_j[2];
     const jg_real t67 = C_j[6] * omega_j[1];
     jac_phi_q_v_A_j[0] = f_i_1 * t66 - f_i_2 * t67 + omega_i_cross_f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -451,7 +451,7 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
     jac_phi_q_t_lambda_lambda[20] = h_i_2;
     const jg_real t1 = lambda[2] * h_i_2;
@@ -487,11 +487,11 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real t11 = C_i[0] * lambda[0];
     const jg_real t12 = C_i[3] * lambda[1];
     const jg_real t13 = t11 + t12;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* d_ij = r_j + s_j_world - r_i - s_i_world */
     const jg_real d_ij_2 = s_j_world_2 + r_j[2] - r_i[2] - s_i_world_2;
@@ -585,10 +585,10 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real t59 = t48 * s_j_world_0 + t50 * h_j_0 + t51 * h_j_0;
     jac_phi_q_t_lambda_A_i[47] = t59;
     jac_phi_q_t_lambda_A_i[53] = -t59;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real t61 = lambda[0] * f_i_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t63 = lambda[1] * g_i_2;
     const jg_real t64 = t61 + t63;

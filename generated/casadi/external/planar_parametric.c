@@ -63,12 +63,12 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real t9 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = t9 * C_i[6];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t11 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_A_i[5] = f_star_0 * t11;
@@ -200,7 +200,7 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_alpha[3] = -C_i[3];
     jac_phi_alpha[4] = -C_i[4];
     jac_phi_alpha[5] = -C_i[5];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[30] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -343,13 +343,13 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real t25 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real t26 = omega_i[2] * t25;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     const jg_real t28 = omega_i[1] * t25;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
@@ -731,7 +731,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t229 + g_star_1 * t228 + g_star_2 * t227) -
         (f_star_0 * (omega_i[1] * t227 - omega_i[2] * t228) + f_star_1 * (omega_i[2] * t229 - omega_i[0] * t227) +
         f_star_2 * (omega_i[0] * t228 - omega_i[1] * t229)));
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -904,7 +904,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t296 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t296;
@@ -1062,7 +1062,7 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_A_i[8] = C_j[3] * t43 - C_j[4] * t50 + (C_j[7] * t51 - C_j[6] * t45 + (C_j[0] * t49 - C_j[1]
         * t52)) + (s_j[0] * t39 - s_j[1] * t38);
     const jg_real t53 = sine_0 * C_i[0] - cosine_0 * C_i[3];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_q_t_lambda_A_i[9] = -(t27 * t53 * lambda[5] + t17 * f_star_0 * lambda[3]);
     const jg_real t55 = s_i[0] * A_i[4];
@@ -1558,7 +1558,7 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
         * t343) + (t340 * t41 - t36 * t344);
     jac_phi_q_t_lambda_A_j[62] = -(lambda[5] * (t53 * t344 + t131 * t340 + t184 * t339) + lambda[3] * (t341 *
         f_star_0 + t333 * f_star_1 + t334 * f_star_2));
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_q_t_lambda_lambda[14] = A_ij_1;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
@@ -1828,7 +1828,7 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t460 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[12] = t460;

@@ -63,12 +63,12 @@ static void jg_planar_parametric_substituted_phi_jacobian(const jg_real *JG_REST
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real t9 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = t9 * C_i[6];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t11 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_A_i[5] = f_star_0 * t11;
@@ -200,7 +200,7 @@ static void jg_planar_parametric_substituted_phi_jacobian(const jg_real *JG_REST
     jac_phi_alpha[3] = -C_i[3];
     jac_phi_alpha[4] = -C_i[4];
     jac_phi_alpha[5] = -C_i[5];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[30] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -323,7 +323,7 @@ static void jg_planar_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_
     jac_phi_q_v_alpha[6] = t7 * C_i[3] - t8 * C_i[0] + (C_i[3] * H_C_jt_v_j_0 - C_i[0] * H_C_jt_v_j_1);
     jac_phi_q_v_alpha[7] = t7 * C_i[4] - t8 * C_i[1] + (H_C_jt_v_j_0 * C_i[4] - H_C_jt_v_j_1 * C_i[1]);
     jac_phi_q_v_alpha[8] = t7 * C_i[5] - t8 * C_i[2] + (H_C_jt_v_j_0 * C_i[5] - H_C_jt_v_j_1 * C_i[2]);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     jac_phi_q_v_velocity[6] = g_star_0;
     const jg_real g_star_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -331,7 +331,7 @@ static void jg_planar_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_
     const jg_real g_star_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     jac_phi_q_v_velocity[16] = g_star_2;
     jac_phi_q_v_alpha[9] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_q_v_velocity[5] = f_star_0;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];

@@ -230,7 +230,7 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[9] = t51;
     jac_phi_geometry[12] = t51;
     jac_phi_geometry[15] = t51;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[24] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -723,7 +723,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_geometry[9] = t242;
     jac_phi_q_v_geometry[12] = t242;
     jac_phi_q_v_geometry[15] = t242;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -836,7 +836,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t296 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t296;
@@ -1401,7 +1401,7 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[6] = lambda[1] * t271 + lambda[2] * t268;
     jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t265 + lambda[0] * t271);
     jac_phi_q_t_lambda_geometry[8] = t266 - t270;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     jac_phi_q_t_lambda_lambda[25] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -1557,7 +1557,7 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t333 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[12] = t333;

@@ -39,7 +39,7 @@ static void jg_revolute_conventional_world_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[15] = A_j[0];
     jac_phi_geometry[18] = A_j[3];
     jac_phi_geometry[21] = A_j[6];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[0] * h_j_0;
     jac_phi_A_i[2] = h_j_0 * C_i[3];
@@ -81,10 +81,10 @@ static void jg_revolute_conventional_world_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_A_j[0] = s_j[0];
     jac_phi_A_j[3] = s_j[0];
     jac_phi_A_j[6] = s_j[0];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_A_j[1] = f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_A_j[2] = C_j[6] * g_i_0;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -155,7 +155,7 @@ static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_A_i[0] = -t0;
     const jg_real t1 = s_i[0] * omega_i[1];
     jac_phi_q_v_A_i[1] = t1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real t3 = omega_i[2] * C_i[0];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -226,7 +226,7 @@ static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t34 = s_j[0] * omega_j[1];
     jac_phi_q_v_A_j[8] = t34;
     jac_phi_q_v_A_j[1] = -t34;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -234,7 +234,7 @@ static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t38 = omega_j[2] * C_j[6];
     const jg_real t39 = omega_j[1] * C_j[6];
     jac_phi_q_v_A_j[2] = f_i_1 * t38 - f_i_2 * t39 + omega_i_cross_f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -354,7 +354,7 @@ static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     jac_phi_q_v_velocity[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -379,7 +379,7 @@ static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_velocity[15] = JG_REAL(1.0);
     jac_phi_q_v_velocity[16] = JG_REAL(1.0);
     jac_phi_q_v_velocity[17] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_v_velocity[22] = s_j_world_2;
     jac_phi_q_v_velocity[18] = -s_j_world_2;
@@ -409,7 +409,7 @@ static void jg_revolute_conventional_world_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t0 = C_i[0] * lambda[3];
     const jg_real t1 = C_i[3] * lambda[4];
     const jg_real t2 = t0 + t1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t4 = t2 * h_j_2 - lambda[2] * s_i[0];
     jac_phi_q_t_lambda_A_i[4] = t4;
@@ -473,10 +473,10 @@ static void jg_revolute_conventional_world_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t29 = t21 * h_j_0 + t22 * h_j_0;
     jac_phi_q_t_lambda_A_i[31] = t29;
     jac_phi_q_t_lambda_A_i[35] = -t29;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real t31 = lambda[3] * f_i_2;
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     const jg_real t33 = lambda[4] * g_i_2;
     const jg_real t34 = t31 + t33;
@@ -655,7 +655,7 @@ static void jg_revolute_conventional_world_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[6] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     jac_phi_q_t_lambda_lambda[7] = s_i_world_2;
     jac_phi_q_t_lambda_lambda[1] = -s_i_world_2;
@@ -664,7 +664,7 @@ static void jg_revolute_conventional_world_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_lambda[3] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[15] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_t_lambda_lambda[4] = s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];

@@ -63,12 +63,12 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - sine_0 * C_i[0];
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real t9 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = t9 * C_i[6];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + cosine_0 * C_i[0];
     const jg_real t11 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_A_i[5] = f_star_0 * t11;
@@ -194,7 +194,7 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     jac_phi_A_j[51] = A_i[2] * C_j[8] * g_star_0 + A_i[5] * C_j[8] * g_star_1 + A_i[8] * C_j[8] * g_star_2;
     jac_phi_A_j[52] = A_i[2] * C_j[2] * C_i[6] + A_i[5] * C_j[2] * C_i[7] + A_i[8] * C_j[2] * C_i[8];
     jac_phi_A_j[53] = A_i[2] * C_j[5] * f_star_0 + A_i[5] * C_j[5] * f_star_1 + A_i[8] * C_j[5] * f_star_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[24] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -296,7 +296,7 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     jac_phi_q_v_alpha[0] = t7 * C_i[3] - t8 * C_i[0] + (C_i[3] * H_C_jt_v_j_0 - C_i[0] * H_C_jt_v_j_1);
     jac_phi_q_v_alpha[1] = t7 * C_i[4] - t8 * C_i[1] + (H_C_jt_v_j_0 * C_i[4] - H_C_jt_v_j_1 * C_i[1]);
     jac_phi_q_v_alpha[2] = t7 * C_i[5] - t8 * C_i[2] + (H_C_jt_v_j_0 * C_i[5] - H_C_jt_v_j_1 * C_i[2]);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     jac_phi_q_v_velocity[6] = g_star_0;
     jac_phi_q_v_geometry[5] = omega_i[0];
@@ -310,7 +310,7 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     jac_phi_q_v_geometry[2] = omega_i[2];
     jac_phi_q_v_geometry[29] = omega_i[2];
     jac_phi_q_v_alpha[3] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_q_v_velocity[5] = f_star_0;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];

@@ -220,7 +220,7 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_geometry[5] = t50;
     jac_phi_geometry[7] = t50;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -705,7 +705,7 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_geometry[6] = t241 * omega_i[1] - t238 * omega_i[2] - omega_i[1];
     jac_phi_q_v_geometry[7] = omega_i[2] * t233 - t241 * omega_i[0] + omega_i[0];
     jac_phi_q_v_geometry[8] = t240 - t234;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -814,7 +814,7 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t294 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t294;
@@ -1373,7 +1373,7 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[6] = lambda[1] * t271 + lambda[2] * t268;
     jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t265 + lambda[0] * t271);
     jac_phi_q_t_lambda_geometry[8] = t266 - t270;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
@@ -1520,7 +1520,7 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t330 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[10] = t330;

@@ -39,11 +39,11 @@ static void jg_rigid_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[18] = A_j[0];
     jac_phi_geometry[21] = A_j[3];
     jac_phi_geometry[24] = A_j[6];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[0] * h_j_0;
     jac_phi_A_i[2] = h_j_0 * C_i[3];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_A_i[3] = C_i[0] * g_j_0;
     jac_phi_geometry[19] = A_j[1];
@@ -94,10 +94,10 @@ static void jg_rigid_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_j[0] = s_j[0];
     jac_phi_A_j[4] = s_j[0];
     jac_phi_A_j[8] = s_j[0];
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_A_j[1] = f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_A_j[2] = C_j[6] * g_i_0;
     jac_phi_A_j[3] = f_i_0 * C_j[3];
@@ -186,7 +186,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_A_i[0] = -t0;
     const jg_real t1 = s_i[0] * omega_i[1];
     jac_phi_q_v_A_i[1] = t1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real t3 = omega_i[2] * C_i[0];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -197,7 +197,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t7 = omega_i[2] * C_i[3];
     const jg_real t8 = omega_i[1] * C_i[3];
     jac_phi_q_v_A_i[3] = h_j_1 * t7 - h_j_2 * t8 + omega_j_cross_h_j_0 * C_i[3];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
@@ -274,7 +274,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t40 = s_j[0] * omega_j[1];
     jac_phi_q_v_A_j[10] = t40;
     jac_phi_q_v_A_j[1] = -t40;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
@@ -282,7 +282,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t44 = omega_j[2] * C_j[6];
     const jg_real t45 = omega_j[1] * C_j[6];
     jac_phi_q_v_A_j[2] = f_i_1 * t44 - f_i_2 * t45 + omega_i_cross_f_i_0 * C_j[6];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_cross_g_i = tilde(omega_i) g_i */
@@ -432,7 +432,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     jac_phi_q_v_velocity[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -463,7 +463,7 @@ static void jg_rigid_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[18] = JG_REAL(1.0);
     jac_phi_q_v_velocity[19] = JG_REAL(1.0);
     jac_phi_q_v_velocity[20] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_v_velocity[26] = s_j_world_2;
     jac_phi_q_v_velocity[21] = -s_j_world_2;
@@ -495,9 +495,9 @@ static void jg_rigid_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = C_i[3] * lambda[4];
     const jg_real t1 = C_i[0] * lambda[3] + t0;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_j = g_j */
+    /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t4 = g_j_2 * lambda[5];
     const jg_real t5 = t1 * h_j_2 + C_i[0] * t4 - lambda[2] * s_i[0];
@@ -567,9 +567,9 @@ static void jg_rigid_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t35 = C_i[2] * t18 + t28 * h_j_0;
     jac_phi_q_t_lambda_A_i[31] = t35;
     jac_phi_q_t_lambda_A_i[35] = -t35;
-    /* f_i = f_i */
+    /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    /* g_i = g_i */
+    /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     const jg_real t38 = lambda[4] * g_i_2;
     const jg_real t39 = lambda[3] * f_i_2 + t38;
@@ -788,7 +788,7 @@ static void jg_rigid_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[6] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     jac_phi_q_t_lambda_lambda[7] = s_i_world_2;
     jac_phi_q_t_lambda_lambda[1] = -s_i_world_2;
@@ -797,7 +797,7 @@ static void jg_rigid_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[3] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[15] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_t_lambda_lambda[4] = s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];

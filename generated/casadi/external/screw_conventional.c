@@ -75,7 +75,7 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t17 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[2] = C_i[0] * t17;
     jac_phi_A_i[3] = C_i[3] * t17;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -333,7 +333,7 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[6] = -(t157 * C_i[0] + t159 * C_i[1] + t160 * C_i[2]);
     jac_phi_geometry[7] = -(t157 * C_i[3] + t159 * C_i[4] + t160 * C_i[5]);
     jac_phi_geometry[8] = -(t157 * C_i[6] + t159 * C_i[7] + t160 * C_i[8]);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     jac_phi_geometry[9] = dp_ij_0;
     jac_phi_geometry[18] = dp_ij_0;
@@ -467,7 +467,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t39 = omega_i[1] * t37;
     jac_phi_q_v_A_i[2] = C_i[0] * t36 - (C_i[1] * t38 - C_i[2] * t39);
     jac_phi_q_v_A_i[3] = C_i[3] * t36 - (C_i[4] * t38 - C_i[5] * t39);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -1198,7 +1198,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
         C_i[4]));
     jac_phi_q_v_geometry[8] = -(t543 * C_i[6] + t544 * C_i[7] + t545 * C_i[8] + (omega_i[1] * C_i[6] - omega_i[0] *
         C_i[7]));
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -1532,7 +1532,7 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[0] = t12;
     jac_phi_q_t_lambda_A_i[8] = t12;
     jac_phi_q_t_lambda_A_i[16] = t12;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -2240,7 +2240,7 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t528 = C_i[4] * t525 + C_i[1] * t526;
     jac_phi_q_t_lambda_geometry[12] = A_ij_f_j_1 * t527 - A_ij_f_j_2 * t528;
     const jg_real t529 = C_i[3] * t525 - (t46 - C_i[0] * t526);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t531 = s_i[2] + dp_ij_2;
     /* A_ij_h_j = A_ij h_j */

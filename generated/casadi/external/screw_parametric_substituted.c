@@ -66,12 +66,12 @@ static void jg_screw_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - sine_0 * C_i[0];
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real t9 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = C_i[6] * t9;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + cosine_0 * C_i[0];
     const jg_real t11 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_A_i[5] = f_star_0 * t11;
@@ -206,7 +206,7 @@ static void jg_screw_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t34 = -(pitch * C_i[8]);
     jac_phi_alpha[2] = t34;
     jac_phi_geometry[50] = t34;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[27] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -344,7 +344,7 @@ static void jg_screw_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_R
     const jg_real t18 = t16 * omega_i[1] - t13 * omega_i[0];
     jac_phi_q_v_geometry[86] = t18;
     jac_phi_q_v_alpha[2] = t7 * C_i[5] - t8 * C_i[2] + (H_C_jt_v_j_0 * C_i[5] - H_C_jt_v_j_1 * C_i[2] + t18);
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     jac_phi_q_v_velocity[6] = g_star_0;
     const jg_real g_star_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -352,7 +352,7 @@ static void jg_screw_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_R
     const jg_real g_star_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     jac_phi_q_v_velocity[16] = g_star_2;
     jac_phi_q_v_alpha[3] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_q_v_velocity[5] = f_star_0;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];

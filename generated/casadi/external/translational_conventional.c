@@ -254,7 +254,7 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     const jg_real t113 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
     jac_phi_geometry[4] = -(C_i[0] * t110 + C_i[1] * t112 + C_i[2] * t113);
     jac_phi_geometry[5] = -(C_i[3] * t110 + C_i[4] * t112 + C_i[5] * t113);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -265,7 +265,7 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     jac_phi_geometry[7] = A_ij_g_j_0;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     jac_phi_geometry[8] = dp_ij_0;
     jac_phi_geometry[16] = dp_ij_0;
@@ -852,7 +852,7 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
         omega_i[0]));
     jac_phi_q_v_geometry[5] = -(C_i[3] * t330 + C_i[4] * t331 + C_i[5] * t332 + (omega_i[1] * C_i[3] - omega_i[0] *
         C_i[4]));
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -882,7 +882,7 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     /* omega_i_cross_A_ij_g_j = tilde(omega_i) A_ij g_j */
     const jg_real omega_i_cross_A_ij_g_j_0 = omega_i[1] * A_ij_g_j_2 - omega_i[2] * A_ij_g_j_1;
     jac_phi_q_v_geometry[7] = A_ij_omega_j_cross_g_j_0 - omega_i_cross_A_ij_g_j_0;
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
@@ -1552,11 +1552,11 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t278 = lambda[3] * A_i[2];
     jac_phi_q_t_lambda_geometry[16] = t278;
     jac_phi_q_t_lambda_geometry[11] = -t278;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t283 = s_i[2] + dp_ij_2;
     const jg_real t284 = A_ij_2 * t15 + A_ij_5 * t16 + A_ij_8 * t17 + lambda[3] * t283;

@@ -95,7 +95,7 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[6] = -A_i[6];
     jac_phi_geometry[7] = -A_i[7];
     jac_phi_geometry[8] = -A_i[8];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
@@ -244,7 +244,7 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_geometry[6] = omega_i[0] * A_i[3] - omega_i[1] * A_i[0];
     jac_phi_q_v_geometry[7] = omega_i[0] * A_i[4] - omega_i[1] * A_i[1];
     jac_phi_q_v_geometry[8] = omega_i[0] * A_i[5] - omega_i[1] * A_i[2];
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -517,7 +517,7 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t83 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     jac_phi_q_t_lambda_geometry[3] = t83;
     jac_phi_q_t_lambda_geometry[5] = -t83;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];

@@ -39,7 +39,7 @@ static void jg_universal_conventional_world_phi_jacobian(const jg_real *JG_RESTR
     jac_phi_geometry[12] = A_j[0];
     jac_phi_geometry[15] = A_j[3];
     jac_phi_geometry[18] = A_j[6];
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[6] * h_j_0;
     jac_phi_geometry[13] = A_j[1];
@@ -72,7 +72,7 @@ static void jg_universal_conventional_world_phi_jacobian(const jg_real *JG_RESTR
     jac_phi_A_j[0] = s_j[0];
     jac_phi_A_j[2] = s_j[0];
     jac_phi_A_j[4] = s_j[0];
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_A_j[1] = h_i_0 * C_j[6];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
@@ -124,7 +124,7 @@ static void jg_universal_conventional_world_phi_q_v_jacobian(const jg_real *JG_R
     jac_phi_q_v_A_i[0] = -t0;
     const jg_real t1 = s_i[0] * omega_i[1];
     jac_phi_q_v_A_i[1] = t1;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real t3 = omega_i[2] * C_i[6];
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -177,7 +177,7 @@ static void jg_universal_conventional_world_phi_q_v_jacobian(const jg_real *JG_R
     const jg_real t25 = s_j[0] * omega_j[1];
     jac_phi_q_v_A_j[6] = t25;
     jac_phi_q_v_A_j[1] = -t25;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
@@ -276,7 +276,7 @@ static void jg_universal_conventional_world_phi_q_v_jacobian(const jg_real *JG_R
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     jac_phi_q_v_velocity[3] = s_i_world_2;
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
@@ -295,7 +295,7 @@ static void jg_universal_conventional_world_phi_q_v_jacobian(const jg_real *JG_R
     jac_phi_q_v_velocity[12] = JG_REAL(1.0);
     jac_phi_q_v_velocity[13] = JG_REAL(1.0);
     jac_phi_q_v_velocity[14] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_v_velocity[18] = s_j_world_2;
     jac_phi_q_v_velocity[15] = -s_j_world_2;
@@ -319,7 +319,7 @@ static void jg_universal_conventional_world_phi_q_t_lambda_jacobian(const jg_rea
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* h_j = h_j */
+    /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t1 = h_j_2 * lambda[3];
     const jg_real t2 = C_i[6] * t1 - lambda[2] * s_i[0];
@@ -383,7 +383,7 @@ static void jg_universal_conventional_world_phi_q_t_lambda_jacobian(const jg_rea
     const jg_real t26 = h_j_0 * t22;
     jac_phi_q_t_lambda_A_i[31] = t26;
     jac_phi_q_t_lambda_A_i[35] = -t26;
-    /* h_i = h_i */
+    /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
     const jg_real t28 = C_j[6] * lambda[3];
     const jg_real t29 = t28 * h_i_2;
@@ -522,7 +522,7 @@ static void jg_universal_conventional_world_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[6] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
-    /* s_i_world = s_i_world */
+    /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     jac_phi_q_t_lambda_lambda[7] = s_i_world_2;
     jac_phi_q_t_lambda_lambda[1] = -s_i_world_2;
@@ -531,7 +531,7 @@ static void jg_universal_conventional_world_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_lambda[3] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[15] = JG_REAL(1.0);
-    /* s_j_world = s_j_world */
+    /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     jac_phi_q_t_lambda_lambda[4] = s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];

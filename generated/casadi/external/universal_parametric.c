@@ -70,17 +70,17 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t11 = sine_0 * cosine_1;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_4 * C_i[3] - t11 * C_i[0] + sine_1 * C_i[6];
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t14 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t14 * C_i[3] + cosine_1 * C_i[6];
     const jg_real t16 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = h_star_0 * t16;
     const jg_real t17 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_A_i[5] = t17 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
@@ -207,7 +207,7 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_A_j[51] = A_i[2] * C_j[8] * g_star_0 + A_i[5] * C_j[8] * g_star_1 + A_i[8] * C_j[8] * g_star_2;
     jac_phi_A_j[52] = A_i[2] * C_j[2] * h_star_0 + A_i[5] * C_j[2] * h_star_1 + A_i[8] * C_j[2] * h_star_2;
     jac_phi_A_j[53] = A_i[2] * C_j[5] * f_star_0 + A_i[5] * C_j[5] * f_star_1 + A_i[8] * C_j[5] * f_star_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[33] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -364,7 +364,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t27 = sine_0 * cosine_1;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = H_4 * C_i[4] - t27 * C_i[1] + sine_1 * C_i[7];
     const jg_real t29 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real t30 = omega_i[2] * t29;
@@ -372,9 +372,9 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t32 = omega_i[1] * t29;
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t34 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t34 * C_i[3] + cosine_1 * C_i[6];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
@@ -808,7 +808,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_i[2] * t242) + f_star_1 * (omega_i[2] * t241 - omega_i[0] * t243) + f_star_2 * (omega_i[0] * t242 -
         omega_i[1] * t241)) + (A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_2 * f_star_2);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_v_velocity[20] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
@@ -1026,7 +1026,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t322 = s_i[2] + dp_ij_2;
     jac_phi_q_v_velocity[3] = t322;
@@ -1196,7 +1196,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t63 = cosine_0 * H_4 + sine_0 * t30;
     const jg_real t64 = cosine_0 * t22 + sine_0 * H_6;
     const jg_real t65 = C_i[3] * t63 - C_i[0] * t64;
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_1 * C_i[0] + sine_1 * C_i[3];
     jac_phi_q_t_lambda_A_i[9] = t37 * t65 * lambda[5] + t29 * f_star_0 * lambda[4] * sine_0 - t17 * f_star_0 *
         lambda[3] * cosine_0;
@@ -1743,7 +1743,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
         f_star_2) * cosine_0;
     jac_phi_q_t_lambda_A_j[71] = lambda[4] * (t67 * t361 + t147 * t355 + t202 * t356) - lambda[3] * (t359 * t68 +
         t351 * t148 + t352 * t203);
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_q_t_lambda_lambda[12] = A_ij_1;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
@@ -2126,7 +2126,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = dp_ij */
+    /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real t534 = s_i[2] + dp_ij_2;
     jac_phi_q_t_lambda_lambda[10] = t534;

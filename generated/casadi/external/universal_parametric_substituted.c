@@ -70,17 +70,17 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t11 = sine_0 * cosine_1;
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_4 * C_i[3] - t11 * C_i[0] + sine_1 * C_i[6];
     jac_phi_A_i[3] = t5 * g_star_0;
     const jg_real H_6 = sine_0 * sine_1;
     const jg_real t14 = cosine_0 * sine_1;
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t14 * C_i[3] + cosine_1 * C_i[6];
     const jg_real t16 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[4] = h_star_0 * t16;
     const jg_real t17 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_A_i[5] = t17 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
@@ -207,7 +207,7 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_A_j[51] = A_i[2] * C_j[8] * g_star_0 + A_i[5] * C_j[8] * g_star_1 + A_i[8] * C_j[8] * g_star_2;
     jac_phi_A_j[52] = A_i[2] * C_j[2] * h_star_0 + A_i[5] * C_j[2] * h_star_1 + A_i[8] * C_j[2] * h_star_2;
     jac_phi_A_j[53] = A_i[2] * C_j[5] * f_star_0 + A_i[5] * C_j[5] * f_star_1 + A_i[8] * C_j[5] * f_star_2;
-    /* A_ij = A_ij */
+    /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[33] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -359,7 +359,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
         C_i[7]);
     jac_phi_q_v_alpha[8] = t21 * C_i[2] - t22 * C_i[5] + t23 * C_i[8] + (t24 * C_i[2] - t25 * C_i[5] + t26 *
         C_i[8]);
-    /* h_star = h_star */
+    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t11 * C_i[3] + cosine_1 * C_i[6];
     jac_phi_q_v_velocity[7] = h_star_0;
     const jg_real h_star_1 = H_6 * C_i[1] - t11 * C_i[4] + cosine_1 * C_i[7];
@@ -368,7 +368,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_velocity[17] = h_star_2;
     jac_phi_q_v_alpha[9] = omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] * h_star_2 + cosine_1 *
         alphadot[0];
-    /* g_star = g_star */
+    /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_4 * C_i[3] - t13 * C_i[0] + sine_1 * C_i[6];
     jac_phi_q_v_velocity[6] = g_star_0;
     const jg_real g_star_1 = H_4 * C_i[4] - t13 * C_i[1] + sine_1 * C_i[7];
@@ -555,7 +555,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_velocity[3] = s_i[2];
     jac_phi_q_v_velocity[13] = s_i[1];
     jac_phi_q_v_velocity[4] = -s_i[1];
-    /* f_star = f_star */
+    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     jac_phi_q_v_velocity[5] = f_star_0;
     jac_phi_q_v_velocity[8] = -s_i[2];

@@ -1,0 +1,1 @@
+"""Programs for tests, and the tests of the intermediate representation."""

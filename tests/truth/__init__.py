@@ -1,0 +1,1 @@
+"""Everything that is generated, judged by numbers that were reached another way."""

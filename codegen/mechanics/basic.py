@@ -9,8 +9,9 @@ from typing import Any
 
 import sympy
 
+from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.frames import A_i, A_j, C_i, C_j, d_ij, pitch, revolutions, theta_0
-from codegen.mechanics.terms import Algebra, unit
+from codegen.mechanics.terms import unit
 from codegen.spec.joints import Axis, BasicConstraint, Dot1, Dot2, Spherical
 
 _COLUMN: dict[Axis, int] = {"f": 0, "g": 1, "h": 2}

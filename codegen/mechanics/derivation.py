@@ -16,9 +16,10 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 from codegen.errors import InternalError
 from codegen.ir.lower import Block, SymbolicOutput
 from codegen.mechanics import frames
+from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.formulation import Formulation, height
 from codegen.mechanics.rank_one import rank_one
-from codegen.mechanics.terms import Algebra, assemble, expand, scalar_products
+from codegen.mechanics.terms import assemble, expand, scalar_products
 from codegen.mechanics.variation import Variation, coefficient, gradient
 
 

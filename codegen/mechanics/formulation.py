@@ -14,9 +14,10 @@ import sympy
 
 from codegen.ir.lower import Tilde
 from codegen.mechanics import frames, mixed
+from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.basic import SCREW_PARTIALS, constraint, on_manifold_theta, screw_stages, theta
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, r_i, r_j, s_i, s_j
-from codegen.mechanics.terms import Algebra, Factors, unit
+from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 

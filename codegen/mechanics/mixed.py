@@ -11,8 +11,9 @@ from typing import Any
 
 import sympy
 
+from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.frames import A_i, A_j, C_i, C_j, H, dp_ij, pitch, revolutions, theta_0
-from codegen.mechanics.terms import Algebra, skew, unit
+from codegen.mechanics.terms import skew, unit
 
 _X, _Y, _Z = 0, 1, 2
 

@@ -12,7 +12,8 @@ from typing import Any
 import sympy
 
 from codegen.ir.lower import Tilde
-from codegen.mechanics.terms import Algebra, Factors, Terms, assemble, transposed_chain
+from codegen.mechanics.algebra import Algebra
+from codegen.mechanics.terms import Factors, Terms, assemble, transposed_chain
 
 
 def rank_one(expression: Any, algebra: Algebra) -> Any:

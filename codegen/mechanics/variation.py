@@ -16,8 +16,8 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from codegen.errors import InternalError
 from codegen.ir.lower import Dot, Tilde
+from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.terms import (
-    Algebra,
     Factors,
     Terms,
     assemble,

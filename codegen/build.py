@@ -27,8 +27,8 @@ from codegen.ir.program import Program
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.equations import equations
-from codegen.mechanics.formulation import Formulation, coordinate_count, formulation
-from codegen.mechanics.joints import JOINTS, PAIRS
+from codegen.mechanics.formulation import Formulation, formulation
+from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
 from codegen.parallel import parallel
 from codegen.passes import simplify
 from codegen.spec.joints import JointType
@@ -39,13 +39,12 @@ from codegen.spec.request import (
     Options,
     Variant,
     incompatibility,
-    library_variants,
     selected_variants,
 )
-from flopcount.compare import ComparisonRow, compare
 from flopcount.count import count
-from flopcount.counts import Counts
-from flopcount.paper import DERIVATIVES
+
+LIBRARY = Options()
+"""The request for the whole committed library."""
 
 Progress = Callable[[str], None]
 """Told the name of each variant that is finished."""
@@ -77,10 +76,14 @@ class Model:
 
     def program(self, names: Iterable[str]) -> Program:
         """Lower the named quantities to one simplified program."""
+        return self.lowered(self.outputs(names))
+
+    def lowered(self, outputs: tuple[SymbolicOutput, ...]) -> Program:
+        """Lower any outputs in the stages of this model to one simplified program."""
         form = self.form
         arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
         places = frames.inputs(form.coordinates, form.row_count)
-        return simplify(lower(arguments, places, form.stages, self.outputs(names), form.aliases))
+        return simplify(lower(arguments, places, form.stages, outputs, form.aliases))
 
 
 def joint_type(name: str) -> JointType:
@@ -89,9 +92,11 @@ def joint_type(name: str) -> JointType:
     Raises:
         SpecificationError: there is none of that name.
     """
-    known = {**JOINTS, **PAIRS}
+    known = {**JOINTS, **PAIRS, **{joint.name: joint for joint in BASIC.values()}}
     if name not in known:
-        raise SpecificationError([Mistake(f"joint {name}", "there is no such joint", nearest(name, known))])
+        raise SpecificationError(
+            [Mistake(f"joint {name}", "there is no such joint", nearest(name, {**JOINTS, **PAIRS}))]
+        )
     return known[name]
 
 
@@ -238,61 +243,3 @@ def dump(options: Options, stage: str) -> Iterator[str]:
                 continue
             heading = f"# {variant.stem}_{name}\n"
             yield heading + (symbolic.text(quantities) if stage == "model" else text.dump(symbolic.program(quantities)))
-
-
-def counted_variants() -> tuple[Variant, ...]:
-    """The variants whose operations the tables compare: those of the library."""
-    return tuple(variant for joint in JOINTS.values() for variant in library_variants(joint))
-
-
-def comparison(progress: Progress = lambda _: None) -> tuple[ComparisonRow, ...]:
-    """Count the derivatives of every joint of the library and put the paper's counts beside them."""
-    chosen = counted_variants()
-    counted = parallel(_count_derivatives, chosen, lambda variant: progress(variant.file_stem))
-    emitted: dict[tuple[str, str], dict[str, Counts]] = {
-        (joint, derivative): {} for joint in JOINTS for derivative in DERIVATIVES
-    }
-    for variant, counts in zip(chosen, counted, strict=True):
-        column = variant.stem.removeprefix(f"jg_{variant.joint}_")
-        for derivative, number in counts.items():
-            emitted[variant.joint, derivative][column] = number
-    return compare(emitted)
-
-
-def _count_derivatives(variant: Variant) -> dict[str, Counts]:
-    symbolic = model(variant)
-    return {derivative: count(symbolic.program([derivative])) for derivative in DERIVATIVES}
-
-
-def catalogue_size() -> int:
-    """Number of steps of `catalogue`."""
-    return 2 * len(JOINTS)
-
-
-def catalogue(progress: Progress = lambda _: None) -> list[dict[str, object]]:
-    """Describe every joint: forms, degrees of freedom, rows, coordinates, operations of all quantities at once."""
-    chosen = [
-        variant
-        for name in JOINTS
-        for variant in (Variant(name, "conventional", None), Variant(name, "parametric", "regular"))
-    ]
-    counted = parallel(_count_all, chosen, lambda variant: progress(variant.file_stem))
-    totals = {(variant.joint, variant.form): counts.total for variant, counts in zip(chosen, counted, strict=True)}
-    return [
-        {
-            "joint": joint.name,
-            "forms": "conventional, parametric",
-            "dof": joint.dof,
-            "conventional_rows": joint.conventional_rows,
-            "parametric_rows": 6,
-            "coordinates": coordinate_count(joint, "regular"),
-            "constraints": f"trn{joint.translations} + rot{joint.rotations}",
-            "operations_conventional": totals[joint.name, "conventional"],
-            "operations_parametric": totals[joint.name, "parametric"],
-        }
-        for joint in JOINTS.values()
-    ]
-
-
-def _count_all(variant: Variant) -> Counts:
-    return count(model(variant).program(QUANTITIES))

@@ -30,16 +30,16 @@ def jointgen() -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def joints(as_json: bool) -> None:
     """List the catalogue: joint, forms, degrees of freedom, rows, coordinates, operations of all quantities at once."""
-    from codegen import build
+    from codegen import comparison
 
-    with _progress(build.catalogue_size(), "counting") as advance:
-        rows = build.catalogue(advance)
+    with _progress(comparison.catalogue_size(), "counting") as advance:
+        rows = comparison.catalogue(advance)
     if as_json:
         click.echo(json.dumps(rows, indent=1))
         return
     from codegen.report import tables
 
-    tables.console().print(tables.catalogue_table(rows))
+    tables.show([tables.catalogue(rows)])
 
 
 @jointgen.command()
@@ -69,6 +69,8 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
         output.check_target(target)
     with _progress(len(build.variants(request)), "generating") as advance:
         files = build.generate(request, advance)
+    if request == build.LIBRARY:
+        files |= _flop_files()
     if check:
         _report_differences(target, output.differences(target, files))
         return
@@ -79,6 +81,15 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
+def _flop_files() -> dict[str, bytes]:
+    from codegen import comparison
+    from codegen.emit.package import banner
+    from codegen.report.flop_files import flop_files
+
+    with _progress(len(comparison.counted_variants()), "counting") as advance:
+        return flop_files(comparison.tables(advance), banner(codegen.__version__))
 
 
 def _request(joint: tuple[str, ...], options: dict[str, str | None]) -> Any:
@@ -106,21 +117,31 @@ def _report_differences(target: Path, differences: list[str]) -> None:
 
 
 @jointgen.command()
+@click.option("--rules", default="program", show_default=True, help="Whose counts: program (as emitted) or paper.")
+@click.option("--table", default="7", show_default=True, help="The paper's table: 2, 7 or all.")
+@click.option("--model", default="paper", show_default=True, help="Prices: paper, multiply, fma or measured.")
+@click.option(
+    "--explain", "name", help="Derive the counts of a joint or basic constraint term by term (--rules paper)."
+)
+@click.option("--assume", multiple=True, help="Set a switch of the paper's rules; may be repeated.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-def flops(as_json: bool) -> None:
-    """Print the paper's Table 7 beside the operations of the emitted routines."""
-    from codegen import build
-    from flopcount.paper import DERIVATIVES
+def flops(rules: str, table: str, model: str, name: str | None, assume: tuple[str, ...], as_json: bool) -> None:
+    """Compare the paper's Tables 2 and 7 with its own rules and with the operations of the emitted routines."""
+    from codegen.report import flop_commands
 
-    with _progress(len(build.counted_variants()), "counting") as advance:
-        rows = build.comparison(advance)
+    request = flop_commands.FlopRequest(rules, table, model, name, assume)
+    flop_commands.check(request)
+    with _progress(flop_commands.steps(request), "counting") as advance:
+        result = flop_commands.result(request, advance)
     if as_json:
-        click.echo(json.dumps([row.as_dict() for row in rows], indent=1))
+        click.echo(json.dumps(result.data, indent=1))
         return
-    from codegen.report import tables
+    for line in result.lines:
+        click.echo(line)
+    if result.sheets:
+        from codegen.report import tables
 
-    for derivative in DERIVATIVES:
-        tables.console().print(tables.comparison_table(rows, derivative))
+        tables.show(result.sheets)
 
 
 @contextlib.contextmanager

@@ -119,7 +119,7 @@ class Algebra:
                 return 0, 1, []
             if here.shape == (3, 3) and here == sympy.eye(3):
                 return 1, 1, []
-            if isinstance(after, MatrixBase):
+            if isinstance(after, MatrixBase) and here.shape[1] > 1:
                 return 1, 2, [sympy.ImmutableDenseMatrix((here * after).applyfunc(sympy.expand))]
         if isinstance(here, Tilde):
             found = self._tilde_step(here, chain, position)

@@ -32,6 +32,14 @@ JOINTS: dict[str, JointType] = {
 }
 """The joint library, in the order of the papers."""
 
+BASIC: dict[str, JointType] = {
+    "dot-1": JointType("dot_1", 5, (Dot1("f", "h"),), 0, 0),
+    "dot-2": JointType("dot_2", 5, (Dot2("f"),), 0, 0),
+    "spherical": JointType("spherical", 3, (Spherical(),), 0, 0),
+    "screw": JointType("screw_alone", 5, (Screw(),), 0, 0, is_screw=True, parameters=_SCREW_PARAMETERS),
+}
+"""The basic constraints alone, under their names in S1 Table 2; conventional form only."""
+
 PAIRS: dict[str, JointType] = {
     f"trn{k}_rot{n}": JointType(f"trn{k}_rot{n}", k + n, (), k, n) for k in range(4) for n in range(4)
 }

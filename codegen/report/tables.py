@@ -1,4 +1,4 @@
-"""Tables for the terminal, made with rich; plain in a pipe."""
+"""Show sheets: on the terminal with rich, or as Markdown."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from rich.console import Console
 from rich.table import Table
 
-from flopcount.compare import COLUMNS, ComparisonRow
+from codegen.report.sheets import Sheet
 
 _PIPE_WIDTH = 160
 
@@ -18,46 +18,40 @@ def console() -> Console:
     return Console(width=None if sys.stdout.isatty() else _PIPE_WIDTH, highlight=False)
 
 
-def comparison_table(rows: Sequence[ComparisonRow], derivative: str) -> Table:
-    """S1 Table 7 for one derivative: printed counts, then ours with their rates."""
-    table = Table(
-        title=f"S1 Table 7, {derivative}: operations as printed and as emitted (rates in % of the conventional form)",
-        title_justify="left",
-    )
-    table.add_column("joint")
-    for words in ("paper conv.", "paper param.", "rate"):
-        table.add_column(words, justify="right")
-    for _, words in COLUMNS:
-        table.add_column(words, justify="right", overflow="fold")
-    for row in rows:
-        if row.derivative == derivative:
-            table.add_row(*_cells(row))
-    return table
+def show(sheets: Sequence[Sheet]) -> None:
+    """Print sheets to stdout."""
+    out = console()
+    for sheet in sheets:
+        table = Table(title=sheet.title, title_justify="left", caption="\n".join(sheet.notes), caption_justify="left")
+        for k, heading in enumerate(sheet.columns):
+            is_number = k > 0 and all(_is_number(row[k]) for row in sheet.rows)
+            table.add_column(heading, justify="right" if is_number else "left", overflow="fold")
+        for row in sheet.rows:
+            table.add_row(*row)
+        out.print(table)
 
 
-def _cells(row: ComparisonRow) -> list[str]:
-    printed = [_number(row.printed_conventional), _number(row.printed_parametric), _percent(row.printed_rate)]
-    ours = []
-    for column, _ in COLUMNS:
-        counts = row.emitted.get(column)
-        rate = row.rate(column)
-        ours.append("" if counts is None else f"{counts.total}" + (f" ({rate:.0f}%)" if rate is not None else ""))
-    return [row.joint, *printed, *ours]
+def _is_number(cell: str) -> bool:
+    return not cell or cell == "-" or cell[0].isdigit()
 
 
-def _number(value: int | None) -> str:
-    return "-" if value is None else str(value)
+def markdown(sheet: Sheet) -> str:
+    """Write a sheet as a Markdown section."""
+    lines = [f"## {sheet.title}", ""]
+    lines.append(f"| {' | '.join(_escaped(heading) for heading in sheet.columns)} |")
+    lines.append("|" + "---|" * len(sheet.columns))
+    lines += [f"| {' | '.join(_escaped(cell) for cell in row)} |" for row in sheet.rows]
+    lines += ["", *sheet.notes] if sheet.notes else []
+    return "\n".join(lines) + "\n"
 
 
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{value:.1f}%"
+def _escaped(text: str) -> str:
+    return text.replace("|", "\\|")
 
 
-def catalogue_table(rows: Sequence[Mapping[str, object]]) -> Table:
+def catalogue(rows: Sequence[Mapping[str, object]]) -> Sheet:
     """The catalogue of joints."""
-    table = Table(title="Joints", title_justify="left")
-    for name in rows[0]:
-        table.add_column(name.replace("_", " "), overflow="fold")
-    for row in rows:
-        table.add_row(*(str(value) for value in row.values()))
-    return table
+    cells = tuple(
+        tuple(", ".join(value) if isinstance(value, list) else str(value) for value in row.values()) for row in rows
+    )
+    return Sheet("Joints", tuple(name.replace("_", " ") for name in rows[0]), cells)

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from codegen.ir.builder import Builder
-from codegen.ir.lower.grid import Grid, Pattern, multiply, pattern_of, product_pattern
+from codegen.ir.lower.grid import Grid, Pattern, base_of, multiply, pattern_of, product_pattern, scale
 
 Factors = tuple[Any, ...]
+_Splits = dict[tuple[int, int], int]
 
 
 @dataclass(slots=True)
@@ -37,16 +38,31 @@ class Chains:
             factors: keys of the factors, as they stand in the product.
             factor_grids: their values, shapes fit for the product.
         """
-        for factor, grid in zip(factors, factor_grids, strict=True):
-            self.known.setdefault((factor,), grid)
-        splits = self._splits(factors)
+        splits = self._prepared(factors, factor_grids)
         return self._evaluate(factors, splits, 0, len(factors))
 
-    def _splits(self, factors: Factors) -> dict[tuple[int, int], int]:
+    def scaled(self, coefficient: Any, value: int, factors: Factors, factor_grids: list[Grid]) -> Grid:
+        """Evaluate a scalar times a product; the scalar goes to the partial product with the fewest numbers.
+
+        Args:
+            coefficient: key of the scalar.
+            value: its position in the program.
+            factors: as for `product`.
+            factor_grids: as for `product`.
+        """
+        splits = self._prepared(factors, factor_grids)
+        return self._evaluate_scaled((coefficient, value), factors, splits, 0, len(factors))
+
+    def _prepared(self, factors: Factors, factor_grids: list[Grid]) -> _Splits:
+        for factor, grid in zip(factors, factor_grids, strict=True):
+            self.known.setdefault((factor,), grid)
+        return self._splits(factors)
+
+    def _splits(self, factors: Factors) -> _Splits:
         """Best place to split each sub-product, by length."""
         count = len(factors)
         best: dict[tuple[int, int], tuple[int, Pattern]] = {}
-        splits: dict[tuple[int, int], int] = {}
+        splits: _Splits = {}
         for length in range(1, count + 1):
             for start in range(count - length + 1):
                 end = start + length
@@ -69,7 +85,35 @@ class Chains:
         pattern, cost = product_pattern(left, right)
         return left_cost + right_cost + cost, middle, pattern
 
-    def _evaluate(self, factors: Factors, splits: dict[tuple[int, int], int], start: int, end: int) -> Grid:
+    def _evaluate_scaled(
+        self, scalar: tuple[Any, int], factors: Factors, splits: _Splits, start: int, end: int
+    ) -> Grid:
+        key = (scalar[0], "times", *factors[start:end])
+        if key not in self.known:
+            middle = splits.get((start, end))
+            sizes = [self._size(factors, start, end)]
+            if middle is not None:
+                sizes += [self._size(factors, start, middle), self._size(factors, middle, end)]
+            place = sizes.index(min(sizes))
+            if middle is None or place == 0:
+                result = scale(scalar[1], self._evaluate(factors, splits, start, end), self.builder)
+            elif place == 1:
+                left = self._evaluate_scaled(scalar, factors, splits, start, middle)
+                result = multiply(left, self._evaluate(factors, splits, middle, end), self.builder)
+            else:
+                right = self._evaluate_scaled(scalar, factors, splits, middle, end)
+                result = multiply(self._evaluate(factors, splits, start, middle), right, self.builder)
+            self.known[key] = result
+        return self.known[key]
+
+    def _size(self, factors: Factors, start: int, end: int) -> int:
+        """How many numbers a partial product holds; plus and minus one of a number count once."""
+        if end - start > 1:
+            return len(self.known[factors[start : start + 1]]) * len(self.known[factors[end - 1 : end]][0])
+        bases = {base_of(entry, self.builder) for row in self.known[factors[start:end]] for entry in row}
+        return len(bases - {self.builder.constant(0)})
+
+    def _evaluate(self, factors: Factors, splits: _Splits, start: int, end: int) -> Grid:
         part = factors[start:end]
         if part not in self.known:
             middle = splits[start, end]

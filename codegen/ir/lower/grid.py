@@ -64,6 +64,12 @@ def _negate(entry: int, builder: Builder) -> int:
     return builder.constant(-value) if value is not None else builder.emit(Op.NEGATE, entry)
 
 
+def base_of(entry: int, builder: Builder) -> int:
+    """The value that an entry is plus or minus of."""
+    instruction = builder.instructions[entry]
+    return instruction.operands[0] if instruction.op is Op.NEGATE else entry
+
+
 def multiply(left: Grid, right: Grid, builder: Builder) -> Grid:
     """Product of two grids over their structural nonzeros."""
     columns = transpose(right)

@@ -18,7 +18,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from codegen.errors import InternalError
 from codegen.ir.builder import Builder
 from codegen.ir.lower.chain import Chains, Factors
-from codegen.ir.lower.grid import Grid, add, multiply, scale, skew, total, transpose
+from codegen.ir.lower.grid import Grid, add, multiply, skew, total, transpose
 from codegen.ir.lower.nodes import Dot, Tilde
 from codegen.ir.lower.notation import chain_notation, definition_notation, product_name
 from codegen.ir.ops import Constant, Op
@@ -144,17 +144,7 @@ class _Lowering:
         grids = [self.matrix(factor) for factor in factors]
         if coefficient == 1:
             return self._chains.product(tuple(factors), grids)
-        smallest = min(range(len(grids)), key=lambda k: sum(1 for row in grids[k] for e in row if not self._is_zero(e)))
-        scaled_key = sympy.MatMul(coefficient, factors[smallest])
-        if scaled_key not in self._matrices:
-            self._matrices[scaled_key] = scale(self.scalar(coefficient), grids[smallest], self.builder)
-        grids[smallest] = self._matrices[scaled_key]
-        keys = (*factors[:smallest], scaled_key, *factors[smallest + 1 :])
-        return self._chains.product(keys, grids)
-
-    def _is_zero(self, entry: int) -> bool:
-        value = self.builder.value_of(entry)
-        return value is not None and value.is_zero
+        return self._chains.scaled(coefficient, self.scalar(coefficient), tuple(factors), grids)
 
     def _name_product(self, factors: Factors, grid: Grid) -> None:
         """Label short products of plain symbols, as ``A_ij_h_j``, for readers."""

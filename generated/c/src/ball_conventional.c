@@ -31,14 +31,18 @@ void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *const s_j = geometry + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
 }
 
@@ -143,6 +147,17 @@ void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *J
     const jg_real *const s_j = geometry + 12;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -154,18 +169,15 @@ void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *J
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t6 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
-    const jg_real t7 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t8 = omega_i[1] * t6 - omega_i[2] * t7;
-    const jg_real t9 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t10 = omega_i[2] * t9 - omega_i[0] * t6;
-    const jg_real t11 = omega_i[0] * t7 - omega_i[1] * t9;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t8 + A_i[3] * t10 + A_i[6] * t11));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t8 + A_i[4] * t10 + A_i[7] * t11));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t8 + A_i[5] * t10 + A_i[8] * t11));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
 }
 
 void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -177,9 +189,6 @@ void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real 
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    const jg_real t0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t1 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t2 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -187,13 +196,24 @@ void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real 
     /* A_j_omega_j_cross_s_j = A_j tilde(omega_j) s_j */
     const jg_real A_j_omega_j_cross_s_j_0 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = A_i[0] * t0 + A_i[3] * t1 + A_i[6] * t2 + (v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    /* A_i_omega_i_cross_s_i = A_i tilde(omega_i) s_i */
+    const jg_real A_i_omega_i_cross_s_i_0 = A_i[0] * omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_s_i_2;
+    phi_q_v[0] = v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0 - A_i_omega_i_cross_s_i_0;
     const jg_real A_j_omega_j_cross_s_j_1 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = A_i[1] * t0 + A_i[4] * t1 + A_i[7] * t2 + (v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1);
+    const jg_real A_i_omega_i_cross_s_i_1 = A_i[1] * omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_s_i_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1 - A_i_omega_i_cross_s_i_1;
     const jg_real A_j_omega_j_cross_s_j_2 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = A_i[2] * t0 + A_i[5] * t1 + A_i[8] * t2 + (v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2);
+    const jg_real A_i_omega_i_cross_s_i_2 = A_i[2] * omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_s_i_2;
+    phi_q_v[2] = v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2 - A_i_omega_i_cross_s_i_2;
 }
 
 void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -232,14 +252,18 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
@@ -275,36 +299,47 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     phi_q[21] = A_j[3] * s_j[0] - A_j[0] * s_j[1];
     phi_q[22] = A_j[4] * s_j[0] - A_j[1] * s_j[1];
     phi_q[23] = A_j[5] * s_j[0] - A_j[2] * s_j[1];
-    const jg_real t15 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
-    const jg_real t16 = s_i[2] * t15;
-    const jg_real t17 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
-    const jg_real t18 = s_i[1] * t17;
-    phi_q_t_lambda_q[0] = t16 + t18;
-    phi_q_t_lambda_q[1] = -(s_i[0] * t17);
-    phi_q_t_lambda_q[2] = -(s_i[0] * t15);
-    const jg_real t19 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
-    phi_q_t_lambda_q[3] = -(s_i[1] * t19);
-    const jg_real t20 = s_i[0] * t19;
-    phi_q_t_lambda_q[4] = t16 + t20;
-    phi_q_t_lambda_q[5] = -(s_i[1] * t15);
-    phi_q_t_lambda_q[6] = -(s_i[2] * t19);
-    phi_q_t_lambda_q[7] = -(s_i[2] * t17);
-    phi_q_t_lambda_q[8] = t18 + t20;
-    const jg_real t21 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
-    const jg_real t22 = s_j[2] * t21;
-    const jg_real t23 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real t24 = s_j[1] * t23;
-    phi_q_t_lambda_q[9] = -(t22 + t24);
-    phi_q_t_lambda_q[10] = s_j[0] * t23;
-    phi_q_t_lambda_q[11] = s_j[0] * t21;
-    const jg_real t25 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
-    phi_q_t_lambda_q[12] = s_j[1] * t25;
-    const jg_real t26 = s_j[0] * t25;
-    phi_q_t_lambda_q[13] = -(t22 + t26);
-    phi_q_t_lambda_q[14] = s_j[1] * t21;
-    phi_q_t_lambda_q[15] = s_j[2] * t25;
-    phi_q_t_lambda_q[16] = s_j[2] * t23;
-    phi_q_t_lambda_q[17] = -(t24 + t26);
+    const jg_real t18 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
+    const jg_real t19 = s_i[2] * t18;
+    const jg_real t20 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
+    const jg_real t21 = s_i[1] * t20;
+    phi_q_t_lambda_q[0] = t19 + t21;
+    phi_q_t_lambda_q[1] = -(s_i[0] * t20);
+    phi_q_t_lambda_q[2] = -(s_i[0] * t18);
+    const jg_real t22 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
+    phi_q_t_lambda_q[3] = -(s_i[1] * t22);
+    const jg_real t23 = s_i[0] * t22;
+    phi_q_t_lambda_q[4] = t19 + t23;
+    phi_q_t_lambda_q[5] = -(s_i[1] * t18);
+    phi_q_t_lambda_q[6] = -(s_i[2] * t22);
+    phi_q_t_lambda_q[7] = -(s_i[2] * t20);
+    phi_q_t_lambda_q[8] = t21 + t23;
+    const jg_real t24 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
+    const jg_real t25 = s_j[2] * t24;
+    const jg_real t26 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
+    const jg_real t27 = s_j[1] * t26;
+    phi_q_t_lambda_q[9] = -(t25 + t27);
+    phi_q_t_lambda_q[10] = s_j[0] * t26;
+    phi_q_t_lambda_q[11] = s_j[0] * t24;
+    const jg_real t28 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
+    phi_q_t_lambda_q[12] = s_j[1] * t28;
+    const jg_real t29 = s_j[0] * t28;
+    phi_q_t_lambda_q[13] = -(t25 + t29);
+    phi_q_t_lambda_q[14] = s_j[1] * t24;
+    phi_q_t_lambda_q[15] = s_j[2] * t28;
+    phi_q_t_lambda_q[16] = s_j[2] * t26;
+    phi_q_t_lambda_q[17] = -(t27 + t29);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
+    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -316,18 +351,15 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t33 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    const jg_real t34 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    const jg_real t35 = omega_i[1] * t33 - omega_i[2] * t34;
-    const jg_real t36 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    const jg_real t37 = omega_i[2] * t36 - omega_i[0] * t33;
-    const jg_real t38 = omega_i[0] * t34 - omega_i[1] * t36;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t35 + A_i[3] * t37 + A_i[6] * t38));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t35 + A_i[4] * t37 + A_i[7] * t38));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t35 + A_i[5] * t37 + A_i[8] * t38));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
 }
 
 void jg_ball_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -141,6 +141,16 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real *const s_j = geometry + 12;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
@@ -151,21 +161,19 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real t10 = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0;
-    gamma[0] = -(omega_i[1] * t8 - omega_i[2] * t10 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t13 = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2;
-    gamma[1] = -(omega_i[2] * t13 - omega_i[0] * t8 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
 }
 
 void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -177,24 +185,25 @@ void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
-    phi_q_v[0] = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2 + (v_j[0] - v_i[0] +
-        omega_j_cross_s_j_world_0);
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    phi_q_v[0] = v_j[0] - v_i[0] + omega_j_cross_s_j_world_0 - omega_i_cross_s_i_world_0;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real omega_j_cross_s_j_world_1 = omega_j[2] * s_j_world_0 - omega_j[0] * s_j_world_2;
-    phi_q_v[1] = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0 + (v_j[1] - v_i[1] +
-        omega_j_cross_s_j_world_1);
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + omega_j_cross_s_j_world_1 - omega_i_cross_s_i_world_1;
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
-    phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
-        omega_j_cross_s_j_world_2);
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    phi_q_v[2] = v_j[2] - v_i[2] + omega_j_cross_s_j_world_2 - omega_i_cross_s_i_world_2;
 }
 
 void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -290,23 +299,31 @@ void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q_t_lambda_q[15] = s_j_world_0 * lambda[2];
     phi_q_t_lambda_q[16] = s_j_world_1 * lambda[2];
     phi_q_t_lambda_q[17] = -(t13 + t14);
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = s_i_world_1 * omega_i[0] - s_i_world_0 * omega_i[1];
+    const jg_real omega_i_cross_s_i_world_1 = s_i_world_0 * omega_i[2] - s_i_world_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    const jg_real t18 = s_i_world_0 * omega_i[1] - s_i_world_1 * omega_i[0];
-    const jg_real t19 = s_i_world_2 * omega_i[0] - s_i_world_0 * omega_i[2];
-    gamma[0] = -(omega_i[1] * t18 - omega_i[2] * t19 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = s_i_world_2 * omega_i[1] - s_i_world_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = s_j_world_2 * omega_j[1] - s_j_world_1 * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t22 = s_i_world_1 * omega_i[2] - s_i_world_2 * omega_i[1];
-    gamma[1] = -(omega_i[2] * t22 - omega_i[0] * t18 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t19 - omega_i[1] * t22 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
 }
 
 void jg_ball_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -38,12 +38,16 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -60,14 +64,14 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t15 = cosine_2 * sine_0;
+    const jg_real t18 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t15;
-    const jg_real t17 = cosine_0 * cosine_2;
-    const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
+    const jg_real t20 = cosine_0 * cosine_2;
+    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -88,8 +92,8 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
-    const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
+    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -126,20 +130,24 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    phi_q[3] = t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    phi_q[3] = t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
-    phi_q[13] = t9;
-    phi_q[4] = -t9;
+    const jg_real t12 = s_i[1] + dp_ij_1;
+    phi_q[13] = t12;
+    phi_q[4] = -t12;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -158,14 +166,14 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t20 = cosine_2 * sine_0;
+    const jg_real t23 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t20;
-    const jg_real t22 = cosine_0 * cosine_2;
-    const jg_real H_4 = t22 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t23;
+    const jg_real t25 = cosine_0 * cosine_2;
+    const jg_real H_4 = t25 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
@@ -178,8 +186,8 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     phi_q[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t22;
-    const jg_real H_7 = t20 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t25;
+    const jg_real H_7 = t23 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
@@ -197,10 +205,10 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t7;
+    phi_q[8] = -t10;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t45 = s_i[0] + dp_ij_0;
-    phi_q[9] = t45;
+    const jg_real t48 = s_i[0] + dp_ij_0;
+    phi_q[9] = t48;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -216,7 +224,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t45;
+    phi_q[14] = -t48;
     phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -250,25 +258,25 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t64 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t65 = H_1 * H_8 + sine_1 * H_7;
-    phi_q[45] = -(A_ij_h_j_0 * (C_i[0] * t64 + C_i[3] * t65) + A_ij_h_j_1 * (C_i[1] * t64 + C_i[4] * t65) +
-        A_ij_h_j_2 * (C_i[2] * t64 + C_i[5] * t65));
-    const jg_real t66 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t67 = H_1 * H_5 + sine_1 * H_4;
-    phi_q[46] = A_ij_f_j_0 * (C_i[0] * t66 + C_i[3] * t67) + A_ij_f_j_1 * (C_i[1] * t66 + C_i[4] * t67) + A_ij_f_j_2
-        * (C_i[2] * t66 + C_i[5] * t67);
-    const jg_real t68 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t69 = H_4 * H_8 - H_7 * H_5;
-    phi_q[47] = A_ij_g_j_0 * (C_i[0] * t68 + C_i[3] * t69) + A_ij_g_j_1 * (C_i[1] * t68 + C_i[4] * t69) + A_ij_g_j_2
-        * (C_i[2] * t68 + C_i[5] * t69);
+    const jg_real t67 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t68 = H_1 * H_8 + sine_1 * H_7;
+    phi_q[45] = -(A_ij_h_j_0 * (C_i[0] * t67 + C_i[3] * t68) + A_ij_h_j_1 * (C_i[1] * t67 + C_i[4] * t68) +
+        A_ij_h_j_2 * (C_i[2] * t67 + C_i[5] * t68));
+    const jg_real t69 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t70 = H_1 * H_5 + sine_1 * H_4;
+    phi_q[46] = A_ij_f_j_0 * (C_i[0] * t69 + C_i[3] * t70) + A_ij_f_j_1 * (C_i[1] * t69 + C_i[4] * t70) + A_ij_f_j_2
+        * (C_i[2] * t69 + C_i[5] * t70);
+    const jg_real t71 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t72 = H_4 * H_8 - H_7 * H_5;
+    phi_q[47] = A_ij_g_j_0 * (C_i[0] * t71 + C_i[3] * t72) + A_ij_g_j_1 * (C_i[1] * t71 + C_i[4] * t72) + A_ij_g_j_2
+        * (C_i[2] * t71 + C_i[5] * t72);
     phi_q[48] = sine_2 * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
     phi_q[49] = cosine_2 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2);
-    const jg_real t70 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t71 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t72 = sine_2 * H_5 + cosine_2 * H_8;
-    phi_q[50] = -(A_ij_g_j_0 * (C_i[0] * t70 + C_i[3] * t71 + C_i[6] * t72) + A_ij_g_j_1 * (C_i[1] * t70 + C_i[4] *
-        t71 + C_i[7] * t72) + A_ij_g_j_2 * (C_i[2] * t70 + C_i[5] * t71 + C_i[8] * t72));
+    const jg_real t73 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t74 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t75 = sine_2 * H_5 + cosine_2 * H_8;
+    phi_q[50] = -(A_ij_g_j_0 * (C_i[0] * t73 + C_i[3] * t74 + C_i[6] * t75) + A_ij_g_j_1 * (C_i[1] * t73 + C_i[4] *
+        t74 + C_i[7] * t75) + A_ij_g_j_2 * (C_i[2] * t73 + C_i[5] * t74 + C_i[8] * t75));
     phi_q[51] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[52] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -358,454 +366,401 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t45 = A_ij_g_j_1 * t44;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t53 = s_i[2] + dp_ij_2;
-    const jg_real t54 = lambda[2] * t53;
+    const jg_real t56 = s_i[2] + dp_ij_2;
+    const jg_real t57 = lambda[2] * t56;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t56 = s_i[1] + dp_ij_1;
-    const jg_real t57 = lambda[1] * t56;
-    phi_q_t_lambda_q[6] = -(t54 + t57 + (t41 + t45 + (t17 + t24 + (t31 + t35))));
+    const jg_real t59 = s_i[1] + dp_ij_1;
+    const jg_real t60 = lambda[1] * t59;
+    phi_q_t_lambda_q[6] = -(t57 + t60 + (t41 + t45 + (t17 + t24 + (t31 + t35))));
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    const jg_real t59 = g_star_0 * lambda[3];
+    const jg_real t62 = g_star_0 * lambda[3];
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
-    const jg_real t61 = h_star_0 * lambda[4];
+    const jg_real t64 = h_star_0 * lambda[4];
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
-    const jg_real t63 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t59 + A_ij_f_j_1 * t61 + A_ij_g_j_1 * t63 + lambda[0] * t56;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t59 + A_ij_f_j_2 * t61 + A_ij_g_j_2 * t63 + lambda[0] * t53;
-    const jg_real t64 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t64;
-    phi_q_t_lambda_q[42] = t64;
-    const jg_real t65 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t65;
-    phi_q_t_lambda_q[45] = t65;
-    const jg_real t66 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t66;
-    phi_q_t_lambda_q[48] = t66;
+    const jg_real t66 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t62 + A_ij_f_j_1 * t64 + A_ij_g_j_1 * t66 + lambda[0] * t59;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t62 + A_ij_f_j_2 * t64 + A_ij_g_j_2 * t66 + lambda[0] * t56;
+    const jg_real t67 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t67;
+    phi_q_t_lambda_q[42] = t67;
+    const jg_real t68 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t68;
+    phi_q_t_lambda_q[45] = t68;
+    const jg_real t69 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t69;
+    phi_q_t_lambda_q[48] = t69;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t71 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
+    const jg_real t74 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t73 = lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
-    const jg_real t74 = t71 + t73;
+    const jg_real t76 = lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
+    const jg_real t77 = t74 + t76;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t76 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t77 = lambda[5] * t76 + t74;
-    const jg_real t78 = A_ij_0 * t77;
-    const jg_real t79 = H_3 * lambda[3];
-    const jg_real t80 = H_4 * lambda[3];
-    const jg_real t81 = H_5 * lambda[3];
-    const jg_real t82 = C_i[0] * t79 + C_i[3] * t80 + C_i[6] * t81;
-    const jg_real t83 = C_i[1] * t79 + C_i[4] * t80 + C_i[7] * t81;
-    const jg_real t84 = C_i[2] * t79 + C_i[5] * t80 + C_i[8] * t81;
-    const jg_real t85 = A_ij_0 * t82 + A_ij_1 * t83 + A_ij_2 * t84;
-    const jg_real t86 = C_j[6] * t85;
-    const jg_real t87 = C_j[7] * t85;
-    const jg_real t88 = C_j[8] * t85;
-    const jg_real t89 = H_6 * lambda[4];
-    const jg_real t90 = H_7 * lambda[4];
-    const jg_real t91 = H_8 * lambda[4];
-    const jg_real t92 = C_i[0] * t89 + C_i[3] * t90 + C_i[6] * t91;
-    const jg_real t93 = C_i[1] * t89 + C_i[4] * t90 + C_i[7] * t91;
-    const jg_real t94 = C_i[2] * t89 + C_i[5] * t90 + C_i[8] * t91;
-    const jg_real t95 = A_ij_0 * t92 + A_ij_1 * t93 + A_ij_2 * t94;
-    const jg_real t96 = C_j[0] * t95;
-    const jg_real t97 = C_j[1] * t95;
-    const jg_real t98 = C_j[2] * t95;
-    const jg_real t99 = H_0 * lambda[5];
-    const jg_real t100 = H_1 * lambda[5];
-    const jg_real t101 = sine_1 * lambda[5];
-    const jg_real t102 = C_i[6] * t101 - (C_i[0] * t99 + C_i[3] * t100);
-    const jg_real t103 = C_i[7] * t101 - (C_i[1] * t99 + C_i[4] * t100);
-    const jg_real t104 = C_i[8] * t101 - (C_i[2] * t99 + C_i[5] * t100);
-    const jg_real t105 = A_ij_0 * t102 + A_ij_1 * t103 + A_ij_2 * t104;
-    const jg_real t106 = C_j[3] * t105;
-    const jg_real t107 = C_j[4] * t105;
-    const jg_real t108 = C_j[5] * t105;
-    const jg_real t109 = s_j[1] * t66 - s_j[2] * t65;
-    phi_q_t_lambda_q[12] = A_ij_0 * t106 + A_ij_3 * t107 + A_ij_6 * t108 + (t78 - (A_ij_0 * t86 + A_ij_3 * t87 +
-        A_ij_6 * t88) - (A_ij_0 * t96 + A_ij_3 * t97 + A_ij_6 * t98)) + t109;
-    const jg_real t110 = A_ij_3 * t77;
-    const jg_real t111 = A_ij_3 * t82 + A_ij_4 * t83 + A_ij_5 * t84;
-    const jg_real t112 = C_j[6] * t111;
-    const jg_real t113 = C_j[7] * t111;
-    const jg_real t114 = C_j[8] * t111;
-    const jg_real t115 = A_ij_3 * t92 + A_ij_4 * t93 + A_ij_5 * t94;
-    const jg_real t116 = C_j[0] * t115;
-    const jg_real t117 = C_j[1] * t115;
-    const jg_real t118 = C_j[2] * t115;
-    const jg_real t119 = A_ij_3 * t102 + A_ij_4 * t103 + A_ij_5 * t104;
-    const jg_real t120 = C_j[3] * t119;
-    const jg_real t121 = C_j[4] * t119;
-    const jg_real t122 = C_j[5] * t119;
-    const jg_real t123 = s_j[2] * t64 - s_j[0] * t66;
-    phi_q_t_lambda_q[13] = A_ij_0 * t120 + A_ij_3 * t121 + A_ij_6 * t122 + (t110 - (A_ij_0 * t112 + A_ij_3 * t113 +
-        A_ij_6 * t114) - (A_ij_0 * t116 + A_ij_3 * t117 + A_ij_6 * t118)) + t123;
-    const jg_real t124 = A_ij_6 * t77;
-    const jg_real t125 = A_ij_6 * t82 + A_ij_7 * t83 + A_ij_8 * t84;
-    const jg_real t126 = C_j[6] * t125;
-    const jg_real t127 = C_j[7] * t125;
-    const jg_real t128 = C_j[8] * t125;
-    const jg_real t129 = A_ij_6 * t92 + A_ij_7 * t93 + A_ij_8 * t94;
-    const jg_real t130 = C_j[0] * t129;
-    const jg_real t131 = C_j[1] * t129;
-    const jg_real t132 = C_j[2] * t129;
-    const jg_real t133 = A_ij_6 * t102 + A_ij_7 * t103 + A_ij_8 * t104;
-    const jg_real t134 = C_j[3] * t133;
-    const jg_real t135 = C_j[4] * t133;
-    const jg_real t136 = C_j[5] * t133;
-    const jg_real t137 = s_j[0] * t65 - s_j[1] * t64;
-    phi_q_t_lambda_q[14] = A_ij_0 * t134 + A_ij_3 * t135 + A_ij_6 * t136 + (t124 - (A_ij_0 * t126 + A_ij_3 * t127 +
-        A_ij_6 * t128) - (A_ij_0 * t130 + A_ij_3 * t131 + A_ij_6 * t132)) + t137;
-    const jg_real t138 = cosine_1 * lambda[3] * cosine_2;
-    const jg_real t139 = sine_1 * lambda[3];
-    const jg_real t140 = H_0 * t138 + H_6 * t139;
-    const jg_real t141 = H_1 * t138 + H_7 * t139;
-    const jg_real t142 = H_8 * t139 - sine_1 * t138;
-    const jg_real t143 = C_i[2] * t140 + C_i[5] * t141 + C_i[8] * t142;
-    const jg_real t144 = C_i[1] * t140 + C_i[4] * t141 + C_i[7] * t142;
-    const jg_real t145 = cosine_1 * lambda[4] * sine_2;
-    const jg_real t146 = sine_1 * lambda[4];
-    const jg_real t147 = H_0 * t145 + H_3 * t146;
-    const jg_real t148 = H_1 * t145 + H_4 * t146;
-    const jg_real t149 = sine_1 * t145 - H_5 * t146;
-    const jg_real t150 = C_i[8] * t149 - (C_i[2] * t147 + C_i[5] * t148);
-    const jg_real t151 = C_i[7] * t149 - (C_i[1] * t147 + C_i[4] * t148);
-    const jg_real t152 = cosine_1 * lambda[5];
-    const jg_real t153 = sine_2 * t152;
-    const jg_real t154 = cosine_2 * t152;
-    const jg_real t155 = H_6 * t153 - H_3 * t154;
-    const jg_real t156 = H_7 * t153 - H_4 * t154;
-    const jg_real t157 = H_8 * t153 - H_5 * t154;
-    const jg_real t158 = C_i[2] * t155 + C_i[5] * t156 + C_i[8] * t157;
-    const jg_real t159 = C_i[1] * t155 + C_i[4] * t156 + C_i[7] * t157;
-    const jg_real t160 = A_ij_g_j_1 * t158 - A_ij_g_j_2 * t159 + (A_ij_h_j_1 * t143 - A_ij_h_j_2 * t144 +
-        (A_ij_f_j_1 * t150 - A_ij_f_j_2 * t151));
-    phi_q_t_lambda_q[15] = t160;
-    phi_q_t_lambda_q[84] = t160;
-    const jg_real t161 = cosine_2 * lambda[4];
-    const jg_real t162 = sine_2 * lambda[3];
-    const jg_real t163 = A_ij_f_j_2 * t161 + A_ij_h_j_2 * t162;
-    const jg_real t164 = A_ij_f_j_1 * t161 + A_ij_h_j_1 * t162;
-    const jg_real t165 = sine_2 * lambda[5];
-    const jg_real t166 = cosine_2 * lambda[5];
-    const jg_real t167 = H_3 * t165 + H_6 * t166;
-    const jg_real t168 = H_4 * t165 + H_7 * t166;
-    const jg_real t169 = H_5 * t165 + H_8 * t166;
-    const jg_real t170 = C_i[2] * t167 + C_i[5] * t168 + C_i[8] * t169;
-    const jg_real t171 = C_i[1] * t167 + C_i[4] * t168 + C_i[7] * t169;
-    const jg_real t172 = f_star_1 * t163 - f_star_2 * t164 + (A_ij_g_j_1 * t170 - A_ij_g_j_2 * t171);
-    phi_q_t_lambda_q[16] = t172;
-    phi_q_t_lambda_q[93] = t172;
-    const jg_real t173 = H_6 * lambda[3];
-    const jg_real t174 = H_7 * lambda[3];
-    const jg_real t175 = H_8 * lambda[3];
-    const jg_real t176 = C_i[1] * t173 + C_i[4] * t174 + C_i[7] * t175;
-    const jg_real t177 = C_i[2] * t173 + C_i[5] * t174 + C_i[8] * t175;
-    const jg_real t178 = H_3 * lambda[4];
-    const jg_real t179 = H_4 * lambda[4];
-    const jg_real t180 = H_5 * lambda[4];
-    const jg_real t181 = C_i[2] * t178 + C_i[5] * t179 + C_i[8] * t180;
-    const jg_real t182 = C_i[1] * t178 + C_i[4] * t179 + C_i[7] * t180;
-    const jg_real t183 = A_ij_h_j_2 * t176 - A_ij_h_j_1 * t177 + (A_ij_f_j_1 * t181 - A_ij_f_j_2 * t182);
-    phi_q_t_lambda_q[17] = t183;
-    phi_q_t_lambda_q[102] = t183;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t185 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t23 + A_ij_f_j_0 * t34 + A_ij_g_j_0 * t44 + lambda[1] * t185;
-    const jg_real t186 = A_ij_h_j_0 * t59;
-    const jg_real t187 = A_ij_f_j_0 * t61;
-    const jg_real t188 = A_ij_g_j_0 * t63;
-    const jg_real t189 = lambda[0] * t185;
-    phi_q_t_lambda_q[19] = -(t54 + t189 + (t41 + t188 + (t17 + t186 + (t31 + t187))));
-    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t23 + A_ij_f_j_2 * t34 + A_ij_g_j_2 * t44 + lambda[1] * t53;
-    const jg_real t190 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[21] = t190;
-    phi_q_t_lambda_q[43] = t190;
-    const jg_real t191 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[22] = t191;
-    phi_q_t_lambda_q[46] = t191;
-    const jg_real t192 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[23] = t192;
-    phi_q_t_lambda_q[49] = t192;
-    const jg_real t193 = A_ij_1 * t77;
-    const jg_real t194 = s_j[1] * t192 - s_j[2] * t191;
-    phi_q_t_lambda_q[24] = A_ij_1 * t106 + A_ij_4 * t107 + A_ij_7 * t108 + (t193 - (A_ij_1 * t86 + A_ij_4 * t87 +
-        A_ij_7 * t88) - (A_ij_1 * t96 + A_ij_4 * t97 + A_ij_7 * t98)) + t194;
-    const jg_real t195 = A_ij_4 * t77;
-    const jg_real t196 = s_j[2] * t190 - s_j[0] * t192;
-    phi_q_t_lambda_q[25] = A_ij_1 * t120 + A_ij_4 * t121 + A_ij_7 * t122 + (t195 - (A_ij_1 * t112 + A_ij_4 * t113 +
-        A_ij_7 * t114) - (A_ij_1 * t116 + A_ij_4 * t117 + A_ij_7 * t118)) + t196;
-    const jg_real t197 = A_ij_7 * t77;
-    const jg_real t198 = s_j[0] * t191 - s_j[1] * t190;
-    phi_q_t_lambda_q[26] = A_ij_1 * t134 + A_ij_4 * t135 + A_ij_7 * t136 + (t197 - (A_ij_1 * t126 + A_ij_4 * t127 +
-        A_ij_7 * t128) - (A_ij_1 * t130 + A_ij_4 * t131 + A_ij_7 * t132)) + t198;
-    const jg_real t199 = C_i[0] * t140 + C_i[3] * t141 + C_i[6] * t142;
-    const jg_real t200 = C_i[6] * t149 - (C_i[0] * t147 + C_i[3] * t148);
-    const jg_real t201 = C_i[0] * t155 + C_i[3] * t156 + C_i[6] * t157;
-    const jg_real t202 = A_ij_g_j_2 * t201 - A_ij_g_j_0 * t158 + (A_ij_h_j_2 * t199 - A_ij_h_j_0 * t143 +
-        (A_ij_f_j_2 * t200 - A_ij_f_j_0 * t150));
-    phi_q_t_lambda_q[27] = t202;
-    phi_q_t_lambda_q[85] = t202;
-    const jg_real t203 = A_ij_f_j_0 * t161 + A_ij_h_j_0 * t162;
-    const jg_real t204 = C_i[0] * t167 + C_i[3] * t168 + C_i[6] * t169;
-    const jg_real t205 = f_star_2 * t203 - f_star_0 * t163 + (A_ij_g_j_2 * t204 - A_ij_g_j_0 * t170);
-    phi_q_t_lambda_q[28] = t205;
-    phi_q_t_lambda_q[94] = t205;
-    const jg_real t206 = C_i[0] * t173 + C_i[3] * t174 + C_i[6] * t175;
-    const jg_real t207 = C_i[0] * t178 + C_i[3] * t179 + C_i[6] * t180;
-    const jg_real t208 = A_ij_h_j_0 * t177 - A_ij_h_j_2 * t206 + (A_ij_f_j_2 * t207 - A_ij_f_j_0 * t181);
-    phi_q_t_lambda_q[29] = t208;
-    phi_q_t_lambda_q[103] = t208;
-    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t16 + A_ij_f_j_0 * t30 + A_ij_g_j_0 * t40 + lambda[2] * t185;
-    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t16 + A_ij_f_j_1 * t30 + A_ij_g_j_1 * t40 + lambda[2] * t56;
-    phi_q_t_lambda_q[32] = -(t57 + t189 + (t45 + t188 + (t24 + t186 + (t35 + t187))));
-    const jg_real t209 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[33] = t209;
-    phi_q_t_lambda_q[44] = t209;
-    const jg_real t210 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[34] = t210;
-    phi_q_t_lambda_q[47] = t210;
-    const jg_real t211 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[35] = t211;
-    phi_q_t_lambda_q[50] = t211;
-    const jg_real t212 = A_ij_2 * t77;
-    const jg_real t213 = s_j[1] * t211 - s_j[2] * t210;
-    phi_q_t_lambda_q[36] = A_ij_2 * t106 + A_ij_5 * t107 + A_ij_8 * t108 + (t212 - (A_ij_2 * t86 + A_ij_5 * t87 +
-        A_ij_8 * t88) - (A_ij_2 * t96 + A_ij_5 * t97 + A_ij_8 * t98)) + t213;
-    const jg_real t214 = A_ij_5 * t77;
-    const jg_real t215 = s_j[2] * t209 - s_j[0] * t211;
-    phi_q_t_lambda_q[37] = A_ij_2 * t120 + A_ij_5 * t121 + A_ij_8 * t122 + (t214 - (A_ij_2 * t112 + A_ij_5 * t113 +
-        A_ij_8 * t114) - (A_ij_2 * t116 + A_ij_5 * t117 + A_ij_8 * t118)) + t215;
-    const jg_real t216 = A_ij_8 * t77;
-    const jg_real t217 = s_j[0] * t210 - s_j[1] * t209;
-    phi_q_t_lambda_q[38] = A_ij_2 * t134 + A_ij_5 * t135 + A_ij_8 * t136 + (t216 - (A_ij_2 * t126 + A_ij_5 * t127 +
-        A_ij_8 * t128) - (A_ij_2 * t130 + A_ij_5 * t131 + A_ij_8 * t132)) + t217;
-    const jg_real t218 = A_ij_g_j_0 * t159 - A_ij_g_j_1 * t201 + (A_ij_h_j_0 * t144 - A_ij_h_j_1 * t199 +
-        (A_ij_f_j_0 * t151 - A_ij_f_j_1 * t200));
-    phi_q_t_lambda_q[39] = t218;
-    phi_q_t_lambda_q[86] = t218;
-    const jg_real t219 = f_star_0 * t164 - f_star_1 * t203 + (A_ij_g_j_0 * t171 - A_ij_g_j_1 * t204);
-    phi_q_t_lambda_q[40] = t219;
-    phi_q_t_lambda_q[95] = t219;
-    const jg_real t220 = A_ij_h_j_1 * t206 - A_ij_h_j_0 * t176 + (A_ij_f_j_0 * t182 - A_ij_f_j_1 * t207);
-    phi_q_t_lambda_q[41] = t220;
-    phi_q_t_lambda_q[104] = t220;
-    phi_q_t_lambda_q[51] = t78 - A_ij_h_j_0 * t85 - A_ij_f_j_0 * t95 + A_ij_g_j_0 * t105 + t109;
-    phi_q_t_lambda_q[52] = t193 - A_ij_h_j_1 * t85 - A_ij_f_j_1 * t95 + A_ij_g_j_1 * t105 + t194;
-    phi_q_t_lambda_q[53] = t212 - A_ij_h_j_2 * t85 - A_ij_f_j_2 * t95 + A_ij_g_j_2 * t105 + t213;
-    const jg_real t221 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[54] = t221;
-    const jg_real t222 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[76] = t222;
-    phi_q_t_lambda_q[55] = -t222;
+    const jg_real t79 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t80 = lambda[5] * t79 + t77;
+    const jg_real t81 = A_ij_0 * t80;
     /* A_ijt_g_star = A_ij^T g_star */
-    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t224 = C_j[8] * lambda[3];
-    const jg_real t225 = A_ijt_g_star_2 * t224;
-    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t227 = C_j[7] * lambda[3];
-    const jg_real t228 = A_ijt_g_star_1 * t227;
-    /* A_ijt_h_star = A_ij^T h_star */
-    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
-    const jg_real t230 = C_j[2] * lambda[4];
-    const jg_real t231 = A_ijt_h_star_2 * t230;
-    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
-    const jg_real t233 = C_j[1] * lambda[4];
-    const jg_real t234 = A_ijt_h_star_1 * t233;
-    /* A_ijt_f_star = A_ij^T f_star */
-    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t236 = C_j[5] * lambda[5];
-    const jg_real t237 = A_ijt_f_star_2 * t236;
-    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t239 = C_j[4] * lambda[5];
-    const jg_real t240 = A_ijt_f_star_1 * t239;
-    const jg_real t241 = s_j[2] * t221;
-    const jg_real t242 = s_j[1] * t222;
-    phi_q_t_lambda_q[56] = -(t241 + t242 + (t237 + t240 + (t225 + t228 + (t231 + t234))));
-    const jg_real t243 = C_j[6] * lambda[3];
-    const jg_real t244 = C_j[0] * lambda[4];
-    const jg_real t245 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t243 + A_ijt_h_star_1 * t244 + A_ijt_f_star_1 * t245 + s_j[0] * t222;
-    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t243 + A_ijt_h_star_2 * t244 + A_ijt_f_star_2 * t245 + s_j[0] * t221;
-    const jg_real t246 = A_ij_3 * t199 + A_ij_4 * t144 + A_ij_5 * t143;
-    const jg_real t247 = A_ij_6 * t199 + A_ij_7 * t144 + A_ij_8 * t143;
-    const jg_real t248 = A_ij_3 * t200 + A_ij_4 * t151 + A_ij_5 * t150;
-    const jg_real t249 = A_ij_6 * t200 + A_ij_7 * t151 + A_ij_8 * t150;
-    const jg_real t250 = A_ij_3 * t201 + A_ij_4 * t159 + A_ij_5 * t158;
-    const jg_real t251 = A_ij_6 * t201 + A_ij_7 * t159 + A_ij_8 * t158;
-    const jg_real t252 = C_j[5] * t250 - C_j[4] * t251 + (C_j[8] * t246 - C_j[7] * t247 + (C_j[2] * t248 - C_j[1] *
-        t249));
-    phi_q_t_lambda_q[59] = t252;
-    phi_q_t_lambda_q[87] = t252;
-    const jg_real t253 = A_ij_3 * t204 + A_ij_4 * t171 + A_ij_5 * t170;
-    const jg_real t254 = A_ij_6 * t204 + A_ij_7 * t171 + A_ij_8 * t170;
-    const jg_real t255 = C_j[1] * t161 + C_j[7] * t162;
-    const jg_real t256 = C_j[2] * t161 + C_j[8] * t162;
-    const jg_real t257 = A_ijt_f_star_2 * t255 - A_ijt_f_star_1 * t256 + (C_j[5] * t253 - C_j[4] * t254);
-    phi_q_t_lambda_q[60] = t257;
-    phi_q_t_lambda_q[96] = t257;
-    const jg_real t258 = A_ij_6 * t206 + A_ij_7 * t176 + A_ij_8 * t177;
-    const jg_real t259 = A_ij_3 * t206 + A_ij_4 * t176 + A_ij_5 * t177;
-    const jg_real t260 = A_ij_3 * t207 + A_ij_4 * t182 + A_ij_5 * t181;
-    const jg_real t261 = A_ij_6 * t207 + A_ij_7 * t182 + A_ij_8 * t181;
-    const jg_real t262 = C_j[7] * t258 - C_j[8] * t259 + (C_j[2] * t260 - C_j[1] * t261);
-    phi_q_t_lambda_q[61] = t262;
-    phi_q_t_lambda_q[105] = t262;
-    phi_q_t_lambda_q[62] = t110 - A_ij_h_j_0 * t111 - A_ij_f_j_0 * t115 + A_ij_g_j_0 * t119 + t123;
-    phi_q_t_lambda_q[63] = t195 - A_ij_h_j_1 * t111 - A_ij_f_j_1 * t115 + A_ij_g_j_1 * t119 + t196;
-    phi_q_t_lambda_q[64] = t214 - A_ij_h_j_2 * t111 - A_ij_f_j_2 * t115 + A_ij_g_j_2 * t119 + t215;
-    phi_q_t_lambda_q[65] = -t221;
-    const jg_real t263 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[66] = t263;
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
+    const jg_real t83 = lambda[3] * A_ijt_g_star_0;
+    /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
+    const jg_real t85 = lambda[4] * A_ijt_h_star_0;
+    /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t227 + A_ijt_h_star_0 * t233 + A_ijt_f_star_0 * t239 + s_j[1] * t263;
-    const jg_real t267 = A_ijt_g_star_0 * t243;
-    const jg_real t268 = A_ijt_h_star_0 * t244;
-    const jg_real t269 = A_ijt_f_star_0 * t245;
-    const jg_real t270 = s_j[0] * t263;
-    phi_q_t_lambda_q[68] = -(t241 + t270 + (t237 + t269 + (t225 + t267 + (t231 + t268))));
-    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t227 + A_ijt_h_star_2 * t233 + A_ijt_f_star_2 * t239 + s_j[1] * t221;
-    const jg_real t271 = A_ij_0 * t199 + A_ij_1 * t144 + A_ij_2 * t143;
-    const jg_real t272 = A_ij_0 * t200 + A_ij_1 * t151 + A_ij_2 * t150;
-    const jg_real t273 = A_ij_0 * t201 + A_ij_1 * t159 + A_ij_2 * t158;
-    const jg_real t274 = C_j[3] * t251 - C_j[5] * t273 + (C_j[6] * t247 - C_j[8] * t271 + (C_j[0] * t249 - C_j[2] *
-        t272));
-    phi_q_t_lambda_q[70] = t274;
-    phi_q_t_lambda_q[88] = t274;
-    const jg_real t275 = A_ij_0 * t204 + A_ij_1 * t171 + A_ij_2 * t170;
-    const jg_real t276 = C_j[0] * t161 + C_j[6] * t162;
-    const jg_real t277 = A_ijt_f_star_0 * t256 - A_ijt_f_star_2 * t276 + (C_j[3] * t254 - C_j[5] * t275);
-    phi_q_t_lambda_q[71] = t277;
-    phi_q_t_lambda_q[97] = t277;
-    const jg_real t278 = A_ij_0 * t206 + A_ij_1 * t176 + A_ij_2 * t177;
-    const jg_real t279 = A_ij_0 * t207 + A_ij_1 * t182 + A_ij_2 * t181;
-    const jg_real t280 = C_j[8] * t278 - C_j[6] * t258 + (C_j[0] * t261 - C_j[2] * t279);
-    phi_q_t_lambda_q[72] = t280;
-    phi_q_t_lambda_q[106] = t280;
-    phi_q_t_lambda_q[73] = t124 - A_ij_h_j_0 * t125 - A_ij_f_j_0 * t129 + A_ij_g_j_0 * t133 + t137;
-    phi_q_t_lambda_q[74] = t197 - A_ij_h_j_1 * t125 - A_ij_f_j_1 * t129 + A_ij_g_j_1 * t133 + t198;
-    phi_q_t_lambda_q[75] = t216 - A_ij_h_j_2 * t125 - A_ij_f_j_2 * t129 + A_ij_g_j_2 * t133 + t217;
-    phi_q_t_lambda_q[77] = -t263;
-    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t224 + A_ijt_h_star_0 * t230 + A_ijt_f_star_0 * t236 + s_j[2] * t263;
-    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t224 + A_ijt_h_star_1 * t230 + A_ijt_f_star_1 * t236 + s_j[2] * t222;
-    phi_q_t_lambda_q[80] = -(t242 + t270 + (t240 + t269 + (t228 + t267 + (t234 + t268))));
-    const jg_real t281 = C_j[4] * t273 - C_j[3] * t250 + (C_j[7] * t271 - C_j[6] * t246 + (C_j[1] * t272 - C_j[0] *
-        t248));
-    phi_q_t_lambda_q[81] = t281;
-    phi_q_t_lambda_q[89] = t281;
-    const jg_real t282 = A_ijt_f_star_1 * t276 - A_ijt_f_star_0 * t255 + (C_j[4] * t275 - C_j[3] * t253);
-    phi_q_t_lambda_q[82] = t282;
-    phi_q_t_lambda_q[98] = t282;
-    const jg_real t283 = C_j[6] * t259 - C_j[7] * t278 + (C_j[1] * t279 - C_j[0] * t260);
-    phi_q_t_lambda_q[83] = t283;
-    phi_q_t_lambda_q[107] = t283;
-    const jg_real t284 = cosine_1 * cosine_1;
-    const jg_real t285 = cosine_2 * t284 * sine_2;
-    const jg_real t286 = sine_1 * H_8;
-    const jg_real t287 = sine_2 * sine_2;
-    const jg_real t288 = t284 * t287;
-    const jg_real t289 = sine_1 * sine_1;
-    const jg_real t290 = t289 + t288;
-    const jg_real t291 = H_3 * t285 - H_0 * t286 - H_6 * t290;
-    const jg_real t292 = H_4 * t285 - H_1 * t286 - H_7 * t290;
-    const jg_real t293 = sine_1 * t286 + H_5 * t285 - H_8 * t290;
-    const jg_real t294 = cosine_2 * cosine_2;
-    const jg_real t295 = t284 * t294;
-    const jg_real t296 = t289 + t295;
-    const jg_real t297 = cosine_1 * sine_1 * sine_2;
-    const jg_real t298 = H_6 * t285 - (H_0 * t297 + H_3 * t296);
-    const jg_real t299 = H_7 * t285 - (H_1 * t297 + H_4 * t296);
-    const jg_real t300 = sine_1 * t297 - H_5 * t296 + H_8 * t285;
-    const jg_real t301 = t295 + t288;
-    const jg_real t302 = H_0 * t301 + H_3 * t297 + H_6 * t286;
-    const jg_real t303 = H_1 * t301 + H_4 * t297 + H_7 * t286;
-    const jg_real t304 = sine_1 * t301 - H_5 * t297 - H_8 * t286;
-    phi_q_t_lambda_q[90] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t298 + C_i[3] * t299 + C_i[6] * t300) + A_ij_h_j_1 *
-        (C_i[1] * t298 + C_i[4] * t299 + C_i[7] * t300) + A_ij_h_j_2 * (C_i[2] * t298 + C_i[5] * t299 + C_i[8] *
-        t300)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t291 + C_i[3] * t292 + C_i[6] * t293) + A_ij_f_j_1 * (C_i[1] *
-        t291 + C_i[4] * t292 + C_i[7] * t293) + A_ij_f_j_2 * (C_i[2] * t291 + C_i[5] * t292 + C_i[8] * t293)) +
-        lambda[5] * (A_ij_g_j_0 * (C_i[6] * t304 - (C_i[0] * t302 + C_i[3] * t303)) + A_ij_g_j_1 * (C_i[7] * t304 -
-        (C_i[1] * t302 + C_i[4] * t303)) + A_ij_g_j_2 * (C_i[8] * t304 - (C_i[2] * t302 + C_i[5] * t303)));
-    const jg_real t305 = sine_1 * sine_2;
-    const jg_real t306 = cosine_2 * sine_1;
-    const jg_real t307 = H_6 * t305 - H_3 * t306;
-    const jg_real t308 = H_7 * t305 - H_4 * t306;
-    const jg_real t309 = H_8 * t305 - H_5 * t306;
-    const jg_real t310 = lambda[5] * (A_ij_g_j_0 * (C_i[0] * t307 + C_i[3] * t308 + C_i[6] * t309) + A_ij_g_j_1 *
-        (C_i[1] * t307 + C_i[4] * t308 + C_i[7] * t309) + A_ij_g_j_2 * (C_i[2] * t307 + C_i[5] * t308 + C_i[8] *
-        t309));
-    const jg_real t311 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t312 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t313 = C_i[0] * t311 + C_i[3] * t312;
-    const jg_real t314 = C_i[1] * t311 + C_i[4] * t312;
-    const jg_real t315 = C_i[2] * t311 + C_i[5] * t312;
-    phi_q_t_lambda_q[91] = t310 + lambda[3] * (A_ij_h_j_0 * t313 + A_ij_h_j_1 * t314 + A_ij_h_j_2 * t315) * sine_2 +
-        lambda[4] * (A_ij_f_j_0 * t313 + A_ij_f_j_1 * t314 + A_ij_f_j_2 * t315) * cosine_2;
-    const jg_real t316 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t317 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t318 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t319 = H_1 * H_8 + sine_1 * H_7;
-    phi_q_t_lambda_q[92] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t316 + C_i[3] * t317) + A_ij_h_j_1 * (C_i[1] * t316 +
-        C_i[4] * t317) + A_ij_h_j_2 * (C_i[2] * t316 + C_i[5] * t317)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t318 +
-        C_i[3] * t319) + A_ij_f_j_1 * (C_i[1] * t318 + C_i[4] * t319) + A_ij_f_j_2 * (C_i[2] * t318 + C_i[5] *
-        t319));
-    const jg_real t320 = H_0 * t306;
-    const jg_real t321 = t320 - cosine_1 * H_6;
-    const jg_real t322 = H_1 * t306;
-    const jg_real t323 = t322 - cosine_1 * H_7;
-    const jg_real t324 = sine_1 * t306;
-    const jg_real t325 = t324 + cosine_1 * H_8;
-    const jg_real t326 = sine_2 * H_8;
-    const jg_real t327 = cosine_1 * t294;
-    const jg_real t328 = H_3 * t326 - t320 + H_6 * t327;
-    const jg_real t329 = H_4 * t326 - t322 + H_7 * t327;
-    const jg_real t330 = t324 + H_5 * t326 + H_8 * t327;
-    const jg_real t331 = H_0 * t305;
-    const jg_real t332 = cosine_1 * t287;
-    const jg_real t333 = t331 - H_3 * t332 - H_6 * t326;
-    const jg_real t334 = H_1 * t305;
-    const jg_real t335 = t334 - H_4 * t332 - H_7 * t326;
-    const jg_real t336 = sine_1 * t305;
-    const jg_real t337 = t336 + H_5 * t332 + H_8 * t326;
-    const jg_real t338 = cosine_1 * H_3 - t331;
-    const jg_real t339 = cosine_1 * H_4 - t334;
-    const jg_real t340 = t336 + cosine_1 * H_5;
-    phi_q_t_lambda_q[99] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t321 + C_i[3] * t323 - C_i[6] * t325) + A_ij_h_j_1 *
-        (C_i[1] * t321 + C_i[4] * t323 - C_i[7] * t325) + A_ij_h_j_2 * (C_i[2] * t321 + C_i[5] * t323 - C_i[8] *
-        t325)) + lambda[3] * (A_ij_h_j_0 * (C_i[0] * t328 + C_i[3] * t329 + C_i[6] * t330) + A_ij_h_j_1 * (C_i[1] *
-        t328 + C_i[4] * t329 + C_i[7] * t330) + A_ij_h_j_2 * (C_i[2] * t328 + C_i[5] * t329 + C_i[8] * t330)) +
-        lambda[4] * (A_ij_f_j_0 * (C_i[0] * t333 + C_i[3] * t335 - C_i[6] * t337) + A_ij_f_j_1 * (C_i[1] * t333 +
-        C_i[4] * t335 - C_i[7] * t337) + A_ij_f_j_2 * (C_i[2] * t333 + C_i[5] * t335 - C_i[8] * t337)) + lambda[4] *
-        (A_ij_f_j_0 * (C_i[0] * t338 + C_i[3] * t339 + C_i[6] * t340) + A_ij_f_j_1 * (C_i[1] * t338 + C_i[4] * t339
-        + C_i[7] * t340) + A_ij_f_j_2 * (C_i[2] * t338 + C_i[5] * t339 + C_i[8] * t340)) + t310;
-    const jg_real t341 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t342 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t343 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t344 = C_i[0] * t341 + C_i[3] * t342 + C_i[6] * t343;
-    const jg_real t345 = C_i[1] * t341 + C_i[4] * t342 + C_i[7] * t343;
-    const jg_real t346 = C_i[2] * t341 + C_i[5] * t342 + C_i[8] * t343;
-    phi_q_t_lambda_q[100] = -(lambda[3] * (A_ij_h_j_0 * t344 + A_ij_h_j_1 * t345 + A_ij_h_j_2 * t346) * sine_2 +
-        lambda[4] * (A_ij_f_j_0 * t344 + A_ij_f_j_1 * t345 + A_ij_f_j_2 * t346) * cosine_2 + lambda[5] * t294 * t76
-        + lambda[5] * t287 * t76);
-    const jg_real t347 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
-    const jg_real t348 = lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2);
-    const jg_real t349 = cosine_2 * t347 - sine_2 * t348;
-    phi_q_t_lambda_q[101] = t349;
-    phi_q_t_lambda_q[109] = t349;
-    phi_q_t_lambda_q[108] = sine_1 * t71 + sine_1 * t73 + cosine_1 * t347 * sine_2 + cosine_1 * t348 * cosine_2;
-    phi_q_t_lambda_q[110] = -t74;
+    const jg_real t87 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t88 = s_j[1] * t69 - s_j[2] * t68;
+    phi_q_t_lambda_q[12] = t81 - A_ij_h_j_0 * t83 - A_ij_f_j_0 * t85 - A_ij_g_j_0 * t87 + t88;
+    const jg_real t89 = A_ij_3 * t80;
+    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
+    const jg_real t91 = lambda[3] * A_ijt_g_star_1;
+    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
+    const jg_real t93 = lambda[4] * A_ijt_h_star_1;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    const jg_real t95 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t96 = s_j[2] * t67 - s_j[0] * t69;
+    phi_q_t_lambda_q[13] = t89 - A_ij_h_j_0 * t91 - A_ij_f_j_0 * t93 - A_ij_g_j_0 * t95 + t96;
+    const jg_real t97 = A_ij_6 * t80;
+    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
+    const jg_real t99 = lambda[3] * A_ijt_g_star_2;
+    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
+    const jg_real t101 = lambda[4] * A_ijt_h_star_2;
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real t103 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t104 = s_j[0] * t68 - s_j[1] * t67;
+    phi_q_t_lambda_q[14] = t97 - A_ij_h_j_0 * t99 - A_ij_f_j_0 * t101 - A_ij_g_j_0 * t103 + t104;
+    const jg_real t105 = cosine_1 * lambda[3] * cosine_2;
+    const jg_real t106 = sine_1 * lambda[3];
+    const jg_real t107 = H_0 * t105 + H_6 * t106;
+    const jg_real t108 = H_1 * t105 + H_7 * t106;
+    const jg_real t109 = H_8 * t106 - sine_1 * t105;
+    const jg_real t110 = C_i[2] * t107 + C_i[5] * t108 + C_i[8] * t109;
+    const jg_real t111 = C_i[1] * t107 + C_i[4] * t108 + C_i[7] * t109;
+    const jg_real t112 = cosine_1 * lambda[4] * sine_2;
+    const jg_real t113 = sine_1 * lambda[4];
+    const jg_real t114 = H_0 * t112 + H_3 * t113;
+    const jg_real t115 = H_1 * t112 + H_4 * t113;
+    const jg_real t116 = sine_1 * t112 - H_5 * t113;
+    const jg_real t117 = C_i[8] * t116 - (C_i[2] * t114 + C_i[5] * t115);
+    const jg_real t118 = C_i[7] * t116 - (C_i[1] * t114 + C_i[4] * t115);
+    const jg_real t119 = cosine_1 * lambda[5];
+    const jg_real t120 = sine_2 * t119;
+    const jg_real t121 = cosine_2 * t119;
+    const jg_real t122 = H_6 * t120 - H_3 * t121;
+    const jg_real t123 = H_7 * t120 - H_4 * t121;
+    const jg_real t124 = H_8 * t120 - H_5 * t121;
+    const jg_real t125 = C_i[2] * t122 + C_i[5] * t123 + C_i[8] * t124;
+    const jg_real t126 = C_i[1] * t122 + C_i[4] * t123 + C_i[7] * t124;
+    const jg_real t127 = A_ij_g_j_1 * t125 - A_ij_g_j_2 * t126 + (A_ij_h_j_1 * t110 - A_ij_h_j_2 * t111 +
+        (A_ij_f_j_1 * t117 - A_ij_f_j_2 * t118));
+    phi_q_t_lambda_q[15] = t127;
+    phi_q_t_lambda_q[84] = t127;
+    const jg_real t128 = cosine_2 * lambda[4];
+    const jg_real t129 = sine_2 * lambda[3];
+    const jg_real t130 = C_j[0] * t128 + C_j[6] * t129;
+    const jg_real t131 = C_j[1] * t128 + C_j[7] * t129;
+    const jg_real t132 = C_j[2] * t128 + C_j[8] * t129;
+    const jg_real t133 = A_ij_2 * t130 + A_ij_5 * t131 + A_ij_8 * t132;
+    const jg_real t134 = A_ij_1 * t130 + A_ij_4 * t131 + A_ij_7 * t132;
+    const jg_real t135 = sine_2 * lambda[5];
+    const jg_real t136 = cosine_2 * lambda[5];
+    const jg_real t137 = H_3 * t135 + H_6 * t136;
+    const jg_real t138 = H_4 * t135 + H_7 * t136;
+    const jg_real t139 = H_5 * t135 + H_8 * t136;
+    const jg_real t140 = C_i[2] * t137 + C_i[5] * t138 + C_i[8] * t139;
+    const jg_real t141 = C_i[1] * t137 + C_i[4] * t138 + C_i[7] * t139;
+    const jg_real t142 = f_star_1 * t133 - f_star_2 * t134 + (A_ij_g_j_1 * t140 - A_ij_g_j_2 * t141);
+    phi_q_t_lambda_q[16] = t142;
+    phi_q_t_lambda_q[93] = t142;
+    const jg_real t143 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+        h_star_2 - A_ij_h_j_2 * h_star_1);
+    phi_q_t_lambda_q[17] = t143;
+    phi_q_t_lambda_q[102] = t143;
+    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real t145 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t23 + A_ij_f_j_0 * t34 + A_ij_g_j_0 * t44 + lambda[1] * t145;
+    const jg_real t146 = A_ij_h_j_0 * t62;
+    const jg_real t147 = A_ij_f_j_0 * t64;
+    const jg_real t148 = A_ij_g_j_0 * t66;
+    const jg_real t149 = lambda[0] * t145;
+    phi_q_t_lambda_q[19] = -(t57 + t149 + (t41 + t148 + (t17 + t146 + (t31 + t147))));
+    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t23 + A_ij_f_j_2 * t34 + A_ij_g_j_2 * t44 + lambda[1] * t56;
+    const jg_real t150 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[21] = t150;
+    phi_q_t_lambda_q[43] = t150;
+    const jg_real t151 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[22] = t151;
+    phi_q_t_lambda_q[46] = t151;
+    const jg_real t152 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[23] = t152;
+    phi_q_t_lambda_q[49] = t152;
+    const jg_real t153 = A_ij_1 * t80;
+    const jg_real t154 = s_j[1] * t152 - s_j[2] * t151;
+    phi_q_t_lambda_q[24] = t153 - A_ij_h_j_1 * t83 - A_ij_f_j_1 * t85 - A_ij_g_j_1 * t87 + t154;
+    const jg_real t155 = A_ij_4 * t80;
+    const jg_real t156 = s_j[2] * t150 - s_j[0] * t152;
+    phi_q_t_lambda_q[25] = t155 - A_ij_h_j_1 * t91 - A_ij_f_j_1 * t93 - A_ij_g_j_1 * t95 + t156;
+    const jg_real t157 = A_ij_7 * t80;
+    const jg_real t158 = s_j[0] * t151 - s_j[1] * t150;
+    phi_q_t_lambda_q[26] = t157 - A_ij_h_j_1 * t99 - A_ij_f_j_1 * t101 - A_ij_g_j_1 * t103 + t158;
+    const jg_real t159 = C_i[0] * t107 + C_i[3] * t108 + C_i[6] * t109;
+    const jg_real t160 = C_i[6] * t116 - (C_i[0] * t114 + C_i[3] * t115);
+    const jg_real t161 = C_i[0] * t122 + C_i[3] * t123 + C_i[6] * t124;
+    const jg_real t162 = A_ij_g_j_2 * t161 - A_ij_g_j_0 * t125 + (A_ij_h_j_2 * t159 - A_ij_h_j_0 * t110 +
+        (A_ij_f_j_2 * t160 - A_ij_f_j_0 * t117));
+    phi_q_t_lambda_q[27] = t162;
+    phi_q_t_lambda_q[85] = t162;
+    const jg_real t163 = A_ij_0 * t130 + A_ij_3 * t131 + A_ij_6 * t132;
+    const jg_real t164 = C_i[0] * t137 + C_i[3] * t138 + C_i[6] * t139;
+    const jg_real t165 = f_star_2 * t163 - f_star_0 * t133 + (A_ij_g_j_2 * t164 - A_ij_g_j_0 * t140);
+    phi_q_t_lambda_q[28] = t165;
+    phi_q_t_lambda_q[94] = t165;
+    const jg_real t166 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+        h_star_0 - A_ij_h_j_0 * h_star_2);
+    phi_q_t_lambda_q[29] = t166;
+    phi_q_t_lambda_q[103] = t166;
+    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t16 + A_ij_f_j_0 * t30 + A_ij_g_j_0 * t40 + lambda[2] * t145;
+    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t16 + A_ij_f_j_1 * t30 + A_ij_g_j_1 * t40 + lambda[2] * t59;
+    phi_q_t_lambda_q[32] = -(t60 + t149 + (t45 + t148 + (t24 + t146 + (t35 + t147))));
+    const jg_real t167 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[33] = t167;
+    phi_q_t_lambda_q[44] = t167;
+    const jg_real t168 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[34] = t168;
+    phi_q_t_lambda_q[47] = t168;
+    const jg_real t169 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[35] = t169;
+    phi_q_t_lambda_q[50] = t169;
+    const jg_real t170 = A_ij_2 * t80;
+    const jg_real t171 = s_j[1] * t169 - s_j[2] * t168;
+    phi_q_t_lambda_q[36] = t170 - A_ij_h_j_2 * t83 - A_ij_f_j_2 * t85 - A_ij_g_j_2 * t87 + t171;
+    const jg_real t172 = A_ij_5 * t80;
+    const jg_real t173 = s_j[2] * t167 - s_j[0] * t169;
+    phi_q_t_lambda_q[37] = t172 - A_ij_h_j_2 * t91 - A_ij_f_j_2 * t93 - A_ij_g_j_2 * t95 + t173;
+    const jg_real t174 = A_ij_8 * t80;
+    const jg_real t175 = s_j[0] * t168 - s_j[1] * t167;
+    phi_q_t_lambda_q[38] = t174 - A_ij_h_j_2 * t99 - A_ij_f_j_2 * t101 - A_ij_g_j_2 * t103 + t175;
+    const jg_real t176 = A_ij_g_j_0 * t126 - A_ij_g_j_1 * t161 + (A_ij_h_j_0 * t111 - A_ij_h_j_1 * t159 +
+        (A_ij_f_j_0 * t118 - A_ij_f_j_1 * t160));
+    phi_q_t_lambda_q[39] = t176;
+    phi_q_t_lambda_q[86] = t176;
+    const jg_real t177 = f_star_0 * t134 - f_star_1 * t163 + (A_ij_g_j_0 * t141 - A_ij_g_j_1 * t164);
+    phi_q_t_lambda_q[40] = t177;
+    phi_q_t_lambda_q[95] = t177;
+    const jg_real t178 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+        h_star_1 - A_ij_h_j_1 * h_star_0);
+    phi_q_t_lambda_q[41] = t178;
+    phi_q_t_lambda_q[104] = t178;
+    const jg_real t179 = A_ij_h_j_0 * lambda[3];
+    const jg_real t180 = A_ij_f_j_0 * lambda[4];
+    const jg_real t181 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[51] = t81 - t179 * A_ijt_g_star_0 - t180 * A_ijt_h_star_0 - t181 * A_ijt_f_star_0 + t88;
+    const jg_real t182 = A_ij_h_j_1 * lambda[3];
+    const jg_real t183 = A_ij_f_j_1 * lambda[4];
+    const jg_real t184 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[52] = t153 - t182 * A_ijt_g_star_0 - t183 * A_ijt_h_star_0 - t184 * A_ijt_f_star_0 + t154;
+    const jg_real t185 = A_ij_h_j_2 * lambda[3];
+    const jg_real t186 = A_ij_f_j_2 * lambda[4];
+    const jg_real t187 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[53] = t170 - t185 * A_ijt_g_star_0 - t186 * A_ijt_h_star_0 - t187 * A_ijt_f_star_0 + t171;
+    const jg_real t188 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[54] = t188;
+    const jg_real t189 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[76] = t189;
+    phi_q_t_lambda_q[55] = -t189;
+    const jg_real t190 = C_j[8] * lambda[3];
+    const jg_real t191 = A_ijt_g_star_2 * t190;
+    const jg_real t192 = C_j[7] * lambda[3];
+    const jg_real t193 = A_ijt_g_star_1 * t192;
+    const jg_real t194 = C_j[2] * lambda[4];
+    const jg_real t195 = A_ijt_h_star_2 * t194;
+    const jg_real t196 = C_j[1] * lambda[4];
+    const jg_real t197 = A_ijt_h_star_1 * t196;
+    const jg_real t198 = C_j[5] * lambda[5];
+    const jg_real t199 = A_ijt_f_star_2 * t198;
+    const jg_real t200 = C_j[4] * lambda[5];
+    const jg_real t201 = A_ijt_f_star_1 * t200;
+    const jg_real t202 = s_j[2] * t188;
+    const jg_real t203 = s_j[1] * t189;
+    phi_q_t_lambda_q[56] = -(t202 + t203 + (t199 + t201 + (t191 + t193 + (t195 + t197))));
+    const jg_real t204 = C_j[6] * lambda[3];
+    const jg_real t205 = C_j[0] * lambda[4];
+    const jg_real t206 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t204 + A_ijt_h_star_1 * t205 + A_ijt_f_star_1 * t206 + s_j[0] * t189;
+    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t204 + A_ijt_h_star_2 * t205 + A_ijt_f_star_2 * t206 + s_j[0] * t188;
+    const jg_real t207 = A_ij_3 * t159 + A_ij_4 * t111 + A_ij_5 * t110;
+    const jg_real t208 = A_ij_6 * t159 + A_ij_7 * t111 + A_ij_8 * t110;
+    const jg_real t209 = A_ij_3 * t160 + A_ij_4 * t118 + A_ij_5 * t117;
+    const jg_real t210 = A_ij_6 * t160 + A_ij_7 * t118 + A_ij_8 * t117;
+    const jg_real t211 = A_ij_3 * t161 + A_ij_4 * t126 + A_ij_5 * t125;
+    const jg_real t212 = A_ij_6 * t161 + A_ij_7 * t126 + A_ij_8 * t125;
+    const jg_real t213 = C_j[5] * t211 - C_j[4] * t212 + (C_j[8] * t207 - C_j[7] * t208 + (C_j[2] * t209 - C_j[1] *
+        t210));
+    phi_q_t_lambda_q[59] = t213;
+    phi_q_t_lambda_q[87] = t213;
+    const jg_real t214 = A_ij_3 * t164 + A_ij_4 * t141 + A_ij_5 * t140;
+    const jg_real t215 = A_ij_6 * t164 + A_ij_7 * t141 + A_ij_8 * t140;
+    const jg_real t216 = A_ijt_f_star_2 * t131 - A_ijt_f_star_1 * t132 + (C_j[5] * t214 - C_j[4] * t215);
+    phi_q_t_lambda_q[60] = t216;
+    phi_q_t_lambda_q[96] = t216;
+    const jg_real t217 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+        A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
+    phi_q_t_lambda_q[61] = t217;
+    phi_q_t_lambda_q[105] = t217;
+    phi_q_t_lambda_q[62] = t89 - t179 * A_ijt_g_star_1 - t180 * A_ijt_h_star_1 - t181 * A_ijt_f_star_1 + t96;
+    phi_q_t_lambda_q[63] = t155 - t182 * A_ijt_g_star_1 - t183 * A_ijt_h_star_1 - t184 * A_ijt_f_star_1 + t156;
+    phi_q_t_lambda_q[64] = t172 - t185 * A_ijt_g_star_1 - t186 * A_ijt_h_star_1 - t187 * A_ijt_f_star_1 + t173;
+    phi_q_t_lambda_q[65] = -t188;
+    const jg_real t218 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[66] = t218;
+    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t192 + A_ijt_h_star_0 * t196 + A_ijt_f_star_0 * t200 + s_j[1] * t218;
+    const jg_real t219 = A_ijt_g_star_0 * t204;
+    const jg_real t220 = A_ijt_h_star_0 * t205;
+    const jg_real t221 = A_ijt_f_star_0 * t206;
+    const jg_real t222 = s_j[0] * t218;
+    phi_q_t_lambda_q[68] = -(t202 + t222 + (t199 + t221 + (t191 + t219 + (t195 + t220))));
+    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t192 + A_ijt_h_star_2 * t196 + A_ijt_f_star_2 * t200 + s_j[1] * t188;
+    const jg_real t223 = A_ij_0 * t159 + A_ij_1 * t111 + A_ij_2 * t110;
+    const jg_real t224 = A_ij_0 * t160 + A_ij_1 * t118 + A_ij_2 * t117;
+    const jg_real t225 = A_ij_0 * t161 + A_ij_1 * t126 + A_ij_2 * t125;
+    const jg_real t226 = C_j[3] * t212 - C_j[5] * t225 + (C_j[6] * t208 - C_j[8] * t223 + (C_j[0] * t210 - C_j[2] *
+        t224));
+    phi_q_t_lambda_q[70] = t226;
+    phi_q_t_lambda_q[88] = t226;
+    const jg_real t227 = A_ij_0 * t164 + A_ij_1 * t141 + A_ij_2 * t140;
+    const jg_real t228 = A_ijt_f_star_0 * t132 - A_ijt_f_star_2 * t130 + (C_j[3] * t215 - C_j[5] * t227);
+    phi_q_t_lambda_q[71] = t228;
+    phi_q_t_lambda_q[97] = t228;
+    const jg_real t229 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+        A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
+    phi_q_t_lambda_q[72] = t229;
+    phi_q_t_lambda_q[106] = t229;
+    phi_q_t_lambda_q[73] = t97 - t179 * A_ijt_g_star_2 - t180 * A_ijt_h_star_2 - t181 * A_ijt_f_star_2 + t104;
+    phi_q_t_lambda_q[74] = t157 - t182 * A_ijt_g_star_2 - t183 * A_ijt_h_star_2 - t184 * A_ijt_f_star_2 + t158;
+    phi_q_t_lambda_q[75] = t174 - t185 * A_ijt_g_star_2 - t186 * A_ijt_h_star_2 - t187 * A_ijt_f_star_2 + t175;
+    phi_q_t_lambda_q[77] = -t218;
+    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t190 + A_ijt_h_star_0 * t194 + A_ijt_f_star_0 * t198 + s_j[2] * t218;
+    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t190 + A_ijt_h_star_1 * t194 + A_ijt_f_star_1 * t198 + s_j[2] * t189;
+    phi_q_t_lambda_q[80] = -(t203 + t222 + (t201 + t221 + (t193 + t219 + (t197 + t220))));
+    const jg_real t230 = C_j[4] * t225 - C_j[3] * t211 + (C_j[7] * t223 - C_j[6] * t207 + (C_j[1] * t224 - C_j[0] *
+        t209));
+    phi_q_t_lambda_q[81] = t230;
+    phi_q_t_lambda_q[89] = t230;
+    const jg_real t231 = A_ijt_f_star_1 * t130 - A_ijt_f_star_0 * t131 + (C_j[4] * t227 - C_j[3] * t214);
+    phi_q_t_lambda_q[82] = t231;
+    phi_q_t_lambda_q[98] = t231;
+    const jg_real t232 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+        A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
+    phi_q_t_lambda_q[83] = t232;
+    phi_q_t_lambda_q[107] = t232;
+    const jg_real t233 = cosine_1 * cosine_1;
+    const jg_real t234 = cosine_2 * t233 * sine_2;
+    const jg_real t235 = sine_1 * H_8;
+    const jg_real t236 = sine_2 * sine_2;
+    const jg_real t237 = t233 * t236;
+    const jg_real t238 = sine_1 * sine_1;
+    const jg_real t239 = t238 + t237;
+    const jg_real t240 = H_3 * t234 - H_0 * t235 - H_6 * t239;
+    const jg_real t241 = H_4 * t234 - H_1 * t235 - H_7 * t239;
+    const jg_real t242 = sine_1 * t235 + H_5 * t234 - H_8 * t239;
+    const jg_real t243 = cosine_2 * cosine_2;
+    const jg_real t244 = t233 * t243;
+    const jg_real t245 = t238 + t244;
+    const jg_real t246 = cosine_1 * sine_1 * sine_2;
+    const jg_real t247 = H_6 * t234 - (H_0 * t246 + H_3 * t245);
+    const jg_real t248 = H_7 * t234 - (H_1 * t246 + H_4 * t245);
+    const jg_real t249 = sine_1 * t246 - H_5 * t245 + H_8 * t234;
+    const jg_real t250 = t244 + t237;
+    const jg_real t251 = H_0 * t250 + H_3 * t246 + H_6 * t235;
+    const jg_real t252 = H_1 * t250 + H_4 * t246 + H_7 * t235;
+    const jg_real t253 = sine_1 * t250 - H_5 * t246 - H_8 * t235;
+    phi_q_t_lambda_q[90] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t247 + C_i[3] * t248 + C_i[6] * t249) + A_ij_h_j_1 *
+        (C_i[1] * t247 + C_i[4] * t248 + C_i[7] * t249) + A_ij_h_j_2 * (C_i[2] * t247 + C_i[5] * t248 + C_i[8] *
+        t249)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t240 + C_i[3] * t241 + C_i[6] * t242) + A_ij_f_j_1 * (C_i[1] *
+        t240 + C_i[4] * t241 + C_i[7] * t242) + A_ij_f_j_2 * (C_i[2] * t240 + C_i[5] * t241 + C_i[8] * t242)) +
+        lambda[5] * (A_ij_g_j_0 * (C_i[6] * t253 - (C_i[0] * t251 + C_i[3] * t252)) + A_ij_g_j_1 * (C_i[7] * t253 -
+        (C_i[1] * t251 + C_i[4] * t252)) + A_ij_g_j_2 * (C_i[8] * t253 - (C_i[2] * t251 + C_i[5] * t252)));
+    const jg_real t254 = sine_1 * sine_2;
+    const jg_real t255 = cosine_2 * sine_1;
+    const jg_real t256 = H_6 * t254 - H_3 * t255;
+    const jg_real t257 = H_7 * t254 - H_4 * t255;
+    const jg_real t258 = H_8 * t254 - H_5 * t255;
+    const jg_real t259 = lambda[5] * (A_ij_g_j_0 * (C_i[0] * t256 + C_i[3] * t257 + C_i[6] * t258) + A_ij_g_j_1 *
+        (C_i[1] * t256 + C_i[4] * t257 + C_i[7] * t258) + A_ij_g_j_2 * (C_i[2] * t256 + C_i[5] * t257 + C_i[8] *
+        t258));
+    const jg_real t260 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t261 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t262 = C_i[0] * t260 + C_i[3] * t261;
+    const jg_real t263 = C_i[1] * t260 + C_i[4] * t261;
+    const jg_real t264 = C_i[2] * t260 + C_i[5] * t261;
+    phi_q_t_lambda_q[91] = t259 + lambda[3] * (A_ij_h_j_0 * t262 + A_ij_h_j_1 * t263 + A_ij_h_j_2 * t264) * sine_2 +
+        lambda[4] * (A_ij_f_j_0 * t262 + A_ij_f_j_1 * t263 + A_ij_f_j_2 * t264) * cosine_2;
+    const jg_real t265 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t266 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t267 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t268 = H_1 * H_8 + sine_1 * H_7;
+    phi_q_t_lambda_q[92] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t265 + C_i[3] * t266) + A_ij_h_j_1 * (C_i[1] * t265 +
+        C_i[4] * t266) + A_ij_h_j_2 * (C_i[2] * t265 + C_i[5] * t266)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t267 +
+        C_i[3] * t268) + A_ij_f_j_1 * (C_i[1] * t267 + C_i[4] * t268) + A_ij_f_j_2 * (C_i[2] * t267 + C_i[5] *
+        t268));
+    const jg_real t269 = H_0 * t255;
+    const jg_real t270 = t269 - cosine_1 * H_6;
+    const jg_real t271 = H_1 * t255;
+    const jg_real t272 = t271 - cosine_1 * H_7;
+    const jg_real t273 = sine_1 * t255;
+    const jg_real t274 = t273 + cosine_1 * H_8;
+    const jg_real t275 = sine_2 * H_8;
+    const jg_real t276 = cosine_1 * t243;
+    const jg_real t277 = H_3 * t275 - t269 + H_6 * t276;
+    const jg_real t278 = H_4 * t275 - t271 + H_7 * t276;
+    const jg_real t279 = t273 + H_5 * t275 + H_8 * t276;
+    const jg_real t280 = H_0 * t254;
+    const jg_real t281 = cosine_1 * t236;
+    const jg_real t282 = t280 - H_3 * t281 - H_6 * t275;
+    const jg_real t283 = H_1 * t254;
+    const jg_real t284 = t283 - H_4 * t281 - H_7 * t275;
+    const jg_real t285 = sine_1 * t254;
+    const jg_real t286 = t285 + H_5 * t281 + H_8 * t275;
+    const jg_real t287 = cosine_1 * H_3 - t280;
+    const jg_real t288 = cosine_1 * H_4 - t283;
+    const jg_real t289 = t285 + cosine_1 * H_5;
+    phi_q_t_lambda_q[99] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t270 + C_i[3] * t272 - C_i[6] * t274) + A_ij_h_j_1 *
+        (C_i[1] * t270 + C_i[4] * t272 - C_i[7] * t274) + A_ij_h_j_2 * (C_i[2] * t270 + C_i[5] * t272 - C_i[8] *
+        t274)) + lambda[3] * (A_ij_h_j_0 * (C_i[0] * t277 + C_i[3] * t278 + C_i[6] * t279) + A_ij_h_j_1 * (C_i[1] *
+        t277 + C_i[4] * t278 + C_i[7] * t279) + A_ij_h_j_2 * (C_i[2] * t277 + C_i[5] * t278 + C_i[8] * t279)) +
+        lambda[4] * (A_ij_f_j_0 * (C_i[0] * t282 + C_i[3] * t284 - C_i[6] * t286) + A_ij_f_j_1 * (C_i[1] * t282 +
+        C_i[4] * t284 - C_i[7] * t286) + A_ij_f_j_2 * (C_i[2] * t282 + C_i[5] * t284 - C_i[8] * t286)) + lambda[4] *
+        (A_ij_f_j_0 * (C_i[0] * t287 + C_i[3] * t288 + C_i[6] * t289) + A_ij_f_j_1 * (C_i[1] * t287 + C_i[4] * t288
+        + C_i[7] * t289) + A_ij_f_j_2 * (C_i[2] * t287 + C_i[5] * t288 + C_i[8] * t289)) + t259;
+    const jg_real t290 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t291 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t292 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t293 = C_i[0] * t290 + C_i[3] * t291 + C_i[6] * t292;
+    const jg_real t294 = C_i[1] * t290 + C_i[4] * t291 + C_i[7] * t292;
+    const jg_real t295 = C_i[2] * t290 + C_i[5] * t291 + C_i[8] * t292;
+    phi_q_t_lambda_q[100] = -(lambda[3] * (A_ij_h_j_0 * t293 + A_ij_h_j_1 * t294 + A_ij_h_j_2 * t295) * sine_2 +
+        lambda[4] * (A_ij_f_j_0 * t293 + A_ij_f_j_1 * t294 + A_ij_f_j_2 * t295) * cosine_2 + lambda[5] * t243 * t79
+        + lambda[5] * t236 * t79);
+    const jg_real t296 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
+    const jg_real t297 = lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2);
+    const jg_real t298 = cosine_2 * t296 - sine_2 * t297;
+    phi_q_t_lambda_q[101] = t298;
+    phi_q_t_lambda_q[109] = t298;
+    phi_q_t_lambda_q[108] = sine_1 * t74 + sine_1 * t76 + cosine_1 * t296 * sine_2 + cosine_1 * t297 * cosine_2;
+    phi_q_t_lambda_q[110] = -t77;
 }
 
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -832,12 +787,16 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -850,71 +809,72 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_i_cross_dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t13 = s_j[1] * JG_REAL(2.0);
-    const jg_real t14 = s_j[2] * JG_REAL(2.0);
-    const jg_real t15 = omega_j[2] * t13 - omega_j[1] * t14;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t17 = s_j[0] * JG_REAL(2.0);
-    const jg_real t18 = omega_j[0] * t14 - omega_j[2] * t17;
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t20 = omega_j[1] * t17 - omega_j[0] * t13;
-    const jg_real t21 = A_ij_2 * t15 + A_ij_5 * t18 + A_ij_8 * t20;
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t25 = A_ij_1 * t15 + A_ij_4 * t18 + A_ij_7 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t38 = JG_REAL(2.0) * v_j[0];
-    const jg_real t39 = JG_REAL(2.0) * v_j[1];
-    const jg_real t40 = JG_REAL(2.0) * v_j[2];
-    const jg_real t41 = A_ij_1 * t38 + A_ij_4 * t39 + A_ij_7 * t40;
-    const jg_real t42 = A_ij_2 * t38 + A_ij_5 * t39 + A_ij_8 * t40;
-    const jg_real t43 = JG_REAL(2.0) * v_i[2];
-    const jg_real t44 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t43 - omega_i[2] * t44 + (omega_i[2] * t41 - omega_i[1] * t42 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t21 - omega_i[2] * t25 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t47 = A_ij_0 * t15 + A_ij_3 * t18 + A_ij_6 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t50 = A_ij_0 * t38 + A_ij_3 * t39 + A_ij_6 * t40;
-    const jg_real t51 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t51 - omega_i[0] * t43 + (omega_i[0] * t42 - omega_i[2] * t50 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t47 - omega_i[0] * t21 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t44 - omega_i[1] * t51 + (omega_i[1] * t50 - omega_i[0] * t41 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t25 - omega_i[1] * t47 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -933,14 +893,14 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t65 = cosine_2 * sine_0;
+    const jg_real t62 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t65;
-    const jg_real t67 = cosine_0 * cosine_2;
-    const jg_real H_4 = t67 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t62;
+    const jg_real t64 = cosine_0 * cosine_2;
+    const jg_real H_4 = t64 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -963,73 +923,73 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t83 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real t84 = alphadot[2] * alphadot[2];
-    const jg_real t85 = cosine_1 * cosine_1;
-    const jg_real t86 = cosine_2 * cosine_2;
-    const jg_real t87 = t85 * t86;
-    const jg_real t88 = sine_1 * sine_1;
-    const jg_real t89 = t88 + t87;
+    const jg_real t80 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    const jg_real t81 = alphadot[2] * alphadot[2];
+    const jg_real t82 = cosine_1 * cosine_1;
+    const jg_real t83 = cosine_2 * cosine_2;
+    const jg_real t84 = t82 * t83;
+    const jg_real t85 = sine_1 * sine_1;
+    const jg_real t86 = t85 + t84;
     const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t91 = cosine_1 * sine_1 * sine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t67;
-    const jg_real t93 = cosine_2 * t85 * sine_2;
-    const jg_real t94 = H_6 * t93 - (H_0 * t91 + H_3 * t89);
+    const jg_real t88 = cosine_1 * sine_1 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t64;
+    const jg_real t90 = cosine_2 * t82 * sine_2;
+    const jg_real t91 = H_6 * t90 - (H_0 * t88 + H_3 * t86);
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_7 = t65 * sine_1 - cosine_0 * sine_2;
-    const jg_real t97 = H_7 * t93 - (H_1 * t91 + H_4 * t89);
+    const jg_real H_7 = t62 * sine_1 - cosine_0 * sine_2;
+    const jg_real t94 = H_7 * t90 - (H_1 * t88 + H_4 * t86);
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t99 = sine_1 * t91 - H_5 * t89 + H_8 * t93;
-    const jg_real t100 = alphadot[0] * alphadot[0];
-    const jg_real t101 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t102 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t103 = C_i[0] * t101 + C_i[3] * t102;
-    const jg_real t104 = C_i[1] * t101 + C_i[4] * t102;
-    const jg_real t105 = C_i[2] * t101 + C_i[5] * t102;
-    const jg_real t106 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t96 = sine_1 * t88 - H_5 * t86 + H_8 * t90;
+    const jg_real t97 = alphadot[0] * alphadot[0];
+    const jg_real t98 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t99 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t100 = C_i[0] * t98 + C_i[3] * t99;
+    const jg_real t101 = C_i[1] * t98 + C_i[4] * t99;
+    const jg_real t102 = C_i[2] * t98 + C_i[5] * t99;
+    const jg_real t103 = JG_REAL(2.0) * alphadot[0];
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    const jg_real t110 = JG_REAL(2.0) * alphadot[2];
-    const jg_real t111 = cosine_2 * sine_1;
-    const jg_real t112 = H_0 * t111;
-    const jg_real t113 = t112 - cosine_1 * H_6;
-    const jg_real t114 = H_1 * t111;
-    const jg_real t115 = t114 - cosine_1 * H_7;
-    const jg_real t116 = sine_1 * t111;
-    const jg_real t117 = t116 + cosine_1 * H_8;
-    const jg_real t118 = alphadot[0] * alphadot[1];
-    const jg_real t119 = sine_2 * H_8;
-    const jg_real t120 = cosine_1 * t86;
-    const jg_real t121 = H_3 * t119 - t112 + H_6 * t120;
-    const jg_real t122 = H_4 * t119 - t114 + H_7 * t120;
-    const jg_real t123 = t116 + H_5 * t119 + H_8 * t120;
-    const jg_real t124 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t125 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t126 = C_i[0] * t124 + C_i[3] * t125;
-    const jg_real t127 = C_i[1] * t124 + C_i[4] * t125;
-    const jg_real t128 = C_i[2] * t124 + C_i[5] * t125;
-    const jg_real t129 = alphadot[2] * alphadot[0];
-    const jg_real t130 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t131 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t132 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t133 = C_i[0] * t130 + C_i[3] * t131 + C_i[6] * t132;
-    const jg_real t134 = C_i[1] * t130 + C_i[4] * t131 + C_i[7] * t132;
-    const jg_real t135 = C_i[2] * t130 + C_i[5] * t131 + C_i[8] * t132;
-    const jg_real t136 = alphadot[1] * alphadot[1];
+    const jg_real t107 = JG_REAL(2.0) * alphadot[2];
+    const jg_real t108 = cosine_2 * sine_1;
+    const jg_real t109 = H_0 * t108;
+    const jg_real t110 = t109 - cosine_1 * H_6;
+    const jg_real t111 = H_1 * t108;
+    const jg_real t112 = t111 - cosine_1 * H_7;
+    const jg_real t113 = sine_1 * t108;
+    const jg_real t114 = t113 + cosine_1 * H_8;
+    const jg_real t115 = alphadot[0] * alphadot[1];
+    const jg_real t116 = sine_2 * H_8;
+    const jg_real t117 = cosine_1 * t83;
+    const jg_real t118 = H_3 * t116 - t109 + H_6 * t117;
+    const jg_real t119 = H_4 * t116 - t111 + H_7 * t117;
+    const jg_real t120 = t113 + H_5 * t116 + H_8 * t117;
+    const jg_real t121 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t122 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t123 = C_i[0] * t121 + C_i[3] * t122;
+    const jg_real t124 = C_i[1] * t121 + C_i[4] * t122;
+    const jg_real t125 = C_i[2] * t121 + C_i[5] * t122;
+    const jg_real t126 = alphadot[2] * alphadot[0];
+    const jg_real t127 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t128 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t129 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t130 = C_i[0] * t127 + C_i[3] * t128 + C_i[6] * t129;
+    const jg_real t131 = C_i[1] * t127 + C_i[4] * t128 + C_i[7] * t129;
+    const jg_real t132 = C_i[2] * t127 + C_i[5] * t128 + C_i[8] * t129;
+    const jg_real t133 = alphadot[1] * alphadot[1];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
-    const jg_real t140 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t141 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t142 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t143 = C_i[0] * t141 + C_i[3] * t142;
-    const jg_real t144 = C_i[1] * t141 + C_i[4] * t142;
-    const jg_real t145 = C_i[2] * t141 + C_i[5] * t142;
-    const jg_real t146 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    const jg_real t147 = alphadot[2] * t140;
+    const jg_real t137 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t138 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t139 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t140 = C_i[0] * t138 + C_i[3] * t139;
+    const jg_real t141 = C_i[1] * t138 + C_i[4] * t139;
+    const jg_real t142 = C_i[2] * t138 + C_i[5] * t139;
+    const jg_real t143 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    const jg_real t144 = alphadot[2] * t137;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1040,23 +1000,23 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t84 * t83 - t100 * (A_ij_h_j_0 *
-        (C_i[0] * t94 + C_i[3] * t97 + C_i[6] * t99) + A_ij_h_j_1 * (C_i[1] * t94 + C_i[4] * t97 + C_i[7] * t99) +
-        A_ij_h_j_2 * (C_i[2] * t94 + C_i[5] * t97 + C_i[8] * t99)) + (A_ij_omega_j_cross_h_j_0 * t103 +
-        A_ij_omega_j_cross_h_j_1 * t104 + A_ij_omega_j_cross_h_j_2 * t105) * t106 - (A_ij_omega_j_cross_h_j_0 *
-        h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t110 - t106 *
-        (omega_i_cross_A_ij_h_j_0 * t103 + omega_i_cross_A_ij_h_j_1 * t104 + omega_i_cross_A_ij_h_j_2 * t105) + t110
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t81 * t80 - t97 * (A_ij_h_j_0 *
+        (C_i[0] * t91 + C_i[3] * t94 + C_i[6] * t96) + A_ij_h_j_1 * (C_i[1] * t91 + C_i[4] * t94 + C_i[7] * t96) +
+        A_ij_h_j_2 * (C_i[2] * t91 + C_i[5] * t94 + C_i[8] * t96)) + (A_ij_omega_j_cross_h_j_0 * t100 +
+        A_ij_omega_j_cross_h_j_1 * t101 + A_ij_omega_j_cross_h_j_2 * t102) * t103 - (A_ij_omega_j_cross_h_j_0 *
+        h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t107 - t103 *
+        (omega_i_cross_A_ij_h_j_0 * t100 + omega_i_cross_A_ij_h_j_1 * t101 + omega_i_cross_A_ij_h_j_2 * t102) + t107
         * (omega_i_cross_A_ij_h_j_0 * h_star_0 + omega_i_cross_A_ij_h_j_1 * h_star_1 + omega_i_cross_A_ij_h_j_2 *
-        h_star_2) - (A_ij_h_j_0 * (C_i[0] * t113 + C_i[3] * t115 - C_i[6] * t117) + A_ij_h_j_1 * (C_i[1] * t113 +
-        C_i[4] * t115 - C_i[7] * t117) + A_ij_h_j_2 * (C_i[2] * t113 + C_i[5] * t115 - C_i[8] * t117)) * t118 - t118
-        * (A_ij_h_j_0 * (C_i[0] * t121 + C_i[3] * t122 + C_i[6] * t123) + A_ij_h_j_1 * (C_i[1] * t121 + C_i[4] *
-        t122 + C_i[7] * t123) + A_ij_h_j_2 * (C_i[2] * t121 + C_i[5] * t122 + C_i[8] * t123)) - (A_ij_h_j_0 * t126 +
-        A_ij_h_j_1 * t127 + A_ij_h_j_2 * t128) * t129 + t136 * (A_ij_h_j_0 * t133 + A_ij_h_j_1 * t134 + A_ij_h_j_2 *
-        t135) * sine_2 - (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 +
-        A_ij_omega_j_cross_h_j_2 * f_star_2) * t140 * sine_2 + t140 * (omega_i_cross_A_ij_h_j_0 * f_star_0 +
-        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * sine_2 - t118 * (A_ij_h_j_0 *
-        t143 + A_ij_h_j_1 * t144 + A_ij_h_j_2 * t145) * sine_2 - t83 * t129 * sine_1 - t146 * t147 * cosine_2 - t129
-        * t146 * cosine_1 * sine_2;
+        h_star_2) - (A_ij_h_j_0 * (C_i[0] * t110 + C_i[3] * t112 - C_i[6] * t114) + A_ij_h_j_1 * (C_i[1] * t110 +
+        C_i[4] * t112 - C_i[7] * t114) + A_ij_h_j_2 * (C_i[2] * t110 + C_i[5] * t112 - C_i[8] * t114)) * t115 - t115
+        * (A_ij_h_j_0 * (C_i[0] * t118 + C_i[3] * t119 + C_i[6] * t120) + A_ij_h_j_1 * (C_i[1] * t118 + C_i[4] *
+        t119 + C_i[7] * t120) + A_ij_h_j_2 * (C_i[2] * t118 + C_i[5] * t119 + C_i[8] * t120)) - (A_ij_h_j_0 * t123 +
+        A_ij_h_j_1 * t124 + A_ij_h_j_2 * t125) * t126 + t133 * (A_ij_h_j_0 * t130 + A_ij_h_j_1 * t131 + A_ij_h_j_2 *
+        t132) * sine_2 - (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 +
+        A_ij_omega_j_cross_h_j_2 * f_star_2) * t137 * sine_2 + t137 * (omega_i_cross_A_ij_h_j_0 * f_star_0 +
+        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * sine_2 - t115 * (A_ij_h_j_0 *
+        t140 + A_ij_h_j_1 * t141 + A_ij_h_j_2 * t142) * sine_2 - t80 * t126 * sine_1 - t143 * t144 * cosine_2 - t126
+        * t143 * cosine_1 * sine_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -1083,26 +1043,26 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t163 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    const jg_real t164 = sine_1 * H_8;
-    const jg_real t165 = sine_2 * sine_2;
-    const jg_real t166 = t85 * t165;
-    const jg_real t167 = t88 + t166;
-    const jg_real t168 = H_3 * t93 - H_0 * t164 - H_6 * t167;
-    const jg_real t169 = H_4 * t93 - H_1 * t164 - H_7 * t167;
-    const jg_real t170 = sine_1 * t164 + H_5 * t93 - H_8 * t167;
-    const jg_real t171 = sine_1 * sine_2;
-    const jg_real t172 = H_0 * t171;
-    const jg_real t173 = cosine_1 * t165;
-    const jg_real t174 = t172 - H_3 * t173 - H_6 * t119;
-    const jg_real t175 = H_1 * t171;
-    const jg_real t176 = t175 - H_4 * t173 - H_7 * t119;
-    const jg_real t177 = sine_1 * t171;
-    const jg_real t178 = t177 + H_5 * t173 + H_8 * t119;
-    const jg_real t179 = cosine_1 * H_3 - t172;
-    const jg_real t180 = cosine_1 * H_4 - t175;
-    const jg_real t181 = t177 + cosine_1 * H_5;
-    const jg_real t182 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
+    const jg_real t160 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    const jg_real t161 = sine_1 * H_8;
+    const jg_real t162 = sine_2 * sine_2;
+    const jg_real t163 = t82 * t162;
+    const jg_real t164 = t85 + t163;
+    const jg_real t165 = H_3 * t90 - H_0 * t161 - H_6 * t164;
+    const jg_real t166 = H_4 * t90 - H_1 * t161 - H_7 * t164;
+    const jg_real t167 = sine_1 * t161 + H_5 * t90 - H_8 * t164;
+    const jg_real t168 = sine_1 * sine_2;
+    const jg_real t169 = H_0 * t168;
+    const jg_real t170 = cosine_1 * t162;
+    const jg_real t171 = t169 - H_3 * t170 - H_6 * t116;
+    const jg_real t172 = H_1 * t168;
+    const jg_real t173 = t172 - H_4 * t170 - H_7 * t116;
+    const jg_real t174 = sine_1 * t168;
+    const jg_real t175 = t174 + H_5 * t170 + H_8 * t116;
+    const jg_real t176 = cosine_1 * H_3 - t169;
+    const jg_real t177 = cosine_1 * H_4 - t172;
+    const jg_real t178 = t174 + cosine_1 * H_5;
+    const jg_real t179 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
     gamma[4] = JG_REAL(2.0) * (h_star_0 * (omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] *
         A_ij_omega_j_cross_f_j_1) + h_star_1 * (omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] *
         A_ij_omega_j_cross_f_j_2) + h_star_2 * (omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] *
@@ -1113,23 +1073,23 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t84 * t163 - t100 * (A_ij_f_j_0 *
-        (C_i[0] * t168 + C_i[3] * t169 + C_i[6] * t170) + A_ij_f_j_1 * (C_i[1] * t168 + C_i[4] * t169 + C_i[7] *
-        t170) + A_ij_f_j_2 * (C_i[2] * t168 + C_i[5] * t169 + C_i[8] * t170)) - t106 * (t126 *
-        A_ij_omega_j_cross_f_j_0 + t127 * A_ij_omega_j_cross_f_j_1 + t128 * A_ij_omega_j_cross_f_j_2) - t110 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t81 * t160 - t97 * (A_ij_f_j_0 *
+        (C_i[0] * t165 + C_i[3] * t166 + C_i[6] * t167) + A_ij_f_j_1 * (C_i[1] * t165 + C_i[4] * t166 + C_i[7] *
+        t167) + A_ij_f_j_2 * (C_i[2] * t165 + C_i[5] * t166 + C_i[8] * t167)) - t103 * (t123 *
+        A_ij_omega_j_cross_f_j_0 + t124 * A_ij_omega_j_cross_f_j_1 + t125 * A_ij_omega_j_cross_f_j_2) - t107 *
         (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 *
-        omega_i_cross_A_ij_f_j_2) + t106 * (t126 * omega_i_cross_A_ij_f_j_0 + t127 * omega_i_cross_A_ij_f_j_1 + t128
-        * omega_i_cross_A_ij_f_j_2) + t110 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
-        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t129 * (t103 * A_ij_f_j_0 + t104 *
-        A_ij_f_j_1 + t105 * A_ij_f_j_2) - t118 * (A_ij_f_j_0 * (C_i[0] * t174 + C_i[3] * t176 - C_i[6] * t178) +
-        A_ij_f_j_1 * (C_i[1] * t174 + C_i[4] * t176 - C_i[7] * t178) + A_ij_f_j_2 * (C_i[2] * t174 + C_i[5] * t176 -
-        C_i[8] * t178)) - t118 * (A_ij_f_j_0 * (C_i[0] * t179 + C_i[3] * t180 + C_i[6] * t181) + A_ij_f_j_1 *
-        (C_i[1] * t179 + C_i[4] * t180 + C_i[7] * t181) + A_ij_f_j_2 * (C_i[2] * t179 + C_i[5] * t180 + C_i[8] *
-        t181)) + t136 * (t133 * A_ij_f_j_0 + t134 * A_ij_f_j_1 + t135 * A_ij_f_j_2) * cosine_2 - t140 * (f_star_0 *
+        omega_i_cross_A_ij_f_j_2) + t103 * (t123 * omega_i_cross_A_ij_f_j_0 + t124 * omega_i_cross_A_ij_f_j_1 + t125
+        * omega_i_cross_A_ij_f_j_2) + t107 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
+        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t126 * (t100 * A_ij_f_j_0 + t101 *
+        A_ij_f_j_1 + t102 * A_ij_f_j_2) - t115 * (A_ij_f_j_0 * (C_i[0] * t171 + C_i[3] * t173 - C_i[6] * t175) +
+        A_ij_f_j_1 * (C_i[1] * t171 + C_i[4] * t173 - C_i[7] * t175) + A_ij_f_j_2 * (C_i[2] * t171 + C_i[5] * t173 -
+        C_i[8] * t175)) - t115 * (A_ij_f_j_0 * (C_i[0] * t176 + C_i[3] * t177 + C_i[6] * t178) + A_ij_f_j_1 *
+        (C_i[1] * t176 + C_i[4] * t177 + C_i[7] * t178) + A_ij_f_j_2 * (C_i[2] * t176 + C_i[5] * t177 + C_i[8] *
+        t178)) + t133 * (t130 * A_ij_f_j_0 + t131 * A_ij_f_j_1 + t132 * A_ij_f_j_2) * cosine_2 - t137 * (f_star_0 *
         A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) *
-        cosine_2 + t140 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 *
-        omega_i_cross_A_ij_f_j_2) * cosine_2 - t118 * (t143 * A_ij_f_j_0 + t144 * A_ij_f_j_1 + t145 * A_ij_f_j_2) *
-        cosine_2 - t129 * t163 * sine_1 + t147 * t182 * sine_2 - t129 * t182 * cosine_1 * cosine_2;
+        cosine_2 + t137 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 *
+        omega_i_cross_A_ij_f_j_2) * cosine_2 - t115 * (t140 * A_ij_f_j_0 + t141 * A_ij_f_j_1 + t142 * A_ij_f_j_2) *
+        cosine_2 - t126 * t160 * sine_1 + t144 * t179 * sine_2 - t126 * t179 * cosine_1 * cosine_2;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -1156,25 +1116,25 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t198 = t87 + t166;
-    const jg_real t199 = H_0 * t198 + H_3 * t91 + H_6 * t164;
-    const jg_real t200 = H_1 * t198 + H_4 * t91 + H_7 * t164;
-    const jg_real t201 = sine_1 * t198 - H_5 * t91 - H_8 * t164;
-    const jg_real t202 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t203 = H_3 * H_5 + H_6 * H_8;
-    const jg_real t204 = H_4 * H_5 + H_7 * H_8;
-    const jg_real t205 = H_5 * H_5 + H_8 * H_8;
-    const jg_real t206 = t129 * (A_ij_g_j_0 * (C_i[0] * t203 + C_i[3] * t204 + C_i[6] * t205) + A_ij_g_j_1 * (C_i[1]
-        * t203 + C_i[4] * t204 + C_i[7] * t205) + A_ij_g_j_2 * (C_i[2] * t203 + C_i[5] * t204 + C_i[8] * t205));
-    const jg_real t207 = sine_2 * H_6 - cosine_2 * H_3;
-    const jg_real t208 = sine_2 * H_7 - cosine_2 * H_4;
-    const jg_real t209 = t119 - cosine_2 * H_5;
-    const jg_real t210 = (A_ij_g_j_0 * (C_i[0] * t207 + C_i[3] * t208 + C_i[6] * t209) + A_ij_g_j_1 * (C_i[1] * t207
-        + C_i[4] * t208 + C_i[7] * t209) + A_ij_g_j_2 * (C_i[2] * t207 + C_i[5] * t208 + C_i[8] * t209)) *
+    const jg_real t195 = t84 + t163;
+    const jg_real t196 = H_0 * t195 + H_3 * t88 + H_6 * t161;
+    const jg_real t197 = H_1 * t195 + H_4 * t88 + H_7 * t161;
+    const jg_real t198 = sine_1 * t195 - H_5 * t88 - H_8 * t161;
+    const jg_real t199 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t200 = H_3 * H_5 + H_6 * H_8;
+    const jg_real t201 = H_4 * H_5 + H_7 * H_8;
+    const jg_real t202 = H_5 * H_5 + H_8 * H_8;
+    const jg_real t203 = t126 * (A_ij_g_j_0 * (C_i[0] * t200 + C_i[3] * t201 + C_i[6] * t202) + A_ij_g_j_1 * (C_i[1]
+        * t200 + C_i[4] * t201 + C_i[7] * t202) + A_ij_g_j_2 * (C_i[2] * t200 + C_i[5] * t201 + C_i[8] * t202));
+    const jg_real t204 = sine_2 * H_6 - cosine_2 * H_3;
+    const jg_real t205 = sine_2 * H_7 - cosine_2 * H_4;
+    const jg_real t206 = t116 - cosine_2 * H_5;
+    const jg_real t207 = (A_ij_g_j_0 * (C_i[0] * t204 + C_i[3] * t205 + C_i[6] * t206) + A_ij_g_j_1 * (C_i[1] * t204
+        + C_i[4] * t205 + C_i[7] * t206) + A_ij_g_j_2 * (C_i[2] * t204 + C_i[5] * t205 + C_i[8] * t206)) *
         (alphadot[2] * alphadot[1]);
-    const jg_real t211 = H_6 * t171 - H_3 * t111;
-    const jg_real t212 = H_7 * t171 - H_4 * t111;
-    const jg_real t213 = H_8 * t171 - H_5 * t111;
+    const jg_real t208 = H_6 * t168 - H_3 * t108;
+    const jg_real t209 = H_7 * t168 - H_4 * t108;
+    const jg_real t210 = H_8 * t168 - H_5 * t108;
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
         A_ij_omega_j_cross_g_j_2) + f_star_2 * (omega_i[0] * A_ij_omega_j_cross_g_j_1 - omega_i[1] *
@@ -1185,16 +1145,16 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t100 * (A_ij_g_j_0 * (C_i[6] * t201 -
-        (C_i[0] * t199 + C_i[3] * t200)) + A_ij_g_j_1 * (C_i[7] * t201 - (C_i[1] * t199 + C_i[4] * t200)) +
-        A_ij_g_j_2 * (C_i[8] * t201 - (C_i[2] * t199 + C_i[5] * t200))) - t106 * (t143 * A_ij_omega_j_cross_g_j_0 +
-        t144 * A_ij_omega_j_cross_g_j_1 + t145 * A_ij_omega_j_cross_g_j_2) + t140 * (t133 * A_ij_omega_j_cross_g_j_0
-        + t134 * A_ij_omega_j_cross_g_j_1 + t135 * A_ij_omega_j_cross_g_j_2) + t106 * (t143 *
-        omega_i_cross_A_ij_g_j_0 + t144 * omega_i_cross_A_ij_g_j_1 + t145 * omega_i_cross_A_ij_g_j_2) - t140 * (t133
-        * omega_i_cross_A_ij_g_j_0 + t134 * omega_i_cross_A_ij_g_j_1 + t135 * omega_i_cross_A_ij_g_j_2) + t86 * t136
-        * t202 + t136 * t165 * t202 - t206 + t206 - t210 + t210 - (A_ij_g_j_0 * (C_i[0] * t211 + C_i[3] * t212 +
-        C_i[6] * t213) + A_ij_g_j_1 * (C_i[1] * t211 + C_i[4] * t212 + C_i[7] * t213) + A_ij_g_j_2 * (C_i[2] * t211
-        + C_i[5] * t212 + C_i[8] * t213)) * (t106 * alphadot[1]);
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t97 * (A_ij_g_j_0 * (C_i[6] * t198 -
+        (C_i[0] * t196 + C_i[3] * t197)) + A_ij_g_j_1 * (C_i[7] * t198 - (C_i[1] * t196 + C_i[4] * t197)) +
+        A_ij_g_j_2 * (C_i[8] * t198 - (C_i[2] * t196 + C_i[5] * t197))) - t103 * (t140 * A_ij_omega_j_cross_g_j_0 +
+        t141 * A_ij_omega_j_cross_g_j_1 + t142 * A_ij_omega_j_cross_g_j_2) + t137 * (t130 * A_ij_omega_j_cross_g_j_0
+        + t131 * A_ij_omega_j_cross_g_j_1 + t132 * A_ij_omega_j_cross_g_j_2) + t103 * (t140 *
+        omega_i_cross_A_ij_g_j_0 + t141 * omega_i_cross_A_ij_g_j_1 + t142 * omega_i_cross_A_ij_g_j_2) - t137 * (t130
+        * omega_i_cross_A_ij_g_j_0 + t131 * omega_i_cross_A_ij_g_j_1 + t132 * omega_i_cross_A_ij_g_j_2) + t83 * t133
+        * t199 + t133 * t162 * t199 - t203 + t203 - t207 + t207 - (A_ij_g_j_0 * (C_i[0] * t208 + C_i[3] * t209 +
+        C_i[6] * t210) + A_ij_g_j_1 * (C_i[1] * t208 + C_i[4] * t209 + C_i[7] * t210) + A_ij_g_j_2 * (C_i[2] * t208
+        + C_i[5] * t209 + C_i[8] * t210)) * (t103 * alphadot[1]);
 }
 
 void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1212,15 +1172,21 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
+    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
+    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
+    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -1234,25 +1200,28 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = omega_i[2] * s_i[1] - omega_i[1] * s_i[2] + (omega_i[2] * dp_ij_1 - omega_i[1] * dp_ij_2 +
-        (A_ij_v_j_0 - v_i[0]) + A_ij_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = omega_i[0] * s_i[2] - omega_i[2] * s_i[0] + (omega_i[0] * dp_ij_2 - omega_i[2] * dp_ij_0 +
-        (A_ij_v_j_1 - v_i[1]) + A_ij_omega_j_cross_s_j_1);
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = omega_i[1] * s_i[0] - omega_i[0] * s_i[1] + (omega_i[1] * dp_ij_0 - omega_i[0] * dp_ij_1 +
-        (A_ij_v_j_2 - v_i[2]) + A_ij_omega_j_cross_s_j_2);
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
@@ -1267,14 +1236,14 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t36 = cosine_2 * sine_0;
+    const jg_real t45 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t36;
-    const jg_real t38 = cosine_0 * cosine_2;
-    const jg_real H_4 = t38 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t45;
+    const jg_real t47 = cosine_0 * cosine_2;
+    const jg_real H_4 = t47 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -1285,11 +1254,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t38;
-    const jg_real t50 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t47;
+    const jg_real t59 = H_0 * H_8 + sine_1 * H_6;
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_7 = t36 * sine_1 - cosine_0 * sine_2;
-    const jg_real t53 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real H_7 = t45 * sine_1 - cosine_0 * sine_2;
+    const jg_real t62 = H_1 * H_8 + sine_1 * H_7;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
@@ -1312,11 +1281,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q_v[3] = g_star_0 * A_ij_omega_j_cross_h_j_0 + g_star_1 * A_ij_omega_j_cross_h_j_1 + g_star_2 *
         A_ij_omega_j_cross_h_j_2 + (alphadot[2] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 *
         h_star_2) - (g_star_0 * omega_i_cross_A_ij_h_j_0 + g_star_1 * omega_i_cross_A_ij_h_j_1 + g_star_2 *
-        omega_i_cross_A_ij_h_j_2 + alphadot[0] * (A_ij_h_j_0 * (C_i[0] * t50 + C_i[3] * t53) + A_ij_h_j_1 * (C_i[1]
-        * t50 + C_i[4] * t53) + A_ij_h_j_2 * (C_i[2] * t50 + C_i[5] * t53))) + alphadot[1] * (A_ij_h_j_0 * f_star_0
+        omega_i_cross_A_ij_h_j_2 + alphadot[0] * (A_ij_h_j_0 * (C_i[0] * t59 + C_i[3] * t62) + A_ij_h_j_1 * (C_i[1]
+        * t59 + C_i[4] * t62) + A_ij_h_j_2 * (C_i[2] * t59 + C_i[5] * t62))) + alphadot[1] * (A_ij_h_j_0 * f_star_0
         + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) * sine_2);
-    const jg_real t66 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t67 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t75 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t76 = H_1 * H_5 + sine_1 * H_4;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -1337,13 +1306,13 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     phi_q_v[4] = h_star_0 * A_ij_omega_j_cross_f_j_0 + h_star_1 * A_ij_omega_j_cross_f_j_1 + h_star_2 *
-        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (A_ij_f_j_0 * (C_i[0] * t66 + C_i[3] * t67) + A_ij_f_j_1 * (C_i[1]
-        * t66 + C_i[4] * t67) + A_ij_f_j_2 * (C_i[2] * t66 + C_i[5] * t67)) - (h_star_0 * omega_i_cross_A_ij_f_j_0 +
+        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (A_ij_f_j_0 * (C_i[0] * t75 + C_i[3] * t76) + A_ij_f_j_1 * (C_i[1]
+        * t75 + C_i[4] * t76) + A_ij_f_j_2 * (C_i[2] * t75 + C_i[5] * t76)) - (h_star_0 * omega_i_cross_A_ij_f_j_0 +
         h_star_1 * omega_i_cross_A_ij_f_j_1 + h_star_2 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (g_star_0 *
         A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2) + alphadot[1] * (f_star_0 * A_ij_f_j_0 +
         f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_2);
-    const jg_real t80 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t81 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t89 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t90 = H_4 * H_8 - H_7 * H_5;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -1352,9 +1321,9 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real omega_i_cross_A_ij_g_j_0 = omega_i[1] * A_ij_g_j_2 - omega_i[2] * A_ij_g_j_1;
     const jg_real omega_i_cross_A_ij_g_j_1 = omega_i[2] * A_ij_g_j_0 - omega_i[0] * A_ij_g_j_2;
     const jg_real omega_i_cross_A_ij_g_j_2 = omega_i[0] * A_ij_g_j_1 - omega_i[1] * A_ij_g_j_0;
-    const jg_real t88 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t89 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t90 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t97 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t98 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t99 = sine_2 * H_5 + cosine_2 * H_8;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -1367,11 +1336,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     phi_q_v[5] = f_star_0 * A_ij_omega_j_cross_g_j_0 + f_star_1 * A_ij_omega_j_cross_g_j_1 + f_star_2 *
-        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[0] * t80 + C_i[3] * t81) + A_ij_g_j_1 * (C_i[1]
-        * t80 + C_i[4] * t81) + A_ij_g_j_2 * (C_i[2] * t80 + C_i[5] * t81)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
+        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[0] * t89 + C_i[3] * t90) + A_ij_g_j_1 * (C_i[1]
+        * t89 + C_i[4] * t90) + A_ij_g_j_2 * (C_i[2] * t89 + C_i[5] * t90)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
         f_star_1 * omega_i_cross_A_ij_g_j_1 + f_star_2 * omega_i_cross_A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 *
-        (C_i[0] * t88 + C_i[3] * t89 + C_i[6] * t90) + A_ij_g_j_1 * (C_i[1] * t88 + C_i[4] * t89 + C_i[7] * t90) +
-        A_ij_g_j_2 * (C_i[2] * t88 + C_i[5] * t89 + C_i[8] * t90)));
+        (C_i[0] * t97 + C_i[3] * t98 + C_i[6] * t99) + A_ij_g_j_1 * (C_i[1] * t97 + C_i[4] * t98 + C_i[7] * t99) +
+        A_ij_g_j_2 * (C_i[2] * t97 + C_i[5] * t98 + C_i[8] * t99)));
 }
 
 void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1387,23 +1356,27 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
+    const jg_real t10 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
+    const jg_real t12 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -1413,115 +1386,106 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t20 = cosine_2 * sine_0;
+    const jg_real t23 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t20;
-    const jg_real t22 = H_3 * lambda[3];
-    const jg_real t23 = cosine_0 * cosine_2;
-    const jg_real H_4 = t23 + sine_0 * sine_1 * sine_2;
-    const jg_real t25 = H_4 * lambda[3];
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t23;
+    const jg_real t25 = cosine_0 * cosine_2;
+    const jg_real H_4 = t25 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real t27 = H_5 * lambda[3];
-    const jg_real t28 = C_i[1] * t22 + C_i[4] * t25 + C_i[7] * t27;
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t33 = C_i[2] * t22 + C_i[5] * t25 + C_i[8] * t27;
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     /* A_ij_f_j = A_ij f_j */
-    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t23;
-    const jg_real t36 = H_6 * lambda[4];
-    const jg_real H_7 = t20 * sine_1 - cosine_0 * sine_2;
-    const jg_real t38 = H_7 * lambda[4];
-    const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t40 = H_8 * lambda[4];
-    const jg_real t41 = C_i[1] * t36 + C_i[4] * t38 + C_i[7] * t40;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t43 = C_i[2] * t36 + C_i[5] * t38 + C_i[8] * t40;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t25;
+    const jg_real H_7 = t23 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_8 = cosine_1 * cosine_2;
+    /* h_star = C_i H [0; 0; 1] */
+    const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
+    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t46 = H_0 * lambda[5];
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real t48 = H_1 * lambda[5];
-    const jg_real t49 = sine_1 * lambda[5];
-    const jg_real t50 = C_i[8] * t49 - (C_i[2] * t46 + C_i[5] * t48);
+    /* f_star = C_i H [1; 0; 0] */
+    const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t52 = C_i[7] * t49 - (C_i[1] * t46 + C_i[4] * t48);
-    phi_q_t_lambda[3] = A_ij_g_j_1 * t50 - A_ij_g_j_2 * t52 + (A_ij_f_j_2 * t41 - A_ij_f_j_1 * t43 + (lambda[1] * t7
-        - lambda[2] * t9 + (A_ij_h_j_2 * t28 - A_ij_h_j_1 * t33)));
+    const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
+    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
+        g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 * f_star_2
+        - A_ij_g_j_2 * f_star_1);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t54 = s_i[0] + dp_ij_0;
+    const jg_real t48 = s_i[0] + dp_ij_0;
+    const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t59 = C_i[0] * t22 + C_i[3] * t25 + C_i[6] * t27;
-    const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t61 = C_i[0] * t36 + C_i[3] * t38 + C_i[6] * t40;
-    const jg_real t62 = C_i[6] * t49 - (C_i[0] * t46 + C_i[3] * t48);
-    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    phi_q_t_lambda[4] = A_ij_g_j_2 * t62 - A_ij_g_j_0 * t50 + (A_ij_f_j_0 * t43 - A_ij_f_j_2 * t61 + (lambda[2] *
-        t54 - lambda[0] * t7 + (A_ij_h_j_0 * t33 - A_ij_h_j_2 * t59)));
-    phi_q_t_lambda[5] = A_ij_g_j_0 * t52 - A_ij_g_j_1 * t62 + (A_ij_f_j_1 * t61 - A_ij_f_j_0 * t41 + (lambda[0] * t9
-        - lambda[1] * t54 + (A_ij_h_j_1 * t59 - A_ij_h_j_0 * t28)));
-    const jg_real t64 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t64;
-    const jg_real t65 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t65;
-    const jg_real t66 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t66;
-    const jg_real t67 = A_ij_6 * t59 + A_ij_7 * t28 + A_ij_8 * t33;
-    const jg_real t68 = A_ij_3 * t59 + A_ij_4 * t28 + A_ij_5 * t33;
-    const jg_real t69 = A_ij_6 * t61 + A_ij_7 * t41 + A_ij_8 * t43;
-    const jg_real t70 = A_ij_3 * t61 + A_ij_4 * t41 + A_ij_5 * t43;
-    const jg_real t71 = A_ij_3 * t62 + A_ij_4 * t52 + A_ij_5 * t50;
-    const jg_real t72 = A_ij_6 * t62 + A_ij_7 * t52 + A_ij_8 * t50;
-    phi_q_t_lambda[9] = s_j[1] * t66 - s_j[2] * t65 + (C_j[5] * t71 - C_j[4] * t72 + (C_j[7] * t67 - C_j[8] * t68 +
-        (C_j[1] * t69 - C_j[2] * t70)));
-    const jg_real t73 = A_ij_0 * t59 + A_ij_1 * t28 + A_ij_2 * t33;
-    const jg_real t74 = A_ij_0 * t61 + A_ij_1 * t41 + A_ij_2 * t43;
-    const jg_real t75 = A_ij_0 * t62 + A_ij_1 * t52 + A_ij_2 * t50;
-    phi_q_t_lambda[10] = s_j[2] * t64 - s_j[0] * t66 + (C_j[3] * t72 - C_j[5] * t75 + (C_j[8] * t73 - C_j[6] * t67 +
-        (C_j[2] * t74 - C_j[0] * t69)));
-    phi_q_t_lambda[11] = s_j[0] * t65 - s_j[1] * t64 + (C_j[4] * t75 - C_j[3] * t71 + (C_j[6] * t68 - C_j[7] * t73 +
-        (C_j[0] * t70 - C_j[1] * t74)));
-    const jg_real t76 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t77 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t78 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t79 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t80 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t81 = H_4 * H_8 - H_7 * H_5;
-    phi_q_t_lambda[12] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t76 + C_i[3] * t77) + A_ij_f_j_1 * (C_i[1] * t76 +
-        C_i[4] * t77) + A_ij_f_j_2 * (C_i[2] * t76 + C_i[5] * t77)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t78 +
-        C_i[3] * t79) + A_ij_h_j_1 * (C_i[1] * t78 + C_i[4] * t79) + A_ij_h_j_2 * (C_i[2] * t78 + C_i[5] * t79)) +
-        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t80 + C_i[3] * t81) + A_ij_g_j_1 * (C_i[1] * t80 + C_i[4] * t81) +
-        A_ij_g_j_2 * (C_i[2] * t80 + C_i[5] * t81));
-    const jg_real t82 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t83 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t84 = sine_2 * H_5 + cosine_2 * H_8;
-    /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
-    const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
-    const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
-    phi_q_t_lambda[13] = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
-        sine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t82 + C_i[3] * t83 + C_i[6] * t84) + A_ij_g_j_1 * (C_i[1] * t82
-        + C_i[4] * t83 + C_i[7] * t84) + A_ij_g_j_2 * (C_i[2] * t82 + C_i[5] * t83 + C_i[8] * t84)) + lambda[4] *
-        (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_2;
-    /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
-    const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
-    const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
-    const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
+    const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
+    const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
+    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
+    phi_q_t_lambda[4] = lambda[2] * t48 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
+        g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 * f_star_0
+        - A_ij_g_j_0 * f_star_2);
+    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t48 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
+        g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 * f_star_1
+        - A_ij_g_j_1 * f_star_0);
+    const jg_real t58 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t58;
+    const jg_real t59 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t59;
+    const jg_real t60 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t60;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    /* A_ijt_h_star = A_ij^T h_star */
+    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
+    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
+    /* A_ijt_f_star = A_ij^T f_star */
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    phi_q_t_lambda[9] = s_j[1] * t60 - s_j[2] * t59 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+        A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
+        A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
+    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
+    phi_q_t_lambda[10] = s_j[2] * t58 - s_j[0] * t60 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+        A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
+        A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
+    phi_q_t_lambda[11] = s_j[0] * t59 - s_j[1] * t58 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+        A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
+        A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
+    const jg_real t70 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t71 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t72 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t73 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t74 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t75 = H_4 * H_8 - H_7 * H_5;
+    phi_q_t_lambda[12] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t70 + C_i[3] * t71) + A_ij_f_j_1 * (C_i[1] * t70 +
+        C_i[4] * t71) + A_ij_f_j_2 * (C_i[2] * t70 + C_i[5] * t71)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t72 +
+        C_i[3] * t73) + A_ij_h_j_1 * (C_i[1] * t72 + C_i[4] * t73) + A_ij_h_j_2 * (C_i[2] * t72 + C_i[5] * t73)) +
+        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t74 + C_i[3] * t75) + A_ij_g_j_1 * (C_i[1] * t74 + C_i[4] * t75) +
+        A_ij_g_j_2 * (C_i[2] * t74 + C_i[5] * t75));
+    const jg_real t76 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t77 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t78 = sine_2 * H_5 + cosine_2 * H_8;
+    phi_q_t_lambda[13] = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
+        sine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t76 + C_i[3] * t77 + C_i[6] * t78) + A_ij_g_j_1 * (C_i[1] * t76
+        + C_i[4] * t77 + C_i[7] * t78) + A_ij_g_j_2 * (C_i[2] * t76 + C_i[5] * t77 + C_i[8] * t78)) + lambda[4] *
+        (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_2;
     phi_q_t_lambda[14] = lambda[3] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2) -
-        lambda[4] * (A_ij_f_j_0 * g_star_0 + A_ij_f_j_1 * g_star_1 + A_ij_f_j_2 * g_star_2);
+        lambda[4] * (g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
 
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1541,12 +1505,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -1563,14 +1531,14 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t15 = cosine_2 * sine_0;
+    const jg_real t18 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t15;
-    const jg_real t17 = cosine_0 * cosine_2;
-    const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
+    const jg_real t20 = cosine_0 * cosine_2;
+    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -1599,10 +1567,10 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t35 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t35;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
-    const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
+    const jg_real t38 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t38;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
+    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -1612,8 +1580,8 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t45 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    phi[4] = t45;
+    const jg_real t48 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    phi[4] = t48;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
@@ -1624,26 +1592,26 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
-    const jg_real t54 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t54;
+    const jg_real t57 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t57;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t55 = s_i[2] + dp_ij_2;
-    phi_q[3] = t55;
-    const jg_real t56 = s_i[1] + dp_ij_1;
-    phi_q[13] = t56;
-    phi_q[4] = -t56;
+    const jg_real t58 = s_i[2] + dp_ij_2;
+    phi_q[3] = t58;
+    const jg_real t59 = s_i[1] + dp_ij_1;
+    phi_q[13] = t59;
+    phi_q[4] = -t59;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t55;
-    const jg_real t57 = s_i[0] + dp_ij_0;
-    phi_q[9] = t57;
+    phi_q[8] = -t58;
+    const jg_real t60 = s_i[0] + dp_ij_0;
+    phi_q[9] = t60;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t57;
+    phi_q[14] = -t60;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1677,35 +1645,35 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t67 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t68 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t69 = C_i[0] * t67 + C_i[3] * t68;
-    const jg_real t70 = C_i[1] * t67 + C_i[4] * t68;
-    const jg_real t71 = C_i[2] * t67 + C_i[5] * t68;
-    phi_q[45] = -(A_ij_h_j_0 * t69 + A_ij_h_j_1 * t70 + A_ij_h_j_2 * t71);
-    const jg_real t72 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t73 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t74 = C_i[0] * t72 + C_i[3] * t73;
-    const jg_real t75 = C_i[1] * t72 + C_i[4] * t73;
-    const jg_real t76 = C_i[2] * t72 + C_i[5] * t73;
-    phi_q[46] = A_ij_f_j_0 * t74 + A_ij_f_j_1 * t75 + A_ij_f_j_2 * t76;
-    const jg_real t77 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t78 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t79 = C_i[0] * t77 + C_i[3] * t78;
-    const jg_real t80 = C_i[1] * t77 + C_i[4] * t78;
-    const jg_real t81 = C_i[2] * t77 + C_i[5] * t78;
-    phi_q[47] = A_ij_g_j_0 * t79 + A_ij_g_j_1 * t80 + A_ij_g_j_2 * t81;
-    const jg_real t82 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    phi_q[48] = sine_2 * t82;
-    const jg_real t83 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    phi_q[49] = cosine_2 * t83;
-    const jg_real t84 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t85 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t86 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t87 = C_i[0] * t84 + C_i[3] * t85 + C_i[6] * t86;
-    const jg_real t88 = C_i[1] * t84 + C_i[4] * t85 + C_i[7] * t86;
-    const jg_real t89 = C_i[2] * t84 + C_i[5] * t85 + C_i[8] * t86;
-    phi_q[50] = -(A_ij_g_j_0 * t87 + A_ij_g_j_1 * t88 + A_ij_g_j_2 * t89);
+    const jg_real t70 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t71 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t72 = C_i[0] * t70 + C_i[3] * t71;
+    const jg_real t73 = C_i[1] * t70 + C_i[4] * t71;
+    const jg_real t74 = C_i[2] * t70 + C_i[5] * t71;
+    phi_q[45] = -(A_ij_h_j_0 * t72 + A_ij_h_j_1 * t73 + A_ij_h_j_2 * t74);
+    const jg_real t75 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t76 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t77 = C_i[0] * t75 + C_i[3] * t76;
+    const jg_real t78 = C_i[1] * t75 + C_i[4] * t76;
+    const jg_real t79 = C_i[2] * t75 + C_i[5] * t76;
+    phi_q[46] = A_ij_f_j_0 * t77 + A_ij_f_j_1 * t78 + A_ij_f_j_2 * t79;
+    const jg_real t80 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t81 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t82 = C_i[0] * t80 + C_i[3] * t81;
+    const jg_real t83 = C_i[1] * t80 + C_i[4] * t81;
+    const jg_real t84 = C_i[2] * t80 + C_i[5] * t81;
+    phi_q[47] = A_ij_g_j_0 * t82 + A_ij_g_j_1 * t83 + A_ij_g_j_2 * t84;
+    const jg_real t85 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    phi_q[48] = sine_2 * t85;
+    const jg_real t86 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    phi_q[49] = cosine_2 * t86;
+    const jg_real t87 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t88 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t89 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t90 = C_i[0] * t87 + C_i[3] * t88 + C_i[6] * t89;
+    const jg_real t91 = C_i[1] * t87 + C_i[4] * t88 + C_i[7] * t89;
+    const jg_real t92 = C_i[2] * t87 + C_i[5] * t88 + C_i[8] * t89;
+    phi_q[50] = -(A_ij_g_j_0 * t90 + A_ij_g_j_1 * t91 + A_ij_g_j_2 * t92);
     phi_q[51] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[52] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     phi_q_t_lambda_q[2] = lambda[2];
@@ -1714,482 +1682,426 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t90 = g_star_2 * lambda[3];
-    const jg_real t91 = A_ij_h_j_2 * t90;
-    const jg_real t92 = g_star_1 * lambda[3];
-    const jg_real t93 = A_ij_h_j_1 * t92;
-    const jg_real t94 = h_star_2 * lambda[4];
-    const jg_real t95 = A_ij_f_j_2 * t94;
-    const jg_real t96 = h_star_1 * lambda[4];
-    const jg_real t97 = A_ij_f_j_1 * t96;
-    const jg_real t98 = f_star_2 * lambda[5];
-    const jg_real t99 = A_ij_g_j_2 * t98;
-    const jg_real t100 = f_star_1 * lambda[5];
-    const jg_real t101 = A_ij_g_j_1 * t100;
-    const jg_real t102 = t55 * lambda[2];
-    const jg_real t103 = t56 * lambda[1];
-    phi_q_t_lambda_q[6] = -(t102 + t103 + (t99 + t101 + (t91 + t93 + (t95 + t97))));
-    const jg_real t104 = g_star_0 * lambda[3];
-    const jg_real t105 = h_star_0 * lambda[4];
-    const jg_real t106 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t104 + A_ij_f_j_1 * t105 + A_ij_g_j_1 * t106 + t56 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t104 + A_ij_f_j_2 * t105 + A_ij_g_j_2 * t106 + t55 * lambda[0];
-    const jg_real t107 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t107;
-    phi_q_t_lambda_q[42] = t107;
-    const jg_real t108 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t108;
-    phi_q_t_lambda_q[45] = t108;
-    const jg_real t109 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t109;
-    phi_q_t_lambda_q[48] = t109;
-    const jg_real t110 = t35 * lambda[3];
-    const jg_real t111 = t45 * lambda[4];
-    const jg_real t112 = t110 + t111;
-    const jg_real t113 = t54 * lambda[5] + t112;
-    const jg_real t114 = A_ij_0 * t113;
-    const jg_real t115 = H_3 * lambda[3];
-    const jg_real t116 = H_4 * lambda[3];
-    const jg_real t117 = H_5 * lambda[3];
-    const jg_real t118 = C_i[0] * t115 + C_i[3] * t116 + C_i[6] * t117;
-    const jg_real t119 = C_i[1] * t115 + C_i[4] * t116 + C_i[7] * t117;
-    const jg_real t120 = C_i[2] * t115 + C_i[5] * t116 + C_i[8] * t117;
-    const jg_real t121 = A_ij_0 * t118 + A_ij_1 * t119 + A_ij_2 * t120;
-    const jg_real t122 = C_j[6] * t121;
-    const jg_real t123 = C_j[7] * t121;
-    const jg_real t124 = C_j[8] * t121;
-    const jg_real t125 = H_6 * lambda[4];
-    const jg_real t126 = H_7 * lambda[4];
-    const jg_real t127 = H_8 * lambda[4];
-    const jg_real t128 = C_i[0] * t125 + C_i[3] * t126 + C_i[6] * t127;
-    const jg_real t129 = C_i[1] * t125 + C_i[4] * t126 + C_i[7] * t127;
-    const jg_real t130 = C_i[2] * t125 + C_i[5] * t126 + C_i[8] * t127;
-    const jg_real t131 = A_ij_0 * t128 + A_ij_1 * t129 + A_ij_2 * t130;
-    const jg_real t132 = C_j[0] * t131;
-    const jg_real t133 = C_j[1] * t131;
-    const jg_real t134 = C_j[2] * t131;
-    const jg_real t135 = H_0 * lambda[5];
-    const jg_real t136 = H_1 * lambda[5];
-    const jg_real t137 = sine_1 * lambda[5];
-    const jg_real t138 = C_i[6] * t137 - (C_i[0] * t135 + C_i[3] * t136);
-    const jg_real t139 = C_i[7] * t137 - (C_i[1] * t135 + C_i[4] * t136);
-    const jg_real t140 = C_i[8] * t137 - (C_i[2] * t135 + C_i[5] * t136);
-    const jg_real t141 = A_ij_0 * t138 + A_ij_1 * t139 + A_ij_2 * t140;
-    const jg_real t142 = C_j[3] * t141;
-    const jg_real t143 = C_j[4] * t141;
-    const jg_real t144 = C_j[5] * t141;
-    const jg_real t145 = s_j[1] * t109 - s_j[2] * t108;
-    phi_q_t_lambda_q[12] = A_ij_0 * t142 + A_ij_3 * t143 + A_ij_6 * t144 + (t114 - (A_ij_0 * t122 + A_ij_3 * t123 +
-        A_ij_6 * t124) - (A_ij_0 * t132 + A_ij_3 * t133 + A_ij_6 * t134)) + t145;
-    const jg_real t146 = A_ij_3 * t113;
-    const jg_real t147 = A_ij_3 * t118 + A_ij_4 * t119 + A_ij_5 * t120;
-    const jg_real t148 = C_j[6] * t147;
-    const jg_real t149 = C_j[7] * t147;
-    const jg_real t150 = C_j[8] * t147;
-    const jg_real t151 = A_ij_3 * t128 + A_ij_4 * t129 + A_ij_5 * t130;
-    const jg_real t152 = C_j[0] * t151;
-    const jg_real t153 = C_j[1] * t151;
-    const jg_real t154 = C_j[2] * t151;
-    const jg_real t155 = A_ij_3 * t138 + A_ij_4 * t139 + A_ij_5 * t140;
-    const jg_real t156 = C_j[3] * t155;
-    const jg_real t157 = C_j[4] * t155;
-    const jg_real t158 = C_j[5] * t155;
-    const jg_real t159 = s_j[2] * t107 - s_j[0] * t109;
-    phi_q_t_lambda_q[13] = A_ij_0 * t156 + A_ij_3 * t157 + A_ij_6 * t158 + (t146 - (A_ij_0 * t148 + A_ij_3 * t149 +
-        A_ij_6 * t150) - (A_ij_0 * t152 + A_ij_3 * t153 + A_ij_6 * t154)) + t159;
-    const jg_real t160 = A_ij_6 * t113;
-    const jg_real t161 = A_ij_6 * t118 + A_ij_7 * t119 + A_ij_8 * t120;
-    const jg_real t162 = C_j[6] * t161;
-    const jg_real t163 = C_j[7] * t161;
-    const jg_real t164 = C_j[8] * t161;
-    const jg_real t165 = A_ij_6 * t128 + A_ij_7 * t129 + A_ij_8 * t130;
-    const jg_real t166 = C_j[0] * t165;
-    const jg_real t167 = C_j[1] * t165;
-    const jg_real t168 = C_j[2] * t165;
-    const jg_real t169 = A_ij_6 * t138 + A_ij_7 * t139 + A_ij_8 * t140;
-    const jg_real t170 = C_j[3] * t169;
-    const jg_real t171 = C_j[4] * t169;
-    const jg_real t172 = C_j[5] * t169;
-    const jg_real t173 = s_j[0] * t108 - s_j[1] * t107;
-    phi_q_t_lambda_q[14] = A_ij_0 * t170 + A_ij_3 * t171 + A_ij_6 * t172 + (t160 - (A_ij_0 * t162 + A_ij_3 * t163 +
-        A_ij_6 * t164) - (A_ij_0 * t166 + A_ij_3 * t167 + A_ij_6 * t168)) + t173;
-    const jg_real t174 = cosine_1 * lambda[3] * cosine_2;
-    const jg_real t175 = sine_1 * lambda[3];
-    const jg_real t176 = H_0 * t174 + H_6 * t175;
-    const jg_real t177 = H_1 * t174 + H_7 * t175;
-    const jg_real t178 = H_8 * t175 - sine_1 * t174;
-    const jg_real t179 = C_i[2] * t176 + C_i[5] * t177 + C_i[8] * t178;
-    const jg_real t180 = C_i[1] * t176 + C_i[4] * t177 + C_i[7] * t178;
-    const jg_real t181 = cosine_1 * lambda[4] * sine_2;
-    const jg_real t182 = sine_1 * lambda[4];
-    const jg_real t183 = H_0 * t181 + H_3 * t182;
-    const jg_real t184 = H_1 * t181 + H_4 * t182;
-    const jg_real t185 = sine_1 * t181 - H_5 * t182;
-    const jg_real t186 = C_i[8] * t185 - (C_i[2] * t183 + C_i[5] * t184);
-    const jg_real t187 = C_i[7] * t185 - (C_i[1] * t183 + C_i[4] * t184);
-    const jg_real t188 = cosine_1 * lambda[5];
-    const jg_real t189 = sine_2 * t188;
-    const jg_real t190 = cosine_2 * t188;
-    const jg_real t191 = H_6 * t189 - H_3 * t190;
-    const jg_real t192 = H_7 * t189 - H_4 * t190;
-    const jg_real t193 = H_8 * t189 - H_5 * t190;
-    const jg_real t194 = C_i[2] * t191 + C_i[5] * t192 + C_i[8] * t193;
-    const jg_real t195 = C_i[1] * t191 + C_i[4] * t192 + C_i[7] * t193;
-    const jg_real t196 = A_ij_g_j_1 * t194 - A_ij_g_j_2 * t195 + (A_ij_h_j_1 * t179 - A_ij_h_j_2 * t180 +
-        (A_ij_f_j_1 * t186 - A_ij_f_j_2 * t187));
-    phi_q_t_lambda_q[15] = t196;
-    phi_q_t_lambda_q[84] = t196;
-    const jg_real t197 = cosine_2 * lambda[4];
-    const jg_real t198 = sine_2 * lambda[3];
-    const jg_real t199 = A_ij_f_j_2 * t197 + A_ij_h_j_2 * t198;
-    const jg_real t200 = A_ij_f_j_1 * t197 + A_ij_h_j_1 * t198;
-    const jg_real t201 = sine_2 * lambda[5];
-    const jg_real t202 = cosine_2 * lambda[5];
-    const jg_real t203 = H_3 * t201 + H_6 * t202;
-    const jg_real t204 = H_4 * t201 + H_7 * t202;
-    const jg_real t205 = H_5 * t201 + H_8 * t202;
-    const jg_real t206 = C_i[2] * t203 + C_i[5] * t204 + C_i[8] * t205;
-    const jg_real t207 = C_i[1] * t203 + C_i[4] * t204 + C_i[7] * t205;
-    const jg_real t208 = f_star_1 * t199 - f_star_2 * t200 + (A_ij_g_j_1 * t206 - A_ij_g_j_2 * t207);
-    phi_q_t_lambda_q[16] = t208;
-    phi_q_t_lambda_q[93] = t208;
-    const jg_real t209 = H_6 * lambda[3];
-    const jg_real t210 = H_7 * lambda[3];
-    const jg_real t211 = H_8 * lambda[3];
-    const jg_real t212 = C_i[1] * t209 + C_i[4] * t210 + C_i[7] * t211;
-    const jg_real t213 = C_i[2] * t209 + C_i[5] * t210 + C_i[8] * t211;
-    const jg_real t214 = H_3 * lambda[4];
-    const jg_real t215 = H_4 * lambda[4];
-    const jg_real t216 = H_5 * lambda[4];
-    const jg_real t217 = C_i[2] * t214 + C_i[5] * t215 + C_i[8] * t216;
-    const jg_real t218 = C_i[1] * t214 + C_i[4] * t215 + C_i[7] * t216;
-    const jg_real t219 = A_ij_h_j_2 * t212 - A_ij_h_j_1 * t213 + (A_ij_f_j_1 * t217 - A_ij_f_j_2 * t218);
-    phi_q_t_lambda_q[17] = t219;
-    phi_q_t_lambda_q[102] = t219;
-    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t92 + A_ij_f_j_0 * t96 + A_ij_g_j_0 * t100 + t57 * lambda[1];
-    const jg_real t220 = A_ij_h_j_0 * t104;
-    const jg_real t221 = A_ij_f_j_0 * t105;
-    const jg_real t222 = A_ij_g_j_0 * t106;
-    const jg_real t223 = t57 * lambda[0];
-    phi_q_t_lambda_q[19] = -(t102 + t223 + (t99 + t222 + (t91 + t220 + (t95 + t221))));
-    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t92 + A_ij_f_j_2 * t96 + A_ij_g_j_2 * t100 + t55 * lambda[1];
-    const jg_real t224 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[21] = t224;
-    phi_q_t_lambda_q[43] = t224;
-    const jg_real t225 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[22] = t225;
-    phi_q_t_lambda_q[46] = t225;
-    const jg_real t226 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[23] = t226;
-    phi_q_t_lambda_q[49] = t226;
-    const jg_real t227 = A_ij_1 * t113;
-    const jg_real t228 = s_j[1] * t226 - s_j[2] * t225;
-    phi_q_t_lambda_q[24] = A_ij_1 * t142 + A_ij_4 * t143 + A_ij_7 * t144 + (t227 - (A_ij_1 * t122 + A_ij_4 * t123 +
-        A_ij_7 * t124) - (A_ij_1 * t132 + A_ij_4 * t133 + A_ij_7 * t134)) + t228;
-    const jg_real t229 = A_ij_4 * t113;
-    const jg_real t230 = s_j[2] * t224 - s_j[0] * t226;
-    phi_q_t_lambda_q[25] = A_ij_1 * t156 + A_ij_4 * t157 + A_ij_7 * t158 + (t229 - (A_ij_1 * t148 + A_ij_4 * t149 +
-        A_ij_7 * t150) - (A_ij_1 * t152 + A_ij_4 * t153 + A_ij_7 * t154)) + t230;
-    const jg_real t231 = A_ij_7 * t113;
-    const jg_real t232 = s_j[0] * t225 - s_j[1] * t224;
-    phi_q_t_lambda_q[26] = A_ij_1 * t170 + A_ij_4 * t171 + A_ij_7 * t172 + (t231 - (A_ij_1 * t162 + A_ij_4 * t163 +
-        A_ij_7 * t164) - (A_ij_1 * t166 + A_ij_4 * t167 + A_ij_7 * t168)) + t232;
-    const jg_real t233 = C_i[0] * t176 + C_i[3] * t177 + C_i[6] * t178;
-    const jg_real t234 = C_i[6] * t185 - (C_i[0] * t183 + C_i[3] * t184);
-    const jg_real t235 = C_i[0] * t191 + C_i[3] * t192 + C_i[6] * t193;
-    const jg_real t236 = A_ij_g_j_2 * t235 - A_ij_g_j_0 * t194 + (A_ij_h_j_2 * t233 - A_ij_h_j_0 * t179 +
-        (A_ij_f_j_2 * t234 - A_ij_f_j_0 * t186));
-    phi_q_t_lambda_q[27] = t236;
-    phi_q_t_lambda_q[85] = t236;
-    const jg_real t237 = A_ij_f_j_0 * t197 + A_ij_h_j_0 * t198;
-    const jg_real t238 = C_i[0] * t203 + C_i[3] * t204 + C_i[6] * t205;
-    const jg_real t239 = f_star_2 * t237 - f_star_0 * t199 + (A_ij_g_j_2 * t238 - A_ij_g_j_0 * t206);
-    phi_q_t_lambda_q[28] = t239;
-    phi_q_t_lambda_q[94] = t239;
-    const jg_real t240 = C_i[0] * t209 + C_i[3] * t210 + C_i[6] * t211;
-    const jg_real t241 = C_i[0] * t214 + C_i[3] * t215 + C_i[6] * t216;
-    const jg_real t242 = A_ij_h_j_0 * t213 - A_ij_h_j_2 * t240 + (A_ij_f_j_2 * t241 - A_ij_f_j_0 * t217);
-    phi_q_t_lambda_q[29] = t242;
-    phi_q_t_lambda_q[103] = t242;
-    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t90 + A_ij_f_j_0 * t94 + A_ij_g_j_0 * t98 + t57 * lambda[2];
-    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t90 + A_ij_f_j_1 * t94 + A_ij_g_j_1 * t98 + t56 * lambda[2];
-    phi_q_t_lambda_q[32] = -(t103 + t223 + (t101 + t222 + (t93 + t220 + (t97 + t221))));
-    const jg_real t243 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[33] = t243;
-    phi_q_t_lambda_q[44] = t243;
-    const jg_real t244 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[34] = t244;
-    phi_q_t_lambda_q[47] = t244;
-    const jg_real t245 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[35] = t245;
-    phi_q_t_lambda_q[50] = t245;
-    const jg_real t246 = A_ij_2 * t113;
-    const jg_real t247 = s_j[1] * t245 - s_j[2] * t244;
-    phi_q_t_lambda_q[36] = A_ij_2 * t142 + A_ij_5 * t143 + A_ij_8 * t144 + (t246 - (A_ij_2 * t122 + A_ij_5 * t123 +
-        A_ij_8 * t124) - (A_ij_2 * t132 + A_ij_5 * t133 + A_ij_8 * t134)) + t247;
-    const jg_real t248 = A_ij_5 * t113;
-    const jg_real t249 = s_j[2] * t243 - s_j[0] * t245;
-    phi_q_t_lambda_q[37] = A_ij_2 * t156 + A_ij_5 * t157 + A_ij_8 * t158 + (t248 - (A_ij_2 * t148 + A_ij_5 * t149 +
-        A_ij_8 * t150) - (A_ij_2 * t152 + A_ij_5 * t153 + A_ij_8 * t154)) + t249;
-    const jg_real t250 = A_ij_8 * t113;
-    const jg_real t251 = s_j[0] * t244 - s_j[1] * t243;
-    phi_q_t_lambda_q[38] = A_ij_2 * t170 + A_ij_5 * t171 + A_ij_8 * t172 + (t250 - (A_ij_2 * t162 + A_ij_5 * t163 +
-        A_ij_8 * t164) - (A_ij_2 * t166 + A_ij_5 * t167 + A_ij_8 * t168)) + t251;
-    const jg_real t252 = A_ij_g_j_0 * t195 - A_ij_g_j_1 * t235 + (A_ij_h_j_0 * t180 - A_ij_h_j_1 * t233 +
-        (A_ij_f_j_0 * t187 - A_ij_f_j_1 * t234));
-    phi_q_t_lambda_q[39] = t252;
-    phi_q_t_lambda_q[86] = t252;
-    const jg_real t253 = f_star_0 * t200 - f_star_1 * t237 + (A_ij_g_j_0 * t207 - A_ij_g_j_1 * t238);
-    phi_q_t_lambda_q[40] = t253;
-    phi_q_t_lambda_q[95] = t253;
-    const jg_real t254 = A_ij_h_j_1 * t240 - A_ij_h_j_0 * t212 + (A_ij_f_j_0 * t218 - A_ij_f_j_1 * t241);
-    phi_q_t_lambda_q[41] = t254;
-    phi_q_t_lambda_q[104] = t254;
-    phi_q_t_lambda_q[51] = t114 - A_ij_h_j_0 * t121 - A_ij_f_j_0 * t131 + A_ij_g_j_0 * t141 + t145;
-    phi_q_t_lambda_q[52] = t227 - A_ij_h_j_1 * t121 - A_ij_f_j_1 * t131 + A_ij_g_j_1 * t141 + t228;
-    phi_q_t_lambda_q[53] = t246 - A_ij_h_j_2 * t121 - A_ij_f_j_2 * t131 + A_ij_g_j_2 * t141 + t247;
-    const jg_real t255 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[54] = t255;
-    const jg_real t256 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[76] = t256;
-    phi_q_t_lambda_q[55] = -t256;
-    const jg_real t257 = C_j[8] * lambda[3];
-    const jg_real t258 = A_ijt_g_star_2 * t257;
-    const jg_real t259 = C_j[7] * lambda[3];
-    const jg_real t260 = A_ijt_g_star_1 * t259;
-    const jg_real t261 = C_j[2] * lambda[4];
-    const jg_real t262 = A_ijt_h_star_2 * t261;
-    const jg_real t263 = C_j[1] * lambda[4];
-    const jg_real t264 = A_ijt_h_star_1 * t263;
-    const jg_real t265 = C_j[5] * lambda[5];
-    const jg_real t266 = A_ijt_f_star_2 * t265;
-    const jg_real t267 = C_j[4] * lambda[5];
-    const jg_real t268 = A_ijt_f_star_1 * t267;
-    const jg_real t269 = s_j[2] * t255;
-    const jg_real t270 = s_j[1] * t256;
-    phi_q_t_lambda_q[56] = -(t269 + t270 + (t266 + t268 + (t258 + t260 + (t262 + t264))));
-    const jg_real t271 = C_j[6] * lambda[3];
-    const jg_real t272 = C_j[0] * lambda[4];
-    const jg_real t273 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t271 + A_ijt_h_star_1 * t272 + A_ijt_f_star_1 * t273 + s_j[0] * t256;
-    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t271 + A_ijt_h_star_2 * t272 + A_ijt_f_star_2 * t273 + s_j[0] * t255;
-    const jg_real t274 = A_ij_3 * t233 + A_ij_4 * t180 + A_ij_5 * t179;
-    const jg_real t275 = A_ij_6 * t233 + A_ij_7 * t180 + A_ij_8 * t179;
-    const jg_real t276 = A_ij_3 * t234 + A_ij_4 * t187 + A_ij_5 * t186;
-    const jg_real t277 = A_ij_6 * t234 + A_ij_7 * t187 + A_ij_8 * t186;
-    const jg_real t278 = A_ij_3 * t235 + A_ij_4 * t195 + A_ij_5 * t194;
-    const jg_real t279 = A_ij_6 * t235 + A_ij_7 * t195 + A_ij_8 * t194;
-    const jg_real t280 = C_j[5] * t278 - C_j[4] * t279 + (C_j[8] * t274 - C_j[7] * t275 + (C_j[2] * t276 - C_j[1] *
-        t277));
-    phi_q_t_lambda_q[59] = t280;
-    phi_q_t_lambda_q[87] = t280;
-    const jg_real t281 = A_ij_3 * t238 + A_ij_4 * t207 + A_ij_5 * t206;
-    const jg_real t282 = A_ij_6 * t238 + A_ij_7 * t207 + A_ij_8 * t206;
-    const jg_real t283 = C_j[1] * t197 + C_j[7] * t198;
-    const jg_real t284 = C_j[2] * t197 + C_j[8] * t198;
-    const jg_real t285 = A_ijt_f_star_2 * t283 - A_ijt_f_star_1 * t284 + (C_j[5] * t281 - C_j[4] * t282);
-    phi_q_t_lambda_q[60] = t285;
-    phi_q_t_lambda_q[96] = t285;
-    const jg_real t286 = A_ij_6 * t240 + A_ij_7 * t212 + A_ij_8 * t213;
-    const jg_real t287 = A_ij_3 * t240 + A_ij_4 * t212 + A_ij_5 * t213;
-    const jg_real t288 = A_ij_3 * t241 + A_ij_4 * t218 + A_ij_5 * t217;
-    const jg_real t289 = A_ij_6 * t241 + A_ij_7 * t218 + A_ij_8 * t217;
-    const jg_real t290 = C_j[7] * t286 - C_j[8] * t287 + (C_j[2] * t288 - C_j[1] * t289);
-    phi_q_t_lambda_q[61] = t290;
-    phi_q_t_lambda_q[105] = t290;
-    phi_q_t_lambda_q[62] = t146 - A_ij_h_j_0 * t147 - A_ij_f_j_0 * t151 + A_ij_g_j_0 * t155 + t159;
-    phi_q_t_lambda_q[63] = t229 - A_ij_h_j_1 * t147 - A_ij_f_j_1 * t151 + A_ij_g_j_1 * t155 + t230;
-    phi_q_t_lambda_q[64] = t248 - A_ij_h_j_2 * t147 - A_ij_f_j_2 * t151 + A_ij_g_j_2 * t155 + t249;
-    phi_q_t_lambda_q[65] = -t255;
-    const jg_real t291 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[66] = t291;
-    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t259 + A_ijt_h_star_0 * t263 + A_ijt_f_star_0 * t267 + s_j[1] * t291;
-    const jg_real t292 = A_ijt_g_star_0 * t271;
-    const jg_real t293 = A_ijt_h_star_0 * t272;
-    const jg_real t294 = A_ijt_f_star_0 * t273;
-    const jg_real t295 = s_j[0] * t291;
-    phi_q_t_lambda_q[68] = -(t269 + t295 + (t266 + t294 + (t258 + t292 + (t262 + t293))));
-    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t259 + A_ijt_h_star_2 * t263 + A_ijt_f_star_2 * t267 + s_j[1] * t255;
-    const jg_real t296 = A_ij_0 * t233 + A_ij_1 * t180 + A_ij_2 * t179;
-    const jg_real t297 = A_ij_0 * t234 + A_ij_1 * t187 + A_ij_2 * t186;
-    const jg_real t298 = A_ij_0 * t235 + A_ij_1 * t195 + A_ij_2 * t194;
-    const jg_real t299 = C_j[3] * t279 - C_j[5] * t298 + (C_j[6] * t275 - C_j[8] * t296 + (C_j[0] * t277 - C_j[2] *
-        t297));
-    phi_q_t_lambda_q[70] = t299;
-    phi_q_t_lambda_q[88] = t299;
-    const jg_real t300 = A_ij_0 * t238 + A_ij_1 * t207 + A_ij_2 * t206;
-    const jg_real t301 = C_j[0] * t197 + C_j[6] * t198;
-    const jg_real t302 = A_ijt_f_star_0 * t284 - A_ijt_f_star_2 * t301 + (C_j[3] * t282 - C_j[5] * t300);
-    phi_q_t_lambda_q[71] = t302;
-    phi_q_t_lambda_q[97] = t302;
-    const jg_real t303 = A_ij_0 * t240 + A_ij_1 * t212 + A_ij_2 * t213;
-    const jg_real t304 = A_ij_0 * t241 + A_ij_1 * t218 + A_ij_2 * t217;
-    const jg_real t305 = C_j[8] * t303 - C_j[6] * t286 + (C_j[0] * t289 - C_j[2] * t304);
-    phi_q_t_lambda_q[72] = t305;
-    phi_q_t_lambda_q[106] = t305;
-    phi_q_t_lambda_q[73] = t160 - A_ij_h_j_0 * t161 - A_ij_f_j_0 * t165 + A_ij_g_j_0 * t169 + t173;
-    phi_q_t_lambda_q[74] = t231 - A_ij_h_j_1 * t161 - A_ij_f_j_1 * t165 + A_ij_g_j_1 * t169 + t232;
-    phi_q_t_lambda_q[75] = t250 - A_ij_h_j_2 * t161 - A_ij_f_j_2 * t165 + A_ij_g_j_2 * t169 + t251;
-    phi_q_t_lambda_q[77] = -t291;
-    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t257 + A_ijt_h_star_0 * t261 + A_ijt_f_star_0 * t265 + s_j[2] * t291;
-    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t257 + A_ijt_h_star_1 * t261 + A_ijt_f_star_1 * t265 + s_j[2] * t256;
-    phi_q_t_lambda_q[80] = -(t270 + t295 + (t268 + t294 + (t260 + t292 + (t264 + t293))));
-    const jg_real t306 = C_j[4] * t298 - C_j[3] * t278 + (C_j[7] * t296 - C_j[6] * t274 + (C_j[1] * t297 - C_j[0] *
-        t276));
-    phi_q_t_lambda_q[81] = t306;
-    phi_q_t_lambda_q[89] = t306;
-    const jg_real t307 = A_ijt_f_star_1 * t301 - A_ijt_f_star_0 * t283 + (C_j[4] * t300 - C_j[3] * t281);
-    phi_q_t_lambda_q[82] = t307;
-    phi_q_t_lambda_q[98] = t307;
-    const jg_real t308 = C_j[6] * t287 - C_j[7] * t303 + (C_j[1] * t304 - C_j[0] * t288);
-    phi_q_t_lambda_q[83] = t308;
-    phi_q_t_lambda_q[107] = t308;
-    const jg_real t309 = cosine_1 * cosine_1;
-    const jg_real t310 = cosine_2 * t309 * sine_2;
-    const jg_real t311 = sine_1 * H_8;
-    const jg_real t312 = sine_2 * sine_2;
-    const jg_real t313 = t309 * t312;
-    const jg_real t314 = sine_1 * sine_1;
-    const jg_real t315 = t314 + t313;
-    const jg_real t316 = H_3 * t310 - H_0 * t311 - H_6 * t315;
-    const jg_real t317 = H_4 * t310 - H_1 * t311 - H_7 * t315;
-    const jg_real t318 = sine_1 * t311 + H_5 * t310 - H_8 * t315;
-    const jg_real t319 = A_ij_f_j_0 * (C_i[0] * t316 + C_i[3] * t317 + C_i[6] * t318) + A_ij_f_j_1 * (C_i[1] * t316
-        + C_i[4] * t317 + C_i[7] * t318) + A_ij_f_j_2 * (C_i[2] * t316 + C_i[5] * t317 + C_i[8] * t318);
-    const jg_real t320 = cosine_2 * cosine_2;
-    const jg_real t321 = t309 * t320;
-    const jg_real t322 = t314 + t321;
-    const jg_real t323 = cosine_1 * sine_1 * sine_2;
-    const jg_real t324 = H_6 * t310 - (H_0 * t323 + H_3 * t322);
-    const jg_real t325 = H_7 * t310 - (H_1 * t323 + H_4 * t322);
-    const jg_real t326 = sine_1 * t323 - H_5 * t322 + H_8 * t310;
-    const jg_real t327 = A_ij_h_j_0 * (C_i[0] * t324 + C_i[3] * t325 + C_i[6] * t326) + A_ij_h_j_1 * (C_i[1] * t324
-        + C_i[4] * t325 + C_i[7] * t326) + A_ij_h_j_2 * (C_i[2] * t324 + C_i[5] * t325 + C_i[8] * t326);
-    const jg_real t328 = t321 + t313;
-    const jg_real t329 = H_0 * t328 + H_3 * t323 + H_6 * t311;
-    const jg_real t330 = H_1 * t328 + H_4 * t323 + H_7 * t311;
-    const jg_real t331 = sine_1 * t328 - H_5 * t323 - H_8 * t311;
-    const jg_real t332 = A_ij_g_j_0 * (C_i[6] * t331 - (C_i[0] * t329 + C_i[3] * t330)) + A_ij_g_j_1 * (C_i[7] *
-        t331 - (C_i[1] * t329 + C_i[4] * t330)) + A_ij_g_j_2 * (C_i[8] * t331 - (C_i[2] * t329 + C_i[5] * t330));
-    phi_q_t_lambda_q[90] = lambda[3] * t327 + lambda[4] * t319 + lambda[5] * t332;
-    const jg_real t333 = sine_1 * sine_2;
-    const jg_real t334 = cosine_2 * sine_1;
-    const jg_real t335 = H_6 * t333 - H_3 * t334;
-    const jg_real t336 = H_7 * t333 - H_4 * t334;
-    const jg_real t337 = H_8 * t333 - H_5 * t334;
-    const jg_real t338 = A_ij_g_j_0 * (C_i[0] * t335 + C_i[3] * t336 + C_i[6] * t337) + A_ij_g_j_1 * (C_i[1] * t335
-        + C_i[4] * t336 + C_i[7] * t337) + A_ij_g_j_2 * (C_i[2] * t335 + C_i[5] * t336 + C_i[8] * t337);
-    const jg_real t339 = lambda[5] * t338;
-    const jg_real t340 = A_ij_h_j_0 * t79 + A_ij_h_j_1 * t80 + A_ij_h_j_2 * t81;
-    const jg_real t341 = A_ij_f_j_0 * t79 + A_ij_f_j_1 * t80 + A_ij_f_j_2 * t81;
-    phi_q_t_lambda_q[91] = t339 + lambda[3] * t340 * sine_2 + lambda[4] * t341 * cosine_2;
-    const jg_real t342 = A_ij_h_j_0 * t74 + A_ij_h_j_1 * t75 + A_ij_h_j_2 * t76;
-    const jg_real t343 = A_ij_f_j_0 * t69 + A_ij_f_j_1 * t70 + A_ij_f_j_2 * t71;
-    phi_q_t_lambda_q[92] = lambda[3] * t342 + lambda[4] * t343;
-    const jg_real t344 = H_0 * t334;
-    const jg_real t345 = t344 - cosine_1 * H_6;
-    const jg_real t346 = H_1 * t334;
-    const jg_real t347 = t346 - cosine_1 * H_7;
-    const jg_real t348 = sine_1 * t334;
-    const jg_real t349 = t348 + cosine_1 * H_8;
-    const jg_real t350 = A_ij_h_j_0 * (C_i[0] * t345 + C_i[3] * t347 - C_i[6] * t349) + A_ij_h_j_1 * (C_i[1] * t345
-        + C_i[4] * t347 - C_i[7] * t349) + A_ij_h_j_2 * (C_i[2] * t345 + C_i[5] * t347 - C_i[8] * t349);
-    const jg_real t351 = sine_2 * H_8;
-    const jg_real t352 = cosine_1 * t320;
-    const jg_real t353 = H_3 * t351 - t344 + H_6 * t352;
-    const jg_real t354 = H_4 * t351 - t346 + H_7 * t352;
-    const jg_real t355 = t348 + H_5 * t351 + H_8 * t352;
-    const jg_real t356 = A_ij_h_j_0 * (C_i[0] * t353 + C_i[3] * t354 + C_i[6] * t355) + A_ij_h_j_1 * (C_i[1] * t353
-        + C_i[4] * t354 + C_i[7] * t355) + A_ij_h_j_2 * (C_i[2] * t353 + C_i[5] * t354 + C_i[8] * t355);
-    const jg_real t357 = H_0 * t333;
-    const jg_real t358 = cosine_1 * t312;
-    const jg_real t359 = t357 - H_3 * t358 - H_6 * t351;
-    const jg_real t360 = H_1 * t333;
-    const jg_real t361 = t360 - H_4 * t358 - H_7 * t351;
-    const jg_real t362 = sine_1 * t333;
-    const jg_real t363 = t362 + H_5 * t358 + H_8 * t351;
-    const jg_real t364 = A_ij_f_j_0 * (C_i[0] * t359 + C_i[3] * t361 - C_i[6] * t363) + A_ij_f_j_1 * (C_i[1] * t359
-        + C_i[4] * t361 - C_i[7] * t363) + A_ij_f_j_2 * (C_i[2] * t359 + C_i[5] * t361 - C_i[8] * t363);
-    const jg_real t365 = cosine_1 * H_3 - t357;
-    const jg_real t366 = cosine_1 * H_4 - t360;
-    const jg_real t367 = t362 + cosine_1 * H_5;
-    const jg_real t368 = A_ij_f_j_0 * (C_i[0] * t365 + C_i[3] * t366 + C_i[6] * t367) + A_ij_f_j_1 * (C_i[1] * t365
-        + C_i[4] * t366 + C_i[7] * t367) + A_ij_f_j_2 * (C_i[2] * t365 + C_i[5] * t366 + C_i[8] * t367);
-    phi_q_t_lambda_q[99] = lambda[3] * t350 + lambda[3] * t356 + lambda[4] * t364 + lambda[4] * t368 + t339;
-    const jg_real t369 = A_ij_h_j_0 * t87 + A_ij_h_j_1 * t88 + A_ij_h_j_2 * t89;
-    const jg_real t370 = A_ij_f_j_0 * t87 + A_ij_f_j_1 * t88 + A_ij_f_j_2 * t89;
-    phi_q_t_lambda_q[100] = -(lambda[3] * t369 * sine_2 + lambda[4] * t370 * cosine_2 + lambda[5] * t320 * t54 +
-        lambda[5] * t312 * t54);
-    const jg_real t371 = t82 * lambda[3];
-    const jg_real t372 = t83 * lambda[4];
-    const jg_real t373 = cosine_2 * t371 - sine_2 * t372;
-    phi_q_t_lambda_q[101] = t373;
-    phi_q_t_lambda_q[109] = t373;
-    phi_q_t_lambda_q[108] = sine_1 * t110 + sine_1 * t111 + cosine_1 * t371 * sine_2 + cosine_1 * t372 * cosine_2;
-    phi_q_t_lambda_q[110] = -t112;
+    const jg_real t93 = g_star_2 * lambda[3];
+    const jg_real t94 = A_ij_h_j_2 * t93;
+    const jg_real t95 = g_star_1 * lambda[3];
+    const jg_real t96 = A_ij_h_j_1 * t95;
+    const jg_real t97 = h_star_2 * lambda[4];
+    const jg_real t98 = A_ij_f_j_2 * t97;
+    const jg_real t99 = h_star_1 * lambda[4];
+    const jg_real t100 = A_ij_f_j_1 * t99;
+    const jg_real t101 = f_star_2 * lambda[5];
+    const jg_real t102 = A_ij_g_j_2 * t101;
+    const jg_real t103 = f_star_1 * lambda[5];
+    const jg_real t104 = A_ij_g_j_1 * t103;
+    const jg_real t105 = t58 * lambda[2];
+    const jg_real t106 = t59 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t105 + t106 + (t102 + t104 + (t94 + t96 + (t98 + t100))));
+    const jg_real t107 = g_star_0 * lambda[3];
+    const jg_real t108 = h_star_0 * lambda[4];
+    const jg_real t109 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t107 + A_ij_f_j_1 * t108 + A_ij_g_j_1 * t109 + t59 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t107 + A_ij_f_j_2 * t108 + A_ij_g_j_2 * t109 + t58 * lambda[0];
+    const jg_real t110 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t110;
+    phi_q_t_lambda_q[42] = t110;
+    const jg_real t111 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t111;
+    phi_q_t_lambda_q[45] = t111;
+    const jg_real t112 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t112;
+    phi_q_t_lambda_q[48] = t112;
+    const jg_real t113 = t38 * lambda[3];
+    const jg_real t114 = t48 * lambda[4];
+    const jg_real t115 = t113 + t114;
+    const jg_real t116 = t57 * lambda[5] + t115;
+    const jg_real t117 = A_ij_0 * t116;
+    const jg_real t118 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t119 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t120 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t121 = s_j[1] * t112 - s_j[2] * t111;
+    phi_q_t_lambda_q[12] = t117 - A_ij_h_j_0 * t118 - A_ij_f_j_0 * t119 - A_ij_g_j_0 * t120 + t121;
+    const jg_real t122 = A_ij_3 * t116;
+    const jg_real t123 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t124 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t125 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t126 = s_j[2] * t110 - s_j[0] * t112;
+    phi_q_t_lambda_q[13] = t122 - A_ij_h_j_0 * t123 - A_ij_f_j_0 * t124 - A_ij_g_j_0 * t125 + t126;
+    const jg_real t127 = A_ij_6 * t116;
+    const jg_real t128 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t129 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t130 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t131 = s_j[0] * t111 - s_j[1] * t110;
+    phi_q_t_lambda_q[14] = t127 - A_ij_h_j_0 * t128 - A_ij_f_j_0 * t129 - A_ij_g_j_0 * t130 + t131;
+    const jg_real t132 = cosine_1 * lambda[3] * cosine_2;
+    const jg_real t133 = sine_1 * lambda[3];
+    const jg_real t134 = H_0 * t132 + H_6 * t133;
+    const jg_real t135 = H_1 * t132 + H_7 * t133;
+    const jg_real t136 = H_8 * t133 - sine_1 * t132;
+    const jg_real t137 = C_i[2] * t134 + C_i[5] * t135 + C_i[8] * t136;
+    const jg_real t138 = C_i[1] * t134 + C_i[4] * t135 + C_i[7] * t136;
+    const jg_real t139 = cosine_1 * lambda[4] * sine_2;
+    const jg_real t140 = sine_1 * lambda[4];
+    const jg_real t141 = H_0 * t139 + H_3 * t140;
+    const jg_real t142 = H_1 * t139 + H_4 * t140;
+    const jg_real t143 = sine_1 * t139 - H_5 * t140;
+    const jg_real t144 = C_i[8] * t143 - (C_i[2] * t141 + C_i[5] * t142);
+    const jg_real t145 = C_i[7] * t143 - (C_i[1] * t141 + C_i[4] * t142);
+    const jg_real t146 = cosine_1 * lambda[5];
+    const jg_real t147 = sine_2 * t146;
+    const jg_real t148 = cosine_2 * t146;
+    const jg_real t149 = H_6 * t147 - H_3 * t148;
+    const jg_real t150 = H_7 * t147 - H_4 * t148;
+    const jg_real t151 = H_8 * t147 - H_5 * t148;
+    const jg_real t152 = C_i[2] * t149 + C_i[5] * t150 + C_i[8] * t151;
+    const jg_real t153 = C_i[1] * t149 + C_i[4] * t150 + C_i[7] * t151;
+    const jg_real t154 = A_ij_g_j_1 * t152 - A_ij_g_j_2 * t153 + (A_ij_h_j_1 * t137 - A_ij_h_j_2 * t138 +
+        (A_ij_f_j_1 * t144 - A_ij_f_j_2 * t145));
+    phi_q_t_lambda_q[15] = t154;
+    phi_q_t_lambda_q[84] = t154;
+    const jg_real t155 = cosine_2 * lambda[4];
+    const jg_real t156 = sine_2 * lambda[3];
+    const jg_real t157 = C_j[0] * t155 + C_j[6] * t156;
+    const jg_real t158 = C_j[1] * t155 + C_j[7] * t156;
+    const jg_real t159 = C_j[2] * t155 + C_j[8] * t156;
+    const jg_real t160 = A_ij_2 * t157 + A_ij_5 * t158 + A_ij_8 * t159;
+    const jg_real t161 = A_ij_1 * t157 + A_ij_4 * t158 + A_ij_7 * t159;
+    const jg_real t162 = sine_2 * lambda[5];
+    const jg_real t163 = cosine_2 * lambda[5];
+    const jg_real t164 = H_3 * t162 + H_6 * t163;
+    const jg_real t165 = H_4 * t162 + H_7 * t163;
+    const jg_real t166 = H_5 * t162 + H_8 * t163;
+    const jg_real t167 = C_i[2] * t164 + C_i[5] * t165 + C_i[8] * t166;
+    const jg_real t168 = C_i[1] * t164 + C_i[4] * t165 + C_i[7] * t166;
+    const jg_real t169 = f_star_1 * t160 - f_star_2 * t161 + (A_ij_g_j_1 * t167 - A_ij_g_j_2 * t168);
+    phi_q_t_lambda_q[16] = t169;
+    phi_q_t_lambda_q[93] = t169;
+    const jg_real t170 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+        h_star_2 - A_ij_h_j_2 * h_star_1);
+    phi_q_t_lambda_q[17] = t170;
+    phi_q_t_lambda_q[102] = t170;
+    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t95 + A_ij_f_j_0 * t99 + A_ij_g_j_0 * t103 + t60 * lambda[1];
+    const jg_real t171 = A_ij_h_j_0 * t107;
+    const jg_real t172 = A_ij_f_j_0 * t108;
+    const jg_real t173 = A_ij_g_j_0 * t109;
+    const jg_real t174 = t60 * lambda[0];
+    phi_q_t_lambda_q[19] = -(t105 + t174 + (t102 + t173 + (t94 + t171 + (t98 + t172))));
+    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t95 + A_ij_f_j_2 * t99 + A_ij_g_j_2 * t103 + t58 * lambda[1];
+    const jg_real t175 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[21] = t175;
+    phi_q_t_lambda_q[43] = t175;
+    const jg_real t176 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[22] = t176;
+    phi_q_t_lambda_q[46] = t176;
+    const jg_real t177 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[23] = t177;
+    phi_q_t_lambda_q[49] = t177;
+    const jg_real t178 = A_ij_1 * t116;
+    const jg_real t179 = s_j[1] * t177 - s_j[2] * t176;
+    phi_q_t_lambda_q[24] = t178 - A_ij_h_j_1 * t118 - A_ij_f_j_1 * t119 - A_ij_g_j_1 * t120 + t179;
+    const jg_real t180 = A_ij_4 * t116;
+    const jg_real t181 = s_j[2] * t175 - s_j[0] * t177;
+    phi_q_t_lambda_q[25] = t180 - A_ij_h_j_1 * t123 - A_ij_f_j_1 * t124 - A_ij_g_j_1 * t125 + t181;
+    const jg_real t182 = A_ij_7 * t116;
+    const jg_real t183 = s_j[0] * t176 - s_j[1] * t175;
+    phi_q_t_lambda_q[26] = t182 - A_ij_h_j_1 * t128 - A_ij_f_j_1 * t129 - A_ij_g_j_1 * t130 + t183;
+    const jg_real t184 = C_i[0] * t134 + C_i[3] * t135 + C_i[6] * t136;
+    const jg_real t185 = C_i[6] * t143 - (C_i[0] * t141 + C_i[3] * t142);
+    const jg_real t186 = C_i[0] * t149 + C_i[3] * t150 + C_i[6] * t151;
+    const jg_real t187 = A_ij_g_j_2 * t186 - A_ij_g_j_0 * t152 + (A_ij_h_j_2 * t184 - A_ij_h_j_0 * t137 +
+        (A_ij_f_j_2 * t185 - A_ij_f_j_0 * t144));
+    phi_q_t_lambda_q[27] = t187;
+    phi_q_t_lambda_q[85] = t187;
+    const jg_real t188 = A_ij_0 * t157 + A_ij_3 * t158 + A_ij_6 * t159;
+    const jg_real t189 = C_i[0] * t164 + C_i[3] * t165 + C_i[6] * t166;
+    const jg_real t190 = f_star_2 * t188 - f_star_0 * t160 + (A_ij_g_j_2 * t189 - A_ij_g_j_0 * t167);
+    phi_q_t_lambda_q[28] = t190;
+    phi_q_t_lambda_q[94] = t190;
+    const jg_real t191 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+        h_star_0 - A_ij_h_j_0 * h_star_2);
+    phi_q_t_lambda_q[29] = t191;
+    phi_q_t_lambda_q[103] = t191;
+    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t93 + A_ij_f_j_0 * t97 + A_ij_g_j_0 * t101 + t60 * lambda[2];
+    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t93 + A_ij_f_j_1 * t97 + A_ij_g_j_1 * t101 + t59 * lambda[2];
+    phi_q_t_lambda_q[32] = -(t106 + t174 + (t104 + t173 + (t96 + t171 + (t100 + t172))));
+    const jg_real t192 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[33] = t192;
+    phi_q_t_lambda_q[44] = t192;
+    const jg_real t193 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[34] = t193;
+    phi_q_t_lambda_q[47] = t193;
+    const jg_real t194 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[35] = t194;
+    phi_q_t_lambda_q[50] = t194;
+    const jg_real t195 = A_ij_2 * t116;
+    const jg_real t196 = s_j[1] * t194 - s_j[2] * t193;
+    phi_q_t_lambda_q[36] = t195 - A_ij_h_j_2 * t118 - A_ij_f_j_2 * t119 - A_ij_g_j_2 * t120 + t196;
+    const jg_real t197 = A_ij_5 * t116;
+    const jg_real t198 = s_j[2] * t192 - s_j[0] * t194;
+    phi_q_t_lambda_q[37] = t197 - A_ij_h_j_2 * t123 - A_ij_f_j_2 * t124 - A_ij_g_j_2 * t125 + t198;
+    const jg_real t199 = A_ij_8 * t116;
+    const jg_real t200 = s_j[0] * t193 - s_j[1] * t192;
+    phi_q_t_lambda_q[38] = t199 - A_ij_h_j_2 * t128 - A_ij_f_j_2 * t129 - A_ij_g_j_2 * t130 + t200;
+    const jg_real t201 = A_ij_g_j_0 * t153 - A_ij_g_j_1 * t186 + (A_ij_h_j_0 * t138 - A_ij_h_j_1 * t184 +
+        (A_ij_f_j_0 * t145 - A_ij_f_j_1 * t185));
+    phi_q_t_lambda_q[39] = t201;
+    phi_q_t_lambda_q[86] = t201;
+    const jg_real t202 = f_star_0 * t161 - f_star_1 * t188 + (A_ij_g_j_0 * t168 - A_ij_g_j_1 * t189);
+    phi_q_t_lambda_q[40] = t202;
+    phi_q_t_lambda_q[95] = t202;
+    const jg_real t203 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+        h_star_1 - A_ij_h_j_1 * h_star_0);
+    phi_q_t_lambda_q[41] = t203;
+    phi_q_t_lambda_q[104] = t203;
+    const jg_real t204 = A_ij_h_j_0 * lambda[3];
+    const jg_real t205 = A_ij_f_j_0 * lambda[4];
+    const jg_real t206 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[51] = t117 - A_ijt_g_star_0 * t204 - A_ijt_h_star_0 * t205 - A_ijt_f_star_0 * t206 + t121;
+    const jg_real t207 = A_ij_h_j_1 * lambda[3];
+    const jg_real t208 = A_ij_f_j_1 * lambda[4];
+    const jg_real t209 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[52] = t178 - A_ijt_g_star_0 * t207 - A_ijt_h_star_0 * t208 - A_ijt_f_star_0 * t209 + t179;
+    const jg_real t210 = A_ij_h_j_2 * lambda[3];
+    const jg_real t211 = A_ij_f_j_2 * lambda[4];
+    const jg_real t212 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[53] = t195 - A_ijt_g_star_0 * t210 - A_ijt_h_star_0 * t211 - A_ijt_f_star_0 * t212 + t196;
+    const jg_real t213 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[54] = t213;
+    const jg_real t214 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[76] = t214;
+    phi_q_t_lambda_q[55] = -t214;
+    const jg_real t215 = C_j[8] * lambda[3];
+    const jg_real t216 = A_ijt_g_star_2 * t215;
+    const jg_real t217 = C_j[7] * lambda[3];
+    const jg_real t218 = A_ijt_g_star_1 * t217;
+    const jg_real t219 = C_j[2] * lambda[4];
+    const jg_real t220 = A_ijt_h_star_2 * t219;
+    const jg_real t221 = C_j[1] * lambda[4];
+    const jg_real t222 = A_ijt_h_star_1 * t221;
+    const jg_real t223 = C_j[5] * lambda[5];
+    const jg_real t224 = A_ijt_f_star_2 * t223;
+    const jg_real t225 = C_j[4] * lambda[5];
+    const jg_real t226 = A_ijt_f_star_1 * t225;
+    const jg_real t227 = s_j[2] * t213;
+    const jg_real t228 = s_j[1] * t214;
+    phi_q_t_lambda_q[56] = -(t227 + t228 + (t224 + t226 + (t216 + t218 + (t220 + t222))));
+    const jg_real t229 = C_j[6] * lambda[3];
+    const jg_real t230 = C_j[0] * lambda[4];
+    const jg_real t231 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t229 + A_ijt_h_star_1 * t230 + A_ijt_f_star_1 * t231 + s_j[0] * t214;
+    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t229 + A_ijt_h_star_2 * t230 + A_ijt_f_star_2 * t231 + s_j[0] * t213;
+    const jg_real t232 = A_ij_3 * t184 + A_ij_4 * t138 + A_ij_5 * t137;
+    const jg_real t233 = A_ij_6 * t184 + A_ij_7 * t138 + A_ij_8 * t137;
+    const jg_real t234 = A_ij_3 * t185 + A_ij_4 * t145 + A_ij_5 * t144;
+    const jg_real t235 = A_ij_6 * t185 + A_ij_7 * t145 + A_ij_8 * t144;
+    const jg_real t236 = A_ij_3 * t186 + A_ij_4 * t153 + A_ij_5 * t152;
+    const jg_real t237 = A_ij_6 * t186 + A_ij_7 * t153 + A_ij_8 * t152;
+    const jg_real t238 = C_j[5] * t236 - C_j[4] * t237 + (C_j[8] * t232 - C_j[7] * t233 + (C_j[2] * t234 - C_j[1] *
+        t235));
+    phi_q_t_lambda_q[59] = t238;
+    phi_q_t_lambda_q[87] = t238;
+    const jg_real t239 = A_ij_3 * t189 + A_ij_4 * t168 + A_ij_5 * t167;
+    const jg_real t240 = A_ij_6 * t189 + A_ij_7 * t168 + A_ij_8 * t167;
+    const jg_real t241 = A_ijt_f_star_2 * t158 - A_ijt_f_star_1 * t159 + (C_j[5] * t239 - C_j[4] * t240);
+    phi_q_t_lambda_q[60] = t241;
+    phi_q_t_lambda_q[96] = t241;
+    const jg_real t242 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+        A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
+    phi_q_t_lambda_q[61] = t242;
+    phi_q_t_lambda_q[105] = t242;
+    phi_q_t_lambda_q[62] = t122 - A_ijt_g_star_1 * t204 - A_ijt_h_star_1 * t205 - A_ijt_f_star_1 * t206 + t126;
+    phi_q_t_lambda_q[63] = t180 - A_ijt_g_star_1 * t207 - A_ijt_h_star_1 * t208 - A_ijt_f_star_1 * t209 + t181;
+    phi_q_t_lambda_q[64] = t197 - A_ijt_g_star_1 * t210 - A_ijt_h_star_1 * t211 - A_ijt_f_star_1 * t212 + t198;
+    phi_q_t_lambda_q[65] = -t213;
+    const jg_real t243 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[66] = t243;
+    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t217 + A_ijt_h_star_0 * t221 + A_ijt_f_star_0 * t225 + s_j[1] * t243;
+    const jg_real t244 = A_ijt_g_star_0 * t229;
+    const jg_real t245 = A_ijt_h_star_0 * t230;
+    const jg_real t246 = A_ijt_f_star_0 * t231;
+    const jg_real t247 = s_j[0] * t243;
+    phi_q_t_lambda_q[68] = -(t227 + t247 + (t224 + t246 + (t216 + t244 + (t220 + t245))));
+    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t217 + A_ijt_h_star_2 * t221 + A_ijt_f_star_2 * t225 + s_j[1] * t213;
+    const jg_real t248 = A_ij_0 * t184 + A_ij_1 * t138 + A_ij_2 * t137;
+    const jg_real t249 = A_ij_0 * t185 + A_ij_1 * t145 + A_ij_2 * t144;
+    const jg_real t250 = A_ij_0 * t186 + A_ij_1 * t153 + A_ij_2 * t152;
+    const jg_real t251 = C_j[3] * t237 - C_j[5] * t250 + (C_j[6] * t233 - C_j[8] * t248 + (C_j[0] * t235 - C_j[2] *
+        t249));
+    phi_q_t_lambda_q[70] = t251;
+    phi_q_t_lambda_q[88] = t251;
+    const jg_real t252 = A_ij_0 * t189 + A_ij_1 * t168 + A_ij_2 * t167;
+    const jg_real t253 = A_ijt_f_star_0 * t159 - A_ijt_f_star_2 * t157 + (C_j[3] * t240 - C_j[5] * t252);
+    phi_q_t_lambda_q[71] = t253;
+    phi_q_t_lambda_q[97] = t253;
+    const jg_real t254 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+        A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
+    phi_q_t_lambda_q[72] = t254;
+    phi_q_t_lambda_q[106] = t254;
+    phi_q_t_lambda_q[73] = t127 - A_ijt_g_star_2 * t204 - A_ijt_h_star_2 * t205 - A_ijt_f_star_2 * t206 + t131;
+    phi_q_t_lambda_q[74] = t182 - A_ijt_g_star_2 * t207 - A_ijt_h_star_2 * t208 - A_ijt_f_star_2 * t209 + t183;
+    phi_q_t_lambda_q[75] = t199 - A_ijt_g_star_2 * t210 - A_ijt_h_star_2 * t211 - A_ijt_f_star_2 * t212 + t200;
+    phi_q_t_lambda_q[77] = -t243;
+    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t215 + A_ijt_h_star_0 * t219 + A_ijt_f_star_0 * t223 + s_j[2] * t243;
+    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t215 + A_ijt_h_star_1 * t219 + A_ijt_f_star_1 * t223 + s_j[2] * t214;
+    phi_q_t_lambda_q[80] = -(t228 + t247 + (t226 + t246 + (t218 + t244 + (t222 + t245))));
+    const jg_real t255 = C_j[4] * t250 - C_j[3] * t236 + (C_j[7] * t248 - C_j[6] * t232 + (C_j[1] * t249 - C_j[0] *
+        t234));
+    phi_q_t_lambda_q[81] = t255;
+    phi_q_t_lambda_q[89] = t255;
+    const jg_real t256 = A_ijt_f_star_1 * t157 - A_ijt_f_star_0 * t158 + (C_j[4] * t252 - C_j[3] * t239);
+    phi_q_t_lambda_q[82] = t256;
+    phi_q_t_lambda_q[98] = t256;
+    const jg_real t257 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+        A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
+    phi_q_t_lambda_q[83] = t257;
+    phi_q_t_lambda_q[107] = t257;
+    const jg_real t258 = cosine_1 * cosine_1;
+    const jg_real t259 = cosine_2 * t258 * sine_2;
+    const jg_real t260 = sine_1 * H_8;
+    const jg_real t261 = sine_2 * sine_2;
+    const jg_real t262 = t258 * t261;
+    const jg_real t263 = sine_1 * sine_1;
+    const jg_real t264 = t263 + t262;
+    const jg_real t265 = H_3 * t259 - H_0 * t260 - H_6 * t264;
+    const jg_real t266 = H_4 * t259 - H_1 * t260 - H_7 * t264;
+    const jg_real t267 = sine_1 * t260 + H_5 * t259 - H_8 * t264;
+    const jg_real t268 = A_ij_f_j_0 * (C_i[0] * t265 + C_i[3] * t266 + C_i[6] * t267) + A_ij_f_j_1 * (C_i[1] * t265
+        + C_i[4] * t266 + C_i[7] * t267) + A_ij_f_j_2 * (C_i[2] * t265 + C_i[5] * t266 + C_i[8] * t267);
+    const jg_real t269 = cosine_2 * cosine_2;
+    const jg_real t270 = t258 * t269;
+    const jg_real t271 = t263 + t270;
+    const jg_real t272 = cosine_1 * sine_1 * sine_2;
+    const jg_real t273 = H_6 * t259 - (H_0 * t272 + H_3 * t271);
+    const jg_real t274 = H_7 * t259 - (H_1 * t272 + H_4 * t271);
+    const jg_real t275 = sine_1 * t272 - H_5 * t271 + H_8 * t259;
+    const jg_real t276 = A_ij_h_j_0 * (C_i[0] * t273 + C_i[3] * t274 + C_i[6] * t275) + A_ij_h_j_1 * (C_i[1] * t273
+        + C_i[4] * t274 + C_i[7] * t275) + A_ij_h_j_2 * (C_i[2] * t273 + C_i[5] * t274 + C_i[8] * t275);
+    const jg_real t277 = t270 + t262;
+    const jg_real t278 = H_0 * t277 + H_3 * t272 + H_6 * t260;
+    const jg_real t279 = H_1 * t277 + H_4 * t272 + H_7 * t260;
+    const jg_real t280 = sine_1 * t277 - H_5 * t272 - H_8 * t260;
+    const jg_real t281 = A_ij_g_j_0 * (C_i[6] * t280 - (C_i[0] * t278 + C_i[3] * t279)) + A_ij_g_j_1 * (C_i[7] *
+        t280 - (C_i[1] * t278 + C_i[4] * t279)) + A_ij_g_j_2 * (C_i[8] * t280 - (C_i[2] * t278 + C_i[5] * t279));
+    phi_q_t_lambda_q[90] = lambda[3] * t276 + lambda[4] * t268 + lambda[5] * t281;
+    const jg_real t282 = sine_1 * sine_2;
+    const jg_real t283 = cosine_2 * sine_1;
+    const jg_real t284 = H_6 * t282 - H_3 * t283;
+    const jg_real t285 = H_7 * t282 - H_4 * t283;
+    const jg_real t286 = H_8 * t282 - H_5 * t283;
+    const jg_real t287 = A_ij_g_j_0 * (C_i[0] * t284 + C_i[3] * t285 + C_i[6] * t286) + A_ij_g_j_1 * (C_i[1] * t284
+        + C_i[4] * t285 + C_i[7] * t286) + A_ij_g_j_2 * (C_i[2] * t284 + C_i[5] * t285 + C_i[8] * t286);
+    const jg_real t288 = lambda[5] * t287;
+    const jg_real t289 = A_ij_h_j_0 * t82 + A_ij_h_j_1 * t83 + A_ij_h_j_2 * t84;
+    const jg_real t290 = A_ij_f_j_0 * t82 + A_ij_f_j_1 * t83 + A_ij_f_j_2 * t84;
+    phi_q_t_lambda_q[91] = t288 + lambda[3] * t289 * sine_2 + lambda[4] * t290 * cosine_2;
+    const jg_real t291 = A_ij_h_j_0 * t77 + A_ij_h_j_1 * t78 + A_ij_h_j_2 * t79;
+    const jg_real t292 = A_ij_f_j_0 * t72 + A_ij_f_j_1 * t73 + A_ij_f_j_2 * t74;
+    phi_q_t_lambda_q[92] = lambda[3] * t291 + lambda[4] * t292;
+    const jg_real t293 = H_0 * t283;
+    const jg_real t294 = t293 - cosine_1 * H_6;
+    const jg_real t295 = H_1 * t283;
+    const jg_real t296 = t295 - cosine_1 * H_7;
+    const jg_real t297 = sine_1 * t283;
+    const jg_real t298 = t297 + cosine_1 * H_8;
+    const jg_real t299 = A_ij_h_j_0 * (C_i[0] * t294 + C_i[3] * t296 - C_i[6] * t298) + A_ij_h_j_1 * (C_i[1] * t294
+        + C_i[4] * t296 - C_i[7] * t298) + A_ij_h_j_2 * (C_i[2] * t294 + C_i[5] * t296 - C_i[8] * t298);
+    const jg_real t300 = sine_2 * H_8;
+    const jg_real t301 = cosine_1 * t269;
+    const jg_real t302 = H_3 * t300 - t293 + H_6 * t301;
+    const jg_real t303 = H_4 * t300 - t295 + H_7 * t301;
+    const jg_real t304 = t297 + H_5 * t300 + H_8 * t301;
+    const jg_real t305 = A_ij_h_j_0 * (C_i[0] * t302 + C_i[3] * t303 + C_i[6] * t304) + A_ij_h_j_1 * (C_i[1] * t302
+        + C_i[4] * t303 + C_i[7] * t304) + A_ij_h_j_2 * (C_i[2] * t302 + C_i[5] * t303 + C_i[8] * t304);
+    const jg_real t306 = H_0 * t282;
+    const jg_real t307 = cosine_1 * t261;
+    const jg_real t308 = t306 - H_3 * t307 - H_6 * t300;
+    const jg_real t309 = H_1 * t282;
+    const jg_real t310 = t309 - H_4 * t307 - H_7 * t300;
+    const jg_real t311 = sine_1 * t282;
+    const jg_real t312 = t311 + H_5 * t307 + H_8 * t300;
+    const jg_real t313 = A_ij_f_j_0 * (C_i[0] * t308 + C_i[3] * t310 - C_i[6] * t312) + A_ij_f_j_1 * (C_i[1] * t308
+        + C_i[4] * t310 - C_i[7] * t312) + A_ij_f_j_2 * (C_i[2] * t308 + C_i[5] * t310 - C_i[8] * t312);
+    const jg_real t314 = cosine_1 * H_3 - t306;
+    const jg_real t315 = cosine_1 * H_4 - t309;
+    const jg_real t316 = t311 + cosine_1 * H_5;
+    const jg_real t317 = A_ij_f_j_0 * (C_i[0] * t314 + C_i[3] * t315 + C_i[6] * t316) + A_ij_f_j_1 * (C_i[1] * t314
+        + C_i[4] * t315 + C_i[7] * t316) + A_ij_f_j_2 * (C_i[2] * t314 + C_i[5] * t315 + C_i[8] * t316);
+    phi_q_t_lambda_q[99] = lambda[3] * t299 + lambda[3] * t305 + lambda[4] * t313 + lambda[4] * t317 + t288;
+    const jg_real t318 = A_ij_h_j_0 * t90 + A_ij_h_j_1 * t91 + A_ij_h_j_2 * t92;
+    const jg_real t319 = A_ij_f_j_0 * t90 + A_ij_f_j_1 * t91 + A_ij_f_j_2 * t92;
+    phi_q_t_lambda_q[100] = -(lambda[3] * t318 * sine_2 + lambda[4] * t319 * cosine_2 + lambda[5] * t269 * t57 +
+        lambda[5] * t261 * t57);
+    const jg_real t320 = t85 * lambda[3];
+    const jg_real t321 = t86 * lambda[4];
+    const jg_real t322 = cosine_2 * t320 - sine_2 * t321;
+    phi_q_t_lambda_q[101] = t322;
+    phi_q_t_lambda_q[109] = t322;
+    phi_q_t_lambda_q[108] = sine_1 * t113 + sine_1 * t114 + cosine_1 * t320 * sine_2 + cosine_1 * t321 * cosine_2;
+    phi_q_t_lambda_q[110] = -t115;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
     const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    const jg_real t377 = s_j[1] * JG_REAL(2.0);
-    const jg_real t378 = s_j[2] * JG_REAL(2.0);
-    const jg_real t379 = omega_j[2] * t377 - omega_j[1] * t378;
-    const jg_real t380 = s_j[0] * JG_REAL(2.0);
-    const jg_real t381 = omega_j[0] * t378 - omega_j[2] * t380;
-    const jg_real t382 = omega_j[1] * t380 - omega_j[0] * t377;
-    const jg_real t383 = A_ij_2 * t379 + A_ij_5 * t381 + A_ij_8 * t382;
-    const jg_real t384 = A_ij_1 * t379 + A_ij_4 * t381 + A_ij_7 * t382;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
     const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t394 = JG_REAL(2.0) * v_j[0];
-    const jg_real t395 = JG_REAL(2.0) * v_j[1];
-    const jg_real t396 = JG_REAL(2.0) * v_j[2];
-    const jg_real t397 = A_ij_1 * t394 + A_ij_4 * t395 + A_ij_7 * t396;
-    const jg_real t398 = A_ij_2 * t394 + A_ij_5 * t395 + A_ij_8 * t396;
-    const jg_real t399 = JG_REAL(2.0) * v_i[2];
-    const jg_real t400 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t399 - omega_i[2] * t400 + (omega_i[2] * t397 - omega_i[1] * t398 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t383 - omega_i[2] * t384 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t403 = A_ij_0 * t379 + A_ij_3 * t381 + A_ij_6 * t382;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t406 = A_ij_0 * t394 + A_ij_3 * t395 + A_ij_6 * t396;
-    const jg_real t407 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t407 - omega_i[0] * t399 + (omega_i[0] * t398 - omega_i[2] * t406 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t403 - omega_i[0] * t383 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t400 - omega_i[1] * t407 + (omega_i[1] * t406 - omega_i[0] * t397 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t384 - omega_i[1] * t403 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -2212,15 +2124,15 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t422 = alphadot[2] * alphadot[2];
-    const jg_real t423 = alphadot[0] * alphadot[0];
-    const jg_real t424 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t425 = JG_REAL(2.0) * alphadot[2];
-    const jg_real t426 = alphadot[0] * alphadot[1];
-    const jg_real t427 = alphadot[2] * alphadot[0];
-    const jg_real t428 = alphadot[1] * alphadot[1];
-    const jg_real t429 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t430 = alphadot[2] * t429;
+    const jg_real t365 = alphadot[2] * alphadot[2];
+    const jg_real t366 = alphadot[0] * alphadot[0];
+    const jg_real t367 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t368 = JG_REAL(2.0) * alphadot[2];
+    const jg_real t369 = alphadot[0] * alphadot[1];
+    const jg_real t370 = alphadot[2] * alphadot[0];
+    const jg_real t371 = alphadot[1] * alphadot[1];
+    const jg_real t372 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t373 = alphadot[2] * t372;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -2231,16 +2143,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t35 * t422 - t327 * t423 + (t69 *
-        A_ij_omega_j_cross_h_j_0 + t70 * A_ij_omega_j_cross_h_j_1 + t71 * A_ij_omega_j_cross_h_j_2) * t424 -
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t38 * t365 - t276 * t366 + (t72 *
+        A_ij_omega_j_cross_h_j_0 + t73 * A_ij_omega_j_cross_h_j_1 + t74 * A_ij_omega_j_cross_h_j_2) * t367 -
         (h_star_0 * A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 *
-        A_ij_omega_j_cross_h_j_2) * t425 - t424 * (t69 * omega_i_cross_A_ij_h_j_0 + t70 * omega_i_cross_A_ij_h_j_1 +
-        t71 * omega_i_cross_A_ij_h_j_2) + t425 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 *
-        omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2) - t350 * t426 - t356 * t426 - t342 * t427 +
-        t369 * t428 * sine_2 - (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2
-        * A_ij_omega_j_cross_h_j_2) * t429 * sine_2 + t429 * (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
-        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * sine_2 - t340 * t426 * sine_2 - t35 * t427
-        * sine_1 - t82 * t430 * cosine_2 - t82 * t427 * cosine_1 * sine_2;
+        A_ij_omega_j_cross_h_j_2) * t368 - t367 * (t72 * omega_i_cross_A_ij_h_j_0 + t73 * omega_i_cross_A_ij_h_j_1 +
+        t74 * omega_i_cross_A_ij_h_j_2) + t368 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 *
+        omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2) - t299 * t369 - t305 * t369 - t291 * t370 +
+        t318 * t371 * sine_2 - (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2
+        * A_ij_omega_j_cross_h_j_2) * t372 * sine_2 + t372 * (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
+        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * sine_2 - t289 * t369 * sine_2 - t38 * t370
+        * sine_1 - t85 * t373 * cosine_2 - t85 * t370 * cosine_1 * sine_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -2273,16 +2185,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t45 * t422 - t319 * t423 - t424 * (t74
-        * A_ij_omega_j_cross_f_j_0 + t75 * A_ij_omega_j_cross_f_j_1 + t76 * A_ij_omega_j_cross_f_j_2) - t425 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t48 * t365 - t268 * t366 - t367 * (t77
+        * A_ij_omega_j_cross_f_j_0 + t78 * A_ij_omega_j_cross_f_j_1 + t79 * A_ij_omega_j_cross_f_j_2) - t368 *
         (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 *
-        omega_i_cross_A_ij_f_j_2) + t424 * (t74 * omega_i_cross_A_ij_f_j_0 + t75 * omega_i_cross_A_ij_f_j_1 + t76 *
-        omega_i_cross_A_ij_f_j_2) + t425 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
-        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t343 * t427 - t364 * t426 - t368 * t426 +
-        t370 * t428 * cosine_2 - t429 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 +
-        f_star_2 * A_ij_omega_j_cross_f_j_2) * cosine_2 + t429 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 *
-        omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) * cosine_2 - t341 * t426 * cosine_2 - t45 *
-        t427 * sine_1 + t83 * t430 * sine_2 - t83 * t427 * cosine_1 * cosine_2;
+        omega_i_cross_A_ij_f_j_2) + t367 * (t77 * omega_i_cross_A_ij_f_j_0 + t78 * omega_i_cross_A_ij_f_j_1 + t79 *
+        omega_i_cross_A_ij_f_j_2) + t368 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
+        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t292 * t370 - t313 * t369 - t317 * t369 +
+        t319 * t371 * cosine_2 - t372 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 +
+        f_star_2 * A_ij_omega_j_cross_f_j_2) * cosine_2 + t372 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 *
+        omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) * cosine_2 - t290 * t369 * cosine_2 - t48 *
+        t370 * sine_1 + t86 * t373 * sine_2 - t86 * t370 * cosine_1 * cosine_2;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real omega_j_cross_g_j_1 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
@@ -2305,16 +2217,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t455 = H_3 * H_5 + H_6 * H_8;
-    const jg_real t456 = H_4 * H_5 + H_7 * H_8;
-    const jg_real t457 = H_5 * H_5 + H_8 * H_8;
-    const jg_real t458 = (A_ij_g_j_0 * (C_i[0] * t455 + C_i[3] * t456 + C_i[6] * t457) + A_ij_g_j_1 * (C_i[1] * t455
-        + C_i[4] * t456 + C_i[7] * t457) + A_ij_g_j_2 * (C_i[2] * t455 + C_i[5] * t456 + C_i[8] * t457)) * t427;
-    const jg_real t459 = sine_2 * H_6 - cosine_2 * H_3;
-    const jg_real t460 = sine_2 * H_7 - cosine_2 * H_4;
-    const jg_real t461 = t351 - cosine_2 * H_5;
-    const jg_real t462 = (A_ij_g_j_0 * (C_i[0] * t459 + C_i[3] * t460 + C_i[6] * t461) + A_ij_g_j_1 * (C_i[1] * t459
-        + C_i[4] * t460 + C_i[7] * t461) + A_ij_g_j_2 * (C_i[2] * t459 + C_i[5] * t460 + C_i[8] * t461)) *
+    const jg_real t398 = H_3 * H_5 + H_6 * H_8;
+    const jg_real t399 = H_4 * H_5 + H_7 * H_8;
+    const jg_real t400 = H_5 * H_5 + H_8 * H_8;
+    const jg_real t401 = (A_ij_g_j_0 * (C_i[0] * t398 + C_i[3] * t399 + C_i[6] * t400) + A_ij_g_j_1 * (C_i[1] * t398
+        + C_i[4] * t399 + C_i[7] * t400) + A_ij_g_j_2 * (C_i[2] * t398 + C_i[5] * t399 + C_i[8] * t400)) * t370;
+    const jg_real t402 = sine_2 * H_6 - cosine_2 * H_3;
+    const jg_real t403 = sine_2 * H_7 - cosine_2 * H_4;
+    const jg_real t404 = t300 - cosine_2 * H_5;
+    const jg_real t405 = (A_ij_g_j_0 * (C_i[0] * t402 + C_i[3] * t403 + C_i[6] * t404) + A_ij_g_j_1 * (C_i[1] * t402
+        + C_i[4] * t403 + C_i[7] * t404) + A_ij_g_j_2 * (C_i[2] * t402 + C_i[5] * t403 + C_i[8] * t404)) *
         (alphadot[2] * alphadot[1]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -2326,12 +2238,12 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t332 * t423 - t424 * (t79 *
-        A_ij_omega_j_cross_g_j_0 + t80 * A_ij_omega_j_cross_g_j_1 + t81 * A_ij_omega_j_cross_g_j_2) + t429 * (t87 *
-        A_ij_omega_j_cross_g_j_0 + t88 * A_ij_omega_j_cross_g_j_1 + t89 * A_ij_omega_j_cross_g_j_2) + t424 * (t79 *
-        omega_i_cross_A_ij_g_j_0 + t80 * omega_i_cross_A_ij_g_j_1 + t81 * omega_i_cross_A_ij_g_j_2) - t429 * (t87 *
-        omega_i_cross_A_ij_g_j_0 + t88 * omega_i_cross_A_ij_g_j_1 + t89 * omega_i_cross_A_ij_g_j_2) + t320 * t428 *
-        t54 + t312 * t428 * t54 - t458 + t458 - t462 + t462 - t424 * alphadot[1] * t338;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t281 * t366 - t367 * (t82 *
+        A_ij_omega_j_cross_g_j_0 + t83 * A_ij_omega_j_cross_g_j_1 + t84 * A_ij_omega_j_cross_g_j_2) + t372 * (t90 *
+        A_ij_omega_j_cross_g_j_0 + t91 * A_ij_omega_j_cross_g_j_1 + t92 * A_ij_omega_j_cross_g_j_2) + t367 * (t82 *
+        omega_i_cross_A_ij_g_j_0 + t83 * omega_i_cross_A_ij_g_j_1 + t84 * omega_i_cross_A_ij_g_j_2) - t372 * (t90 *
+        omega_i_cross_A_ij_g_j_0 + t91 * omega_i_cross_A_ij_g_j_1 + t92 * omega_i_cross_A_ij_g_j_2) + t269 * t371 *
+        t57 + t261 * t371 * t57 - t401 + t401 - t405 + t405 - t367 * alphadot[1] * t287;
 }
 
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -35,12 +35,16 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -57,14 +61,14 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t15 = cosine_2 * sine_0;
+    const jg_real t18 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t15;
-    const jg_real t17 = cosine_0 * cosine_2;
-    const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
+    const jg_real t20 = cosine_0 * cosine_2;
+    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -85,8 +89,8 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
-    const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
+    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -340,13 +344,8 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = alphadot[0] * omega_j[1];
-    const jg_real t1 = alphadot[0] * omega_j[2];
-    const jg_real t2 = s_j[2] * t0 - s_j[1] * t1;
-    const jg_real t3 = alphadot[0] * omega_j[0];
-    const jg_real t4 = s_j[0] * t1 - s_j[2] * t3;
-    const jg_real t5 = s_j[1] * t3 - s_j[0] * t0;
-    const jg_real t6 = C_j[6] * t2 + C_j[7] * t4 + C_j[8] * t5;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -358,145 +357,131 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
     const jg_real H_5 = cosine_0 * sine_1;
-    const jg_real t12 = C_j[3] * t2 + C_j[4] * t4 + C_j[5] * t5;
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     const jg_real H_8 = cosine_0 * cosine_1;
-    const jg_real t14 = H_5 * t6 - H_8 * t12;
+    const jg_real t8 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[0], &sine_2, &cosine_2);
     const jg_real H_0 = cosine_2 * cosine_0;
-    const jg_real t18 = C_j[0] * t2 + C_j[1] * t4 + C_j[2] * t5;
-    const jg_real t19 = H_8 * t18 + sine_0 * t6;
-    const jg_real t20 = cosine_1 * sine_2;
-    const jg_real H_3 = cosine_2 * sine_0 * sine_1 - t20;
-    const jg_real t22 = H_5 * t18 + sine_0 * t12;
-    const jg_real t23 = cosine_2 * cosine_1;
-    const jg_real H_6 = sine_2 * sine_1 + sine_0 * t23;
-    const jg_real t25 = H_0 * t14 + H_3 * t19 - H_6 * t22;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t13 = H_8 * C_jt_v_j_0 + sine_0 * C_jt_v_j_2;
+    const jg_real t14 = cosine_1 * sine_2;
+    const jg_real H_3 = cosine_2 * sine_0 * sine_1 - t14;
+    const jg_real t16 = H_5 * C_jt_v_j_0 + sine_0 * C_jt_v_j_1;
+    const jg_real t17 = cosine_2 * cosine_1;
+    const jg_real H_6 = sine_2 * sine_1 + sine_0 * t17;
+    const jg_real t19 = H_0 * t8 + H_3 * t13 - H_6 * t16;
     const jg_real H_1 = cosine_0 * sine_2;
-    const jg_real H_4 = t23 + sine_2 * sine_0 * sine_1;
-    const jg_real H_7 = t20 * sine_0 - cosine_2 * sine_1;
-    const jg_real t29 = H_1 * t14 + H_4 * t19 - H_7 * t22;
-    const jg_real t30 = H_5 * t19 - sine_0 * t14 - H_8 * t22;
-    const jg_real t31 = v_j[0] * alphadot[0];
-    const jg_real t32 = v_j[1] * alphadot[0];
-    const jg_real t33 = v_j[2] * alphadot[0];
-    const jg_real t34 = C_j[6] * t31 + C_j[7] * t32 + C_j[8] * t33;
-    const jg_real t35 = C_j[3] * t31 + C_j[4] * t32 + C_j[5] * t33;
-    const jg_real t36 = H_5 * t34 - H_8 * t35;
-    const jg_real t37 = C_j[0] * t31 + C_j[1] * t32 + C_j[2] * t33;
-    const jg_real t38 = H_8 * t37 + sine_0 * t34;
-    const jg_real t39 = H_5 * t37 + sine_0 * t35;
-    const jg_real t40 = H_0 * t36 + H_3 * t38 - H_6 * t39;
-    const jg_real t41 = H_1 * t36 + H_4 * t38 - H_7 * t39;
-    const jg_real t42 = H_5 * t38 - sine_0 * t36 - H_8 * t39;
-    const jg_real t43 = v_j[0] * alphadot[1];
-    const jg_real t44 = v_j[1] * alphadot[1];
-    const jg_real t45 = v_j[2] * alphadot[1];
-    const jg_real t46 = sine_1 * (C_j[3] * t43 + C_j[4] * t44 + C_j[5] * t45) + cosine_1 * (C_j[6] * t43 + C_j[7] *
-        t44 + C_j[8] * t45);
-    const jg_real t47 = C_j[0] * t43 + C_j[1] * t44 + C_j[2] * t45;
-    const jg_real t48 = sine_1 * t47;
-    const jg_real t49 = cosine_1 * t47;
-    const jg_real t50 = H_0 * t46 - H_3 * t48 - H_6 * t49;
-    const jg_real t51 = H_1 * t46 - H_4 * t48 - H_7 * t49;
-    const jg_real t52 = sine_0 * t46 + H_5 * t48 + H_8 * t49;
-    const jg_real t53 = C_j[3] * alphadot[2];
-    const jg_real t54 = C_j[4] * alphadot[2];
-    const jg_real t55 = C_j[5] * alphadot[2];
-    const jg_real t56 = v_j[0] * t53 + v_j[1] * t54 + v_j[2] * t55;
-    const jg_real t57 = C_j[6] * alphadot[2];
-    const jg_real t58 = C_j[7] * alphadot[2];
-    const jg_real t59 = C_j[8] * alphadot[2];
-    const jg_real t60 = v_j[0] * t57 + v_j[1] * t58 + v_j[2] * t59;
-    const jg_real t61 = H_6 * t56 - H_3 * t60;
-    const jg_real t62 = H_7 * t56 - H_4 * t60;
-    const jg_real t63 = H_8 * t56 - H_5 * t60;
-    const jg_real t64 = alphadot[1] * omega_j[1];
-    const jg_real t65 = alphadot[1] * omega_j[2];
-    const jg_real t66 = s_j[2] * t64 - s_j[1] * t65;
-    const jg_real t67 = alphadot[1] * omega_j[0];
-    const jg_real t68 = s_j[0] * t65 - s_j[2] * t67;
-    const jg_real t69 = s_j[1] * t67 - s_j[0] * t64;
-    const jg_real t70 = sine_1 * (C_j[3] * t66 + C_j[4] * t68 + C_j[5] * t69) + cosine_1 * (C_j[6] * t66 + C_j[7] *
-        t68 + C_j[8] * t69);
-    const jg_real t71 = C_j[0] * t66 + C_j[1] * t68 + C_j[2] * t69;
-    const jg_real t72 = sine_1 * t71;
-    const jg_real t73 = cosine_1 * t71;
-    const jg_real t74 = H_0 * t70 - H_3 * t72 - H_6 * t73;
-    const jg_real t75 = H_1 * t70 - H_4 * t72 - H_7 * t73;
-    const jg_real t76 = sine_0 * t70 + H_5 * t72 + H_8 * t73;
+    const jg_real H_4 = t17 + sine_2 * sine_0 * sine_1;
+    const jg_real H_7 = t14 * sine_0 - cosine_2 * sine_1;
+    const jg_real t23 = H_1 * t8 + H_4 * t13 - H_7 * t16;
+    const jg_real t24 = H_5 * t13 - sine_0 * t8 - H_8 * t16;
+    const jg_real t25 = sine_1 * C_jt_v_j_1 + cosine_1 * C_jt_v_j_2;
+    const jg_real t26 = sine_1 * C_jt_v_j_0;
+    const jg_real t27 = cosine_1 * C_jt_v_j_0;
+    const jg_real t28 = H_0 * t25 - H_3 * t26 - H_6 * t27;
+    const jg_real t29 = H_1 * t25 - H_4 * t26 - H_7 * t27;
+    const jg_real t30 = sine_0 * t25 + H_5 * t26 + H_8 * t27;
+    const jg_real t31 = H_6 * C_jt_v_j_1 - H_3 * C_jt_v_j_2;
+    const jg_real t32 = H_7 * C_jt_v_j_1 - H_4 * C_jt_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t80 = t57 * s_j_cross_omega_j_0 + t58 * s_j_cross_omega_j_1 + t59 * s_j_cross_omega_j_2;
-    const jg_real t81 = t53 * s_j_cross_omega_j_0 + t54 * s_j_cross_omega_j_1 + t55 * s_j_cross_omega_j_2;
-    const jg_real t82 = H_3 * t80 - H_6 * t81;
-    const jg_real t83 = H_4 * t80 - H_7 * t81;
-    const jg_real t84 = H_5 * t80 - H_8 * t81;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t38 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t40 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_0 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t41 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t42 = H_0 * t38 + H_3 * t40 - H_6 * t41;
+    const jg_real t43 = H_1 * t38 + H_4 * t40 - H_7 * t41;
+    const jg_real t44 = H_5 * t40 - sine_0 * t38 - H_8 * t41;
+    const jg_real t45 = sine_1 * C_jt_s_j_cross_omega_j_1 + cosine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t46 = sine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t47 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t48 = H_0 * t45 - H_3 * t46 - H_6 * t47;
+    const jg_real t49 = H_1 * t45 - H_4 * t46 - H_7 * t47;
+    const jg_real t50 = sine_0 * t45 + H_5 * t46 + H_8 * t47;
+    const jg_real t51 = H_6 * C_jt_s_j_cross_omega_j_1 - H_3 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t52 = H_7 * C_jt_s_j_cross_omega_j_1 - H_4 * C_jt_s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t86 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t87 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t88 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t89 = C_j[0] * t86 + C_j[1] * t87 + C_j[2] * t88;
-    const jg_real t90 = C_j[3] * t86 + C_j[4] * t87 + C_j[5] * t88;
-    const jg_real t91 = C_j[6] * t86 + C_j[7] * t87 + C_j[8] * t88;
-    const jg_real t92 = H_0 * t89 + H_3 * t90 + H_6 * t91;
-    const jg_real t93 = H_1 * t89 + H_4 * t90 + H_7 * t91;
-    const jg_real t94 = H_5 * t90 - sine_0 * t89 + H_8 * t91;
-    gamma[0] = -(C_i[0] * t92 + C_i[3] * t93 + C_i[6] * t94 + (C_i[0] * t82 + C_i[3] * t83 + C_i[6] * t84 + (C_i[0]
-        * t74 + C_i[3] * t75 - C_i[6] * t76 + (C_i[0] * t25 + C_i[3] * t29 + C_i[6] * t30 + (C_i[0] * t61 + C_i[3] *
-        t62 + C_i[6] * t63 + (C_i[0] * t40 + C_i[3] * t41 + C_i[6] * t42 + (C_i[0] * t50 + C_i[3] * t51 - C_i[6] *
-        t52))))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    const jg_real t60 = H_0 * C_jt_omega_j_cross_v_j_0 + H_3 * C_jt_omega_j_cross_v_j_1 + H_6 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t61 = H_1 * C_jt_omega_j_cross_v_j_0 + H_4 * C_jt_omega_j_cross_v_j_1 + H_7 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t62 = H_5 * C_jt_omega_j_cross_v_j_1 - sine_0 * C_jt_omega_j_cross_v_j_0 + H_8 *
+        C_jt_omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t60 + C_i[3] * t61 + C_i[6] * t62;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i[0] * t19 + C_i[3] * t23 + C_i[6] * t24) + alphadot[1]
+        * (C_i[0] * t28 + C_i[3] * t29 - C_i[6] * t30) + alphadot[2] * (C_i[0] * t31 + C_i[3] * t32 - C_i[6] * t8) -
+        alphadot[0] * (C_i[0] * t42 + C_i[3] * t43 + C_i[6] * t44) - alphadot[1] * (C_i[0] * t48 + C_i[3] * t49 -
+        C_i[6] * t50) - alphadot[2] * (C_i[0] * t51 + C_i[3] * t52 - C_i[6] * t38) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t92 + C_i[4] * t93 + C_i[7] * t94 + (C_i[1] * t82 + C_i[4] * t83 + C_i[7] * t84 + (C_i[1]
-        * t74 + C_i[4] * t75 - C_i[7] * t76 + (C_i[1] * t25 + C_i[4] * t29 + C_i[7] * t30 + (C_i[1] * t61 + C_i[4] *
-        t62 + C_i[7] * t63 + (C_i[1] * t40 + C_i[4] * t41 + C_i[7] * t42 + (C_i[1] * t50 + C_i[4] * t51 - C_i[7] *
-        t52))))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t60 + C_i[4] * t61 + C_i[7] * t62;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i[1] * t19 + C_i[4] * t23 + C_i[7] * t24) + alphadot[1]
+        * (C_i[1] * t28 + C_i[4] * t29 - C_i[7] * t30) + alphadot[2] * (C_i[1] * t31 + C_i[4] * t32 - C_i[7] * t8) -
+        alphadot[0] * (C_i[1] * t42 + C_i[4] * t43 + C_i[7] * t44) - alphadot[1] * (C_i[1] * t48 + C_i[4] * t49 -
+        C_i[7] * t50) - alphadot[2] * (C_i[1] * t51 + C_i[4] * t52 - C_i[7] * t38) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t92 + C_i[5] * t93 + C_i[8] * t94 + (C_i[2] * t82 + C_i[5] * t83 + C_i[8] * t84 + (C_i[2]
-        * t74 + C_i[5] * t75 - C_i[8] * t76 + (C_i[2] * t25 + C_i[5] * t29 + C_i[8] * t30 + (C_i[2] * t61 + C_i[5] *
-        t62 + C_i[8] * t63 + (C_i[2] * t40 + C_i[5] * t41 + C_i[8] * t42 + (C_i[2] * t50 + C_i[5] * t51 - C_i[8] *
-        t52))))) + omega_i_cross_v_i_2));
-    const jg_real t97 = sine_1 * H_3 + cosine_1 * H_6;
-    const jg_real t98 = sine_1 * H_4 + cosine_1 * H_7;
-    const jg_real t99 = sine_1 * H_5 + cosine_1 * H_8;
-    const jg_real t100 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t101 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t102 = alphadot[0] * alphadot[1];
-    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[0] * t97 + C_i[3] * t98 + C_i[6] * t99) + omega_i[1] * (C_i[1] * t97
-        + C_i[4] * t98 + C_i[7] * t99) + omega_i[2] * (C_i[2] * t97 + C_i[5] * t98 + C_i[8] * t99)) - alphadot[0] *
-        (omega_i[0] * (C_i[0] * t100 + C_i[3] * t101) + omega_i[1] * (C_i[1] * t100 + C_i[4] * t101) + omega_i[2] *
-        (C_i[2] * t100 + C_i[5] * t101)) + cosine_0 * t102;
-    const jg_real t103 = H_0 * H_8 + sine_0 * H_6;
-    const jg_real t104 = H_1 * H_8 + sine_0 * H_7;
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t60 + C_i[5] * t61 + C_i[8] * t62;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i[2] * t19 + C_i[5] * t23 + C_i[8] * t24) + alphadot[1]
+        * (C_i[2] * t28 + C_i[5] * t29 - C_i[8] * t30) + alphadot[2] * (C_i[2] * t31 + C_i[5] * t32 - C_i[8] * t8) -
+        alphadot[0] * (C_i[2] * t42 + C_i[5] * t43 + C_i[8] * t44) - alphadot[1] * (C_i[2] * t48 + C_i[5] * t49 -
+        C_i[8] * t50) - alphadot[2] * (C_i[2] * t51 + C_i[5] * t52 - C_i[8] * t38) + omega_i_cross_v_i_2);
+    const jg_real t68 = sine_1 * H_3 + cosine_1 * H_6;
+    const jg_real t69 = sine_1 * H_4 + cosine_1 * H_7;
+    const jg_real t70 = sine_1 * H_5 + cosine_1 * H_8;
+    const jg_real t71 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t72 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t73 = alphadot[0] * alphadot[1];
+    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[0] * t68 + C_i[3] * t69 + C_i[6] * t70) + omega_i[1] * (C_i[1] * t68
+        + C_i[4] * t69 + C_i[7] * t70) + omega_i[2] * (C_i[2] * t68 + C_i[5] * t69 + C_i[8] * t70)) - alphadot[0] *
+        (omega_i[0] * (C_i[0] * t71 + C_i[3] * t72) + omega_i[1] * (C_i[1] * t71 + C_i[4] * t72) + omega_i[2] *
+        (C_i[2] * t71 + C_i[5] * t72)) + cosine_0 * t73;
+    const jg_real t74 = H_0 * H_8 + sine_0 * H_6;
+    const jg_real t75 = H_1 * H_8 + sine_0 * H_7;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    const jg_real t108 = alphadot[1] * alphadot[2];
+    const jg_real t79 = alphadot[1] * alphadot[2];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_0;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_0;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_0;
-    const jg_real t112 = alphadot[1] * (omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2);
-    const jg_real t113 = alphadot[0] * alphadot[2] * cosine_0;
-    gamma[4] = sine_1 * t108 - (alphadot[2] * (omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] *
-        h_star_2) - alphadot[0] * (omega_i[0] * (C_i[0] * t103 + C_i[3] * t104) + omega_i[1] * (C_i[1] * t103 +
-        C_i[4] * t104) + omega_i[2] * (C_i[2] * t103 + C_i[5] * t104))) - sine_1 * t112 + sine_0 * t102 * sine_1 -
-        cosine_1 * t113;
-    const jg_real t114 = H_0 * H_5 + sine_0 * H_3;
-    const jg_real t115 = H_1 * H_5 + sine_0 * H_4;
+    const jg_real t83 = alphadot[1] * (omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2);
+    const jg_real t84 = alphadot[0] * alphadot[2] * cosine_0;
+    gamma[4] = sine_1 * t79 - (alphadot[2] * (omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] * h_star_2)
+        - alphadot[0] * (omega_i[0] * (C_i[0] * t74 + C_i[3] * t75) + omega_i[1] * (C_i[1] * t74 + C_i[4] * t75) +
+        omega_i[2] * (C_i[2] * t74 + C_i[5] * t75))) - sine_1 * t83 + sine_0 * t73 * sine_1 - cosine_1 * t84;
+    const jg_real t85 = H_0 * H_5 + sine_0 * H_3;
+    const jg_real t86 = H_1 * H_5 + sine_0 * H_4;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     gamma[5] = alphadot[2] * (omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2) - alphadot[0] *
-        (omega_i[0] * (C_i[0] * t114 + C_i[3] * t115) + omega_i[1] * (C_i[1] * t114 + C_i[4] * t115) + omega_i[2] *
-        (C_i[2] * t114 + C_i[5] * t115)) + cosine_1 * t108 - cosine_1 * t112 + cosine_1 * t102 * sine_0 + sine_1 *
-        t113;
+        (omega_i[0] * (C_i[0] * t85 + C_i[3] * t86) + omega_i[1] * (C_i[1] * t85 + C_i[4] * t86) + omega_i[2] *
+        (C_i[2] * t85 + C_i[5] * t86)) + cosine_1 * t79 - cosine_1 * t83 + cosine_1 * t73 * sine_0 + sine_1 * t84;
 }
 
 void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -511,76 +496,88 @@ void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, co
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
+    const jg_real t4 = cosine_0 * cosine_1;
+    jg_real sine_2;
+    jg_real cosine_2;
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t9 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    jg_real sine_2;
-    jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t12 = cosine_2 * sine_0;
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t12;
-    const jg_real t14 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
-    const jg_real t15 = cosine_0 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t15;
-    const jg_real t17 = H_0 * t3 + H_3 * t9 + H_6 * t14;
-    const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_4 = t15 + sine_0 * sine_1 * sine_2;
-    const jg_real H_7 = t12 * sine_1 - cosine_0 * sine_2;
-    const jg_real t21 = H_1 * t3 + H_4 * t9 + H_7 * t14;
-    const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t24 = H_5 * t9 - sine_1 * t3 + H_8 * t14;
+    const jg_real H_6 = sine_0 * sine_1 + sine_2 * t4;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real t9 = cosine_1 * sine_0;
+    const jg_real H_3 = cosine_0 * sine_2 * sine_1 - t9;
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real H_0 = cosine_0 * cosine_2;
     /* H_C_jt_v_j = H C_j^T v_j */
     const jg_real H_C_jt_v_j_0 = H_0 * C_jt_v_j_0 + H_3 * C_jt_v_j_1 + H_6 * C_jt_v_j_2;
+    const jg_real H_7 = t9 * sine_2 - cosine_0 * sine_1;
+    const jg_real H_4 = t4 + sine_0 * sine_2 * sine_1;
+    const jg_real H_1 = cosine_2 * sine_0;
     const jg_real H_C_jt_v_j_1 = H_1 * C_jt_v_j_0 + H_4 * C_jt_v_j_1 + H_7 * C_jt_v_j_2;
-    const jg_real H_C_jt_v_j_2 = H_5 * C_jt_v_j_1 - sine_1 * C_jt_v_j_0 + H_8 * C_jt_v_j_2;
+    const jg_real H_5 = cosine_2 * sine_1;
+    const jg_real H_8 = cosine_2 * cosine_1;
+    const jg_real H_C_jt_v_j_2 = H_5 * C_jt_v_j_1 - sine_2 * C_jt_v_j_0 + H_8 * C_jt_v_j_2;
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * H_C_jt_v_j_2;
     /* s_i_cross_omega_i = tilde(s_i) omega_i */
     const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t17 + C_i[3] * t21 + C_i[6] * t24 + (A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real t30 = H_0 * C_jt_s_j_cross_omega_j_0 + H_3 * C_jt_s_j_cross_omega_j_1 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t31 = H_1 * C_jt_s_j_cross_omega_j_0 + H_4 * C_jt_s_j_cross_omega_j_1 + H_7 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t32 = H_5 * C_jt_s_j_cross_omega_j_1 - sine_2 * C_jt_s_j_cross_omega_j_0 + H_8 *
+        C_jt_s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t30 + C_i[3] * t31 + C_i[6] * t32;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - A_ij_s_j_cross_omega_j_0;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t17 + C_i[4] * t21 + C_i[7] * t24 + (A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t30 + C_i[4] * t31 + C_i[7] * t32;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - A_ij_s_j_cross_omega_j_1;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t17 + C_i[5] * t21 + C_i[8] * t24 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t30 + C_i[5] * t31 + C_i[8] * t32;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - A_ij_s_j_cross_omega_j_2;
     /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
-    const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
-    const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
+    const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_2;
+    const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_2;
+    const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_2;
     phi_q_v[3] = omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2 + (alphadot[2] - (C_j[0] *
-        omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2]) - sine_1 * alphadot[0]);
+        omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2]) - sine_2 * alphadot[0]);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
-    const jg_real t43 = cosine_1 * alphadot[0];
-    phi_q_v[4] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2 + (cosine_2 * alphadot[1] -
-        (C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2]) + sine_2 * t43);
+    const jg_real t46 = cosine_2 * alphadot[0];
+    phi_q_v[4] = omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2 + (cosine_1 * alphadot[1] -
+        (C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2]) + sine_1 * t46);
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    phi_q_v[5] = omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] * h_star_2 + (cosine_2 * t43 - (C_j[6] *
-        omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2] + sine_2 * alphadot[1]));
+    phi_q_v[5] = omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] * h_star_2 + (cosine_1 * t46 - (C_j[6] *
+        omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2] + sine_1 * alphadot[1]));
 }
 
 void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -666,12 +663,16 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -689,14 +690,14 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
     phi_q[48] = cosine_2;
-    const jg_real t15 = cosine_2 * sine_0;
+    const jg_real t18 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t15;
-    const jg_real t17 = cosine_0 * cosine_2;
-    const jg_real H_4 = t17 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
+    const jg_real t20 = cosine_0 * cosine_2;
+    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     phi_q[46] = H_5;
     /* g_star = C_i H [0; 1; 0] */
@@ -721,8 +722,8 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t17;
-    const jg_real H_7 = t15 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
+    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     phi_q[47] = H_8;
     /* h_star = C_i H [0; 0; 1] */
@@ -796,155 +797,139 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[45] = -sine_1;
     phi_q[49] = -sine_2;
     phi_q[50] = JG_REAL(1.0);
-    const jg_real t61 = cosine_1 * lambda[5] * sine_2 - cosine_1 * lambda[4] * cosine_2;
-    const jg_real t62 = cosine_1 * lambda[3];
-    const jg_real t63 = sine_1 * lambda[5] + cosine_2 * t62;
-    const jg_real t64 = sine_1 * lambda[4];
-    const jg_real t65 = t64 + sine_2 * t62;
-    phi_q_t_lambda_q[0] = f_star_0 * t61 + g_star_0 * t63 - h_star_0 * t65;
-    phi_q_t_lambda_q[1] = f_star_1 * t61 + g_star_1 * t63 - h_star_1 * t65;
-    phi_q_t_lambda_q[2] = f_star_2 * t61 + g_star_2 * t63 - h_star_2 * t65;
-    const jg_real t66 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t67 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t68 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t69 = H_3 * t66 + H_4 * t67 + H_5 * t68;
-    const jg_real t70 = H_6 * t66 + H_7 * t67 + H_8 * t68;
-    const jg_real t71 = H_8 * t69 - H_5 * t70;
-    const jg_real t72 = H_0 * t66 + H_1 * t67 - sine_1 * t68;
-    const jg_real t73 = H_8 * t72 + sine_1 * t70;
-    const jg_real t74 = H_5 * t72 + sine_1 * t69;
-    const jg_real t75 = C_j[0] * t71 - C_j[3] * t73 + C_j[6] * t74;
-    phi_q_t_lambda_q[3] = t75;
-    const jg_real t76 = C_j[1] * t71 - C_j[4] * t73 + C_j[7] * t74;
-    phi_q_t_lambda_q[4] = t76;
-    const jg_real t77 = C_j[2] * t71 - C_j[5] * t73 + C_j[8] * t74;
-    phi_q_t_lambda_q[5] = t77;
-    phi_q_t_lambda_q[6] = s_j[1] * t77 - s_j[2] * t76;
-    phi_q_t_lambda_q[7] = s_j[2] * t75 - s_j[0] * t77;
-    phi_q_t_lambda_q[8] = s_j[0] * t76 - s_j[1] * t75;
-    const jg_real t78 = cosine_2 * lambda[5];
-    const jg_real t79 = sine_2 * lambda[4] + t78;
-    const jg_real t80 = sine_2 * lambda[3];
-    const jg_real t81 = cosine_2 * lambda[3];
-    phi_q_t_lambda_q[9] = f_star_0 * t79 - g_star_0 * t80 - h_star_0 * t81;
-    phi_q_t_lambda_q[10] = f_star_1 * t79 - g_star_1 * t80 - h_star_1 * t81;
-    phi_q_t_lambda_q[11] = f_star_2 * t79 - g_star_2 * t80 - h_star_2 * t81;
-    const jg_real t82 = sine_2 * t69 + cosine_2 * t70;
-    const jg_real t83 = sine_2 * t72;
-    const jg_real t84 = cosine_2 * t72;
-    const jg_real t85 = C_j[3] * t83 - C_j[0] * t82 + C_j[6] * t84;
-    phi_q_t_lambda_q[12] = t85;
-    const jg_real t86 = C_j[4] * t83 - C_j[1] * t82 + C_j[7] * t84;
-    phi_q_t_lambda_q[13] = t86;
-    const jg_real t87 = C_j[5] * t83 - C_j[2] * t82 + C_j[8] * t84;
-    phi_q_t_lambda_q[14] = t87;
-    phi_q_t_lambda_q[15] = s_j[1] * t87 - s_j[2] * t86;
-    phi_q_t_lambda_q[16] = s_j[2] * t85 - s_j[0] * t87;
-    phi_q_t_lambda_q[17] = s_j[0] * t86 - s_j[1] * t85;
-    phi_q_t_lambda_q[18] = -(t62 + sine_2 * t64 + sine_1 * t78);
+    const jg_real t64 = cosine_1 * lambda[5] * sine_2 - cosine_1 * lambda[4] * cosine_2;
+    const jg_real t65 = cosine_1 * lambda[3];
+    const jg_real t66 = sine_1 * lambda[5] + cosine_2 * t65;
+    const jg_real t67 = sine_1 * lambda[4];
+    const jg_real t68 = t67 + sine_2 * t65;
+    phi_q_t_lambda_q[0] = f_star_0 * t64 + g_star_0 * t66 - h_star_0 * t68;
+    phi_q_t_lambda_q[1] = f_star_1 * t64 + g_star_1 * t66 - h_star_1 * t68;
+    phi_q_t_lambda_q[2] = f_star_2 * t64 + g_star_2 * t66 - h_star_2 * t68;
+    const jg_real t69 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t70 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t71 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t72 = H_3 * t69 + H_4 * t70 + H_5 * t71;
+    const jg_real t73 = H_6 * t69 + H_7 * t70 + H_8 * t71;
+    const jg_real t74 = H_8 * t72 - H_5 * t73;
+    const jg_real t75 = H_0 * t69 + H_1 * t70 - sine_1 * t71;
+    const jg_real t76 = H_8 * t75 + sine_1 * t73;
+    const jg_real t77 = H_5 * t75 + sine_1 * t72;
+    const jg_real t78 = C_j[0] * t74 - C_j[3] * t76 + C_j[6] * t77;
+    phi_q_t_lambda_q[3] = t78;
+    const jg_real t79 = C_j[1] * t74 - C_j[4] * t76 + C_j[7] * t77;
+    phi_q_t_lambda_q[4] = t79;
+    const jg_real t80 = C_j[2] * t74 - C_j[5] * t76 + C_j[8] * t77;
+    phi_q_t_lambda_q[5] = t80;
+    phi_q_t_lambda_q[6] = s_j[1] * t80 - s_j[2] * t79;
+    phi_q_t_lambda_q[7] = s_j[2] * t78 - s_j[0] * t80;
+    phi_q_t_lambda_q[8] = s_j[0] * t79 - s_j[1] * t78;
+    const jg_real t81 = cosine_2 * lambda[5];
+    const jg_real t82 = sine_2 * lambda[4] + t81;
+    const jg_real t83 = sine_2 * lambda[3];
+    const jg_real t84 = cosine_2 * lambda[3];
+    phi_q_t_lambda_q[9] = f_star_0 * t82 - g_star_0 * t83 - h_star_0 * t84;
+    phi_q_t_lambda_q[10] = f_star_1 * t82 - g_star_1 * t83 - h_star_1 * t84;
+    phi_q_t_lambda_q[11] = f_star_2 * t82 - g_star_2 * t83 - h_star_2 * t84;
+    const jg_real t85 = sine_2 * t72 + cosine_2 * t73;
+    const jg_real t86 = sine_2 * t75;
+    const jg_real t87 = cosine_2 * t75;
+    const jg_real t88 = C_j[3] * t86 - C_j[0] * t85 + C_j[6] * t87;
+    phi_q_t_lambda_q[12] = t88;
+    const jg_real t89 = C_j[4] * t86 - C_j[1] * t85 + C_j[7] * t87;
+    phi_q_t_lambda_q[13] = t89;
+    const jg_real t90 = C_j[5] * t86 - C_j[2] * t85 + C_j[8] * t87;
+    phi_q_t_lambda_q[14] = t90;
+    phi_q_t_lambda_q[15] = s_j[1] * t90 - s_j[2] * t89;
+    phi_q_t_lambda_q[16] = s_j[2] * t88 - s_j[0] * t90;
+    phi_q_t_lambda_q[17] = s_j[0] * t89 - s_j[1] * t88;
+    phi_q_t_lambda_q[18] = -(t65 + sine_2 * t67 + sine_1 * t81);
     phi_q_t_lambda_q[19] = h_star_0 * lambda[4] - g_star_0 * lambda[5];
     phi_q_t_lambda_q[20] = h_star_1 * lambda[4] - g_star_1 * lambda[5];
     phi_q_t_lambda_q[21] = h_star_2 * lambda[4] - g_star_2 * lambda[5];
-    const jg_real t88 = C_j[3] * t70 - C_j[6] * t69;
-    phi_q_t_lambda_q[22] = t88;
-    const jg_real t89 = C_j[4] * t70 - C_j[7] * t69;
-    phi_q_t_lambda_q[23] = t89;
-    const jg_real t90 = C_j[5] * t70 - C_j[8] * t69;
-    phi_q_t_lambda_q[24] = t90;
-    phi_q_t_lambda_q[25] = s_j[1] * t90 - s_j[2] * t89;
-    phi_q_t_lambda_q[26] = s_j[2] * t88 - s_j[0] * t90;
-    phi_q_t_lambda_q[27] = s_j[0] * t89 - s_j[1] * t88;
-    phi_q_t_lambda_q[28] = -t61;
-    phi_q_t_lambda_q[29] = -t79;
-    const jg_real t91 = alphadot[0] * omega_j[1];
-    const jg_real t92 = alphadot[0] * omega_j[2];
-    const jg_real t93 = s_j[2] * t91 - s_j[1] * t92;
-    const jg_real t94 = alphadot[0] * omega_j[0];
-    const jg_real t95 = s_j[0] * t92 - s_j[2] * t94;
-    const jg_real t96 = s_j[1] * t94 - s_j[0] * t91;
-    const jg_real t97 = C_j[6] * t93 + C_j[7] * t95 + C_j[8] * t96;
-    const jg_real t98 = C_j[3] * t93 + C_j[4] * t95 + C_j[5] * t96;
-    const jg_real t99 = H_5 * t97 - H_8 * t98;
-    const jg_real t100 = C_j[0] * t93 + C_j[1] * t95 + C_j[2] * t96;
-    const jg_real t101 = H_8 * t100 + sine_1 * t97;
-    const jg_real t102 = H_5 * t100 + sine_1 * t98;
-    const jg_real t103 = v_j[0] * alphadot[0];
-    const jg_real t104 = v_j[1] * alphadot[0];
-    const jg_real t105 = v_j[2] * alphadot[0];
-    const jg_real t106 = C_j[0] * t103 + C_j[1] * t104 + C_j[2] * t105;
-    const jg_real t107 = C_j[6] * t103 + C_j[7] * t104 + C_j[8] * t105;
-    const jg_real t108 = H_8 * t106 + sine_1 * t107;
-    const jg_real t109 = C_j[3] * t103 + C_j[4] * t104 + C_j[5] * t105;
-    const jg_real t110 = H_5 * t107 - H_8 * t109;
-    const jg_real t111 = H_5 * t106 + sine_1 * t109;
-    const jg_real t112 = v_j[0] * alphadot[1];
-    const jg_real t113 = v_j[1] * alphadot[1];
-    const jg_real t114 = v_j[2] * alphadot[1];
-    const jg_real t115 = sine_2 * (C_j[3] * t112 + C_j[4] * t113 + C_j[5] * t114) + cosine_2 * (C_j[6] * t112 +
-        C_j[7] * t113 + C_j[8] * t114);
-    const jg_real t116 = C_j[0] * t112 + C_j[1] * t113 + C_j[2] * t114;
-    const jg_real t117 = sine_2 * t116;
-    const jg_real t118 = cosine_2 * t116;
-    const jg_real t119 = C_j[3] * alphadot[2];
-    const jg_real t120 = C_j[4] * alphadot[2];
-    const jg_real t121 = C_j[5] * alphadot[2];
-    const jg_real t122 = v_j[0] * t119 + v_j[1] * t120 + v_j[2] * t121;
-    const jg_real t123 = C_j[6] * alphadot[2];
-    const jg_real t124 = C_j[7] * alphadot[2];
-    const jg_real t125 = C_j[8] * alphadot[2];
-    const jg_real t126 = v_j[0] * t123 + v_j[1] * t124 + v_j[2] * t125;
-    const jg_real t127 = alphadot[1] * omega_j[1];
-    const jg_real t128 = alphadot[1] * omega_j[2];
-    const jg_real t129 = s_j[2] * t127 - s_j[1] * t128;
-    const jg_real t130 = alphadot[1] * omega_j[0];
-    const jg_real t131 = s_j[0] * t128 - s_j[2] * t130;
-    const jg_real t132 = s_j[1] * t130 - s_j[0] * t127;
-    const jg_real t133 = sine_2 * (C_j[3] * t129 + C_j[4] * t131 + C_j[5] * t132) + cosine_2 * (C_j[6] * t129 +
-        C_j[7] * t131 + C_j[8] * t132);
-    const jg_real t134 = C_j[0] * t129 + C_j[1] * t131 + C_j[2] * t132;
-    const jg_real t135 = sine_2 * t134;
-    const jg_real t136 = cosine_2 * t134;
+    const jg_real t91 = C_j[3] * t73 - C_j[6] * t72;
+    phi_q_t_lambda_q[22] = t91;
+    const jg_real t92 = C_j[4] * t73 - C_j[7] * t72;
+    phi_q_t_lambda_q[23] = t92;
+    const jg_real t93 = C_j[5] * t73 - C_j[8] * t72;
+    phi_q_t_lambda_q[24] = t93;
+    phi_q_t_lambda_q[25] = s_j[1] * t93 - s_j[2] * t92;
+    phi_q_t_lambda_q[26] = s_j[2] * t91 - s_j[0] * t93;
+    phi_q_t_lambda_q[27] = s_j[0] * t92 - s_j[1] * t91;
+    phi_q_t_lambda_q[28] = -t64;
+    phi_q_t_lambda_q[29] = -t82;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real t96 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t98 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
+    const jg_real t99 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
+    const jg_real t100 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
+    const jg_real t101 = sine_2 * C_jt_v_j_0;
+    const jg_real t102 = cosine_2 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t140 = t123 * s_j_cross_omega_j_0 + t124 * s_j_cross_omega_j_1 + t125 * s_j_cross_omega_j_2;
-    const jg_real t141 = t119 * s_j_cross_omega_j_0 + t120 * s_j_cross_omega_j_1 + t121 * s_j_cross_omega_j_2;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t108 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t110 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t111 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t112 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t113 = sine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t114 = cosine_2 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t143 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t144 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t145 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t143 + A_ij_3_ * t144 + A_ij_6_ * t145 + (g_star_0 * t140 - h_star_0 * t141 + (f_star_0 *
-        t133 - g_star_0 * t135 - h_star_0 * t136 + (f_star_0 * t99 + g_star_0 * t101 - h_star_0 * t102 + (h_star_0 *
-        t122 - g_star_0 * t126 + (f_star_0 * t110 + g_star_0 * t108 - h_star_0 * t111 + (f_star_0 * t115 - g_star_0
-        * t117 - h_star_0 * t118))))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t98 + g_star_0 * t96 - h_star_0 * t99) +
+        alphadot[1] * (f_star_0 * t100 - g_star_0 * t101 - h_star_0 * t102) + alphadot[2] * (h_star_0 * C_jt_v_j_1 -
+        g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t108 + g_star_0 * t110 - h_star_0 * t111) - alphadot[1] *
+        (f_star_0 * t112 - g_star_0 * t113 - h_star_0 * t114) - alphadot[2] * (h_star_0 * C_jt_s_j_cross_omega_j_1 -
+        g_star_0 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t143 + A_ij_4_ * t144 + A_ij_7_ * t145 + (g_star_1 * t140 - h_star_1 * t141 + (f_star_1 *
-        t133 - g_star_1 * t135 - h_star_1 * t136 + (f_star_1 * t99 + g_star_1 * t101 - h_star_1 * t102 + (h_star_1 *
-        t122 - g_star_1 * t126 + (f_star_1 * t110 + g_star_1 * t108 - h_star_1 * t111 + (f_star_1 * t115 - g_star_1
-        * t117 - h_star_1 * t118))))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t98 + g_star_1 * t96 - h_star_1 * t99) +
+        alphadot[1] * (f_star_1 * t100 - g_star_1 * t101 - h_star_1 * t102) + alphadot[2] * (h_star_1 * C_jt_v_j_1 -
+        g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t108 + g_star_1 * t110 - h_star_1 * t111) - alphadot[1] *
+        (f_star_1 * t112 - g_star_1 * t113 - h_star_1 * t114) - alphadot[2] * (h_star_1 * C_jt_s_j_cross_omega_j_1 -
+        g_star_1 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t143 + A_ij_5_ * t144 + A_ij_8_ * t145 + (g_star_2 * t140 - h_star_2 * t141 + (f_star_2 *
-        t133 - g_star_2 * t135 - h_star_2 * t136 + (f_star_2 * t99 + g_star_2 * t101 - h_star_2 * t102 + (h_star_2 *
-        t122 - g_star_2 * t126 + (f_star_2 * t110 + g_star_2 * t108 - h_star_2 * t111 + (f_star_2 * t115 - g_star_2
-        * t117 - h_star_2 * t118))))) + omega_i_cross_v_i_2));
-    const jg_real t148 = alphadot[0] * alphadot[1];
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t98 + g_star_2 * t96 - h_star_2 * t99) +
+        alphadot[1] * (f_star_2 * t100 - g_star_2 * t101 - h_star_2 * t102) + alphadot[2] * (h_star_2 * C_jt_v_j_1 -
+        g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t108 + g_star_2 * t110 - h_star_2 * t111) - alphadot[1] *
+        (f_star_2 * t112 - g_star_2 * t113 - h_star_2 * t114) - alphadot[2] * (h_star_2 * C_jt_s_j_cross_omega_j_1 -
+        g_star_2 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
+    const jg_real t124 = alphadot[0] * alphadot[1];
     gamma[3] = alphadot[1] * (omega_i[0] * (sine_2 * g_star_0 + cosine_2 * h_star_0) + omega_i[1] * (sine_2 *
         g_star_1 + cosine_2 * h_star_1) + omega_i[2] * (sine_2 * g_star_2 + cosine_2 * h_star_2)) - alphadot[0] *
         (omega_i[0] * (H_8 * g_star_0 - H_5 * h_star_0) + omega_i[1] * (H_8 * g_star_1 - H_5 * h_star_1) +
-        omega_i[2] * (H_8 * g_star_2 - H_5 * h_star_2)) + cosine_1 * t148;
-    const jg_real t149 = alphadot[1] * alphadot[2];
-    const jg_real t150 = alphadot[1] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
-    const jg_real t151 = alphadot[0] * alphadot[2] * cosine_1;
+        omega_i[2] * (H_8 * g_star_2 - H_5 * h_star_2)) + cosine_1 * t124;
+    const jg_real t125 = alphadot[1] * alphadot[2];
+    const jg_real t126 = alphadot[1] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
+    const jg_real t127 = alphadot[0] * alphadot[2] * cosine_1;
     gamma[4] = alphadot[0] * (omega_i[0] * (H_8 * f_star_0 + sine_1 * h_star_0) + omega_i[1] * (H_8 * f_star_1 +
         sine_1 * h_star_1) + omega_i[2] * (H_8 * f_star_2 + sine_1 * h_star_2)) - alphadot[2] * (h_star_0 *
-        omega_i[0] + h_star_1 * omega_i[1] + h_star_2 * omega_i[2]) + sine_2 * t149 - sine_2 * t150 + sine_1 * t148
-        * sine_2 - cosine_2 * t151;
+        omega_i[0] + h_star_1 * omega_i[1] + h_star_2 * omega_i[2]) + sine_2 * t125 - sine_2 * t126 + sine_1 * t124
+        * sine_2 - cosine_2 * t127;
     gamma[5] = alphadot[2] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) - alphadot[0] *
         (omega_i[0] * (H_5 * f_star_0 + sine_1 * g_star_0) + omega_i[1] * (H_5 * f_star_1 + sine_1 * g_star_1) +
-        omega_i[2] * (H_5 * f_star_2 + sine_1 * g_star_2)) + cosine_2 * t149 - cosine_2 * t150 + cosine_2 * t148 *
-        sine_1 + sine_2 * t151;
+        omega_i[2] * (H_5 * f_star_2 + sine_1 * g_star_2)) + cosine_2 * t125 - cosine_2 * t126 + cosine_2 * t124 *
+        sine_1 + sine_2 * t127;
 }
 
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -35,12 +35,16 @@ void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -87,20 +91,24 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    phi_q[3] = t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    phi_q[3] = t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
-    phi_q[13] = t9;
-    phi_q[4] = -t9;
+    const jg_real t12 = s_i[1] + dp_ij_1;
+    phi_q[13] = t12;
+    phi_q[4] = -t12;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -123,10 +131,10 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     phi_q[7] = C_i[7] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_1;
-    phi_q[8] = -t7;
+    phi_q[8] = -t10;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t21 = s_i[0] + dp_ij_0;
-    phi_q[9] = t21;
+    const jg_real t24 = s_i[0] + dp_ij_0;
+    phi_q[9] = t24;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -138,7 +146,7 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[11] = A_ij_f_j_0 * C_i[8] - A_ij_f_j_2 * C_i[6];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[12] = C_i[8] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_2;
-    phi_q[14] = -t21;
+    phi_q[14] = -t24;
     phi_q[15] = A_ij_f_j_1 * C_i[0] - A_ij_f_j_0 * C_i[1];
     phi_q[16] = A_ij_f_j_1 * C_i[6] - A_ij_f_j_0 * C_i[7];
     phi_q[17] = C_i[6] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_0;
@@ -209,190 +217,182 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
     phi_q_t_lambda_q[4] = -lambda[1];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    const jg_real t8 = lambda[2] * t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    const jg_real t11 = lambda[2] * t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t10 = s_i[1] + dp_ij_1;
-    const jg_real t11 = lambda[1] * t10;
+    const jg_real t13 = s_i[1] + dp_ij_1;
+    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t16 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
-    const jg_real t17 = t16 * A_ij_f_j_2;
+    const jg_real t19 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
+    const jg_real t20 = t19 * A_ij_f_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t22 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
-    const jg_real t23 = t22 * A_ij_f_j_1;
+    const jg_real t25 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
+    const jg_real t26 = t25 * A_ij_f_j_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t25 = C_i[8] * lambda[5];
-    const jg_real t26 = A_ij_h_j_2 * t25;
+    const jg_real t28 = C_i[8] * lambda[5];
+    const jg_real t29 = A_ij_h_j_2 * t28;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t28 = C_i[7] * lambda[5];
-    const jg_real t29 = A_ij_h_j_1 * t28;
-    phi_q_t_lambda_q[6] = -(t8 + t11 + (t17 + t23 + (t26 + t29)));
-    const jg_real t30 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
-    const jg_real t31 = C_i[6] * lambda[5];
-    phi_q_t_lambda_q[7] = t30 * A_ij_f_j_1 + A_ij_h_j_1 * t31 + lambda[0] * t10;
-    phi_q_t_lambda_q[8] = t30 * A_ij_f_j_2 + A_ij_h_j_2 * t31 + lambda[0] * t7;
-    const jg_real t32 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t32;
-    phi_q_t_lambda_q[33] = t32;
-    const jg_real t33 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t33;
-    phi_q_t_lambda_q[36] = t33;
-    const jg_real t34 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t34;
-    phi_q_t_lambda_q[39] = t34;
+    const jg_real t31 = C_i[7] * lambda[5];
+    const jg_real t32 = A_ij_h_j_1 * t31;
+    phi_q_t_lambda_q[6] = -(t11 + t14 + (t20 + t26 + (t29 + t32)));
+    const jg_real t33 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
+    const jg_real t34 = C_i[6] * lambda[5];
+    phi_q_t_lambda_q[7] = t33 * A_ij_f_j_1 + A_ij_h_j_1 * t34 + lambda[0] * t13;
+    phi_q_t_lambda_q[8] = t33 * A_ij_f_j_2 + A_ij_h_j_2 * t34 + lambda[0] * t10;
+    const jg_real t35 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t35;
+    phi_q_t_lambda_q[33] = t35;
+    const jg_real t36 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t36;
+    phi_q_t_lambda_q[36] = t36;
+    const jg_real t37 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t37;
+    phi_q_t_lambda_q[39] = t37;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t39 = t30 * A_ij_f_j_0;
-    const jg_real t40 = t23 + t39;
+    const jg_real t42 = t33 * A_ij_f_j_0;
+    const jg_real t43 = t26 + t42;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t42 = t17 + t40 + lambda[5] * (C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2);
-    const jg_real t43 = A_ij_0 * t42;
-    const jg_real t44 = A_ij_0 * t31 + A_ij_1 * t28 + A_ij_2 * t25;
-    const jg_real t45 = C_j[6] * t44;
-    const jg_real t46 = C_j[7] * t44;
-    const jg_real t47 = C_j[8] * t44;
-    const jg_real t48 = t30 * A_ij_0 + t22 * A_ij_1 + t16 * A_ij_2;
-    const jg_real t49 = C_j[0] * t48;
-    const jg_real t50 = C_j[1] * t48;
-    const jg_real t51 = C_j[2] * t48;
-    const jg_real t52 = s_j[1] * t34 - s_j[2] * t33;
-    phi_q_t_lambda_q[12] = t43 - (A_ij_0 * t45 + A_ij_3 * t46 + A_ij_6 * t47) - (A_ij_0 * t49 + A_ij_3 * t50 +
-        A_ij_6 * t51) + t52;
-    const jg_real t53 = A_ij_3 * t42;
-    const jg_real t54 = A_ij_3 * t31 + A_ij_4 * t28 + A_ij_5 * t25;
-    const jg_real t55 = C_j[6] * t54;
-    const jg_real t56 = C_j[7] * t54;
-    const jg_real t57 = C_j[8] * t54;
-    const jg_real t58 = t30 * A_ij_3 + t22 * A_ij_4 + t16 * A_ij_5;
-    const jg_real t59 = C_j[0] * t58;
-    const jg_real t60 = C_j[1] * t58;
-    const jg_real t61 = C_j[2] * t58;
-    const jg_real t62 = s_j[2] * t32 - s_j[0] * t34;
-    phi_q_t_lambda_q[13] = t53 - (A_ij_0 * t55 + A_ij_3 * t56 + A_ij_6 * t57) - (A_ij_0 * t59 + A_ij_3 * t60 +
-        A_ij_6 * t61) + t62;
-    const jg_real t63 = A_ij_6 * t42;
-    const jg_real t64 = A_ij_6 * t31 + A_ij_7 * t28 + A_ij_8 * t25;
-    const jg_real t65 = C_j[6] * t64;
-    const jg_real t66 = C_j[7] * t64;
-    const jg_real t67 = C_j[8] * t64;
-    const jg_real t68 = t30 * A_ij_6 + t22 * A_ij_7 + t16 * A_ij_8;
-    const jg_real t69 = C_j[0] * t68;
-    const jg_real t70 = C_j[1] * t68;
-    const jg_real t71 = C_j[2] * t68;
-    const jg_real t72 = s_j[0] * t33 - s_j[1] * t32;
-    phi_q_t_lambda_q[14] = t63 - (A_ij_0 * t65 + A_ij_3 * t66 + A_ij_6 * t67) - (A_ij_0 * t69 + A_ij_3 * t70 +
-        A_ij_6 * t71) + t72;
+    const jg_real t45 = t20 + t43 + lambda[5] * (C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2);
+    const jg_real t46 = A_ij_0 * t45;
+    /* A_ijt_h_i = A_ij^T h_i */
+    const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
+    const jg_real t48 = lambda[5] * A_ijt_h_i_0;
+    const jg_real t49 = t33 * A_ij_0 + t25 * A_ij_1 + t19 * A_ij_2;
+    const jg_real t50 = A_ij_f_j_0 * t49;
+    const jg_real t51 = s_j[1] * t37 - s_j[2] * t36;
+    phi_q_t_lambda_q[12] = t46 - A_ij_h_j_0 * t48 - t50 + t51;
+    const jg_real t52 = A_ij_3 * t45;
+    const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
+    const jg_real t54 = lambda[5] * A_ijt_h_i_1;
+    const jg_real t55 = t33 * A_ij_3 + t25 * A_ij_4 + t19 * A_ij_5;
+    const jg_real t56 = A_ij_f_j_0 * t55;
+    const jg_real t57 = s_j[2] * t35 - s_j[0] * t37;
+    phi_q_t_lambda_q[13] = t52 - A_ij_h_j_0 * t54 - t56 + t57;
+    const jg_real t58 = A_ij_6 * t45;
+    const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
+    const jg_real t60 = lambda[5] * A_ijt_h_i_2;
+    const jg_real t61 = t33 * A_ij_6 + t25 * A_ij_7 + t19 * A_ij_8;
+    const jg_real t62 = A_ij_f_j_0 * t61;
+    const jg_real t63 = s_j[0] * t36 - s_j[1] * t35;
+    phi_q_t_lambda_q[14] = t58 - A_ij_h_j_0 * t60 - t62 + t63;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t74 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[15] = t22 * A_ij_f_j_0 + A_ij_h_j_0 * t28 + lambda[1] * t74;
-    const jg_real t75 = lambda[0] * t74;
-    const jg_real t76 = A_ij_h_j_0 * t31;
-    phi_q_t_lambda_q[16] = -(t8 + t75 + (t17 + t39 + (t26 + t76)));
-    phi_q_t_lambda_q[17] = t22 * A_ij_f_j_2 + A_ij_h_j_2 * t28 + lambda[1] * t7;
-    const jg_real t77 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t77;
-    phi_q_t_lambda_q[34] = t77;
-    const jg_real t78 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t78;
-    phi_q_t_lambda_q[37] = t78;
-    const jg_real t79 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t79;
-    phi_q_t_lambda_q[40] = t79;
-    const jg_real t80 = A_ij_1 * t42;
-    const jg_real t81 = s_j[1] * t79 - s_j[2] * t78;
-    phi_q_t_lambda_q[21] = t80 - (A_ij_1 * t45 + A_ij_4 * t46 + A_ij_7 * t47) - (A_ij_1 * t49 + A_ij_4 * t50 +
-        A_ij_7 * t51) + t81;
-    const jg_real t82 = A_ij_4 * t42;
-    const jg_real t83 = s_j[2] * t77 - s_j[0] * t79;
-    phi_q_t_lambda_q[22] = t82 - (A_ij_1 * t55 + A_ij_4 * t56 + A_ij_7 * t57) - (A_ij_1 * t59 + A_ij_4 * t60 +
-        A_ij_7 * t61) + t83;
-    const jg_real t84 = A_ij_7 * t42;
-    const jg_real t85 = s_j[0] * t78 - s_j[1] * t77;
-    phi_q_t_lambda_q[23] = t84 - (A_ij_1 * t65 + A_ij_4 * t66 + A_ij_7 * t67) - (A_ij_1 * t69 + A_ij_4 * t70 +
-        A_ij_7 * t71) + t85;
-    phi_q_t_lambda_q[24] = t16 * A_ij_f_j_0 + A_ij_h_j_0 * t25 + lambda[2] * t74;
-    phi_q_t_lambda_q[25] = t16 * A_ij_f_j_1 + A_ij_h_j_1 * t25 + lambda[2] * t10;
-    phi_q_t_lambda_q[26] = -(t11 + t75 + (t29 + t76 + t40));
-    const jg_real t86 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t86;
-    phi_q_t_lambda_q[35] = t86;
-    const jg_real t87 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t87;
-    phi_q_t_lambda_q[38] = t87;
-    const jg_real t88 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t88;
-    phi_q_t_lambda_q[41] = t88;
-    const jg_real t89 = A_ij_2 * t42;
-    const jg_real t90 = s_j[1] * t88 - s_j[2] * t87;
-    phi_q_t_lambda_q[30] = t89 - (A_ij_2 * t45 + A_ij_5 * t46 + A_ij_8 * t47) - (A_ij_2 * t49 + A_ij_5 * t50 +
-        A_ij_8 * t51) + t90;
-    const jg_real t91 = A_ij_5 * t42;
-    const jg_real t92 = s_j[2] * t86 - s_j[0] * t88;
-    phi_q_t_lambda_q[31] = t91 - (A_ij_2 * t55 + A_ij_5 * t56 + A_ij_8 * t57) - (A_ij_2 * t59 + A_ij_5 * t60 +
-        A_ij_8 * t61) + t92;
-    const jg_real t93 = A_ij_8 * t42;
-    const jg_real t94 = s_j[0] * t87 - s_j[1] * t86;
-    phi_q_t_lambda_q[32] = t93 - (A_ij_2 * t65 + A_ij_5 * t66 + A_ij_8 * t67) - (A_ij_2 * t69 + A_ij_5 * t70 +
-        A_ij_8 * t71) + t94;
-    phi_q_t_lambda_q[42] = t43 - A_ij_f_j_0 * t48 - A_ij_h_j_0 * t44 + t52;
-    phi_q_t_lambda_q[43] = t80 - A_ij_f_j_1 * t48 - A_ij_h_j_1 * t44 + t81;
-    phi_q_t_lambda_q[44] = t89 - A_ij_f_j_2 * t48 - A_ij_h_j_2 * t44 + t90;
+    const jg_real t65 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[15] = t25 * A_ij_f_j_0 + A_ij_h_j_0 * t31 + lambda[1] * t65;
+    const jg_real t66 = lambda[0] * t65;
+    const jg_real t67 = A_ij_h_j_0 * t34;
+    phi_q_t_lambda_q[16] = -(t11 + t66 + (t20 + t42 + (t29 + t67)));
+    phi_q_t_lambda_q[17] = t25 * A_ij_f_j_2 + A_ij_h_j_2 * t31 + lambda[1] * t10;
+    const jg_real t68 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[18] = t68;
+    phi_q_t_lambda_q[34] = t68;
+    const jg_real t69 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[19] = t69;
+    phi_q_t_lambda_q[37] = t69;
+    const jg_real t70 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[20] = t70;
+    phi_q_t_lambda_q[40] = t70;
+    const jg_real t71 = A_ij_1 * t45;
+    const jg_real t72 = A_ij_f_j_1 * t49;
+    const jg_real t73 = s_j[1] * t70 - s_j[2] * t69;
+    phi_q_t_lambda_q[21] = t71 - A_ij_h_j_1 * t48 - t72 + t73;
+    const jg_real t74 = A_ij_4 * t45;
+    const jg_real t75 = A_ij_f_j_1 * t55;
+    const jg_real t76 = s_j[2] * t68 - s_j[0] * t70;
+    phi_q_t_lambda_q[22] = t74 - A_ij_h_j_1 * t54 - t75 + t76;
+    const jg_real t77 = A_ij_7 * t45;
+    const jg_real t78 = A_ij_f_j_1 * t61;
+    const jg_real t79 = s_j[0] * t69 - s_j[1] * t68;
+    phi_q_t_lambda_q[23] = t77 - A_ij_h_j_1 * t60 - t78 + t79;
+    phi_q_t_lambda_q[24] = t19 * A_ij_f_j_0 + A_ij_h_j_0 * t28 + lambda[2] * t65;
+    phi_q_t_lambda_q[25] = t19 * A_ij_f_j_1 + A_ij_h_j_1 * t28 + lambda[2] * t13;
+    phi_q_t_lambda_q[26] = -(t14 + t66 + (t32 + t67 + t43));
+    const jg_real t80 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[27] = t80;
+    phi_q_t_lambda_q[35] = t80;
+    const jg_real t81 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[28] = t81;
+    phi_q_t_lambda_q[38] = t81;
+    const jg_real t82 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[29] = t82;
+    phi_q_t_lambda_q[41] = t82;
+    const jg_real t83 = A_ij_2 * t45;
+    const jg_real t84 = A_ij_f_j_2 * t49;
+    const jg_real t85 = s_j[1] * t82 - s_j[2] * t81;
+    phi_q_t_lambda_q[30] = t83 - A_ij_h_j_2 * t48 - t84 + t85;
+    const jg_real t86 = A_ij_5 * t45;
+    const jg_real t87 = A_ij_f_j_2 * t55;
+    const jg_real t88 = s_j[2] * t80 - s_j[0] * t82;
+    phi_q_t_lambda_q[31] = t86 - A_ij_h_j_2 * t54 - t87 + t88;
+    const jg_real t89 = A_ij_8 * t45;
+    const jg_real t90 = A_ij_f_j_2 * t61;
+    const jg_real t91 = s_j[0] * t81 - s_j[1] * t80;
+    phi_q_t_lambda_q[32] = t89 - A_ij_h_j_2 * t60 - t90 + t91;
+    const jg_real t92 = A_ij_h_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t46 - t50 - t92 * A_ijt_h_i_0 + t51;
+    const jg_real t93 = A_ij_h_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t71 - t72 - t93 * A_ijt_h_i_0 + t73;
+    const jg_real t94 = A_ij_h_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t83 - t84 - t94 * A_ijt_h_i_0 + t85;
     const jg_real t95 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
     phi_q_t_lambda_q[45] = t95;
     const jg_real t96 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
     phi_q_t_lambda_q[61] = t96;
     phi_q_t_lambda_q[46] = -t96;
-    /* A_ijt_h_i = A_ij^T h_i */
-    const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t98 = C_j[8] * lambda[5];
-    const jg_real t99 = A_ijt_h_i_2 * t98;
-    const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
+    const jg_real t97 = C_j[2] * t61;
+    const jg_real t98 = C_j[1] * t55;
+    const jg_real t99 = C_j[8] * lambda[5];
+    const jg_real t100 = A_ijt_h_i_2 * t99;
     const jg_real t101 = C_j[7] * lambda[5];
     const jg_real t102 = A_ijt_h_i_1 * t101;
     const jg_real t103 = s_j[2] * t95;
     const jg_real t104 = s_j[1] * t96;
-    phi_q_t_lambda_q[47] = -(t60 + t71 + (t99 + t102 + (t103 + t104)));
+    phi_q_t_lambda_q[47] = -(t97 + t98 + (t100 + t102 + (t103 + t104)));
     const jg_real t105 = C_j[6] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t105 + s_j[0] * t96 + t59;
-    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t105 + s_j[0] * t95 + t69;
-    phi_q_t_lambda_q[50] = t53 - A_ij_f_j_0 * t58 - A_ij_h_j_0 * t54 + t62;
-    phi_q_t_lambda_q[51] = t82 - A_ij_f_j_1 * t58 - A_ij_h_j_1 * t54 + t83;
-    phi_q_t_lambda_q[52] = t91 - A_ij_f_j_2 * t58 - A_ij_h_j_2 * t54 + t92;
+    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t105 + s_j[0] * t96 + C_j[0] * t55;
+    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t105 + s_j[0] * t95 + C_j[0] * t61;
+    phi_q_t_lambda_q[50] = t52 - t56 - t92 * A_ijt_h_i_1 + t57;
+    phi_q_t_lambda_q[51] = t74 - t75 - t93 * A_ijt_h_i_1 + t76;
+    phi_q_t_lambda_q[52] = t86 - t87 - t94 * A_ijt_h_i_1 + t88;
     phi_q_t_lambda_q[53] = -t95;
     const jg_real t106 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
     phi_q_t_lambda_q[54] = t106;
-    const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t101 + s_j[1] * t106 + t50;
+    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t101 + s_j[1] * t106 + C_j[1] * t49;
+    const jg_real t107 = C_j[0] * t49;
     const jg_real t108 = A_ijt_h_i_0 * t105;
     const jg_real t109 = s_j[0] * t106;
-    phi_q_t_lambda_q[56] = -(t49 + t71 + (t99 + t108 + (t103 + t109)));
-    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t101 + s_j[1] * t95 + t70;
-    phi_q_t_lambda_q[58] = t63 - A_ij_f_j_0 * t68 - A_ij_h_j_0 * t64 + t72;
-    phi_q_t_lambda_q[59] = t84 - A_ij_f_j_1 * t68 - A_ij_h_j_1 * t64 + t85;
-    phi_q_t_lambda_q[60] = t93 - A_ij_f_j_2 * t68 - A_ij_h_j_2 * t64 + t94;
+    phi_q_t_lambda_q[56] = -(t97 + t107 + (t100 + t108 + (t103 + t109)));
+    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t101 + s_j[1] * t95 + C_j[1] * t61;
+    phi_q_t_lambda_q[58] = t58 - t62 - t92 * A_ijt_h_i_2 + t63;
+    phi_q_t_lambda_q[59] = t77 - t78 - t93 * A_ijt_h_i_2 + t79;
+    phi_q_t_lambda_q[60] = t89 - t90 - t94 * A_ijt_h_i_2 + t91;
     phi_q_t_lambda_q[62] = -t106;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t98 + s_j[2] * t106 + t51;
-    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t98 + s_j[2] * t96 + t61;
-    phi_q_t_lambda_q[65] = -(t49 + t60 + (t102 + t108 + (t104 + t109)));
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t99 + s_j[2] * t106 + C_j[2] * t49;
+    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t99 + s_j[2] * t96 + C_j[2] * t55;
+    phi_q_t_lambda_q[65] = -(t98 + t107 + (t102 + t108 + (t104 + t109)));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -440,12 +440,16 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -458,71 +462,72 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_i_cross_dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t13 = s_j[1] * JG_REAL(2.0);
-    const jg_real t14 = s_j[2] * JG_REAL(2.0);
-    const jg_real t15 = omega_j[2] * t13 - omega_j[1] * t14;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t17 = s_j[0] * JG_REAL(2.0);
-    const jg_real t18 = omega_j[0] * t14 - omega_j[2] * t17;
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t20 = omega_j[1] * t17 - omega_j[0] * t13;
-    const jg_real t21 = A_ij_2 * t15 + A_ij_5 * t18 + A_ij_8 * t20;
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t25 = A_ij_1 * t15 + A_ij_4 * t18 + A_ij_7 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t38 = JG_REAL(2.0) * v_j[0];
-    const jg_real t39 = JG_REAL(2.0) * v_j[1];
-    const jg_real t40 = JG_REAL(2.0) * v_j[2];
-    const jg_real t41 = A_ij_1 * t38 + A_ij_4 * t39 + A_ij_7 * t40;
-    const jg_real t42 = A_ij_2 * t38 + A_ij_5 * t39 + A_ij_8 * t40;
-    const jg_real t43 = JG_REAL(2.0) * v_i[2];
-    const jg_real t44 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t43 - omega_i[2] * t44 + (omega_i[2] * t41 - omega_i[1] * t42 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t21 - omega_i[2] * t25 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t47 = A_ij_0 * t15 + A_ij_3 * t18 + A_ij_6 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t50 = A_ij_0 * t38 + A_ij_3 * t39 + A_ij_6 * t40;
-    const jg_real t51 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t51 - omega_i[0] * t43 + (omega_i[0] * t42 - omega_i[2] * t50 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t47 - omega_i[0] * t21 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t44 - omega_i[1] * t51 + (omega_i[1] * t50 - omega_i[0] * t41 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t25 - omega_i[1] * t47 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -532,11 +537,11 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t59 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t61 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t62 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -544,10 +549,10 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    const jg_real t68 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t65 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    const jg_real t70 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t71 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t67 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t68 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* omega_j_cross_omega_j_cross_f_j = tilde(omega_j) tilde(omega_j) f_j */
     const jg_real omega_j_cross_omega_j_cross_f_j_0 = omega_j[1] * omega_j_cross_f_j_2 - omega_j[2] *
         omega_j_cross_f_j_1;
@@ -555,11 +560,11 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t75 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t72 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t76 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t73 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t77 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t74 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
     jg_real sine_0;
     jg_real cosine_0;
@@ -567,12 +572,12 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real t82 = alphadot[1] * alphadot[1];
-    gamma[3] = JG_REAL(2.0) * (C_i[0] * t59 + C_i[1] * t61 + C_i[2] * t62) - (C_i[0] * t75 + C_i[1] * t76 + C_i[2] *
-        t77 + (C_i[0] * t68 + C_i[1] * t70 + C_i[2] * t71)) - alphadot[0] * alphadot[0] * cosine_0 * cosine_1 -
-        cosine_0 * t82 * cosine_1 + JG_REAL(2.0) * alphadot[0] * alphadot[1] * sine_0 * sine_1;
-    gamma[4] = JG_REAL(2.0) * (C_i[6] * t59 + C_i[7] * t61 + C_i[8] * t62) - (C_i[6] * t75 + C_i[7] * t76 + C_i[8] *
-        t77 + (C_i[6] * t68 + C_i[7] * t70 + C_i[8] * t71)) + t82 * sine_1;
+    const jg_real t79 = alphadot[1] * alphadot[1];
+    gamma[3] = JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59) - (C_i[0] * t72 + C_i[1] * t73 + C_i[2] *
+        t74 + (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68)) - alphadot[0] * alphadot[0] * cosine_0 * cosine_1 -
+        cosine_0 * t79 * cosine_1 + JG_REAL(2.0) * alphadot[0] * alphadot[1] * sine_0 * sine_1;
+    gamma[4] = JG_REAL(2.0) * (C_i[6] * t56 + C_i[7] * t58 + C_i[8] * t59) - (C_i[6] * t72 + C_i[7] * t73 + C_i[8] *
+        t74 + (C_i[6] * t65 + C_i[7] * t67 + C_i[8] * t68)) + t79 * sine_1;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -612,7 +617,7 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (C_i[6] * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + C_i[7] * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + C_i[8] * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) - cosine_1 * t82 * cosine_2 -
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) - cosine_1 * t79 * cosine_2 -
         alphadot[2] * alphadot[2] * cosine_1 * cosine_2 + JG_REAL(2.0) * alphadot[1] * alphadot[2] * sine_1 *
         sine_2;
 }
@@ -632,15 +637,21 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
+    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
+    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
+    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -654,25 +665,28 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = omega_i[2] * s_i[1] - omega_i[1] * s_i[2] + (omega_i[2] * dp_ij_1 - omega_i[1] * dp_ij_2 +
-        (A_ij_v_j_0 - v_i[0]) + A_ij_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = omega_i[0] * s_i[2] - omega_i[2] * s_i[0] + (omega_i[0] * dp_ij_2 - omega_i[2] * dp_ij_0 +
-        (A_ij_v_j_1 - v_i[1]) + A_ij_omega_j_cross_s_j_1);
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = omega_i[1] * s_i[0] - omega_i[0] * s_i[1] + (omega_i[1] * dp_ij_0 - omega_i[0] * dp_ij_1 +
-        (A_ij_v_j_2 - v_i[2]) + A_ij_omega_j_cross_s_j_2);
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -744,66 +758,69 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
+    const jg_real t10 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
+    const jg_real t12 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t14 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
+    const jg_real t17 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t19 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
+    const jg_real t22 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t21 = C_i[7] * lambda[5];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t23 = C_i[8] * lambda[5];
-    phi_q_t_lambda[3] = A_ij_h_j_2 * t21 - A_ij_h_j_1 * t23 + (lambda[1] * t7 - lambda[2] * t9 + (A_ij_f_j_2 * t14 -
-        A_ij_f_j_1 * t19));
+    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 + (A_ij_f_j_2 * t17 - A_ij_f_j_1 * t22) - lambda[5] *
+        (C_i[8] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_2);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t25 = s_i[0] + dp_ij_0;
+    const jg_real t26 = s_i[0] + dp_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t30 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
+    const jg_real t31 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t32 = C_i[6] * lambda[5];
-    phi_q_t_lambda[4] = A_ij_h_j_0 * t23 - A_ij_h_j_2 * t32 + (lambda[2] * t25 - lambda[0] * t7 + (A_ij_f_j_0 * t19
-        - A_ij_f_j_2 * t30));
-    phi_q_t_lambda[5] = A_ij_h_j_1 * t32 - A_ij_h_j_0 * t21 + (lambda[0] * t9 - lambda[1] * t25 + (A_ij_f_j_1 * t30
-        - A_ij_f_j_0 * t14));
+    phi_q_t_lambda[4] = lambda[2] * t26 - lambda[0] * t10 + (A_ij_f_j_0 * t22 - A_ij_f_j_2 * t31) - lambda[5] *
+        (C_i[6] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_0);
+    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t26 + (A_ij_f_j_1 * t31 - A_ij_f_j_0 * t17) - lambda[5] *
+        (C_i[7] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_1);
     const jg_real t33 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
     phi_q_t_lambda[6] = t33;
     const jg_real t34 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
     phi_q_t_lambda[7] = t34;
     const jg_real t35 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
     phi_q_t_lambda[8] = t35;
-    const jg_real t36 = A_ij_6 * t30 + A_ij_7 * t14 + A_ij_8 * t19;
-    const jg_real t37 = A_ij_3 * t30 + A_ij_4 * t14 + A_ij_5 * t19;
-    const jg_real t38 = A_ij_6 * t32 + A_ij_7 * t21 + A_ij_8 * t23;
-    const jg_real t39 = A_ij_3 * t32 + A_ij_4 * t21 + A_ij_5 * t23;
-    phi_q_t_lambda[9] = C_j[1] * t36 - C_j[2] * t37 + (C_j[7] * t38 - C_j[8] * t39 + (s_j[1] * t35 - s_j[2] * t34));
-    const jg_real t40 = A_ij_0 * t30 + A_ij_1 * t14 + A_ij_2 * t19;
-    const jg_real t41 = A_ij_0 * t32 + A_ij_1 * t21 + A_ij_2 * t23;
-    phi_q_t_lambda[10] = C_j[2] * t40 - C_j[0] * t36 + (C_j[8] * t41 - C_j[6] * t38 + (s_j[2] * t33 - s_j[0] *
-        t35));
-    phi_q_t_lambda[11] = C_j[0] * t37 - C_j[1] * t40 + (C_j[6] * t39 - C_j[7] * t41 + (s_j[0] * t34 - s_j[1] *
-        t33));
+    const jg_real t36 = A_ij_6 * t31 + A_ij_7 * t17 + A_ij_8 * t22;
+    const jg_real t37 = A_ij_3 * t31 + A_ij_4 * t17 + A_ij_5 * t22;
+    /* A_ijt_h_i = A_ij^T h_i */
+    const jg_real A_ijt_h_i_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real A_ijt_h_i_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    phi_q_t_lambda[9] = C_j[1] * t36 - C_j[2] * t37 + (s_j[1] * t35 - s_j[2] * t34 + lambda[5] * (C_j[7] *
+        A_ijt_h_i_2 - C_j[8] * A_ijt_h_i_1));
+    const jg_real t40 = A_ij_0 * t31 + A_ij_1 * t17 + A_ij_2 * t22;
+    const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    phi_q_t_lambda[10] = C_j[2] * t40 - C_j[0] * t36 + (s_j[2] * t33 - s_j[0] * t35 + lambda[5] * (C_j[8] *
+        A_ijt_h_i_0 - C_j[6] * A_ijt_h_i_2));
+    phi_q_t_lambda[11] = C_j[0] * t37 - C_j[1] * t40 + (s_j[0] * t34 - s_j[1] * t33 + lambda[5] * (C_j[6] *
+        A_ijt_h_i_1 - C_j[7] * A_ijt_h_i_0));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -835,12 +852,16 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -884,29 +905,29 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t28 = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2;
+    const jg_real t31 = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    phi[5] = t28 - cosine_1 * cosine_2;
+    phi[5] = t31 - cosine_1 * cosine_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t31 = s_i[2] + dp_ij_2;
-    phi_q[3] = t31;
-    const jg_real t32 = s_i[1] + dp_ij_1;
-    phi_q[13] = t32;
-    phi_q[4] = -t32;
+    const jg_real t34 = s_i[2] + dp_ij_2;
+    phi_q[3] = t34;
+    const jg_real t35 = s_i[1] + dp_ij_1;
+    phi_q[13] = t35;
+    phi_q[4] = -t35;
     phi_q[5] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
     phi_q[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     phi_q[7] = C_i[7] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_1;
-    phi_q[8] = -t31;
-    const jg_real t33 = s_i[0] + dp_ij_0;
-    phi_q[9] = t33;
+    phi_q[8] = -t34;
+    const jg_real t36 = s_i[0] + dp_ij_0;
+    phi_q[9] = t36;
     phi_q[10] = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     phi_q[12] = C_i[8] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_2;
-    phi_q[14] = -t33;
+    phi_q[14] = -t36;
     phi_q[15] = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = C_i[6] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_0;
@@ -946,155 +967,143 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t40 = t31 * lambda[2];
-    const jg_real t41 = t32 * lambda[1];
-    const jg_real t42 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
-    const jg_real t43 = A_ij_f_j_2 * t42;
-    const jg_real t44 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
-    const jg_real t45 = A_ij_f_j_1 * t44;
-    const jg_real t46 = C_i[8] * lambda[5];
-    const jg_real t47 = A_ij_h_j_2 * t46;
-    const jg_real t48 = C_i[7] * lambda[5];
-    const jg_real t49 = A_ij_h_j_1 * t48;
-    phi_q_t_lambda_q[6] = -(t40 + t41 + (t43 + t45 + (t47 + t49)));
-    const jg_real t50 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
-    const jg_real t51 = C_i[6] * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_f_j_1 * t50 + A_ij_h_j_1 * t51 + t32 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_f_j_2 * t50 + A_ij_h_j_2 * t51 + t31 * lambda[0];
-    const jg_real t52 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t52;
-    phi_q_t_lambda_q[33] = t52;
-    const jg_real t53 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t53;
-    phi_q_t_lambda_q[36] = t53;
-    const jg_real t54 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t54;
-    phi_q_t_lambda_q[39] = t54;
-    const jg_real t55 = A_ij_f_j_0 * t50;
-    const jg_real t56 = t45 + t55;
-    const jg_real t57 = t43 + t56 + t28 * lambda[5];
-    const jg_real t58 = A_ij_0 * t57;
-    const jg_real t59 = A_ij_0 * t51 + A_ij_1 * t48 + A_ij_2 * t46;
-    const jg_real t60 = C_j[6] * t59;
-    const jg_real t61 = C_j[7] * t59;
-    const jg_real t62 = C_j[8] * t59;
-    const jg_real t63 = A_ij_0 * t50 + A_ij_1 * t44 + A_ij_2 * t42;
-    const jg_real t64 = C_j[0] * t63;
-    const jg_real t65 = C_j[1] * t63;
-    const jg_real t66 = C_j[2] * t63;
-    const jg_real t67 = s_j[1] * t54 - s_j[2] * t53;
-    phi_q_t_lambda_q[12] = t58 - (A_ij_0 * t60 + A_ij_3 * t61 + A_ij_6 * t62) - (A_ij_0 * t64 + A_ij_3 * t65 +
-        A_ij_6 * t66) + t67;
-    const jg_real t68 = A_ij_3 * t57;
-    const jg_real t69 = A_ij_3 * t51 + A_ij_4 * t48 + A_ij_5 * t46;
-    const jg_real t70 = C_j[6] * t69;
-    const jg_real t71 = C_j[7] * t69;
-    const jg_real t72 = C_j[8] * t69;
-    const jg_real t73 = A_ij_3 * t50 + A_ij_4 * t44 + A_ij_5 * t42;
-    const jg_real t74 = C_j[0] * t73;
-    const jg_real t75 = C_j[1] * t73;
-    const jg_real t76 = C_j[2] * t73;
-    const jg_real t77 = s_j[2] * t52 - s_j[0] * t54;
-    phi_q_t_lambda_q[13] = t68 - (A_ij_0 * t70 + A_ij_3 * t71 + A_ij_6 * t72) - (A_ij_0 * t74 + A_ij_3 * t75 +
-        A_ij_6 * t76) + t77;
-    const jg_real t78 = A_ij_6 * t57;
-    const jg_real t79 = A_ij_6 * t51 + A_ij_7 * t48 + A_ij_8 * t46;
-    const jg_real t80 = C_j[6] * t79;
-    const jg_real t81 = C_j[7] * t79;
-    const jg_real t82 = C_j[8] * t79;
-    const jg_real t83 = A_ij_6 * t50 + A_ij_7 * t44 + A_ij_8 * t42;
-    const jg_real t84 = C_j[0] * t83;
-    const jg_real t85 = C_j[1] * t83;
-    const jg_real t86 = C_j[2] * t83;
-    const jg_real t87 = s_j[0] * t53 - s_j[1] * t52;
-    phi_q_t_lambda_q[14] = t78 - (A_ij_0 * t80 + A_ij_3 * t81 + A_ij_6 * t82) - (A_ij_0 * t84 + A_ij_3 * t85 +
-        A_ij_6 * t86) + t87;
-    phi_q_t_lambda_q[15] = A_ij_f_j_0 * t44 + A_ij_h_j_0 * t48 + t33 * lambda[1];
-    const jg_real t88 = t33 * lambda[0];
-    const jg_real t89 = A_ij_h_j_0 * t51;
-    phi_q_t_lambda_q[16] = -(t40 + t88 + (t43 + t55 + (t47 + t89)));
-    phi_q_t_lambda_q[17] = A_ij_f_j_2 * t44 + A_ij_h_j_2 * t48 + t31 * lambda[1];
-    const jg_real t90 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t90;
-    phi_q_t_lambda_q[34] = t90;
-    const jg_real t91 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t91;
-    phi_q_t_lambda_q[37] = t91;
-    const jg_real t92 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t92;
-    phi_q_t_lambda_q[40] = t92;
-    const jg_real t93 = A_ij_1 * t57;
-    const jg_real t94 = s_j[1] * t92 - s_j[2] * t91;
-    phi_q_t_lambda_q[21] = t93 - (A_ij_1 * t60 + A_ij_4 * t61 + A_ij_7 * t62) - (A_ij_1 * t64 + A_ij_4 * t65 +
-        A_ij_7 * t66) + t94;
-    const jg_real t95 = A_ij_4 * t57;
-    const jg_real t96 = s_j[2] * t90 - s_j[0] * t92;
-    phi_q_t_lambda_q[22] = t95 - (A_ij_1 * t70 + A_ij_4 * t71 + A_ij_7 * t72) - (A_ij_1 * t74 + A_ij_4 * t75 +
-        A_ij_7 * t76) + t96;
-    const jg_real t97 = A_ij_7 * t57;
-    const jg_real t98 = s_j[0] * t91 - s_j[1] * t90;
-    phi_q_t_lambda_q[23] = t97 - (A_ij_1 * t80 + A_ij_4 * t81 + A_ij_7 * t82) - (A_ij_1 * t84 + A_ij_4 * t85 +
-        A_ij_7 * t86) + t98;
-    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t42 + A_ij_h_j_0 * t46 + t33 * lambda[2];
-    phi_q_t_lambda_q[25] = A_ij_f_j_1 * t42 + A_ij_h_j_1 * t46 + t32 * lambda[2];
-    phi_q_t_lambda_q[26] = -(t41 + t88 + (t49 + t89 + t56));
-    const jg_real t99 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t99;
-    phi_q_t_lambda_q[35] = t99;
-    const jg_real t100 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t100;
-    phi_q_t_lambda_q[38] = t100;
-    const jg_real t101 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t101;
-    phi_q_t_lambda_q[41] = t101;
-    const jg_real t102 = A_ij_2 * t57;
-    const jg_real t103 = s_j[1] * t101 - s_j[2] * t100;
-    phi_q_t_lambda_q[30] = t102 - (A_ij_2 * t60 + A_ij_5 * t61 + A_ij_8 * t62) - (A_ij_2 * t64 + A_ij_5 * t65 +
-        A_ij_8 * t66) + t103;
-    const jg_real t104 = A_ij_5 * t57;
-    const jg_real t105 = s_j[2] * t99 - s_j[0] * t101;
-    phi_q_t_lambda_q[31] = t104 - (A_ij_2 * t70 + A_ij_5 * t71 + A_ij_8 * t72) - (A_ij_2 * t74 + A_ij_5 * t75 +
-        A_ij_8 * t76) + t105;
-    const jg_real t106 = A_ij_8 * t57;
-    const jg_real t107 = s_j[0] * t100 - s_j[1] * t99;
-    phi_q_t_lambda_q[32] = t106 - (A_ij_2 * t80 + A_ij_5 * t81 + A_ij_8 * t82) - (A_ij_2 * t84 + A_ij_5 * t85 +
-        A_ij_8 * t86) + t107;
-    phi_q_t_lambda_q[42] = t58 - A_ij_f_j_0 * t63 - A_ij_h_j_0 * t59 + t67;
-    phi_q_t_lambda_q[43] = t93 - A_ij_f_j_1 * t63 - A_ij_h_j_1 * t59 + t94;
-    phi_q_t_lambda_q[44] = t102 - A_ij_f_j_2 * t63 - A_ij_h_j_2 * t59 + t103;
-    const jg_real t108 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = t108;
-    const jg_real t109 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = t109;
-    phi_q_t_lambda_q[46] = -t109;
-    const jg_real t110 = C_j[8] * lambda[5];
-    const jg_real t111 = A_ijt_h_i_2 * t110;
-    const jg_real t112 = C_j[7] * lambda[5];
-    const jg_real t113 = A_ijt_h_i_1 * t112;
-    const jg_real t114 = s_j[2] * t108;
-    const jg_real t115 = s_j[1] * t109;
-    phi_q_t_lambda_q[47] = -(t75 + t86 + (t111 + t113 + (t114 + t115)));
-    const jg_real t116 = C_j[6] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t116 + s_j[0] * t109 + t74;
-    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t116 + s_j[0] * t108 + t84;
-    phi_q_t_lambda_q[50] = t68 - A_ij_f_j_0 * t73 - A_ij_h_j_0 * t69 + t77;
-    phi_q_t_lambda_q[51] = t95 - A_ij_f_j_1 * t73 - A_ij_h_j_1 * t69 + t96;
-    phi_q_t_lambda_q[52] = t104 - A_ij_f_j_2 * t73 - A_ij_h_j_2 * t69 + t105;
-    phi_q_t_lambda_q[53] = -t108;
-    const jg_real t117 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = t117;
-    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t112 + s_j[1] * t117 + t65;
-    const jg_real t118 = A_ijt_h_i_0 * t116;
-    const jg_real t119 = s_j[0] * t117;
-    phi_q_t_lambda_q[56] = -(t64 + t86 + (t111 + t118 + (t114 + t119)));
-    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t112 + s_j[1] * t108 + t85;
-    phi_q_t_lambda_q[58] = t78 - A_ij_f_j_0 * t83 - A_ij_h_j_0 * t79 + t87;
-    phi_q_t_lambda_q[59] = t97 - A_ij_f_j_1 * t83 - A_ij_h_j_1 * t79 + t98;
-    phi_q_t_lambda_q[60] = t106 - A_ij_f_j_2 * t83 - A_ij_h_j_2 * t79 + t107;
-    phi_q_t_lambda_q[62] = -t117;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t110 + s_j[2] * t117 + t66;
-    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t110 + s_j[2] * t109 + t76;
-    phi_q_t_lambda_q[65] = -(t64 + t75 + (t113 + t118 + (t115 + t119)));
+    const jg_real t43 = t34 * lambda[2];
+    const jg_real t44 = t35 * lambda[1];
+    const jg_real t45 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
+    const jg_real t46 = A_ij_f_j_2 * t45;
+    const jg_real t47 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
+    const jg_real t48 = A_ij_f_j_1 * t47;
+    const jg_real t49 = C_i[8] * lambda[5];
+    const jg_real t50 = A_ij_h_j_2 * t49;
+    const jg_real t51 = C_i[7] * lambda[5];
+    const jg_real t52 = A_ij_h_j_1 * t51;
+    phi_q_t_lambda_q[6] = -(t43 + t44 + (t46 + t48 + (t50 + t52)));
+    const jg_real t53 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
+    const jg_real t54 = C_i[6] * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_f_j_1 * t53 + A_ij_h_j_1 * t54 + t35 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_f_j_2 * t53 + A_ij_h_j_2 * t54 + t34 * lambda[0];
+    const jg_real t55 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t55;
+    phi_q_t_lambda_q[33] = t55;
+    const jg_real t56 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t56;
+    phi_q_t_lambda_q[36] = t56;
+    const jg_real t57 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t57;
+    phi_q_t_lambda_q[39] = t57;
+    const jg_real t58 = A_ij_f_j_0 * t53;
+    const jg_real t59 = t48 + t58;
+    const jg_real t60 = t46 + t59 + t31 * lambda[5];
+    const jg_real t61 = A_ij_0 * t60;
+    const jg_real t62 = A_ijt_h_i_0 * lambda[5];
+    const jg_real t63 = A_ij_0 * t53 + A_ij_1 * t47 + A_ij_2 * t45;
+    const jg_real t64 = A_ij_f_j_0 * t63;
+    const jg_real t65 = s_j[1] * t57 - s_j[2] * t56;
+    phi_q_t_lambda_q[12] = t61 - A_ij_h_j_0 * t62 - t64 + t65;
+    const jg_real t66 = A_ij_3 * t60;
+    const jg_real t67 = A_ijt_h_i_1 * lambda[5];
+    const jg_real t68 = A_ij_3 * t53 + A_ij_4 * t47 + A_ij_5 * t45;
+    const jg_real t69 = A_ij_f_j_0 * t68;
+    const jg_real t70 = s_j[2] * t55 - s_j[0] * t57;
+    phi_q_t_lambda_q[13] = t66 - A_ij_h_j_0 * t67 - t69 + t70;
+    const jg_real t71 = A_ij_6 * t60;
+    const jg_real t72 = A_ijt_h_i_2 * lambda[5];
+    const jg_real t73 = A_ij_6 * t53 + A_ij_7 * t47 + A_ij_8 * t45;
+    const jg_real t74 = A_ij_f_j_0 * t73;
+    const jg_real t75 = s_j[0] * t56 - s_j[1] * t55;
+    phi_q_t_lambda_q[14] = t71 - A_ij_h_j_0 * t72 - t74 + t75;
+    phi_q_t_lambda_q[15] = A_ij_f_j_0 * t47 + A_ij_h_j_0 * t51 + t36 * lambda[1];
+    const jg_real t76 = t36 * lambda[0];
+    const jg_real t77 = A_ij_h_j_0 * t54;
+    phi_q_t_lambda_q[16] = -(t43 + t76 + (t46 + t58 + (t50 + t77)));
+    phi_q_t_lambda_q[17] = A_ij_f_j_2 * t47 + A_ij_h_j_2 * t51 + t34 * lambda[1];
+    const jg_real t78 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[18] = t78;
+    phi_q_t_lambda_q[34] = t78;
+    const jg_real t79 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[19] = t79;
+    phi_q_t_lambda_q[37] = t79;
+    const jg_real t80 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[20] = t80;
+    phi_q_t_lambda_q[40] = t80;
+    const jg_real t81 = A_ij_1 * t60;
+    const jg_real t82 = A_ij_f_j_1 * t63;
+    const jg_real t83 = s_j[1] * t80 - s_j[2] * t79;
+    phi_q_t_lambda_q[21] = t81 - A_ij_h_j_1 * t62 - t82 + t83;
+    const jg_real t84 = A_ij_4 * t60;
+    const jg_real t85 = A_ij_f_j_1 * t68;
+    const jg_real t86 = s_j[2] * t78 - s_j[0] * t80;
+    phi_q_t_lambda_q[22] = t84 - A_ij_h_j_1 * t67 - t85 + t86;
+    const jg_real t87 = A_ij_7 * t60;
+    const jg_real t88 = A_ij_f_j_1 * t73;
+    const jg_real t89 = s_j[0] * t79 - s_j[1] * t78;
+    phi_q_t_lambda_q[23] = t87 - A_ij_h_j_1 * t72 - t88 + t89;
+    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t45 + A_ij_h_j_0 * t49 + t36 * lambda[2];
+    phi_q_t_lambda_q[25] = A_ij_f_j_1 * t45 + A_ij_h_j_1 * t49 + t35 * lambda[2];
+    phi_q_t_lambda_q[26] = -(t44 + t76 + (t52 + t77 + t59));
+    const jg_real t90 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[27] = t90;
+    phi_q_t_lambda_q[35] = t90;
+    const jg_real t91 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[28] = t91;
+    phi_q_t_lambda_q[38] = t91;
+    const jg_real t92 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[29] = t92;
+    phi_q_t_lambda_q[41] = t92;
+    const jg_real t93 = A_ij_2 * t60;
+    const jg_real t94 = A_ij_f_j_2 * t63;
+    const jg_real t95 = s_j[1] * t92 - s_j[2] * t91;
+    phi_q_t_lambda_q[30] = t93 - A_ij_h_j_2 * t62 - t94 + t95;
+    const jg_real t96 = A_ij_5 * t60;
+    const jg_real t97 = A_ij_f_j_2 * t68;
+    const jg_real t98 = s_j[2] * t90 - s_j[0] * t92;
+    phi_q_t_lambda_q[31] = t96 - A_ij_h_j_2 * t67 - t97 + t98;
+    const jg_real t99 = A_ij_8 * t60;
+    const jg_real t100 = A_ij_f_j_2 * t73;
+    const jg_real t101 = s_j[0] * t91 - s_j[1] * t90;
+    phi_q_t_lambda_q[32] = t99 - A_ij_h_j_2 * t72 - t100 + t101;
+    const jg_real t102 = A_ij_h_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t61 - t64 - A_ijt_h_i_0 * t102 + t65;
+    const jg_real t103 = A_ij_h_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t81 - t82 - A_ijt_h_i_0 * t103 + t83;
+    const jg_real t104 = A_ij_h_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t93 - t94 - A_ijt_h_i_0 * t104 + t95;
+    const jg_real t105 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[45] = t105;
+    const jg_real t106 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[61] = t106;
+    phi_q_t_lambda_q[46] = -t106;
+    const jg_real t107 = C_j[2] * t73;
+    const jg_real t108 = C_j[1] * t68;
+    const jg_real t109 = C_j[8] * lambda[5];
+    const jg_real t110 = A_ijt_h_i_2 * t109;
+    const jg_real t111 = C_j[7] * lambda[5];
+    const jg_real t112 = A_ijt_h_i_1 * t111;
+    const jg_real t113 = s_j[2] * t105;
+    const jg_real t114 = s_j[1] * t106;
+    phi_q_t_lambda_q[47] = -(t107 + t108 + (t110 + t112 + (t113 + t114)));
+    const jg_real t115 = C_j[6] * lambda[5];
+    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t115 + s_j[0] * t106 + C_j[0] * t68;
+    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t115 + s_j[0] * t105 + C_j[0] * t73;
+    phi_q_t_lambda_q[50] = t66 - t69 - A_ijt_h_i_1 * t102 + t70;
+    phi_q_t_lambda_q[51] = t84 - t85 - A_ijt_h_i_1 * t103 + t86;
+    phi_q_t_lambda_q[52] = t96 - t97 - A_ijt_h_i_1 * t104 + t98;
+    phi_q_t_lambda_q[53] = -t105;
+    const jg_real t116 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[54] = t116;
+    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t111 + s_j[1] * t116 + C_j[1] * t63;
+    const jg_real t117 = C_j[0] * t63;
+    const jg_real t118 = A_ijt_h_i_0 * t115;
+    const jg_real t119 = s_j[0] * t116;
+    phi_q_t_lambda_q[56] = -(t107 + t117 + (t110 + t118 + (t113 + t119)));
+    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t111 + s_j[1] * t105 + C_j[1] * t73;
+    phi_q_t_lambda_q[58] = t71 - t74 - A_ijt_h_i_2 * t102 + t75;
+    phi_q_t_lambda_q[59] = t87 - t88 - A_ijt_h_i_2 * t103 + t89;
+    phi_q_t_lambda_q[60] = t99 - t100 - A_ijt_h_i_2 * t104 + t101;
+    phi_q_t_lambda_q[62] = -t116;
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t109 + s_j[2] * t116 + C_j[2] * t63;
+    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t109 + s_j[2] * t106 + C_j[2] * t68;
+    phi_q_t_lambda_q[65] = -(t108 + t117 + (t112 + t118 + (t114 + t119)));
     const jg_real t120 = cosine_0 * lambda[3] * cosine_1;
     phi_q_t_lambda_q[66] = t120;
     const jg_real t121 = -(sine_0 * lambda[3] * sine_1);
@@ -1112,63 +1121,64 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    const jg_real t127 = s_j[1] * JG_REAL(2.0);
-    const jg_real t128 = s_j[2] * JG_REAL(2.0);
-    const jg_real t129 = omega_j[2] * t127 - omega_j[1] * t128;
-    const jg_real t130 = s_j[0] * JG_REAL(2.0);
-    const jg_real t131 = omega_j[0] * t128 - omega_j[2] * t130;
-    const jg_real t132 = omega_j[1] * t130 - omega_j[0] * t127;
-    const jg_real t133 = A_ij_2 * t129 + A_ij_5 * t131 + A_ij_8 * t132;
-    const jg_real t134 = A_ij_1 * t129 + A_ij_4 * t131 + A_ij_7 * t132;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
     const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t144 = JG_REAL(2.0) * v_j[0];
-    const jg_real t145 = JG_REAL(2.0) * v_j[1];
-    const jg_real t146 = JG_REAL(2.0) * v_j[2];
-    const jg_real t147 = A_ij_1 * t144 + A_ij_4 * t145 + A_ij_7 * t146;
-    const jg_real t148 = A_ij_2 * t144 + A_ij_5 * t145 + A_ij_8 * t146;
-    const jg_real t149 = JG_REAL(2.0) * v_i[2];
-    const jg_real t150 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t149 - omega_i[2] * t150 + (omega_i[2] * t147 - omega_i[1] * t148 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t133 - omega_i[2] * t134 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t153 = A_ij_0 * t129 + A_ij_3 * t131 + A_ij_6 * t132;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t156 = A_ij_0 * t144 + A_ij_3 * t145 + A_ij_6 * t146;
-    const jg_real t157 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t157 - omega_i[0] * t149 + (omega_i[0] * t148 - omega_i[2] * t156 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t153 - omega_i[0] * t133 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t150 - omega_i[1] * t157 + (omega_i[1] * t156 - omega_i[0] * t147 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t134 - omega_i[1] * t153 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -1178,18 +1188,18 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t165 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t159 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t167 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t168 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t161 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t162 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_2 = A_ij_f_j_1 * omega_i[0] - A_ij_f_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_f_j_1 = A_ij_f_j_0 * omega_i[2] - A_ij_f_j_2 * omega_i[0];
-    const jg_real t171 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t165 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = A_ij_f_j_2 * omega_i[1] - A_ij_f_j_1 * omega_i[2];
-    const jg_real t173 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t174 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t167 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t168 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* omega_j_cross_omega_j_cross_f_j = tilde(omega_j) tilde(omega_j) f_j */
     const jg_real omega_j_cross_omega_j_cross_f_j_0 = omega_j[1] * omega_j_cross_f_j_2 - omega_j[2] *
         omega_j_cross_f_j_1;
@@ -1197,18 +1207,18 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t178 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t172 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t179 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t173 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t180 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t174 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t181 = alphadot[1] * alphadot[1];
-    gamma[3] = JG_REAL(2.0) * (C_i[0] * t165 + C_i[1] * t167 + C_i[2] * t168) - (C_i[0] * t178 + C_i[1] * t179 +
-        C_i[2] * t180 + (C_i[0] * t171 + C_i[1] * t173 + C_i[2] * t174)) - alphadot[0] * alphadot[0] * cosine_0 *
-        cosine_1 - cosine_0 * t181 * cosine_1 + JG_REAL(2.0) * alphadot[0] * alphadot[1] * sine_0 * sine_1;
-    gamma[4] = JG_REAL(2.0) * (C_i[6] * t165 + C_i[7] * t167 + C_i[8] * t168) - (C_i[6] * t178 + C_i[7] * t179 +
-        C_i[8] * t180 + (C_i[6] * t171 + C_i[7] * t173 + C_i[8] * t174)) + sine_1 * t181;
+    const jg_real t175 = alphadot[1] * alphadot[1];
+    gamma[3] = JG_REAL(2.0) * (C_i[0] * t159 + C_i[1] * t161 + C_i[2] * t162) - (C_i[0] * t172 + C_i[1] * t173 +
+        C_i[2] * t174 + (C_i[0] * t165 + C_i[1] * t167 + C_i[2] * t168)) - alphadot[0] * alphadot[0] * cosine_0 *
+        cosine_1 - cosine_0 * t175 * cosine_1 + JG_REAL(2.0) * alphadot[0] * alphadot[1] * sine_0 * sine_1;
+    gamma[4] = JG_REAL(2.0) * (C_i[6] * t159 + C_i[7] * t161 + C_i[8] * t162) - (C_i[6] * t172 + C_i[7] * t173 +
+        C_i[8] * t174 + (C_i[6] * t165 + C_i[7] * t167 + C_i[8] * t168)) + sine_1 * t175;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1241,7 +1251,7 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (C_i[6] * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + C_i[7] * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + C_i[8] * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) - cosine_1 * t181 * cosine_2 -
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) - cosine_1 * t175 * cosine_2 -
         alphadot[2] * alphadot[2] * cosine_1 * cosine_2 + JG_REAL(2.0) * alphadot[1] * alphadot[2] * sine_1 *
         sine_2;
 }

@@ -34,12 +34,16 @@ void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -215,13 +219,13 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
     const jg_real t15 = H_4 * H_8 - H_7 * H_5;
     const jg_real t16 = t15 * lambda[4];
     const jg_real t17 = t15 * lambda[3];
-    const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t19 = (H_0 * H_5 + sine_1 * H_3) * lambda[5];
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real t21 = (H_1 * H_5 + sine_1 * H_4) * lambda[5];
-    phi_q_t_lambda_q[0] = C_i[3] * t12 - C_i[0] * t16 + C_i[6] * t17 + (C_i[3] * t19 - C_i[0] * t21);
-    phi_q_t_lambda_q[1] = C_i[4] * t12 - C_i[1] * t16 + C_i[7] * t17 + (C_i[4] * t19 - C_i[1] * t21);
-    phi_q_t_lambda_q[2] = C_i[5] * t12 - C_i[2] * t16 + C_i[8] * t17 + (C_i[5] * t19 - C_i[2] * t21);
+    const jg_real t19 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real H_0 = cosine_0 * cosine_1;
+    const jg_real t21 = H_0 * H_5 + sine_1 * H_3;
+    phi_q_t_lambda_q[0] = C_i[3] * t12 - C_i[0] * t16 + C_i[6] * t17 - lambda[5] * (C_i[0] * t19 - C_i[3] * t21);
+    phi_q_t_lambda_q[1] = C_i[4] * t12 - C_i[1] * t16 + C_i[7] * t17 - lambda[5] * (C_i[1] * t19 - C_i[4] * t21);
+    phi_q_t_lambda_q[2] = C_i[5] * t12 - C_i[2] * t16 + C_i[8] * t17 - lambda[5] * (C_i[2] * t19 - C_i[5] * t21);
     const jg_real t22 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
     const jg_real t23 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
     const jg_real t24 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
@@ -243,71 +247,59 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
     const jg_real t37 = H_5 * t35 + sine_1 * t36;
     const jg_real t38 = H_6 * lambda[3] + H_8 * lambda[4];
     const jg_real t39 = H_8 * t35 + sine_1 * t38;
-    const jg_real t40 = H_5 * lambda[5];
-    const jg_real t41 = H_8 * lambda[5];
-    const jg_real t42 = H_8 * t40 - H_5 * t41;
-    const jg_real t43 = sine_1 * lambda[5];
-    const jg_real t44 = sine_1 * t41 - H_8 * t43;
-    phi_q_t_lambda_q[6] = t33 * s_j[1] - t32 * s_j[2] + (C_j[0] * t44 + C_j[3] * t42 - (C_j[3] * t37 + C_j[6] *
-        t39));
-    phi_q_t_lambda_q[7] = t31 * s_j[2] - t33 * s_j[0] + (C_j[1] * t44 + C_j[4] * t42 - (C_j[4] * t37 + C_j[7] *
-        t39));
-    phi_q_t_lambda_q[8] = t32 * s_j[0] - t31 * s_j[1] + (C_j[2] * t44 + C_j[5] * t42 - (C_j[5] * t37 + C_j[8] *
-        t39));
-    const jg_real t45 = cosine_0 * lambda[3] * cosine_1;
-    phi_q_t_lambda_q[9] = t45;
-    const jg_real t46 = -(sine_0 * lambda[3] * sine_1);
-    phi_q_t_lambda_q[10] = t46;
-    phi_q_t_lambda_q[20] = t46;
-    const jg_real t47 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t48 = lambda[4] * t47;
-    const jg_real t49 = lambda[3] * (sine_2 * H_5 + cosine_2 * H_8) - lambda[4] * (sine_2 * H_3 + cosine_2 * H_6);
-    const jg_real t50 = lambda[3] * t47;
-    const jg_real t51 = cosine_2 * lambda[5];
-    const jg_real t52 = H_0 * t51;
-    const jg_real t53 = H_1 * t51;
-    phi_q_t_lambda_q[11] = C_i[0] * t48 + C_i[3] * t49 - C_i[6] * t50 + (C_i[3] * t52 - C_i[0] * t53);
-    phi_q_t_lambda_q[12] = C_i[1] * t48 + C_i[4] * t49 - C_i[7] * t50 + (C_i[4] * t52 - C_i[1] * t53);
-    phi_q_t_lambda_q[13] = C_i[2] * t48 + C_i[5] * t49 - C_i[8] * t50 + (C_i[5] * t52 - C_i[2] * t53);
-    const jg_real t54 = sine_2 * t25 + cosine_2 * t26;
-    const jg_real t55 = sine_2 * t28;
-    const jg_real t56 = cosine_2 * t28;
-    const jg_real t57 = C_j[3] * t55 - C_j[0] * t54 + C_j[6] * t56;
-    phi_q_t_lambda_q[14] = t57;
-    const jg_real t58 = C_j[4] * t55 - C_j[1] * t54 + C_j[7] * t56;
-    phi_q_t_lambda_q[15] = t58;
-    const jg_real t59 = C_j[5] * t55 - C_j[2] * t54 + C_j[8] * t56;
-    phi_q_t_lambda_q[16] = t59;
-    const jg_real t60 = sine_2 * t35;
-    const jg_real t61 = cosine_2 * t35;
-    const jg_real t62 = sine_2 * t40 + cosine_2 * t41;
-    const jg_real t63 = sine_2 * t43;
-    phi_q_t_lambda_q[17] = t59 * s_j[1] - t58 * s_j[2] + (C_j[0] * t63 - C_j[3] * t62 + (C_j[6] * t60 - C_j[3] *
-        t61));
-    phi_q_t_lambda_q[18] = t57 * s_j[2] - t59 * s_j[0] + (C_j[1] * t63 - C_j[4] * t62 + (C_j[7] * t60 - C_j[4] *
-        t61));
-    phi_q_t_lambda_q[19] = t58 * s_j[0] - t57 * s_j[1] + (C_j[2] * t63 - C_j[5] * t62 + (C_j[8] * t60 - C_j[5] *
-        t61));
-    const jg_real t64 = cosine_1 * lambda[5] * cosine_2;
-    phi_q_t_lambda_q[33] = t64;
-    phi_q_t_lambda_q[21] = t45 - t34 + t64;
-    const jg_real t65 = -t63;
-    phi_q_t_lambda_q[22] = t65;
-    phi_q_t_lambda_q[32] = t65;
-    const jg_real t66 = H_4 * lambda[5];
-    const jg_real t67 = H_3 * lambda[5];
-    phi_q_t_lambda_q[23] = C_i[0] * t66 - C_i[3] * t67;
-    phi_q_t_lambda_q[24] = C_i[1] * t66 - C_i[4] * t67;
-    phi_q_t_lambda_q[25] = C_i[2] * t66 - C_i[5] * t67;
-    const jg_real t68 = C_j[3] * t26 - C_j[6] * t25;
-    phi_q_t_lambda_q[26] = t68;
-    const jg_real t69 = C_j[4] * t26 - C_j[7] * t25;
-    phi_q_t_lambda_q[27] = t69;
-    const jg_real t70 = C_j[5] * t26 - C_j[8] * t25;
-    phi_q_t_lambda_q[28] = t70;
-    phi_q_t_lambda_q[29] = t70 * s_j[1] - t69 * s_j[2] + (C_j[3] * t36 + C_j[6] * t38 - C_j[0] * t41);
-    phi_q_t_lambda_q[30] = t68 * s_j[2] - t70 * s_j[0] + (C_j[4] * t36 + C_j[7] * t38 - C_j[1] * t41);
-    phi_q_t_lambda_q[31] = t69 * s_j[0] - t68 * s_j[1] + (C_j[5] * t36 + C_j[8] * t38 - C_j[2] * t41);
+    phi_q_t_lambda_q[6] = t33 * s_j[1] - t32 * s_j[2] - (C_j[3] * t37 + C_j[6] * t39);
+    phi_q_t_lambda_q[7] = t31 * s_j[2] - t33 * s_j[0] - (C_j[4] * t37 + C_j[7] * t39);
+    phi_q_t_lambda_q[8] = t32 * s_j[0] - t31 * s_j[1] - (C_j[5] * t37 + C_j[8] * t39);
+    const jg_real t40 = cosine_0 * lambda[3] * cosine_1;
+    phi_q_t_lambda_q[9] = t40;
+    const jg_real t41 = -(sine_0 * lambda[3] * sine_1);
+    phi_q_t_lambda_q[10] = t41;
+    phi_q_t_lambda_q[20] = t41;
+    const jg_real t42 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t43 = lambda[4] * t42;
+    const jg_real t44 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t45 = lambda[3] * t44 - lambda[4] * (sine_2 * H_3 + cosine_2 * H_6);
+    const jg_real t46 = lambda[3] * t42;
+    const jg_real t47 = cosine_2 * lambda[5];
+    phi_q_t_lambda_q[11] = C_i[0] * t43 + C_i[3] * t45 - C_i[6] * t46 - t47 * (C_i[0] * H_1 - C_i[3] * H_0);
+    phi_q_t_lambda_q[12] = C_i[1] * t43 + C_i[4] * t45 - C_i[7] * t46 - t47 * (C_i[1] * H_1 - C_i[4] * H_0);
+    phi_q_t_lambda_q[13] = C_i[2] * t43 + C_i[5] * t45 - C_i[8] * t46 - t47 * (C_i[2] * H_1 - C_i[5] * H_0);
+    const jg_real t48 = sine_2 * t25 + cosine_2 * t26;
+    const jg_real t49 = sine_2 * t28;
+    const jg_real t50 = cosine_2 * t28;
+    const jg_real t51 = C_j[3] * t49 - C_j[0] * t48 + C_j[6] * t50;
+    phi_q_t_lambda_q[14] = t51;
+    const jg_real t52 = C_j[4] * t49 - C_j[1] * t48 + C_j[7] * t50;
+    phi_q_t_lambda_q[15] = t52;
+    const jg_real t53 = C_j[5] * t49 - C_j[2] * t48 + C_j[8] * t50;
+    phi_q_t_lambda_q[16] = t53;
+    const jg_real t54 = sine_2 * t35;
+    const jg_real t55 = cosine_2 * t35;
+    const jg_real t56 = sine_1 * sine_2;
+    phi_q_t_lambda_q[17] = t53 * s_j[1] - t52 * s_j[2] + (C_j[6] * t54 - C_j[3] * t55 + lambda[5] * (C_j[0] * t56 -
+        t44 * C_j[3]));
+    phi_q_t_lambda_q[18] = t51 * s_j[2] - t53 * s_j[0] + (C_j[7] * t54 - C_j[4] * t55 + lambda[5] * (C_j[1] * t56 -
+        t44 * C_j[4]));
+    phi_q_t_lambda_q[19] = t52 * s_j[0] - t51 * s_j[1] + (C_j[8] * t54 - C_j[5] * t55 + lambda[5] * (C_j[2] * t56 -
+        t44 * C_j[5]));
+    const jg_real t57 = cosine_1 * lambda[5] * cosine_2;
+    phi_q_t_lambda_q[33] = t57;
+    phi_q_t_lambda_q[21] = t40 - t34 + t57;
+    const jg_real t58 = -(sine_1 * lambda[5] * sine_2);
+    phi_q_t_lambda_q[22] = t58;
+    phi_q_t_lambda_q[32] = t58;
+    phi_q_t_lambda_q[23] = lambda[5] * (C_i[0] * H_4 - C_i[3] * H_3);
+    phi_q_t_lambda_q[24] = lambda[5] * (C_i[1] * H_4 - C_i[4] * H_3);
+    phi_q_t_lambda_q[25] = lambda[5] * (C_i[2] * H_4 - C_i[5] * H_3);
+    const jg_real t59 = C_j[3] * t26 - C_j[6] * t25;
+    phi_q_t_lambda_q[26] = t59;
+    const jg_real t60 = C_j[4] * t26 - C_j[7] * t25;
+    phi_q_t_lambda_q[27] = t60;
+    const jg_real t61 = C_j[5] * t26 - C_j[8] * t25;
+    phi_q_t_lambda_q[28] = t61;
+    phi_q_t_lambda_q[29] = t61 * s_j[1] - t60 * s_j[2] + (C_j[3] * t36 + C_j[6] * t38 - H_8 * C_j[0] * lambda[5]);
+    phi_q_t_lambda_q[30] = t59 * s_j[2] - t61 * s_j[0] + (C_j[4] * t36 + C_j[7] * t38 - H_8 * C_j[1] * lambda[5]);
+    phi_q_t_lambda_q[31] = t60 * s_j[0] - t59 * s_j[1] + (C_j[5] * t36 + C_j[8] * t38 - H_8 * C_j[2] * lambda[5]);
 }
 
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -329,13 +321,8 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alph
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = alphadot[0] * omega_j[1];
-    const jg_real t1 = alphadot[0] * omega_j[2];
-    const jg_real t2 = s_j[2] * t0 - s_j[1] * t1;
-    const jg_real t3 = alphadot[0] * omega_j[0];
-    const jg_real t4 = s_j[0] * t1 - s_j[2] * t3;
-    const jg_real t5 = s_j[1] * t3 - s_j[0] * t0;
-    const jg_real t6 = C_j[6] * t2 + C_j[7] * t4 + C_j[8] * t5;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -347,144 +334,132 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alph
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
     const jg_real H_5 = cosine_0 * sine_1;
-    const jg_real t12 = C_j[3] * t2 + C_j[4] * t4 + C_j[5] * t5;
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     const jg_real H_8 = cosine_0 * cosine_1;
-    const jg_real t14 = H_5 * t6 - H_8 * t12;
+    const jg_real t8 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[0], &sine_2, &cosine_2);
     const jg_real H_0 = cosine_2 * cosine_0;
-    const jg_real t18 = C_j[0] * t2 + C_j[1] * t4 + C_j[2] * t5;
-    const jg_real t19 = H_8 * t18 + sine_0 * t6;
-    const jg_real t20 = cosine_1 * sine_2;
-    const jg_real H_3 = cosine_2 * sine_0 * sine_1 - t20;
-    const jg_real t22 = H_5 * t18 + sine_0 * t12;
-    const jg_real t23 = cosine_2 * cosine_1;
-    const jg_real H_6 = sine_2 * sine_1 + sine_0 * t23;
-    const jg_real t25 = H_0 * t14 + H_3 * t19 - H_6 * t22;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t13 = H_8 * C_jt_v_j_0 + sine_0 * C_jt_v_j_2;
+    const jg_real t14 = cosine_1 * sine_2;
+    const jg_real H_3 = cosine_2 * sine_0 * sine_1 - t14;
+    const jg_real t16 = H_5 * C_jt_v_j_0 + sine_0 * C_jt_v_j_1;
+    const jg_real t17 = cosine_2 * cosine_1;
+    const jg_real H_6 = sine_2 * sine_1 + sine_0 * t17;
+    const jg_real t19 = H_0 * t8 + H_3 * t13 - H_6 * t16;
     const jg_real H_1 = cosine_0 * sine_2;
-    const jg_real H_4 = t23 + sine_2 * sine_0 * sine_1;
-    const jg_real H_7 = t20 * sine_0 - cosine_2 * sine_1;
-    const jg_real t29 = H_1 * t14 + H_4 * t19 - H_7 * t22;
-    const jg_real t30 = H_5 * t19 - sine_0 * t14 - H_8 * t22;
-    const jg_real t31 = v_j[0] * alphadot[0];
-    const jg_real t32 = v_j[1] * alphadot[0];
-    const jg_real t33 = v_j[2] * alphadot[0];
-    const jg_real t34 = C_j[6] * t31 + C_j[7] * t32 + C_j[8] * t33;
-    const jg_real t35 = C_j[3] * t31 + C_j[4] * t32 + C_j[5] * t33;
-    const jg_real t36 = H_5 * t34 - H_8 * t35;
-    const jg_real t37 = C_j[0] * t31 + C_j[1] * t32 + C_j[2] * t33;
-    const jg_real t38 = H_8 * t37 + sine_0 * t34;
-    const jg_real t39 = H_5 * t37 + sine_0 * t35;
-    const jg_real t40 = H_0 * t36 + H_3 * t38 - H_6 * t39;
-    const jg_real t41 = H_1 * t36 + H_4 * t38 - H_7 * t39;
-    const jg_real t42 = H_5 * t38 - sine_0 * t36 - H_8 * t39;
-    const jg_real t43 = v_j[0] * alphadot[1];
-    const jg_real t44 = v_j[1] * alphadot[1];
-    const jg_real t45 = v_j[2] * alphadot[1];
-    const jg_real t46 = sine_1 * (C_j[3] * t43 + C_j[4] * t44 + C_j[5] * t45) + cosine_1 * (C_j[6] * t43 + C_j[7] *
-        t44 + C_j[8] * t45);
-    const jg_real t47 = C_j[0] * t43 + C_j[1] * t44 + C_j[2] * t45;
-    const jg_real t48 = sine_1 * t47;
-    const jg_real t49 = cosine_1 * t47;
-    const jg_real t50 = H_0 * t46 - H_3 * t48 - H_6 * t49;
-    const jg_real t51 = H_1 * t46 - H_4 * t48 - H_7 * t49;
-    const jg_real t52 = sine_0 * t46 + H_5 * t48 + H_8 * t49;
-    const jg_real t53 = C_j[3] * alphadot[2];
-    const jg_real t54 = C_j[4] * alphadot[2];
-    const jg_real t55 = C_j[5] * alphadot[2];
-    const jg_real t56 = v_j[0] * t53 + v_j[1] * t54 + v_j[2] * t55;
-    const jg_real t57 = C_j[6] * alphadot[2];
-    const jg_real t58 = C_j[7] * alphadot[2];
-    const jg_real t59 = C_j[8] * alphadot[2];
-    const jg_real t60 = v_j[0] * t57 + v_j[1] * t58 + v_j[2] * t59;
-    const jg_real t61 = H_6 * t56 - H_3 * t60;
-    const jg_real t62 = H_7 * t56 - H_4 * t60;
-    const jg_real t63 = H_8 * t56 - H_5 * t60;
-    const jg_real t64 = alphadot[1] * omega_j[1];
-    const jg_real t65 = alphadot[1] * omega_j[2];
-    const jg_real t66 = s_j[2] * t64 - s_j[1] * t65;
-    const jg_real t67 = alphadot[1] * omega_j[0];
-    const jg_real t68 = s_j[0] * t65 - s_j[2] * t67;
-    const jg_real t69 = s_j[1] * t67 - s_j[0] * t64;
-    const jg_real t70 = sine_1 * (C_j[3] * t66 + C_j[4] * t68 + C_j[5] * t69) + cosine_1 * (C_j[6] * t66 + C_j[7] *
-        t68 + C_j[8] * t69);
-    const jg_real t71 = C_j[0] * t66 + C_j[1] * t68 + C_j[2] * t69;
-    const jg_real t72 = sine_1 * t71;
-    const jg_real t73 = cosine_1 * t71;
-    const jg_real t74 = H_0 * t70 - H_3 * t72 - H_6 * t73;
-    const jg_real t75 = H_1 * t70 - H_4 * t72 - H_7 * t73;
-    const jg_real t76 = sine_0 * t70 + H_5 * t72 + H_8 * t73;
+    const jg_real H_4 = t17 + sine_2 * sine_0 * sine_1;
+    const jg_real H_7 = t14 * sine_0 - cosine_2 * sine_1;
+    const jg_real t23 = H_1 * t8 + H_4 * t13 - H_7 * t16;
+    const jg_real t24 = H_5 * t13 - sine_0 * t8 - H_8 * t16;
+    const jg_real t25 = sine_1 * C_jt_v_j_1 + cosine_1 * C_jt_v_j_2;
+    const jg_real t26 = sine_1 * C_jt_v_j_0;
+    const jg_real t27 = cosine_1 * C_jt_v_j_0;
+    const jg_real t28 = H_0 * t25 - H_3 * t26 - H_6 * t27;
+    const jg_real t29 = H_1 * t25 - H_4 * t26 - H_7 * t27;
+    const jg_real t30 = sine_0 * t25 + H_5 * t26 + H_8 * t27;
+    const jg_real t31 = H_6 * C_jt_v_j_1 - H_3 * C_jt_v_j_2;
+    const jg_real t32 = H_7 * C_jt_v_j_1 - H_4 * C_jt_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t80 = t57 * s_j_cross_omega_j_0 + t58 * s_j_cross_omega_j_1 + t59 * s_j_cross_omega_j_2;
-    const jg_real t81 = t53 * s_j_cross_omega_j_0 + t54 * s_j_cross_omega_j_1 + t55 * s_j_cross_omega_j_2;
-    const jg_real t82 = H_3 * t80 - H_6 * t81;
-    const jg_real t83 = H_4 * t80 - H_7 * t81;
-    const jg_real t84 = H_5 * t80 - H_8 * t81;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t38 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t40 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_0 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t41 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t42 = H_0 * t38 + H_3 * t40 - H_6 * t41;
+    const jg_real t43 = H_1 * t38 + H_4 * t40 - H_7 * t41;
+    const jg_real t44 = H_5 * t40 - sine_0 * t38 - H_8 * t41;
+    const jg_real t45 = sine_1 * C_jt_s_j_cross_omega_j_1 + cosine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t46 = sine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t47 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t48 = H_0 * t45 - H_3 * t46 - H_6 * t47;
+    const jg_real t49 = H_1 * t45 - H_4 * t46 - H_7 * t47;
+    const jg_real t50 = sine_0 * t45 + H_5 * t46 + H_8 * t47;
+    const jg_real t51 = H_6 * C_jt_s_j_cross_omega_j_1 - H_3 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t52 = H_7 * C_jt_s_j_cross_omega_j_1 - H_4 * C_jt_s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t86 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t87 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t88 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t89 = C_j[0] * t86 + C_j[1] * t87 + C_j[2] * t88;
-    const jg_real t90 = C_j[3] * t86 + C_j[4] * t87 + C_j[5] * t88;
-    const jg_real t91 = C_j[6] * t86 + C_j[7] * t87 + C_j[8] * t88;
-    const jg_real t92 = H_0 * t89 + H_3 * t90 + H_6 * t91;
-    const jg_real t93 = H_1 * t89 + H_4 * t90 + H_7 * t91;
-    const jg_real t94 = H_5 * t90 - sine_0 * t89 + H_8 * t91;
-    gamma[0] = -(C_i[0] * t92 + C_i[3] * t93 + C_i[6] * t94 + (C_i[0] * t82 + C_i[3] * t83 + C_i[6] * t84 + (C_i[0]
-        * t74 + C_i[3] * t75 - C_i[6] * t76 + (C_i[0] * t25 + C_i[3] * t29 + C_i[6] * t30 + (C_i[0] * t61 + C_i[3] *
-        t62 + C_i[6] * t63 + (C_i[0] * t40 + C_i[3] * t41 + C_i[6] * t42 + (C_i[0] * t50 + C_i[3] * t51 - C_i[6] *
-        t52))))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    const jg_real t60 = H_0 * C_jt_omega_j_cross_v_j_0 + H_3 * C_jt_omega_j_cross_v_j_1 + H_6 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t61 = H_1 * C_jt_omega_j_cross_v_j_0 + H_4 * C_jt_omega_j_cross_v_j_1 + H_7 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t62 = H_5 * C_jt_omega_j_cross_v_j_1 - sine_0 * C_jt_omega_j_cross_v_j_0 + H_8 *
+        C_jt_omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t60 + C_i[3] * t61 + C_i[6] * t62;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i[0] * t19 + C_i[3] * t23 + C_i[6] * t24) + alphadot[1]
+        * (C_i[0] * t28 + C_i[3] * t29 - C_i[6] * t30) + alphadot[2] * (C_i[0] * t31 + C_i[3] * t32 - C_i[6] * t8) -
+        alphadot[0] * (C_i[0] * t42 + C_i[3] * t43 + C_i[6] * t44) - alphadot[1] * (C_i[0] * t48 + C_i[3] * t49 -
+        C_i[6] * t50) - alphadot[2] * (C_i[0] * t51 + C_i[3] * t52 - C_i[6] * t38) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t92 + C_i[4] * t93 + C_i[7] * t94 + (C_i[1] * t82 + C_i[4] * t83 + C_i[7] * t84 + (C_i[1]
-        * t74 + C_i[4] * t75 - C_i[7] * t76 + (C_i[1] * t25 + C_i[4] * t29 + C_i[7] * t30 + (C_i[1] * t61 + C_i[4] *
-        t62 + C_i[7] * t63 + (C_i[1] * t40 + C_i[4] * t41 + C_i[7] * t42 + (C_i[1] * t50 + C_i[4] * t51 - C_i[7] *
-        t52))))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t60 + C_i[4] * t61 + C_i[7] * t62;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i[1] * t19 + C_i[4] * t23 + C_i[7] * t24) + alphadot[1]
+        * (C_i[1] * t28 + C_i[4] * t29 - C_i[7] * t30) + alphadot[2] * (C_i[1] * t31 + C_i[4] * t32 - C_i[7] * t8) -
+        alphadot[0] * (C_i[1] * t42 + C_i[4] * t43 + C_i[7] * t44) - alphadot[1] * (C_i[1] * t48 + C_i[4] * t49 -
+        C_i[7] * t50) - alphadot[2] * (C_i[1] * t51 + C_i[4] * t52 - C_i[7] * t38) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t92 + C_i[5] * t93 + C_i[8] * t94 + (C_i[2] * t82 + C_i[5] * t83 + C_i[8] * t84 + (C_i[2]
-        * t74 + C_i[5] * t75 - C_i[8] * t76 + (C_i[2] * t25 + C_i[5] * t29 + C_i[8] * t30 + (C_i[2] * t61 + C_i[5] *
-        t62 + C_i[8] * t63 + (C_i[2] * t40 + C_i[5] * t41 + C_i[8] * t42 + (C_i[2] * t50 + C_i[5] * t51 - C_i[8] *
-        t52))))) + omega_i_cross_v_i_2));
-    const jg_real t97 = H_0 * H_5 + sine_0 * H_3;
-    const jg_real t98 = H_0 * H_8 + sine_0 * H_6;
-    const jg_real t99 = sine_1 * H_4 + cosine_1 * H_7;
-    const jg_real t100 = sine_1 * H_5 + cosine_1 * H_8;
-    const jg_real t101 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t102 = H_0 * sine_1;
-    const jg_real t103 = H_0 * cosine_1;
-    const jg_real t104 = alphadot[1] * alphadot[1];
-    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t99 - C_i[3] * t100) + omega_i[1] * (C_i[7] * t99 - C_i[4] *
-        t100) + omega_i[2] * (C_i[8] * t99 - C_i[5] * t100)) - alphadot[0] * (C_i[6] * t101 * omega_i[0] + C_i[7] *
-        t101 * omega_i[1] + C_i[8] * t101 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t97 + C_j[6] * t98)
-        + omega_j[1] * (C_j[4] * t97 + C_j[7] * t98) + omega_j[2] * (C_j[5] * t97 + C_j[8] * t98)) - alphadot[1] *
-        (omega_j[0] * (C_j[6] * t102 - C_j[3] * t103) + omega_j[1] * (C_j[7] * t102 - C_j[4] * t103) + omega_j[2] *
-        (C_j[8] * t102 - C_j[5] * t103)) - alphadot[2] * (omega_j[0] * (H_3 * C_j[3] + H_6 * C_j[6]) + omega_j[1] *
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t60 + C_i[5] * t61 + C_i[8] * t62;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i[2] * t19 + C_i[5] * t23 + C_i[8] * t24) + alphadot[1]
+        * (C_i[2] * t28 + C_i[5] * t29 - C_i[8] * t30) + alphadot[2] * (C_i[2] * t31 + C_i[5] * t32 - C_i[8] * t8) -
+        alphadot[0] * (C_i[2] * t42 + C_i[5] * t43 + C_i[8] * t44) - alphadot[1] * (C_i[2] * t48 + C_i[5] * t49 -
+        C_i[8] * t50) - alphadot[2] * (C_i[2] * t51 + C_i[5] * t52 - C_i[8] * t38) + omega_i_cross_v_i_2);
+    const jg_real t68 = H_0 * H_5 + sine_0 * H_3;
+    const jg_real t69 = H_0 * H_8 + sine_0 * H_6;
+    const jg_real t70 = sine_1 * H_4 + cosine_1 * H_7;
+    const jg_real t71 = sine_1 * H_5 + cosine_1 * H_8;
+    const jg_real t72 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t73 = H_0 * sine_1;
+    const jg_real t74 = H_0 * cosine_1;
+    const jg_real t75 = alphadot[1] * alphadot[1];
+    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t70 - C_i[3] * t71) + omega_i[1] * (C_i[7] * t70 - C_i[4] *
+        t71) + omega_i[2] * (C_i[8] * t70 - C_i[5] * t71)) - alphadot[0] * (C_i[6] * t72 * omega_i[0] + C_i[7] * t72
+        * omega_i[1] + C_i[8] * t72 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t68 + C_j[6] * t69) +
+        omega_j[1] * (C_j[4] * t68 + C_j[7] * t69) + omega_j[2] * (C_j[5] * t68 + C_j[8] * t69)) - alphadot[1] *
+        (omega_j[0] * (C_j[6] * t73 - C_j[3] * t74) + omega_j[1] * (C_j[7] * t73 - C_j[4] * t74) + omega_j[2] *
+        (C_j[8] * t73 - C_j[5] * t74)) - alphadot[2] * (omega_j[0] * (H_3 * C_j[3] + H_6 * C_j[6]) + omega_j[1] *
         (H_3 * C_j[4] + H_6 * C_j[7]) + omega_j[2] * (H_3 * C_j[5] + H_6 * C_j[8])) - alphadot[0] * alphadot[0] *
-        cosine_2 * cosine_0 - cosine_2 * t104 * cosine_0 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_2 *
+        cosine_2 * cosine_0 - cosine_2 * t75 * cosine_0 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_2 *
         sine_0;
-    const jg_real t105 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t106 = sine_1 * H_3 + cosine_1 * H_6;
-    const jg_real t107 = cosine_1 * sine_0;
-    const jg_real t108 = sine_0 * sine_1;
-    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t101 - C_i[3] * t105) + omega_i[1] * (C_i[1] * t101 - C_i[4] *
-        t105) + omega_i[2] * (C_i[2] * t101 - C_i[5] * t105)) + alphadot[1] * (omega_i[0] * (C_i[3] * t106 - C_i[0]
-        * t99) + omega_i[1] * (C_i[4] * t106 - C_i[1] * t99) + omega_i[2] * (C_i[5] * t106 - C_i[2] * t99)) + sine_0
-        * t104 - alphadot[1] * (omega_j[0] * (C_j[3] * t107 - C_j[6] * t108) + omega_j[1] * (C_j[4] * t107 - C_j[7]
-        * t108) + omega_j[2] * (C_j[5] * t107 - C_j[8] * t108)) - alphadot[2] * (omega_j[0] * (H_5 * C_j[3] + H_8 *
-        C_j[6]) + omega_j[1] * (H_5 * C_j[4] + H_8 * C_j[7]) + omega_j[2] * (H_5 * C_j[5] + H_8 * C_j[8]));
-    const jg_real t109 = H_1 * H_5 + sine_0 * H_4;
-    gamma[5] = alphadot[0] * (omega_i[0] * (C_i[0] * t109 - C_i[3] * t97) + omega_i[1] * (C_i[1] * t109 - C_i[4] *
-        t97) + omega_i[2] * (C_i[2] * t109 - C_i[5] * t97)) - alphadot[1] * (omega_j[0] * (C_j[0] * t108 - C_j[3] *
-        t100) + omega_j[1] * (C_j[1] * t108 - C_j[4] * t100) + omega_j[2] * (C_j[2] * t108 - C_j[5] * t100)) -
+    const jg_real t76 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t77 = sine_1 * H_3 + cosine_1 * H_6;
+    const jg_real t78 = cosine_1 * sine_0;
+    const jg_real t79 = sine_0 * sine_1;
+    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t72 - C_i[3] * t76) + omega_i[1] * (C_i[1] * t72 - C_i[4] *
+        t76) + omega_i[2] * (C_i[2] * t72 - C_i[5] * t76)) + alphadot[1] * (omega_i[0] * (C_i[3] * t77 - C_i[0] *
+        t70) + omega_i[1] * (C_i[4] * t77 - C_i[1] * t70) + omega_i[2] * (C_i[5] * t77 - C_i[2] * t70)) + sine_0 *
+        t75 - alphadot[1] * (omega_j[0] * (C_j[3] * t78 - C_j[6] * t79) + omega_j[1] * (C_j[4] * t78 - C_j[7] * t79)
+        + omega_j[2] * (C_j[5] * t78 - C_j[8] * t79)) - alphadot[2] * (omega_j[0] * (H_5 * C_j[3] + H_8 * C_j[6]) +
+        omega_j[1] * (H_5 * C_j[4] + H_8 * C_j[7]) + omega_j[2] * (H_5 * C_j[5] + H_8 * C_j[8]));
+    const jg_real t80 = H_1 * H_5 + sine_0 * H_4;
+    gamma[5] = alphadot[0] * (omega_i[0] * (C_i[0] * t80 - C_i[3] * t68) + omega_i[1] * (C_i[1] * t80 - C_i[4] *
+        t68) + omega_i[2] * (C_i[2] * t80 - C_i[5] * t68)) - alphadot[1] * (omega_j[0] * (C_j[0] * t79 - C_j[3] *
+        t71) + omega_j[1] * (C_j[1] * t79 - C_j[4] * t71) + omega_j[2] * (C_j[2] * t79 - C_j[5] * t71)) -
         alphadot[2] * (omega_i[0] * (C_i[0] * H_4 - C_i[3] * H_3) + omega_i[1] * (C_i[1] * H_4 - C_i[4] * H_3) +
         omega_i[2] * (C_i[2] * H_4 - C_i[5] * H_3)) + alphadot[2] * (H_8 * C_j[0] * omega_j[0] + H_8 * C_j[1] *
         omega_j[1] + H_8 * C_j[2] * omega_j[2]) + alphadot[1] * (omega_i[0] * (C_i[0] * H_1 - C_i[3] * H_0) +
         omega_i[1] * (C_i[1] * H_1 - C_i[4] * H_0) + omega_i[2] * (C_i[2] * H_1 - C_i[5] * H_0)) * cosine_1 -
-        cosine_0 * t104 * cosine_1 - alphadot[2] * alphadot[2] * cosine_0 * cosine_1 + alphadot[1] * JG_REAL(2.0) *
+        cosine_0 * t75 * cosine_1 - alphadot[2] * alphadot[2] * cosine_0 * cosine_1 + alphadot[1] * JG_REAL(2.0) *
         alphadot[2] * sine_0 * sine_1;
 }
 
@@ -500,80 +475,6 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jg_real sine_1;
-    jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
-        sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
-        sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
-        sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t9 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    jg_real sine_2;
-    jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t12 = cosine_2 * sine_0;
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t12;
-    const jg_real t14 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
-    const jg_real t15 = cosine_0 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t15;
-    const jg_real t17 = H_0 * t3 + H_3 * t9 + H_6 * t14;
-    const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_4 = t15 + sine_0 * sine_1 * sine_2;
-    const jg_real H_7 = t12 * sine_1 - cosine_0 * sine_2;
-    const jg_real t21 = H_1 * t3 + H_4 * t9 + H_7 * t14;
-    const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t24 = H_5 * t9 - sine_1 * t3 + H_8 * t14;
-    /* C_jt_v_j = C_j^T v_j */
-    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    /* H_C_jt_v_j = H C_j^T v_j */
-    const jg_real H_C_jt_v_j_0 = H_0 * C_jt_v_j_0 + H_3 * C_jt_v_j_1 + H_6 * C_jt_v_j_2;
-    const jg_real H_C_jt_v_j_1 = H_1 * C_jt_v_j_0 + H_4 * C_jt_v_j_1 + H_7 * C_jt_v_j_2;
-    const jg_real H_C_jt_v_j_2 = H_5 * C_jt_v_j_1 - sine_1 * C_jt_v_j_0 + H_8 * C_jt_v_j_2;
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * H_C_jt_v_j_2;
-    /* s_i_cross_omega_i = tilde(s_i) omega_i */
-    const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t17 + C_i[3] * t21 + C_i[6] * t24 + (A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
-    const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * H_C_jt_v_j_2;
-    const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t17 + C_i[4] * t21 + C_i[7] * t24 + (A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
-    const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
-    const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t17 + C_i[5] * t21 + C_i[8] * t24 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
-    phi_q_v[3] = omega_j[0] * (H_3 * C_j[6] - H_6 * C_j[3]) + omega_j[1] * (H_3 * C_j[7] - H_6 * C_j[4]) +
-        omega_j[2] * (H_3 * C_j[8] - H_6 * C_j[5]) + (omega_i[0] * (C_i[3] * sine_1 + C_i[6] * H_1) + omega_i[1] *
-        (C_i[4] * sine_1 + C_i[7] * H_1) + omega_i[2] * (C_i[5] * sine_1 + C_i[8] * H_1) + cosine_1 * alphadot[0] *
-        sine_0 + cosine_0 * alphadot[1] * sine_1);
-    phi_q_v[4] = omega_j[0] * (H_5 * C_j[6] - H_8 * C_j[3]) + omega_j[1] * (H_5 * C_j[7] - H_8 * C_j[4]) +
-        omega_j[2] * (H_5 * C_j[8] - H_8 * C_j[5]) + (cosine_1 * alphadot[1] - (omega_i[0] * (C_i[0] * H_1 - C_i[3]
-        * H_0) + omega_i[1] * (C_i[1] * H_1 - C_i[4] * H_0) + omega_i[2] * (C_i[2] * H_1 - C_i[5] * H_0)));
-    phi_q_v[5] = cosine_2 * alphadot[1] * sine_1 - (omega_i[0] * (C_i[0] * H_7 - C_i[3] * H_6) + omega_i[1] *
-        (C_i[1] * H_7 - C_i[4] * H_6) + omega_i[2] * (C_i[2] * H_7 - C_i[5] * H_6)) + cosine_1 * alphadot[2] *
-        sine_2 - (omega_j[0] * (sine_1 * C_j[3] + H_5 * C_j[0]) + omega_j[1] * (sine_1 * C_j[4] + H_5 * C_j[1]) +
-        omega_j[2] * (sine_1 * C_j[5] + H_5 * C_j[2]));
-}
-
-void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
-{
-    const jg_real *const s_i = geometry;
-    const jg_real *const C_i = geometry + 3;
-    const jg_real *const s_j = geometry + 12;
-    const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -589,49 +490,132 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
     const jg_real H_6 = sine_0 * sine_1 + sine_2 * t4;
-    const jg_real t8 = H_6 * lambda[5];
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real t9 = cosine_1 * sine_0;
-    const jg_real H_7 = t9 * sine_2 - cosine_0 * sine_1;
-    const jg_real t11 = H_7 * lambda[5];
-    const jg_real H_0 = cosine_0 * cosine_2;
-    const jg_real t13 = sine_2 * lambda[3] + H_0 * lambda[4];
-    const jg_real H_1 = cosine_2 * sine_0;
-    const jg_real t15 = H_1 * lambda[4];
-    const jg_real t16 = H_1 * lambda[3];
-    phi_q_t_lambda[3] = C_i[3] * t8 - C_i[0] * t11 + (lambda[1] * s_i[2] - lambda[2] * s_i[1] + (C_i[3] * t13 -
-        C_i[0] * t15 + C_i[6] * t16));
-    phi_q_t_lambda[4] = C_i[4] * t8 - C_i[1] * t11 + (lambda[2] * s_i[0] - lambda[0] * s_i[2] + (C_i[4] * t13 -
-        C_i[1] * t15 + C_i[7] * t16));
-    phi_q_t_lambda[5] = C_i[5] * t8 - C_i[2] * t11 + (lambda[0] * s_i[1] - lambda[1] * s_i[0] + (C_i[5] * t13 -
-        C_i[2] * t15 + C_i[8] * t16));
-    const jg_real t17 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
-    const jg_real t18 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
-    const jg_real t19 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
-    const jg_real H_8 = cosine_2 * cosine_1;
-    const jg_real t21 = H_6 * t17 + H_7 * t18 + H_8 * t19;
     const jg_real H_3 = cosine_0 * sine_2 * sine_1 - t9;
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real H_0 = cosine_0 * cosine_2;
+    /* H_C_jt_v_j = H C_j^T v_j */
+    const jg_real H_C_jt_v_j_0 = H_0 * C_jt_v_j_0 + H_3 * C_jt_v_j_1 + H_6 * C_jt_v_j_2;
+    const jg_real H_7 = t9 * sine_2 - cosine_0 * sine_1;
     const jg_real H_4 = t4 + sine_0 * sine_2 * sine_1;
+    const jg_real H_1 = cosine_2 * sine_0;
+    const jg_real H_C_jt_v_j_1 = H_1 * C_jt_v_j_0 + H_4 * C_jt_v_j_1 + H_7 * C_jt_v_j_2;
     const jg_real H_5 = cosine_2 * sine_1;
-    const jg_real t25 = H_3 * t17 + H_4 * t18 + H_5 * t19;
-    const jg_real t26 = H_0 * t17 + H_1 * t18 - sine_2 * t19;
-    const jg_real t27 = C_j[0] * t26 + C_j[3] * t25 + C_j[6] * t21;
-    phi_q_t_lambda[6] = t27;
-    const jg_real t28 = C_j[1] * t26 + C_j[4] * t25 + C_j[7] * t21;
-    phi_q_t_lambda[7] = t28;
-    const jg_real t29 = C_j[2] * t26 + C_j[5] * t25 + C_j[8] * t21;
-    phi_q_t_lambda[8] = t29;
-    const jg_real t30 = H_3 * lambda[3] + H_5 * lambda[4];
-    const jg_real t31 = H_6 * lambda[3] + H_8 * lambda[4];
-    const jg_real t32 = H_5 * lambda[5];
-    const jg_real t33 = sine_2 * lambda[5];
-    phi_q_t_lambda[9] = t29 * s_j[1] - t28 * s_j[2] + (C_j[6] * t30 - C_j[3] * t31 - (C_j[0] * t32 + C_j[3] * t33));
-    phi_q_t_lambda[10] = t27 * s_j[2] - t29 * s_j[0] + (C_j[7] * t30 - C_j[4] * t31 - (C_j[1] * t32 + C_j[4] *
-        t33));
-    phi_q_t_lambda[11] = t28 * s_j[0] - t27 * s_j[1] + (C_j[8] * t30 - C_j[5] * t31 - (C_j[2] * t32 + C_j[5] *
-        t33));
-    phi_q_t_lambda[12] = cosine_2 * lambda[3] * sine_0;
-    phi_q_t_lambda[13] = cosine_2 * lambda[4] + cosine_0 * lambda[3] * sine_2 + cosine_1 * lambda[5] * sine_2;
-    phi_q_t_lambda[14] = cosine_2 * lambda[5] * sine_1;
+    const jg_real H_8 = cosine_2 * cosine_1;
+    const jg_real H_C_jt_v_j_2 = H_5 * C_jt_v_j_1 - sine_2 * C_jt_v_j_0 + H_8 * C_jt_v_j_2;
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * H_C_jt_v_j_2;
+    /* s_i_cross_omega_i = tilde(s_i) omega_i */
+    const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real t30 = H_0 * C_jt_s_j_cross_omega_j_0 + H_3 * C_jt_s_j_cross_omega_j_1 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t31 = H_1 * C_jt_s_j_cross_omega_j_0 + H_4 * C_jt_s_j_cross_omega_j_1 + H_7 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t32 = H_5 * C_jt_s_j_cross_omega_j_1 - sine_2 * C_jt_s_j_cross_omega_j_0 + H_8 *
+        C_jt_s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t30 + C_i[3] * t31 + C_i[6] * t32;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * H_C_jt_v_j_2;
+    const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t30 + C_i[4] * t31 + C_i[7] * t32;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
+    const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t30 + C_i[5] * t31 + C_i[8] * t32;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - A_ij_s_j_cross_omega_j_2;
+    phi_q_v[3] = omega_j[0] * (H_3 * C_j[6] - H_6 * C_j[3]) + omega_j[1] * (H_3 * C_j[7] - H_6 * C_j[4]) +
+        omega_j[2] * (H_3 * C_j[8] - H_6 * C_j[5]) + (omega_i[0] * (C_i[3] * sine_2 + C_i[6] * H_1) + omega_i[1] *
+        (C_i[4] * sine_2 + C_i[7] * H_1) + omega_i[2] * (C_i[5] * sine_2 + C_i[8] * H_1) + cosine_2 * alphadot[0] *
+        sine_0 + cosine_0 * alphadot[1] * sine_2);
+    phi_q_v[4] = omega_j[0] * (H_5 * C_j[6] - H_8 * C_j[3]) + omega_j[1] * (H_5 * C_j[7] - H_8 * C_j[4]) +
+        omega_j[2] * (H_5 * C_j[8] - H_8 * C_j[5]) + (cosine_2 * alphadot[1] - (omega_i[0] * (C_i[0] * H_1 - C_i[3]
+        * H_0) + omega_i[1] * (C_i[1] * H_1 - C_i[4] * H_0) + omega_i[2] * (C_i[2] * H_1 - C_i[5] * H_0)));
+    phi_q_v[5] = cosine_1 * alphadot[1] * sine_2 - (omega_i[0] * (C_i[0] * H_7 - C_i[3] * H_6) + omega_i[1] *
+        (C_i[1] * H_7 - C_i[4] * H_6) + omega_i[2] * (C_i[2] * H_7 - C_i[5] * H_6)) + cosine_2 * alphadot[2] *
+        sine_1 - (omega_j[0] * (sine_2 * C_j[3] + H_5 * C_j[0]) + omega_j[1] * (sine_2 * C_j[4] + H_5 * C_j[1]) +
+        omega_j[2] * (sine_2 * C_j[5] + H_5 * C_j[2]));
+}
+
+void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+{
+    const jg_real *const s_i = geometry;
+    const jg_real *const C_i = geometry + 3;
+    const jg_real *const s_j = geometry + 12;
+    const jg_real *const C_j = geometry + 15;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    jg_real sine_1;
+    jg_real cosine_1;
+    jg_sincos(alpha[0], &sine_1, &cosine_1);
+    /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
+        sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
+        sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
+        sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
+    const jg_real H_0 = cosine_1 * cosine_0;
+    const jg_real t5 = sine_0 * lambda[3] + H_0 * lambda[4];
+    const jg_real H_1 = cosine_0 * sine_1;
+    const jg_real t7 = H_1 * lambda[4];
+    const jg_real t8 = H_1 * lambda[3];
+    jg_real sine_2;
+    jg_real cosine_2;
+    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    const jg_real t11 = cosine_2 * sine_1;
+    const jg_real H_7 = t11 * sine_0 - cosine_1 * sine_2;
+    const jg_real t13 = cosine_1 * cosine_2;
+    const jg_real H_6 = sine_1 * sine_2 + sine_0 * t13;
+    phi_q_t_lambda[3] = lambda[1] * s_i[2] - lambda[2] * s_i[1] + (C_i[3] * t5 - C_i[0] * t7 + C_i[6] * t8) -
+        lambda[5] * (C_i[0] * H_7 - C_i[3] * H_6);
+    phi_q_t_lambda[4] = lambda[2] * s_i[0] - lambda[0] * s_i[2] + (C_i[4] * t5 - C_i[1] * t7 + C_i[7] * t8) -
+        lambda[5] * (C_i[1] * H_7 - C_i[4] * H_6);
+    phi_q_t_lambda[5] = lambda[0] * s_i[1] - lambda[1] * s_i[0] + (C_i[5] * t5 - C_i[2] * t7 + C_i[8] * t8) -
+        lambda[5] * (C_i[2] * H_7 - C_i[5] * H_6);
+    const jg_real t15 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
+    const jg_real t16 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
+    const jg_real t17 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
+    const jg_real H_8 = cosine_0 * cosine_2;
+    const jg_real t19 = H_6 * t15 + H_7 * t16 + H_8 * t17;
+    const jg_real H_3 = cosine_1 * sine_0 * sine_2 - t11;
+    const jg_real H_4 = t13 + sine_1 * sine_0 * sine_2;
+    const jg_real H_5 = cosine_0 * sine_2;
+    const jg_real t23 = H_3 * t15 + H_4 * t16 + H_5 * t17;
+    const jg_real t24 = H_0 * t15 + H_1 * t16 - sine_0 * t17;
+    const jg_real t25 = C_j[0] * t24 + C_j[3] * t23 + C_j[6] * t19;
+    phi_q_t_lambda[6] = t25;
+    const jg_real t26 = C_j[1] * t24 + C_j[4] * t23 + C_j[7] * t19;
+    phi_q_t_lambda[7] = t26;
+    const jg_real t27 = C_j[2] * t24 + C_j[5] * t23 + C_j[8] * t19;
+    phi_q_t_lambda[8] = t27;
+    const jg_real t28 = H_3 * lambda[3] + H_5 * lambda[4];
+    const jg_real t29 = H_6 * lambda[3] + H_8 * lambda[4];
+    phi_q_t_lambda[9] = t27 * s_j[1] - t26 * s_j[2] + (C_j[6] * t28 - C_j[3] * t29 - lambda[5] * (sine_0 * C_j[3] +
+        H_5 * C_j[0]));
+    phi_q_t_lambda[10] = t25 * s_j[2] - t27 * s_j[0] + (C_j[7] * t28 - C_j[4] * t29 - lambda[5] * (sine_0 * C_j[4] +
+        H_5 * C_j[1]));
+    phi_q_t_lambda[11] = t26 * s_j[0] - t25 * s_j[1] + (C_j[8] * t28 - C_j[5] * t29 - lambda[5] * (sine_0 * C_j[5] +
+        H_5 * C_j[2]));
+    phi_q_t_lambda[12] = cosine_0 * lambda[3] * sine_1;
+    phi_q_t_lambda[13] = cosine_0 * lambda[4] + cosine_1 * lambda[3] * sine_0 + cosine_2 * lambda[5] * sine_0;
+    phi_q_t_lambda[14] = cosine_0 * lambda[5] * sine_2;
 }
 
 void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -654,12 +638,16 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -711,29 +699,29 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     const jg_real H_1 = cosine_1 * sine_0;
     phi_q[45] = H_1;
     phi_q[5] = C_i[3] * sine_1 + C_i[6] * H_1;
-    const jg_real t33 = H_0 * C_i[3] - C_i[0] * H_1;
-    phi_q[6] = t33;
-    const jg_real t34 = cosine_0 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t34;
-    const jg_real t36 = cosine_2 * sine_0;
-    const jg_real H_7 = sine_1 * t36 - cosine_0 * sine_2;
+    const jg_real t36 = C_i[0] * H_1 - H_0 * C_i[3];
+    phi_q[6] = -t36;
+    const jg_real t37 = cosine_0 * cosine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t37;
+    const jg_real t39 = cosine_2 * sine_0;
+    const jg_real H_7 = sine_1 * t39 - cosine_0 * sine_2;
     phi_q[7] = C_i[3] * H_6 - C_i[0] * H_7;
     phi_q[8] = -s_i[2];
     phi_q[10] = C_i[4] * sine_1 + C_i[7] * H_1;
-    const jg_real t38 = H_0 * C_i[4] - C_i[1] * H_1;
-    phi_q[11] = t38;
+    const jg_real t41 = C_i[1] * H_1 - H_0 * C_i[4];
+    phi_q[11] = -t41;
     phi_q[12] = C_i[4] * H_6 - C_i[1] * H_7;
     phi_q[14] = -s_i[0];
     phi_q[15] = C_i[5] * sine_1 + C_i[8] * H_1;
-    const jg_real t39 = H_0 * C_i[5] - C_i[2] * H_1;
-    phi_q[16] = t39;
+    const jg_real t42 = C_i[2] * H_1 - H_0 * C_i[5];
+    phi_q[16] = -t42;
     phi_q[17] = C_i[5] * H_6 - C_i[2] * H_7;
     /* C_i_H = C_i H */
     const jg_real C_i_H_6 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
-    const jg_real t41 = cosine_0 * sine_1;
-    phi_q[46] = t41;
-    const jg_real H_3 = sine_2 * t41 - t36;
-    const jg_real H_4 = t34 + sine_1 * sine_0 * sine_2;
+    const jg_real t44 = cosine_0 * sine_1;
+    phi_q[46] = t44;
+    const jg_real H_3 = sine_2 * t44 - t39;
+    const jg_real H_4 = t37 + sine_1 * sine_0 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     phi_q[49] = H_5;
     const jg_real C_i_H_3 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -780,209 +768,184 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     phi_q[42] = C_j[8] * H_3 - C_j[5] * H_6;
     phi_q[43] = C_j[8] * H_5 - C_j[5] * H_8;
     phi_q[44] = -(C_j[5] * sine_1 + C_j[2] * H_5);
-    const jg_real t62 = sine_1 * cosine_2;
-    phi_q[48] = t62;
-    const jg_real t63 = H_8 * H_3 - H_6 * H_5;
-    const jg_real t64 = t63 * lambda[4];
-    const jg_real t65 = H_8 * H_4 - H_7 * H_5;
-    const jg_real t66 = t65 * lambda[4];
-    const jg_real t67 = t65 * lambda[3];
-    const jg_real t68 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t69 = t68 * lambda[5];
-    const jg_real t70 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t71 = t70 * lambda[5];
-    phi_q_t_lambda_q[0] = C_i[3] * t64 - C_i[0] * t66 + C_i[6] * t67 + (C_i[3] * t69 - C_i[0] * t71);
-    phi_q_t_lambda_q[1] = C_i[4] * t64 - C_i[1] * t66 + C_i[7] * t67 + (C_i[4] * t69 - C_i[1] * t71);
-    phi_q_t_lambda_q[2] = C_i[5] * t64 - C_i[2] * t66 + C_i[8] * t67 + (C_i[5] * t69 - C_i[2] * t71);
-    const jg_real t72 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t73 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t74 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t75 = H_3 * t72 + H_4 * t73 + H_5 * t74;
-    const jg_real t76 = H_6 * t72 + H_7 * t73 + H_8 * t74;
-    const jg_real t77 = H_8 * t75 - H_5 * t76;
-    const jg_real t78 = H_0 * t72 + H_1 * t73 - sine_1 * t74;
-    const jg_real t79 = H_8 * t78 + sine_1 * t76;
-    const jg_real t80 = H_5 * t78 + sine_1 * t75;
-    const jg_real t81 = C_j[0] * t77 - C_j[3] * t79 + C_j[6] * t80;
-    phi_q_t_lambda_q[3] = t81;
-    const jg_real t82 = C_j[1] * t77 - C_j[4] * t79 + C_j[7] * t80;
-    phi_q_t_lambda_q[4] = t82;
-    const jg_real t83 = C_j[2] * t77 - C_j[5] * t79 + C_j[8] * t80;
-    phi_q_t_lambda_q[5] = t83;
-    const jg_real t84 = sine_1 * lambda[4];
-    const jg_real t85 = H_0 * lambda[3] - t84;
-    const jg_real t86 = H_3 * lambda[3] + H_5 * lambda[4];
-    const jg_real t87 = H_5 * t85 + sine_1 * t86;
-    const jg_real t88 = H_6 * lambda[3] + H_8 * lambda[4];
-    const jg_real t89 = H_8 * t85 + sine_1 * t88;
-    const jg_real t90 = H_5 * lambda[5];
-    const jg_real t91 = H_8 * lambda[5];
-    const jg_real t92 = H_8 * t90 - H_5 * t91;
-    const jg_real t93 = sine_1 * lambda[5];
-    const jg_real t94 = sine_1 * t91 - H_8 * t93;
-    phi_q_t_lambda_q[6] = s_j[1] * t83 - s_j[2] * t82 + (C_j[0] * t94 + C_j[3] * t92 - (C_j[3] * t87 + C_j[6] *
-        t89));
-    phi_q_t_lambda_q[7] = s_j[2] * t81 - s_j[0] * t83 + (C_j[1] * t94 + C_j[4] * t92 - (C_j[4] * t87 + C_j[7] *
-        t89));
-    phi_q_t_lambda_q[8] = s_j[0] * t82 - s_j[1] * t81 + (C_j[2] * t94 + C_j[5] * t92 - (C_j[5] * t87 + C_j[8] *
-        t89));
-    const jg_real t95 = cosine_0 * lambda[3] * cosine_1;
-    phi_q_t_lambda_q[9] = t95;
-    const jg_real t96 = -(sine_0 * lambda[3] * sine_1);
-    phi_q_t_lambda_q[10] = t96;
-    phi_q_t_lambda_q[20] = t96;
-    const jg_real t97 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t98 = lambda[4] * t97;
-    const jg_real t99 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t100 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t101 = lambda[3] * t100 - lambda[4] * t99;
-    const jg_real t102 = lambda[3] * t97;
-    const jg_real t103 = cosine_2 * lambda[5];
-    const jg_real t104 = H_0 * t103;
-    const jg_real t105 = H_1 * t103;
-    phi_q_t_lambda_q[11] = C_i[0] * t98 + C_i[3] * t101 - C_i[6] * t102 + (C_i[3] * t104 - C_i[0] * t105);
-    phi_q_t_lambda_q[12] = C_i[1] * t98 + C_i[4] * t101 - C_i[7] * t102 + (C_i[4] * t104 - C_i[1] * t105);
-    phi_q_t_lambda_q[13] = C_i[2] * t98 + C_i[5] * t101 - C_i[8] * t102 + (C_i[5] * t104 - C_i[2] * t105);
-    const jg_real t106 = sine_2 * t75 + cosine_2 * t76;
-    const jg_real t107 = sine_2 * t78;
-    const jg_real t108 = cosine_2 * t78;
-    const jg_real t109 = C_j[3] * t107 - C_j[0] * t106 + C_j[6] * t108;
-    phi_q_t_lambda_q[14] = t109;
-    const jg_real t110 = C_j[4] * t107 - C_j[1] * t106 + C_j[7] * t108;
-    phi_q_t_lambda_q[15] = t110;
-    const jg_real t111 = C_j[5] * t107 - C_j[2] * t106 + C_j[8] * t108;
-    phi_q_t_lambda_q[16] = t111;
-    const jg_real t112 = sine_2 * t85;
-    const jg_real t113 = cosine_2 * t85;
-    const jg_real t114 = sine_2 * t90 + cosine_2 * t91;
-    const jg_real t115 = sine_2 * t93;
-    phi_q_t_lambda_q[17] = s_j[1] * t111 - s_j[2] * t110 + (C_j[0] * t115 - C_j[3] * t114 + (C_j[6] * t112 - C_j[3]
-        * t113));
-    phi_q_t_lambda_q[18] = s_j[2] * t109 - s_j[0] * t111 + (C_j[1] * t115 - C_j[4] * t114 + (C_j[7] * t112 - C_j[4]
-        * t113));
-    phi_q_t_lambda_q[19] = s_j[0] * t110 - s_j[1] * t109 + (C_j[2] * t115 - C_j[5] * t114 + (C_j[8] * t112 - C_j[5]
-        * t113));
-    const jg_real t116 = cosine_1 * lambda[5] * cosine_2;
-    phi_q_t_lambda_q[33] = t116;
-    phi_q_t_lambda_q[21] = t95 - t84 + t116;
-    const jg_real t117 = -t115;
-    phi_q_t_lambda_q[22] = t117;
-    phi_q_t_lambda_q[32] = t117;
-    const jg_real t118 = H_4 * lambda[5];
-    const jg_real t119 = H_3 * lambda[5];
-    phi_q_t_lambda_q[23] = C_i[0] * t118 - C_i[3] * t119;
-    phi_q_t_lambda_q[24] = C_i[1] * t118 - C_i[4] * t119;
-    phi_q_t_lambda_q[25] = C_i[2] * t118 - C_i[5] * t119;
-    const jg_real t120 = C_j[3] * t76 - C_j[6] * t75;
+    const jg_real t65 = sine_1 * cosine_2;
+    phi_q[48] = t65;
+    const jg_real t66 = H_8 * H_3 - H_6 * H_5;
+    const jg_real t67 = t66 * lambda[4];
+    const jg_real t68 = H_8 * H_4 - H_7 * H_5;
+    const jg_real t69 = t68 * lambda[4];
+    const jg_real t70 = t68 * lambda[3];
+    const jg_real t71 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t72 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t73 = C_i[0] * t71 - C_i[3] * t72;
+    phi_q_t_lambda_q[0] = C_i[3] * t67 - C_i[0] * t69 + C_i[6] * t70 - lambda[5] * t73;
+    const jg_real t74 = C_i[1] * t71 - C_i[4] * t72;
+    phi_q_t_lambda_q[1] = C_i[4] * t67 - C_i[1] * t69 + C_i[7] * t70 - lambda[5] * t74;
+    const jg_real t75 = C_i[2] * t71 - C_i[5] * t72;
+    phi_q_t_lambda_q[2] = C_i[5] * t67 - C_i[2] * t69 + C_i[8] * t70 - lambda[5] * t75;
+    const jg_real t76 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t77 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t78 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t79 = H_3 * t76 + H_4 * t77 + H_5 * t78;
+    const jg_real t80 = H_6 * t76 + H_7 * t77 + H_8 * t78;
+    const jg_real t81 = H_8 * t79 - H_5 * t80;
+    const jg_real t82 = H_0 * t76 + H_1 * t77 - sine_1 * t78;
+    const jg_real t83 = H_8 * t82 + sine_1 * t80;
+    const jg_real t84 = H_5 * t82 + sine_1 * t79;
+    const jg_real t85 = C_j[0] * t81 - C_j[3] * t83 + C_j[6] * t84;
+    phi_q_t_lambda_q[3] = t85;
+    const jg_real t86 = C_j[1] * t81 - C_j[4] * t83 + C_j[7] * t84;
+    phi_q_t_lambda_q[4] = t86;
+    const jg_real t87 = C_j[2] * t81 - C_j[5] * t83 + C_j[8] * t84;
+    phi_q_t_lambda_q[5] = t87;
+    const jg_real t88 = sine_1 * lambda[4];
+    const jg_real t89 = H_0 * lambda[3] - t88;
+    const jg_real t90 = H_3 * lambda[3] + H_5 * lambda[4];
+    const jg_real t91 = H_5 * t89 + sine_1 * t90;
+    const jg_real t92 = H_6 * lambda[3] + H_8 * lambda[4];
+    const jg_real t93 = H_8 * t89 + sine_1 * t92;
+    phi_q_t_lambda_q[6] = s_j[1] * t87 - s_j[2] * t86 - (C_j[3] * t91 + C_j[6] * t93);
+    phi_q_t_lambda_q[7] = s_j[2] * t85 - s_j[0] * t87 - (C_j[4] * t91 + C_j[7] * t93);
+    phi_q_t_lambda_q[8] = s_j[0] * t86 - s_j[1] * t85 - (C_j[5] * t91 + C_j[8] * t93);
+    const jg_real t94 = cosine_0 * lambda[3] * cosine_1;
+    phi_q_t_lambda_q[9] = t94;
+    const jg_real t95 = -(sine_0 * lambda[3] * sine_1);
+    phi_q_t_lambda_q[10] = t95;
+    phi_q_t_lambda_q[20] = t95;
+    const jg_real t96 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t97 = lambda[4] * t96;
+    const jg_real t98 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t99 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t100 = lambda[3] * t99 - lambda[4] * t98;
+    const jg_real t101 = lambda[3] * t96;
+    const jg_real t102 = cosine_2 * lambda[5];
+    phi_q_t_lambda_q[11] = C_i[0] * t97 + C_i[3] * t100 - C_i[6] * t101 - t36 * t102;
+    phi_q_t_lambda_q[12] = C_i[1] * t97 + C_i[4] * t100 - C_i[7] * t101 - t41 * t102;
+    phi_q_t_lambda_q[13] = C_i[2] * t97 + C_i[5] * t100 - C_i[8] * t101 - t42 * t102;
+    const jg_real t103 = sine_2 * t79 + cosine_2 * t80;
+    const jg_real t104 = sine_2 * t82;
+    const jg_real t105 = cosine_2 * t82;
+    const jg_real t106 = C_j[3] * t104 - C_j[0] * t103 + C_j[6] * t105;
+    phi_q_t_lambda_q[14] = t106;
+    const jg_real t107 = C_j[4] * t104 - C_j[1] * t103 + C_j[7] * t105;
+    phi_q_t_lambda_q[15] = t107;
+    const jg_real t108 = C_j[5] * t104 - C_j[2] * t103 + C_j[8] * t105;
+    phi_q_t_lambda_q[16] = t108;
+    const jg_real t109 = sine_2 * t89;
+    const jg_real t110 = cosine_2 * t89;
+    const jg_real t111 = sine_1 * sine_2;
+    const jg_real t112 = C_j[0] * t111 - C_j[3] * t99;
+    phi_q_t_lambda_q[17] = s_j[1] * t108 - s_j[2] * t107 + (C_j[6] * t109 - C_j[3] * t110 + lambda[5] * t112);
+    const jg_real t113 = C_j[1] * t111 - C_j[4] * t99;
+    phi_q_t_lambda_q[18] = s_j[2] * t106 - s_j[0] * t108 + (C_j[7] * t109 - C_j[4] * t110 + lambda[5] * t113);
+    const jg_real t114 = C_j[2] * t111 - C_j[5] * t99;
+    phi_q_t_lambda_q[19] = s_j[0] * t107 - s_j[1] * t106 + (C_j[8] * t109 - C_j[5] * t110 + lambda[5] * t114);
+    const jg_real t115 = cosine_1 * lambda[5] * cosine_2;
+    phi_q_t_lambda_q[33] = t115;
+    phi_q_t_lambda_q[21] = t94 - t88 + t115;
+    const jg_real t116 = -(sine_1 * lambda[5] * sine_2);
+    phi_q_t_lambda_q[22] = t116;
+    phi_q_t_lambda_q[32] = t116;
+    const jg_real t117 = C_i[0] * H_4 - C_i[3] * H_3;
+    phi_q_t_lambda_q[23] = lambda[5] * t117;
+    const jg_real t118 = C_i[1] * H_4 - C_i[4] * H_3;
+    phi_q_t_lambda_q[24] = lambda[5] * t118;
+    const jg_real t119 = C_i[2] * H_4 - C_i[5] * H_3;
+    phi_q_t_lambda_q[25] = lambda[5] * t119;
+    const jg_real t120 = C_j[3] * t80 - C_j[6] * t79;
     phi_q_t_lambda_q[26] = t120;
-    const jg_real t121 = C_j[4] * t76 - C_j[7] * t75;
+    const jg_real t121 = C_j[4] * t80 - C_j[7] * t79;
     phi_q_t_lambda_q[27] = t121;
-    const jg_real t122 = C_j[5] * t76 - C_j[8] * t75;
+    const jg_real t122 = C_j[5] * t80 - C_j[8] * t79;
     phi_q_t_lambda_q[28] = t122;
-    phi_q_t_lambda_q[29] = s_j[1] * t122 - s_j[2] * t121 + (C_j[3] * t86 + C_j[6] * t88 - C_j[0] * t91);
-    phi_q_t_lambda_q[30] = s_j[2] * t120 - s_j[0] * t122 + (C_j[4] * t86 + C_j[7] * t88 - C_j[1] * t91);
-    phi_q_t_lambda_q[31] = s_j[0] * t121 - s_j[1] * t120 + (C_j[5] * t86 + C_j[8] * t88 - C_j[2] * t91);
-    const jg_real t123 = alphadot[0] * omega_j[1];
-    const jg_real t124 = alphadot[0] * omega_j[2];
-    const jg_real t125 = s_j[2] * t123 - s_j[1] * t124;
-    const jg_real t126 = alphadot[0] * omega_j[0];
-    const jg_real t127 = s_j[0] * t124 - s_j[2] * t126;
-    const jg_real t128 = s_j[1] * t126 - s_j[0] * t123;
-    const jg_real t129 = C_j[6] * t125 + C_j[7] * t127 + C_j[8] * t128;
-    const jg_real t130 = C_j[3] * t125 + C_j[4] * t127 + C_j[5] * t128;
-    const jg_real t131 = H_5 * t129 - H_8 * t130;
-    const jg_real t132 = C_j[0] * t125 + C_j[1] * t127 + C_j[2] * t128;
-    const jg_real t133 = H_8 * t132 + sine_1 * t129;
-    const jg_real t134 = H_5 * t132 + sine_1 * t130;
-    const jg_real t135 = v_j[0] * alphadot[0];
-    const jg_real t136 = v_j[1] * alphadot[0];
-    const jg_real t137 = v_j[2] * alphadot[0];
-    const jg_real t138 = C_j[0] * t135 + C_j[1] * t136 + C_j[2] * t137;
-    const jg_real t139 = C_j[6] * t135 + C_j[7] * t136 + C_j[8] * t137;
-    const jg_real t140 = H_8 * t138 + sine_1 * t139;
-    const jg_real t141 = C_j[3] * t135 + C_j[4] * t136 + C_j[5] * t137;
-    const jg_real t142 = H_5 * t139 - H_8 * t141;
-    const jg_real t143 = H_5 * t138 + sine_1 * t141;
-    const jg_real t144 = v_j[0] * alphadot[1];
-    const jg_real t145 = v_j[1] * alphadot[1];
-    const jg_real t146 = v_j[2] * alphadot[1];
-    const jg_real t147 = sine_2 * (C_j[3] * t144 + C_j[4] * t145 + C_j[5] * t146) + cosine_2 * (C_j[6] * t144 +
-        C_j[7] * t145 + C_j[8] * t146);
-    const jg_real t148 = C_j[0] * t144 + C_j[1] * t145 + C_j[2] * t146;
-    const jg_real t149 = sine_2 * t148;
-    const jg_real t150 = cosine_2 * t148;
-    const jg_real t151 = C_j[3] * alphadot[2];
-    const jg_real t152 = C_j[4] * alphadot[2];
-    const jg_real t153 = C_j[5] * alphadot[2];
-    const jg_real t154 = v_j[0] * t151 + v_j[1] * t152 + v_j[2] * t153;
-    const jg_real t155 = C_j[6] * alphadot[2];
-    const jg_real t156 = C_j[7] * alphadot[2];
-    const jg_real t157 = C_j[8] * alphadot[2];
-    const jg_real t158 = v_j[0] * t155 + v_j[1] * t156 + v_j[2] * t157;
-    const jg_real t159 = alphadot[1] * omega_j[1];
-    const jg_real t160 = alphadot[1] * omega_j[2];
-    const jg_real t161 = s_j[2] * t159 - s_j[1] * t160;
-    const jg_real t162 = alphadot[1] * omega_j[0];
-    const jg_real t163 = s_j[0] * t160 - s_j[2] * t162;
-    const jg_real t164 = s_j[1] * t162 - s_j[0] * t159;
-    const jg_real t165 = sine_2 * (C_j[3] * t161 + C_j[4] * t163 + C_j[5] * t164) + cosine_2 * (C_j[6] * t161 +
-        C_j[7] * t163 + C_j[8] * t164);
-    const jg_real t166 = C_j[0] * t161 + C_j[1] * t163 + C_j[2] * t164;
-    const jg_real t167 = sine_2 * t166;
-    const jg_real t168 = cosine_2 * t166;
+    const jg_real t123 = C_j[0] * H_8;
+    phi_q_t_lambda_q[29] = s_j[1] * t122 - s_j[2] * t121 + (C_j[3] * t90 + C_j[6] * t92 - lambda[5] * t123);
+    const jg_real t124 = C_j[1] * H_8;
+    phi_q_t_lambda_q[30] = s_j[2] * t120 - s_j[0] * t122 + (C_j[4] * t90 + C_j[7] * t92 - lambda[5] * t124);
+    const jg_real t125 = C_j[2] * H_8;
+    phi_q_t_lambda_q[31] = s_j[0] * t121 - s_j[1] * t120 + (C_j[5] * t90 + C_j[8] * t92 - lambda[5] * t125);
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real t128 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t130 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
+    const jg_real t131 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
+    const jg_real t132 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
+    const jg_real t133 = sine_2 * C_jt_v_j_0;
+    const jg_real t134 = cosine_2 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t172 = t155 * s_j_cross_omega_j_0 + t156 * s_j_cross_omega_j_1 + t157 * s_j_cross_omega_j_2;
-    const jg_real t173 = t151 * s_j_cross_omega_j_0 + t152 * s_j_cross_omega_j_1 + t153 * s_j_cross_omega_j_2;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t140 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t142 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t143 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t144 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t145 = sine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t146 = cosine_2 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t175 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t176 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t177 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t175 + A_ij_3_ * t176 + A_ij_6_ * t177 + (C_i_H_3 * t172 - C_i_H_6 * t173 + (C_i_H_0 *
-        t165 - C_i_H_3 * t167 - C_i_H_6 * t168 + (C_i_H_0 * t131 + C_i_H_3 * t133 - C_i_H_6 * t134 + (C_i_H_6 * t154
-        - C_i_H_3 * t158 + (C_i_H_0 * t142 + C_i_H_3 * t140 - C_i_H_6 * t143 + (C_i_H_0 * t147 - C_i_H_3 * t149 -
-        C_i_H_6 * t150))))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t130 + C_i_H_3 * t128 - C_i_H_6 * t131) +
+        alphadot[1] * (C_i_H_0 * t132 - C_i_H_3 * t133 - C_i_H_6 * t134) + alphadot[2] * (C_i_H_6 * C_jt_v_j_1 -
+        C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t140 + C_i_H_3 * t142 - C_i_H_6 * t143) - alphadot[1] *
+        (C_i_H_0 * t144 - C_i_H_3 * t145 - C_i_H_6 * t146) - alphadot[2] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 -
+        C_i_H_3 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t175 + A_ij_4_ * t176 + A_ij_7_ * t177 + (C_i_H_4 * t172 - C_i_H_7 * t173 + (C_i_H_1 *
-        t165 - C_i_H_4 * t167 - C_i_H_7 * t168 + (C_i_H_1 * t131 + C_i_H_4 * t133 - C_i_H_7 * t134 + (C_i_H_7 * t154
-        - C_i_H_4 * t158 + (C_i_H_1 * t142 + C_i_H_4 * t140 - C_i_H_7 * t143 + (C_i_H_1 * t147 - C_i_H_4 * t149 -
-        C_i_H_7 * t150))))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t130 + C_i_H_4 * t128 - C_i_H_7 * t131) +
+        alphadot[1] * (C_i_H_1 * t132 - C_i_H_4 * t133 - C_i_H_7 * t134) + alphadot[2] * (C_i_H_7 * C_jt_v_j_1 -
+        C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t140 + C_i_H_4 * t142 - C_i_H_7 * t143) - alphadot[1] *
+        (C_i_H_1 * t144 - C_i_H_4 * t145 - C_i_H_7 * t146) - alphadot[2] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 -
+        C_i_H_4 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t175 + A_ij_5_ * t176 + A_ij_8_ * t177 + (C_i_H_5 * t172 - C_i_H_8 * t173 + (C_i_H_2 *
-        t165 - C_i_H_5 * t167 - C_i_H_8 * t168 + (C_i_H_2 * t131 + C_i_H_5 * t133 - C_i_H_8 * t134 + (C_i_H_8 * t154
-        - C_i_H_5 * t158 + (C_i_H_2 * t142 + C_i_H_5 * t140 - C_i_H_8 * t143 + (C_i_H_2 * t147 - C_i_H_5 * t149 -
-        C_i_H_8 * t150))))) + omega_i_cross_v_i_2));
-    const jg_real t180 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t181 = H_0 * sine_2;
-    const jg_real t182 = H_0 * cosine_2;
-    const jg_real t183 = alphadot[1] * alphadot[1];
-    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t97 - C_i[3] * t100) + omega_i[1] * (C_i[7] * t97 - C_i[4] *
-        t100) + omega_i[2] * (C_i[8] * t97 - C_i[5] * t100)) - alphadot[0] * (C_i[6] * t65 * omega_i[0] + C_i[7] *
-        t65 * omega_i[1] + C_i[8] * t65 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t68 + C_j[6] * t180) +
-        omega_j[1] * (C_j[4] * t68 + C_j[7] * t180) + omega_j[2] * (C_j[5] * t68 + C_j[8] * t180)) - alphadot[1] *
-        (omega_j[0] * (C_j[6] * t181 - C_j[3] * t182) + omega_j[1] * (C_j[7] * t181 - C_j[4] * t182) + omega_j[2] *
-        (C_j[8] * t181 - C_j[5] * t182)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_3 + C_j[6] * H_6) + omega_j[1] *
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t130 + C_i_H_5 * t128 - C_i_H_8 * t131) +
+        alphadot[1] * (C_i_H_2 * t132 - C_i_H_5 * t133 - C_i_H_8 * t134) + alphadot[2] * (C_i_H_8 * C_jt_v_j_1 -
+        C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t140 + C_i_H_5 * t142 - C_i_H_8 * t143) - alphadot[1] *
+        (C_i_H_2 * t144 - C_i_H_5 * t145 - C_i_H_8 * t146) - alphadot[2] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 -
+        C_i_H_5 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
+    const jg_real t156 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t157 = H_0 * sine_2;
+    const jg_real t158 = H_0 * cosine_2;
+    const jg_real t159 = alphadot[1] * alphadot[1];
+    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t96 - C_i[3] * t99) + omega_i[1] * (C_i[7] * t96 - C_i[4] *
+        t99) + omega_i[2] * (C_i[8] * t96 - C_i[5] * t99)) - alphadot[0] * (C_i[6] * t68 * omega_i[0] + C_i[7] * t68
+        * omega_i[1] + C_i[8] * t68 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t72 + C_j[6] * t156) +
+        omega_j[1] * (C_j[4] * t72 + C_j[7] * t156) + omega_j[2] * (C_j[5] * t72 + C_j[8] * t156)) - alphadot[1] *
+        (omega_j[0] * (C_j[6] * t157 - C_j[3] * t158) + omega_j[1] * (C_j[7] * t157 - C_j[4] * t158) + omega_j[2] *
+        (C_j[8] * t157 - C_j[5] * t158)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_3 + C_j[6] * H_6) + omega_j[1] *
         (C_j[4] * H_3 + C_j[7] * H_6) + omega_j[2] * (C_j[5] * H_3 + C_j[8] * H_6)) - alphadot[0] * alphadot[0] *
-        cosine_0 * cosine_1 - cosine_0 * t183 * cosine_1 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_0 *
+        cosine_0 * cosine_1 - cosine_0 * t159 * cosine_1 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_0 *
         sine_1;
-    const jg_real t184 = sine_1 * sine_2;
-    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t65 - C_i[3] * t63) + omega_i[1] * (C_i[1] * t65 - C_i[4] *
-        t63) + omega_i[2] * (C_i[2] * t65 - C_i[5] * t63)) + alphadot[1] * (omega_i[0] * (C_i[3] * t99 - C_i[0] *
-        t97) + omega_i[1] * (C_i[4] * t99 - C_i[1] * t97) + omega_i[2] * (C_i[5] * t99 - C_i[2] * t97)) + sine_1 *
-        t183 - alphadot[1] * (omega_j[0] * (C_j[3] * t62 - C_j[6] * t184) + omega_j[1] * (C_j[4] * t62 - C_j[7] *
-        t184) + omega_j[2] * (C_j[5] * t62 - C_j[8] * t184)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_5 + C_j[6] *
+    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t68 - C_i[3] * t66) + omega_i[1] * (C_i[1] * t68 - C_i[4] *
+        t66) + omega_i[2] * (C_i[2] * t68 - C_i[5] * t66)) + alphadot[1] * (omega_i[0] * (C_i[3] * t98 - C_i[0] *
+        t96) + omega_i[1] * (C_i[4] * t98 - C_i[1] * t96) + omega_i[2] * (C_i[5] * t98 - C_i[2] * t96)) + sine_1 *
+        t159 - alphadot[1] * (omega_j[0] * (C_j[3] * t65 - C_j[6] * t111) + omega_j[1] * (C_j[4] * t65 - C_j[7] *
+        t111) + omega_j[2] * (C_j[5] * t65 - C_j[8] * t111)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_5 + C_j[6] *
         H_8) + omega_j[1] * (C_j[4] * H_5 + C_j[7] * H_8) + omega_j[2] * (C_j[5] * H_5 + C_j[8] * H_8));
-    gamma[5] = alphadot[0] * (omega_i[0] * (C_i[0] * t70 - C_i[3] * t68) + omega_i[1] * (C_i[1] * t70 - C_i[4] *
-        t68) + omega_i[2] * (C_i[2] * t70 - C_i[5] * t68)) - alphadot[1] * (omega_j[0] * (C_j[0] * t184 - C_j[3] *
-        t100) + omega_j[1] * (C_j[1] * t184 - C_j[4] * t100) + omega_j[2] * (C_j[2] * t184 - C_j[5] * t100)) -
-        alphadot[2] * (omega_i[0] * (C_i[0] * H_4 - C_i[3] * H_3) + omega_i[1] * (C_i[1] * H_4 - C_i[4] * H_3) +
-        omega_i[2] * (C_i[2] * H_4 - C_i[5] * H_3)) + alphadot[2] * (C_j[0] * H_8 * omega_j[0] + C_j[1] * H_8 *
-        omega_j[1] + C_j[2] * H_8 * omega_j[2]) - alphadot[1] * (t33 * omega_i[0] + t38 * omega_i[1] + t39 *
-        omega_i[2]) * cosine_2 - cosine_1 * t183 * cosine_2 - alphadot[2] * alphadot[2] * cosine_1 * cosine_2 +
-        alphadot[1] * JG_REAL(2.0) * alphadot[2] * sine_1 * sine_2;
+    gamma[5] = alphadot[0] * (t73 * omega_i[0] + t74 * omega_i[1] + t75 * omega_i[2]) - alphadot[1] * (t112 *
+        omega_j[0] + t113 * omega_j[1] + t114 * omega_j[2]) - alphadot[2] * (t117 * omega_i[0] + t118 * omega_i[1] +
+        t119 * omega_i[2]) + alphadot[2] * (t123 * omega_j[0] + t124 * omega_j[1] + t125 * omega_j[2]) + alphadot[1]
+        * (t36 * omega_i[0] + t41 * omega_i[1] + t42 * omega_i[2]) * cosine_2 - cosine_1 * t159 * cosine_2 -
+        alphadot[2] * alphadot[2] * cosine_1 * cosine_2 + alphadot[1] * JG_REAL(2.0) * alphadot[2] * sine_1 *
+        sine_2;
 }
 
 void jg_ball_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

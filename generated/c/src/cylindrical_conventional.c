@@ -35,12 +35,16 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -95,19 +99,23 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[5] = -A_i_g_i_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t13 = s_i[2] + dp_ij_2;
+    const jg_real t16 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t15 = s_i[1] + dp_ij_1;
-    phi_q[6] = C_i[1] * t13 - C_i[2] * t15;
-    phi_q[7] = C_i[4] * t13 - C_i[5] * t15;
+    const jg_real t18 = s_i[1] + dp_ij_1;
+    phi_q[6] = C_i[1] * t16 - C_i[2] * t18;
+    phi_q[7] = C_i[4] * t16 - C_i[5] * t18;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -121,17 +129,17 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[8] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[9] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t25 = s_i[0] + dp_ij_0;
-    phi_q[10] = C_i[2] * t25 - C_i[0] * t13;
-    phi_q[11] = C_i[5] * t25 - C_i[3] * t13;
+    const jg_real t28 = s_i[0] + dp_ij_0;
+    phi_q[10] = C_i[2] * t28 - C_i[0] * t16;
+    phi_q[11] = C_i[5] * t28 - C_i[3] * t16;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[12] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[13] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    phi_q[14] = C_i[0] * t15 - C_i[1] * t25;
-    phi_q[15] = C_i[3] * t15 - C_i[4] * t25;
+    phi_q[14] = C_i[0] * t18 - C_i[1] * t28;
+    phi_q[15] = C_i[3] * t18 - C_i[4] * t28;
     phi_q[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[17] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     /* A_ijt_f_i = A_ij^T f_i */
@@ -213,46 +221,50 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     phi_q_t_lambda_q[35] = t11;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t19 = s_i[2] + dp_ij_2;
-    const jg_real t20 = t0 * t19;
+    const jg_real t22 = s_i[2] + dp_ij_2;
+    const jg_real t23 = t0 * t22;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t22 = s_i[1] + dp_ij_1;
-    const jg_real t23 = t1 * t22;
+    const jg_real t25 = s_i[1] + dp_ij_1;
+    const jg_real t26 = t1 * t25;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t28 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t29 = t28 * A_ij_h_j_2;
+    const jg_real t31 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t32 = t31 * A_ij_h_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t34 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t35 = t34 * A_ij_h_j_1;
-    phi_q_t_lambda_q[12] = -(t20 + t23 + (t29 + t35));
-    const jg_real t36 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda_q[13] = t3 * t22 + t36 * A_ij_h_j_1;
-    phi_q_t_lambda_q[14] = t3 * t19 + t36 * A_ij_h_j_2;
-    const jg_real t37 = -t2;
-    phi_q_t_lambda_q[15] = t37;
-    phi_q_t_lambda_q[45] = t37;
-    const jg_real t38 = -t6;
-    phi_q_t_lambda_q[16] = t38;
-    phi_q_t_lambda_q[48] = t38;
-    const jg_real t39 = -t9;
-    phi_q_t_lambda_q[17] = t39;
-    phi_q_t_lambda_q[51] = t39;
+    const jg_real t37 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t38 = t37 * A_ij_h_j_1;
+    phi_q_t_lambda_q[12] = -(t23 + t26 + (t32 + t38));
+    const jg_real t39 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda_q[13] = t3 * t25 + t39 * A_ij_h_j_1;
+    phi_q_t_lambda_q[14] = t3 * t22 + t39 * A_ij_h_j_2;
+    const jg_real t40 = -t2;
+    phi_q_t_lambda_q[15] = t40;
+    phi_q_t_lambda_q[45] = t40;
+    const jg_real t41 = -t6;
+    phi_q_t_lambda_q[16] = t41;
+    phi_q_t_lambda_q[48] = t41;
+    const jg_real t42 = -t9;
+    phi_q_t_lambda_q[17] = t42;
+    phi_q_t_lambda_q[51] = t42;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -261,90 +273,84 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t47 = t36 * A_ij_h_j_0;
-    const jg_real t48 = t35 + t47;
-    const jg_real t49 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t29 + t48);
-    const jg_real t50 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
-    const jg_real t51 = A_ij_0 * t49 - A_ij_s_j_0 * t50;
-    const jg_real t52 = t36 * A_ij_0 + t34 * A_ij_1 + t28 * A_ij_2;
-    const jg_real t53 = C_j[6] * t52;
-    const jg_real t54 = C_j[7] * t52;
-    const jg_real t55 = C_j[8] * t52;
-    phi_q_t_lambda_q[18] = t51 - (A_ij_0 * t53 + A_ij_3 * t54 + A_ij_6 * t55);
+    const jg_real t50 = t39 * A_ij_h_j_0;
+    const jg_real t51 = t38 + t50;
+    const jg_real t52 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t32 + t51);
+    const jg_real t53 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
+    const jg_real t54 = t39 * A_ij_0 + t37 * A_ij_1 + t31 * A_ij_2;
+    const jg_real t55 = A_ij_0 * t52 - A_ij_s_j_0 * t53 - A_ij_h_j_0 * t54;
+    phi_q_t_lambda_q[18] = t55;
+    phi_q_t_lambda_q[54] = t55;
     const jg_real t56 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
-    const jg_real t57 = A_ij_3 * t49 - A_ij_s_j_0 * t56;
-    const jg_real t58 = t36 * A_ij_3 + t34 * A_ij_4 + t28 * A_ij_5;
-    const jg_real t59 = C_j[6] * t58;
-    const jg_real t60 = C_j[7] * t58;
-    const jg_real t61 = C_j[8] * t58;
-    phi_q_t_lambda_q[19] = t57 - (A_ij_0 * t59 + A_ij_3 * t60 + A_ij_6 * t61);
-    const jg_real t62 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
-    const jg_real t63 = A_ij_6 * t49 - A_ij_s_j_0 * t62;
-    const jg_real t64 = t36 * A_ij_6 + t34 * A_ij_7 + t28 * A_ij_8;
-    const jg_real t65 = C_j[6] * t64;
-    const jg_real t66 = C_j[7] * t64;
-    const jg_real t67 = C_j[8] * t64;
-    phi_q_t_lambda_q[20] = t63 - (A_ij_0 * t65 + A_ij_3 * t66 + A_ij_6 * t67);
+    const jg_real t57 = t39 * A_ij_3 + t37 * A_ij_4 + t31 * A_ij_5;
+    const jg_real t58 = A_ij_3 * t52 - A_ij_s_j_0 * t56 - A_ij_h_j_0 * t57;
+    phi_q_t_lambda_q[19] = t58;
+    phi_q_t_lambda_q[60] = t58;
+    const jg_real t59 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
+    const jg_real t60 = t39 * A_ij_6 + t37 * A_ij_7 + t31 * A_ij_8;
+    const jg_real t61 = A_ij_6 * t52 - A_ij_s_j_0 * t59 - A_ij_h_j_0 * t60;
+    phi_q_t_lambda_q[20] = t61;
+    phi_q_t_lambda_q[66] = t61;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t69 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[24] = t1 * t69 + t34 * A_ij_h_j_0;
-    const jg_real t70 = t3 * t69;
-    phi_q_t_lambda_q[25] = -(t20 + t70 + (t29 + t47));
-    phi_q_t_lambda_q[26] = t1 * t19 + t34 * A_ij_h_j_2;
-    const jg_real t71 = -t4;
-    phi_q_t_lambda_q[27] = t71;
-    phi_q_t_lambda_q[46] = t71;
-    const jg_real t72 = -t7;
-    phi_q_t_lambda_q[28] = t72;
-    phi_q_t_lambda_q[49] = t72;
-    const jg_real t73 = -t10;
-    phi_q_t_lambda_q[29] = t73;
-    phi_q_t_lambda_q[52] = t73;
-    const jg_real t74 = A_ij_1 * t49 - A_ij_s_j_1 * t50;
-    phi_q_t_lambda_q[30] = t74 - (A_ij_1 * t53 + A_ij_4 * t54 + A_ij_7 * t55);
-    const jg_real t75 = A_ij_4 * t49 - A_ij_s_j_1 * t56;
-    phi_q_t_lambda_q[31] = t75 - (A_ij_1 * t59 + A_ij_4 * t60 + A_ij_7 * t61);
-    const jg_real t76 = A_ij_7 * t49 - A_ij_s_j_1 * t62;
-    phi_q_t_lambda_q[32] = t76 - (A_ij_1 * t65 + A_ij_4 * t66 + A_ij_7 * t67);
-    phi_q_t_lambda_q[36] = t0 * t69 + t28 * A_ij_h_j_0;
-    phi_q_t_lambda_q[37] = t0 * t22 + t28 * A_ij_h_j_1;
-    phi_q_t_lambda_q[38] = -(t23 + t70 + t48);
-    const jg_real t77 = -t5;
-    phi_q_t_lambda_q[39] = t77;
-    phi_q_t_lambda_q[47] = t77;
-    const jg_real t78 = -t8;
-    phi_q_t_lambda_q[40] = t78;
-    phi_q_t_lambda_q[50] = t78;
-    const jg_real t79 = -t11;
-    phi_q_t_lambda_q[41] = t79;
-    phi_q_t_lambda_q[53] = t79;
-    const jg_real t80 = A_ij_2 * t49 - A_ij_s_j_2 * t50;
-    phi_q_t_lambda_q[42] = t80 - (A_ij_2 * t53 + A_ij_5 * t54 + A_ij_8 * t55);
-    const jg_real t81 = A_ij_5 * t49 - A_ij_s_j_2 * t56;
-    phi_q_t_lambda_q[43] = t81 - (A_ij_2 * t59 + A_ij_5 * t60 + A_ij_8 * t61);
-    const jg_real t82 = A_ij_8 * t49 - A_ij_s_j_2 * t62;
-    phi_q_t_lambda_q[44] = t82 - (A_ij_2 * t65 + A_ij_5 * t66 + A_ij_8 * t67);
-    phi_q_t_lambda_q[54] = t51 - A_ij_h_j_0 * t52;
-    phi_q_t_lambda_q[55] = t74 - A_ij_h_j_1 * t52;
-    phi_q_t_lambda_q[56] = t80 - A_ij_h_j_2 * t52;
-    const jg_real t83 = s_j[2] * t62;
-    const jg_real t84 = s_j[1] * t56;
-    phi_q_t_lambda_q[57] = -(t83 + t84 + (t60 + t67));
-    phi_q_t_lambda_q[58] = t59 + s_j[0] * t56;
-    phi_q_t_lambda_q[59] = t65 + s_j[0] * t62;
-    phi_q_t_lambda_q[60] = t57 - A_ij_h_j_0 * t58;
-    phi_q_t_lambda_q[61] = t75 - A_ij_h_j_1 * t58;
-    phi_q_t_lambda_q[62] = t81 - A_ij_h_j_2 * t58;
-    phi_q_t_lambda_q[63] = t54 + s_j[1] * t50;
-    const jg_real t85 = s_j[0] * t50;
-    phi_q_t_lambda_q[64] = -(t83 + t85 + (t53 + t67));
-    phi_q_t_lambda_q[65] = t66 + s_j[1] * t62;
-    phi_q_t_lambda_q[66] = t63 - A_ij_h_j_0 * t64;
-    phi_q_t_lambda_q[67] = t76 - A_ij_h_j_1 * t64;
-    phi_q_t_lambda_q[68] = t82 - A_ij_h_j_2 * t64;
-    phi_q_t_lambda_q[69] = t55 + s_j[2] * t50;
-    phi_q_t_lambda_q[70] = t61 + s_j[2] * t56;
-    phi_q_t_lambda_q[71] = -(t84 + t85 + (t53 + t60));
+    const jg_real t63 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[24] = t1 * t63 + t37 * A_ij_h_j_0;
+    const jg_real t64 = t3 * t63;
+    phi_q_t_lambda_q[25] = -(t23 + t64 + (t32 + t50));
+    phi_q_t_lambda_q[26] = t1 * t22 + t37 * A_ij_h_j_2;
+    const jg_real t65 = -t4;
+    phi_q_t_lambda_q[27] = t65;
+    phi_q_t_lambda_q[46] = t65;
+    const jg_real t66 = -t7;
+    phi_q_t_lambda_q[28] = t66;
+    phi_q_t_lambda_q[49] = t66;
+    const jg_real t67 = -t10;
+    phi_q_t_lambda_q[29] = t67;
+    phi_q_t_lambda_q[52] = t67;
+    const jg_real t68 = A_ij_1 * t52 - A_ij_s_j_1 * t53 - A_ij_h_j_1 * t54;
+    phi_q_t_lambda_q[30] = t68;
+    phi_q_t_lambda_q[55] = t68;
+    const jg_real t69 = A_ij_4 * t52 - A_ij_s_j_1 * t56 - A_ij_h_j_1 * t57;
+    phi_q_t_lambda_q[31] = t69;
+    phi_q_t_lambda_q[61] = t69;
+    const jg_real t70 = A_ij_7 * t52 - A_ij_s_j_1 * t59 - A_ij_h_j_1 * t60;
+    phi_q_t_lambda_q[32] = t70;
+    phi_q_t_lambda_q[67] = t70;
+    phi_q_t_lambda_q[36] = t0 * t63 + t31 * A_ij_h_j_0;
+    phi_q_t_lambda_q[37] = t0 * t25 + t31 * A_ij_h_j_1;
+    phi_q_t_lambda_q[38] = -(t26 + t64 + t51);
+    const jg_real t71 = -t5;
+    phi_q_t_lambda_q[39] = t71;
+    phi_q_t_lambda_q[47] = t71;
+    const jg_real t72 = -t8;
+    phi_q_t_lambda_q[40] = t72;
+    phi_q_t_lambda_q[50] = t72;
+    const jg_real t73 = -t11;
+    phi_q_t_lambda_q[41] = t73;
+    phi_q_t_lambda_q[53] = t73;
+    const jg_real t74 = A_ij_2 * t52 - A_ij_s_j_2 * t53 - A_ij_h_j_2 * t54;
+    phi_q_t_lambda_q[42] = t74;
+    phi_q_t_lambda_q[56] = t74;
+    const jg_real t75 = A_ij_5 * t52 - A_ij_s_j_2 * t56 - A_ij_h_j_2 * t57;
+    phi_q_t_lambda_q[43] = t75;
+    phi_q_t_lambda_q[62] = t75;
+    const jg_real t76 = A_ij_8 * t52 - A_ij_s_j_2 * t59 - A_ij_h_j_2 * t60;
+    phi_q_t_lambda_q[44] = t76;
+    phi_q_t_lambda_q[68] = t76;
+    const jg_real t77 = s_j[2] * t59;
+    const jg_real t78 = s_j[1] * t56;
+    const jg_real t79 = C_j[8] * t60;
+    const jg_real t80 = C_j[7] * t57;
+    phi_q_t_lambda_q[57] = -(t77 + t78 + (t79 + t80));
+    phi_q_t_lambda_q[58] = s_j[0] * t56 + C_j[6] * t57;
+    phi_q_t_lambda_q[59] = s_j[0] * t59 + C_j[6] * t60;
+    phi_q_t_lambda_q[63] = s_j[1] * t53 + C_j[7] * t54;
+    const jg_real t81 = s_j[0] * t53;
+    const jg_real t82 = C_j[6] * t54;
+    phi_q_t_lambda_q[64] = -(t77 + t81 + (t79 + t82));
+    phi_q_t_lambda_q[65] = s_j[1] * t59 + C_j[7] * t60;
+    phi_q_t_lambda_q[69] = s_j[2] * t53 + C_j[8] * t54;
+    phi_q_t_lambda_q[70] = s_j[2] * t56 + C_j[8] * t57;
+    phi_q_t_lambda_q[71] = -(t78 + t81 + (t80 + t82));
 }
 
 void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -370,12 +376,16 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -417,17 +427,17 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t30 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t33 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t34 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t37 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t38 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t41 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -450,25 +460,25 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    const jg_real t53 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real t55 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t56 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t30 + C_i[1] * t34 + C_i[2] * t38 + (C_i[0] *
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * t33 + C_i[1] * t37 + C_i[2] * t41 + (C_i[0] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
         omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t53 + C_i[1] * t55 + C_i[2] * t56);
+        JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t30 + C_i[4] * t34 + C_i[5] * t38 + (C_i[3] *
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * t33 + C_i[4] * t37 + C_i[5] * t41 + (C_i[3] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
         omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t53 + C_i[4] * t55 + C_i[5] * t56);
+        JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -478,11 +488,11 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t62 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t65 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t64 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t65 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t67 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t68 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -490,10 +500,10 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t71 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t74 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t73 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t74 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t76 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t77 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -501,16 +511,16 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t78 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t81 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t79 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t82 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t80 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t83 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t62 + C_i[1] * t64 + C_i[2] * t65) - (C_i[0] * t78 + C_i[1] * t79 + C_i[2] *
-        t80 + (C_i[0] * t71 + C_i[1] * t73 + C_i[2] * t74));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t62 + C_i[4] * t64 + C_i[5] * t65) - (C_i[3] * t78 + C_i[4] * t79 + C_i[5] *
-        t80 + (C_i[3] * t71 + C_i[4] * t73 + C_i[5] * t74));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68) - (C_i[0] * t81 + C_i[1] * t82 + C_i[2] *
+        t83 + (C_i[0] * t74 + C_i[1] * t76 + C_i[2] * t77));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68) - (C_i[3] * t81 + C_i[4] * t82 + C_i[5] *
+        t83 + (C_i[3] * t74 + C_i[4] * t76 + C_i[5] * t77));
 }
 
 void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -527,12 +537,16 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -633,48 +647,52 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     phi_q_t_lambda[2] = -t5;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t13 = s_i[2] + dp_ij_2;
+    const jg_real t16 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t15 = s_i[1] + dp_ij_1;
+    const jg_real t18 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t20 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t23 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t25 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    phi_q_t_lambda[3] = t1 * t13 - t2 * t15 + (A_ij_h_j_2 * t20 - A_ij_h_j_1 * t25);
+    const jg_real t28 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    phi_q_t_lambda[3] = t1 * t16 - t2 * t18 + (A_ij_h_j_2 * t23 - A_ij_h_j_1 * t28);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t27 = s_i[0] + dp_ij_0;
+    const jg_real t30 = s_i[0] + dp_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t32 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda[4] = t2 * t27 - t0 * t13 + (A_ij_h_j_0 * t25 - A_ij_h_j_2 * t32);
-    phi_q_t_lambda[5] = t0 * t15 - t1 * t27 + (A_ij_h_j_1 * t32 - A_ij_h_j_0 * t20);
-    const jg_real t33 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
-    const jg_real t34 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
-    const jg_real t35 = A_ij_6 * t32 + A_ij_7 * t20 + A_ij_8 * t25;
-    const jg_real t36 = A_ij_3 * t32 + A_ij_4 * t20 + A_ij_5 * t25;
-    phi_q_t_lambda[9] = s_j[1] * t33 - s_j[2] * t34 + (C_j[7] * t35 - C_j[8] * t36);
-    const jg_real t37 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
-    const jg_real t38 = A_ij_0 * t32 + A_ij_1 * t20 + A_ij_2 * t25;
-    phi_q_t_lambda[10] = s_j[2] * t37 - s_j[0] * t33 + (C_j[8] * t38 - C_j[6] * t35);
-    phi_q_t_lambda[11] = s_j[0] * t34 - s_j[1] * t37 + (C_j[6] * t36 - C_j[7] * t38);
+    const jg_real t35 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda[4] = t2 * t30 - t0 * t16 + (A_ij_h_j_0 * t28 - A_ij_h_j_2 * t35);
+    phi_q_t_lambda[5] = t0 * t18 - t1 * t30 + (A_ij_h_j_1 * t35 - A_ij_h_j_0 * t23);
+    const jg_real t36 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
+    const jg_real t37 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
+    const jg_real t38 = A_ij_6 * t35 + A_ij_7 * t23 + A_ij_8 * t28;
+    const jg_real t39 = A_ij_3 * t35 + A_ij_4 * t23 + A_ij_5 * t28;
+    phi_q_t_lambda[9] = s_j[1] * t36 - s_j[2] * t37 + (C_j[7] * t38 - C_j[8] * t39);
+    const jg_real t40 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
+    const jg_real t41 = A_ij_0 * t35 + A_ij_1 * t23 + A_ij_2 * t28;
+    phi_q_t_lambda[10] = s_j[2] * t40 - s_j[0] * t36 + (C_j[8] * t41 - C_j[6] * t38);
+    phi_q_t_lambda[11] = s_j[0] * t37 - s_j[1] * t40 + (C_j[6] * t39 - C_j[7] * t41);
 }
 
 void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -692,12 +710,16 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -740,19 +762,19 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_i_g_i_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     phi_q[23] = A_i_g_i_2;
     phi_q[5] = -A_i_g_i_2;
-    const jg_real t27 = s_i[2] + dp_ij_2;
-    const jg_real t28 = s_i[1] + dp_ij_1;
-    phi_q[6] = C_i[1] * t27 - C_i[2] * t28;
-    phi_q[7] = C_i[4] * t27 - C_i[5] * t28;
+    const jg_real t30 = s_i[2] + dp_ij_2;
+    const jg_real t31 = s_i[1] + dp_ij_1;
+    phi_q[6] = C_i[1] * t30 - C_i[2] * t31;
+    phi_q[7] = C_i[4] * t30 - C_i[5] * t31;
     phi_q[8] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[9] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real t29 = s_i[0] + dp_ij_0;
-    phi_q[10] = C_i[2] * t29 - C_i[0] * t27;
-    phi_q[11] = C_i[5] * t29 - C_i[3] * t27;
+    const jg_real t32 = s_i[0] + dp_ij_0;
+    phi_q[10] = C_i[2] * t32 - C_i[0] * t30;
+    phi_q[11] = C_i[5] * t32 - C_i[3] * t30;
     phi_q[12] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[13] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    phi_q[14] = C_i[0] * t28 - C_i[1] * t29;
-    phi_q[15] = C_i[3] * t28 - C_i[4] * t29;
+    phi_q[14] = C_i[0] * t31 - C_i[1] * t32;
+    phi_q[15] = C_i[3] * t31 - C_i[4] * t32;
     phi_q[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[17] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     /* A_ijt_f_i = A_ij^T f_i */
@@ -783,141 +805,135 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[33] = s_j_cross_A_ijt_g_i_2;
     phi_q[34] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[35] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
-    const jg_real t42 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    const jg_real t43 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
-    const jg_real t44 = A_i[3] * t42 - A_i[6] * t43;
-    phi_q_t_lambda_q[0] = t44;
-    phi_q_t_lambda_q[9] = t44;
-    const jg_real t45 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
-    const jg_real t46 = A_i[6] * t45 - A_i[0] * t42;
-    phi_q_t_lambda_q[1] = t46;
-    phi_q_t_lambda_q[21] = t46;
-    const jg_real t47 = A_i[0] * t43 - A_i[3] * t45;
-    phi_q_t_lambda_q[2] = t47;
-    phi_q_t_lambda_q[33] = t47;
-    const jg_real t48 = A_i[4] * t42 - A_i[7] * t43;
-    phi_q_t_lambda_q[3] = t48;
-    phi_q_t_lambda_q[10] = t48;
-    const jg_real t49 = A_i[7] * t45 - A_i[1] * t42;
-    phi_q_t_lambda_q[4] = t49;
-    phi_q_t_lambda_q[22] = t49;
-    const jg_real t50 = A_i[1] * t43 - A_i[4] * t45;
-    phi_q_t_lambda_q[5] = t50;
-    phi_q_t_lambda_q[34] = t50;
-    const jg_real t51 = A_i[5] * t42 - A_i[8] * t43;
-    phi_q_t_lambda_q[6] = t51;
-    phi_q_t_lambda_q[11] = t51;
-    const jg_real t52 = A_i[8] * t45 - A_i[2] * t42;
-    phi_q_t_lambda_q[7] = t52;
-    phi_q_t_lambda_q[23] = t52;
-    const jg_real t53 = A_i[2] * t43 - A_i[5] * t45;
-    phi_q_t_lambda_q[8] = t53;
-    phi_q_t_lambda_q[35] = t53;
-    const jg_real t54 = t27 * t42;
-    const jg_real t55 = t28 * t43;
-    const jg_real t56 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t57 = A_ij_h_j_2 * t56;
-    const jg_real t58 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t59 = A_ij_h_j_1 * t58;
-    phi_q_t_lambda_q[12] = -(t54 + t55 + (t57 + t59));
-    const jg_real t60 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda_q[13] = t28 * t45 + A_ij_h_j_1 * t60;
-    phi_q_t_lambda_q[14] = t27 * t45 + A_ij_h_j_2 * t60;
-    const jg_real t61 = -t44;
-    phi_q_t_lambda_q[15] = t61;
-    phi_q_t_lambda_q[45] = t61;
-    const jg_real t62 = -t48;
-    phi_q_t_lambda_q[16] = t62;
-    phi_q_t_lambda_q[48] = t62;
-    const jg_real t63 = -t51;
-    phi_q_t_lambda_q[17] = t63;
-    phi_q_t_lambda_q[51] = t63;
+    const jg_real t45 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    const jg_real t46 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
+    const jg_real t47 = A_i[3] * t45 - A_i[6] * t46;
+    phi_q_t_lambda_q[0] = t47;
+    phi_q_t_lambda_q[9] = t47;
+    const jg_real t48 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    const jg_real t49 = A_i[6] * t48 - A_i[0] * t45;
+    phi_q_t_lambda_q[1] = t49;
+    phi_q_t_lambda_q[21] = t49;
+    const jg_real t50 = A_i[0] * t46 - A_i[3] * t48;
+    phi_q_t_lambda_q[2] = t50;
+    phi_q_t_lambda_q[33] = t50;
+    const jg_real t51 = A_i[4] * t45 - A_i[7] * t46;
+    phi_q_t_lambda_q[3] = t51;
+    phi_q_t_lambda_q[10] = t51;
+    const jg_real t52 = A_i[7] * t48 - A_i[1] * t45;
+    phi_q_t_lambda_q[4] = t52;
+    phi_q_t_lambda_q[22] = t52;
+    const jg_real t53 = A_i[1] * t46 - A_i[4] * t48;
+    phi_q_t_lambda_q[5] = t53;
+    phi_q_t_lambda_q[34] = t53;
+    const jg_real t54 = A_i[5] * t45 - A_i[8] * t46;
+    phi_q_t_lambda_q[6] = t54;
+    phi_q_t_lambda_q[11] = t54;
+    const jg_real t55 = A_i[8] * t48 - A_i[2] * t45;
+    phi_q_t_lambda_q[7] = t55;
+    phi_q_t_lambda_q[23] = t55;
+    const jg_real t56 = A_i[2] * t46 - A_i[5] * t48;
+    phi_q_t_lambda_q[8] = t56;
+    phi_q_t_lambda_q[35] = t56;
+    const jg_real t57 = t30 * t45;
+    const jg_real t58 = t31 * t46;
+    const jg_real t59 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t60 = A_ij_h_j_2 * t59;
+    const jg_real t61 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t62 = A_ij_h_j_1 * t61;
+    phi_q_t_lambda_q[12] = -(t57 + t58 + (t60 + t62));
+    const jg_real t63 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda_q[13] = t31 * t48 + A_ij_h_j_1 * t63;
+    phi_q_t_lambda_q[14] = t30 * t48 + A_ij_h_j_2 * t63;
+    const jg_real t64 = -t47;
+    phi_q_t_lambda_q[15] = t64;
+    phi_q_t_lambda_q[45] = t64;
+    const jg_real t65 = -t51;
+    phi_q_t_lambda_q[16] = t65;
+    phi_q_t_lambda_q[48] = t65;
+    const jg_real t66 = -t54;
+    phi_q_t_lambda_q[17] = t66;
+    phi_q_t_lambda_q[51] = t66;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real t67 = A_ij_h_j_0 * t60;
-    const jg_real t68 = t59 + t67;
-    const jg_real t69 = t45 * A_ij_s_j_0 + t43 * A_ij_s_j_1 + t42 * A_ij_s_j_2 + (t57 + t68);
-    const jg_real t70 = A_ij_0 * t45 + A_ij_1 * t43 + A_ij_2 * t42;
-    const jg_real t71 = A_ij_0 * t69 - A_ij_s_j_0 * t70;
-    const jg_real t72 = A_ij_0 * t60 + A_ij_1 * t58 + A_ij_2 * t56;
-    const jg_real t73 = C_j[6] * t72;
-    const jg_real t74 = C_j[7] * t72;
-    const jg_real t75 = C_j[8] * t72;
-    phi_q_t_lambda_q[18] = t71 - (A_ij_0 * t73 + A_ij_3 * t74 + A_ij_6 * t75);
-    const jg_real t76 = A_ij_3 * t45 + A_ij_4 * t43 + A_ij_5 * t42;
-    const jg_real t77 = A_ij_3 * t69 - A_ij_s_j_0 * t76;
-    const jg_real t78 = A_ij_3 * t60 + A_ij_4 * t58 + A_ij_5 * t56;
-    const jg_real t79 = C_j[6] * t78;
-    const jg_real t80 = C_j[7] * t78;
-    const jg_real t81 = C_j[8] * t78;
-    phi_q_t_lambda_q[19] = t77 - (A_ij_0 * t79 + A_ij_3 * t80 + A_ij_6 * t81);
-    const jg_real t82 = A_ij_6 * t45 + A_ij_7 * t43 + A_ij_8 * t42;
-    const jg_real t83 = A_ij_6 * t69 - A_ij_s_j_0 * t82;
-    const jg_real t84 = A_ij_6 * t60 + A_ij_7 * t58 + A_ij_8 * t56;
-    const jg_real t85 = C_j[6] * t84;
-    const jg_real t86 = C_j[7] * t84;
-    const jg_real t87 = C_j[8] * t84;
-    phi_q_t_lambda_q[20] = t83 - (A_ij_0 * t85 + A_ij_3 * t86 + A_ij_6 * t87);
-    phi_q_t_lambda_q[24] = t29 * t43 + A_ij_h_j_0 * t58;
-    const jg_real t88 = t29 * t45;
-    phi_q_t_lambda_q[25] = -(t54 + t88 + (t57 + t67));
-    phi_q_t_lambda_q[26] = t27 * t43 + A_ij_h_j_2 * t58;
-    const jg_real t89 = -t46;
-    phi_q_t_lambda_q[27] = t89;
-    phi_q_t_lambda_q[46] = t89;
-    const jg_real t90 = -t49;
-    phi_q_t_lambda_q[28] = t90;
-    phi_q_t_lambda_q[49] = t90;
-    const jg_real t91 = -t52;
-    phi_q_t_lambda_q[29] = t91;
-    phi_q_t_lambda_q[52] = t91;
-    const jg_real t92 = A_ij_1 * t69 - A_ij_s_j_1 * t70;
-    phi_q_t_lambda_q[30] = t92 - (A_ij_1 * t73 + A_ij_4 * t74 + A_ij_7 * t75);
-    const jg_real t93 = A_ij_4 * t69 - A_ij_s_j_1 * t76;
-    phi_q_t_lambda_q[31] = t93 - (A_ij_1 * t79 + A_ij_4 * t80 + A_ij_7 * t81);
-    const jg_real t94 = A_ij_7 * t69 - A_ij_s_j_1 * t82;
-    phi_q_t_lambda_q[32] = t94 - (A_ij_1 * t85 + A_ij_4 * t86 + A_ij_7 * t87);
-    phi_q_t_lambda_q[36] = t29 * t42 + A_ij_h_j_0 * t56;
-    phi_q_t_lambda_q[37] = t28 * t42 + A_ij_h_j_1 * t56;
-    phi_q_t_lambda_q[38] = -(t55 + t88 + t68);
-    const jg_real t95 = -t47;
-    phi_q_t_lambda_q[39] = t95;
-    phi_q_t_lambda_q[47] = t95;
-    const jg_real t96 = -t50;
-    phi_q_t_lambda_q[40] = t96;
-    phi_q_t_lambda_q[50] = t96;
-    const jg_real t97 = -t53;
-    phi_q_t_lambda_q[41] = t97;
-    phi_q_t_lambda_q[53] = t97;
-    const jg_real t98 = A_ij_2 * t69 - A_ij_s_j_2 * t70;
-    phi_q_t_lambda_q[42] = t98 - (A_ij_2 * t73 + A_ij_5 * t74 + A_ij_8 * t75);
-    const jg_real t99 = A_ij_5 * t69 - A_ij_s_j_2 * t76;
-    phi_q_t_lambda_q[43] = t99 - (A_ij_2 * t79 + A_ij_5 * t80 + A_ij_8 * t81);
-    const jg_real t100 = A_ij_8 * t69 - A_ij_s_j_2 * t82;
-    phi_q_t_lambda_q[44] = t100 - (A_ij_2 * t85 + A_ij_5 * t86 + A_ij_8 * t87);
-    phi_q_t_lambda_q[54] = t71 - A_ij_h_j_0 * t72;
-    phi_q_t_lambda_q[55] = t92 - A_ij_h_j_1 * t72;
-    phi_q_t_lambda_q[56] = t98 - A_ij_h_j_2 * t72;
-    const jg_real t101 = s_j[2] * t82;
-    const jg_real t102 = s_j[1] * t76;
-    phi_q_t_lambda_q[57] = -(t101 + t102 + (t80 + t87));
-    phi_q_t_lambda_q[58] = t79 + s_j[0] * t76;
-    phi_q_t_lambda_q[59] = t85 + s_j[0] * t82;
-    phi_q_t_lambda_q[60] = t77 - A_ij_h_j_0 * t78;
-    phi_q_t_lambda_q[61] = t93 - A_ij_h_j_1 * t78;
-    phi_q_t_lambda_q[62] = t99 - A_ij_h_j_2 * t78;
-    phi_q_t_lambda_q[63] = t74 + s_j[1] * t70;
-    const jg_real t103 = s_j[0] * t70;
-    phi_q_t_lambda_q[64] = -(t101 + t103 + (t73 + t87));
-    phi_q_t_lambda_q[65] = t86 + s_j[1] * t82;
-    phi_q_t_lambda_q[66] = t83 - A_ij_h_j_0 * t84;
-    phi_q_t_lambda_q[67] = t94 - A_ij_h_j_1 * t84;
-    phi_q_t_lambda_q[68] = t100 - A_ij_h_j_2 * t84;
-    phi_q_t_lambda_q[69] = t75 + s_j[2] * t70;
-    phi_q_t_lambda_q[70] = t81 + s_j[2] * t76;
-    phi_q_t_lambda_q[71] = -(t102 + t103 + (t73 + t80));
+    const jg_real t70 = A_ij_h_j_0 * t63;
+    const jg_real t71 = t62 + t70;
+    const jg_real t72 = t48 * A_ij_s_j_0 + t46 * A_ij_s_j_1 + t45 * A_ij_s_j_2 + (t60 + t71);
+    const jg_real t73 = A_ij_0 * t48 + A_ij_1 * t46 + A_ij_2 * t45;
+    const jg_real t74 = A_ij_0 * t63 + A_ij_1 * t61 + A_ij_2 * t59;
+    const jg_real t75 = A_ij_0 * t72 - A_ij_s_j_0 * t73 - A_ij_h_j_0 * t74;
+    phi_q_t_lambda_q[18] = t75;
+    phi_q_t_lambda_q[54] = t75;
+    const jg_real t76 = A_ij_3 * t48 + A_ij_4 * t46 + A_ij_5 * t45;
+    const jg_real t77 = A_ij_3 * t63 + A_ij_4 * t61 + A_ij_5 * t59;
+    const jg_real t78 = A_ij_3 * t72 - A_ij_s_j_0 * t76 - A_ij_h_j_0 * t77;
+    phi_q_t_lambda_q[19] = t78;
+    phi_q_t_lambda_q[60] = t78;
+    const jg_real t79 = A_ij_6 * t48 + A_ij_7 * t46 + A_ij_8 * t45;
+    const jg_real t80 = A_ij_6 * t63 + A_ij_7 * t61 + A_ij_8 * t59;
+    const jg_real t81 = A_ij_6 * t72 - A_ij_s_j_0 * t79 - A_ij_h_j_0 * t80;
+    phi_q_t_lambda_q[20] = t81;
+    phi_q_t_lambda_q[66] = t81;
+    phi_q_t_lambda_q[24] = t32 * t46 + A_ij_h_j_0 * t61;
+    const jg_real t82 = t32 * t48;
+    phi_q_t_lambda_q[25] = -(t57 + t82 + (t60 + t70));
+    phi_q_t_lambda_q[26] = t30 * t46 + A_ij_h_j_2 * t61;
+    const jg_real t83 = -t49;
+    phi_q_t_lambda_q[27] = t83;
+    phi_q_t_lambda_q[46] = t83;
+    const jg_real t84 = -t52;
+    phi_q_t_lambda_q[28] = t84;
+    phi_q_t_lambda_q[49] = t84;
+    const jg_real t85 = -t55;
+    phi_q_t_lambda_q[29] = t85;
+    phi_q_t_lambda_q[52] = t85;
+    const jg_real t86 = A_ij_1 * t72 - A_ij_s_j_1 * t73 - A_ij_h_j_1 * t74;
+    phi_q_t_lambda_q[30] = t86;
+    phi_q_t_lambda_q[55] = t86;
+    const jg_real t87 = A_ij_4 * t72 - A_ij_s_j_1 * t76 - A_ij_h_j_1 * t77;
+    phi_q_t_lambda_q[31] = t87;
+    phi_q_t_lambda_q[61] = t87;
+    const jg_real t88 = A_ij_7 * t72 - A_ij_s_j_1 * t79 - A_ij_h_j_1 * t80;
+    phi_q_t_lambda_q[32] = t88;
+    phi_q_t_lambda_q[67] = t88;
+    phi_q_t_lambda_q[36] = t32 * t45 + A_ij_h_j_0 * t59;
+    phi_q_t_lambda_q[37] = t31 * t45 + A_ij_h_j_1 * t59;
+    phi_q_t_lambda_q[38] = -(t58 + t82 + t71);
+    const jg_real t89 = -t50;
+    phi_q_t_lambda_q[39] = t89;
+    phi_q_t_lambda_q[47] = t89;
+    const jg_real t90 = -t53;
+    phi_q_t_lambda_q[40] = t90;
+    phi_q_t_lambda_q[50] = t90;
+    const jg_real t91 = -t56;
+    phi_q_t_lambda_q[41] = t91;
+    phi_q_t_lambda_q[53] = t91;
+    const jg_real t92 = A_ij_2 * t72 - A_ij_s_j_2 * t73 - A_ij_h_j_2 * t74;
+    phi_q_t_lambda_q[42] = t92;
+    phi_q_t_lambda_q[56] = t92;
+    const jg_real t93 = A_ij_5 * t72 - A_ij_s_j_2 * t76 - A_ij_h_j_2 * t77;
+    phi_q_t_lambda_q[43] = t93;
+    phi_q_t_lambda_q[62] = t93;
+    const jg_real t94 = A_ij_8 * t72 - A_ij_s_j_2 * t79 - A_ij_h_j_2 * t80;
+    phi_q_t_lambda_q[44] = t94;
+    phi_q_t_lambda_q[68] = t94;
+    const jg_real t95 = s_j[2] * t79;
+    const jg_real t96 = s_j[1] * t76;
+    const jg_real t97 = C_j[8] * t80;
+    const jg_real t98 = C_j[7] * t77;
+    phi_q_t_lambda_q[57] = -(t95 + t96 + (t97 + t98));
+    phi_q_t_lambda_q[58] = s_j[0] * t76 + C_j[6] * t77;
+    phi_q_t_lambda_q[59] = s_j[0] * t79 + C_j[6] * t80;
+    phi_q_t_lambda_q[63] = s_j[1] * t73 + C_j[7] * t74;
+    const jg_real t99 = s_j[0] * t73;
+    const jg_real t100 = C_j[6] * t74;
+    phi_q_t_lambda_q[64] = -(t95 + t99 + (t97 + t100));
+    phi_q_t_lambda_q[65] = s_j[1] * t79 + C_j[7] * t80;
+    phi_q_t_lambda_q[69] = s_j[2] * t73 + C_j[8] * t74;
+    phi_q_t_lambda_q[70] = s_j[2] * t76 + C_j[8] * t77;
+    phi_q_t_lambda_q[71] = -(t96 + t99 + (t98 + t100));
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
     const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
@@ -951,11 +967,11 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t122 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t119 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t123 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t120 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t124 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t121 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -978,25 +994,25 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    const jg_real t139 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real t136 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real t141 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t142 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    const jg_real t138 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t139 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t122 + C_i[1] * t123 + C_i[2] * t124 + (C_i[0] *
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * t119 + C_i[1] * t120 + C_i[2] * t121 + (C_i[0] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
         omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t139 + C_i[1] * t141 + C_i[2] * t142);
+        JG_REAL(2.0) * (C_i[0] * t136 + C_i[1] * t138 + C_i[2] * t139);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t122 + C_i[4] * t123 + C_i[5] * t124 + (C_i[3] *
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * t119 + C_i[4] * t120 + C_i[5] * t121 + (C_i[3] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
         omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t139 + C_i[4] * t141 + C_i[5] * t142);
+        JG_REAL(2.0) * (C_i[3] * t136 + C_i[4] * t138 + C_i[5] * t139);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1006,18 +1022,18 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t148 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t145 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t150 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t151 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t147 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t148 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t154 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t151 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t156 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t157 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t153 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t154 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -1025,16 +1041,16 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t161 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t158 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t162 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t159 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t163 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t160 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t148 + C_i[1] * t150 + C_i[2] * t151) - (C_i[0] * t161 + C_i[1] * t162 +
-        C_i[2] * t163 + (C_i[0] * t154 + C_i[1] * t156 + C_i[2] * t157));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t148 + C_i[4] * t150 + C_i[5] * t151) - (C_i[3] * t161 + C_i[4] * t162 +
-        C_i[5] * t163 + (C_i[3] * t154 + C_i[4] * t156 + C_i[5] * t157));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t145 + C_i[1] * t147 + C_i[2] * t148) - (C_i[0] * t158 + C_i[1] * t159 +
+        C_i[2] * t160 + (C_i[0] * t151 + C_i[1] * t153 + C_i[2] * t154));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t145 + C_i[4] * t147 + C_i[5] * t148) - (C_i[3] * t158 + C_i[4] * t159 +
+        C_i[5] * t160 + (C_i[3] * t151 + C_i[4] * t153 + C_i[5] * t154));
 }
 
 void jg_cylindrical_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -33,12 +33,16 @@ void jg_cylindrical_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - C_i[6] * alpha[0];
@@ -224,48 +228,48 @@ void jg_cylindrical_parametric_substituted_gamma(const jg_real *JG_RESTRICT alph
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t1 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t2 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real t7 = cosine_0 * C_jt_omega_j_cross_v_j_0 - sine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real t8 = sine_0 * C_jt_omega_j_cross_v_j_0 + cosine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_omega_j_cross_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t11 = C_j[3] * alphadot[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t13 = C_j[4] * alphadot[1];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t15 = C_j[5] * alphadot[1];
-    const jg_real t16 = t11 * s_j_cross_omega_j_0 + t13 * s_j_cross_omega_j_1 + t15 * s_j_cross_omega_j_2;
-    const jg_real t17 = C_j[0] * alphadot[1];
-    const jg_real t18 = C_j[1] * alphadot[1];
-    const jg_real t19 = C_j[2] * alphadot[1];
-    const jg_real t20 = t17 * s_j_cross_omega_j_0 + t18 * s_j_cross_omega_j_1 + t19 * s_j_cross_omega_j_2;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t20;
-    const jg_real t22 = sine_0 * t16 - cosine_0 * t20;
-    const jg_real t23 = v_j[0] * t17 + v_j[1] * t18 + v_j[2] * t19;
-    const jg_real t24 = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t15;
-    const jg_real t25 = cosine_0 * t23 - sine_0 * t24;
-    const jg_real t26 = cosine_0 * t24 + sine_0 * t23;
-    const jg_real t27 = omega_i[2] * alphadot[0];
-    const jg_real t28 = omega_i[1] * alphadot[0];
+    const jg_real t14 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t15 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t16 = cosine_0 * t14 - sine_0 * t15;
+    const jg_real t17 = cosine_0 * t15 + sine_0 * t14;
+    const jg_real t18 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t19 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t20 = cosine_0 * t18 - sine_0 * t19;
+    const jg_real t21 = cosine_0 * t19 + sine_0 * t18;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (C_i[0] * t21 + C_i[3] * t22 + (C_i[3] * t25 - C_i[0] *
-        t26 + (C_i[7] * t27 - C_i[8] * t28)) + omega_i_cross_v_i_0));
-    const jg_real t30 = omega_i[0] * alphadot[0];
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (C_i[3] * t20 - C_i[0] * t21) + alphadot[0] * (C_i[7] *
+        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (C_i[3] * t16 - C_i[0] * t17) + omega_i_cross_v_i_0);
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (C_i[1] * t21 + C_i[4] * t22 + (C_i[4] * t25 - C_i[1] *
-        t26 + (C_i[8] * t30 - C_i[6] * t27)) + omega_i_cross_v_i_1));
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (C_i[4] * t20 - C_i[1] * t21) + alphadot[0] * (C_i[8] *
+        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (C_i[4] * t16 - C_i[1] * t17) + omega_i_cross_v_i_1);
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[2] * t21 + C_i[5] * t22 + (C_i[5] * t25 - C_i[2] *
-        t26 + (C_i[6] * t28 - C_i[7] * t30)) + omega_i_cross_v_i_2));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (C_i[5] * t20 - C_i[2] * t21) + alphadot[0] * (C_i[6] *
+        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (C_i[5] * t16 - C_i[2] * t17) + omega_i_cross_v_i_2);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
@@ -291,17 +295,24 @@ void jg_cylindrical_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t7 = cosine_0 * C_jt_s_j_cross_omega_j_0 - sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t8 = sine_0 * C_jt_s_j_cross_omega_j_0 + cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -311,17 +322,19 @@ void jg_cylindrical_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
-    const jg_real t16 = s_i[1] + C_i[7] * alpha[0];
-    const jg_real t17 = s_i[2] + C_i[8] * alpha[0];
-    phi_q_v[0] = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (t16 * omega_i[2] - t17 * omega_i[1] + (A_ij_v_j_0 -
-        v_i[0] - C_i[6] * alphadot[0]));
+    const jg_real t17 = s_i[1] + C_i[7] * alpha[0];
+    const jg_real t18 = s_i[2] + C_i[8] * alpha[0];
+    phi_q_v[0] = t17 * omega_i[2] - t18 * omega_i[1] + (A_ij_v_j_0 - v_i[0] - C_i[6] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
-    const jg_real t19 = s_i[0] + C_i[6] * alpha[0];
-    phi_q_v[1] = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (t17 * omega_i[0] - t19 * omega_i[2] + (A_ij_v_j_1 -
-        v_i[1] - C_i[7] * alphadot[0]));
+    const jg_real t21 = s_i[0] + C_i[6] * alpha[0];
+    phi_q_v[1] = t18 * omega_i[0] - t21 * omega_i[2] + (A_ij_v_j_1 - v_i[1] - C_i[7] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
-    phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (t19 * omega_i[1] - t16 * omega_i[0] + (A_ij_v_j_2 -
-        v_i[2] - C_i[8] * alphadot[0]));
+    phi_q_v[2] = t21 * omega_i[1] - t17 * omega_i[0] + (A_ij_v_j_2 - v_i[2] - C_i[8] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_2;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -397,25 +410,29 @@ void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi_q[7] = C_i[6];
-    const jg_real t7 = C_i[6] * alpha[0];
-    phi[0] = dp_ij_0 - t7;
+    const jg_real t10 = C_i[6] * alpha[0];
+    phi[0] = dp_ij_0 - t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi_q[12] = C_i[7];
-    const jg_real t9 = C_i[7] * alpha[0];
-    phi[1] = dp_ij_1 - t9;
+    const jg_real t12 = C_i[7] * alpha[0];
+    phi[1] = dp_ij_1 - t12;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi_q[17] = C_i[8];
-    const jg_real t11 = C_i[8] * alpha[0];
-    phi[2] = dp_ij_2 - t11;
+    const jg_real t14 = C_i[8] * alpha[0];
+    phi[2] = dp_ij_2 - t14;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -461,15 +478,15 @@ void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, c
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t38 = s_i[2] + t11;
-    phi_q[3] = t38;
-    const jg_real t39 = s_i[1] + t9;
-    phi_q[13] = t39;
-    phi_q[4] = -t39;
-    phi_q[8] = -t38;
-    const jg_real t40 = s_i[0] + t7;
-    phi_q[9] = t40;
-    phi_q[14] = -t40;
+    const jg_real t41 = s_i[2] + t14;
+    phi_q[3] = t41;
+    const jg_real t42 = s_i[1] + t12;
+    phi_q[13] = t42;
+    phi_q[4] = -t42;
+    phi_q[8] = -t41;
+    const jg_real t43 = s_i[0] + t10;
+    phi_q[9] = t43;
+    phi_q[14] = -t43;
     const jg_real A_ij_0_ = C_j[0] * f_star_0 + g_star_0 * C_j[3] + C_i[6] * C_j[6];
     phi_q[18] = A_ij_0_;
     const jg_real A_ij_1_ = C_j[0] * f_star_1 + g_star_1 * C_j[3] + C_i[7] * C_j[6];
@@ -516,49 +533,48 @@ void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, c
     phi_q_t_lambda_q[3] = g_star_0 * lambda[3] - f_star_0 * lambda[4];
     phi_q_t_lambda_q[4] = g_star_1 * lambda[3] - f_star_1 * lambda[4];
     phi_q_t_lambda_q[5] = g_star_2 * lambda[3] - f_star_2 * lambda[4];
-    const jg_real t50 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t51 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t52 = cosine_0 * t50 - sine_0 * t51;
-    const jg_real t53 = cosine_0 * t51 + sine_0 * t50;
-    const jg_real t54 = C_j[0] * t52 - C_j[3] * t53;
-    phi_q_t_lambda_q[6] = t54;
-    const jg_real t55 = C_j[1] * t52 - C_j[4] * t53;
-    phi_q_t_lambda_q[7] = t55;
-    const jg_real t56 = C_j[2] * t52 - C_j[5] * t53;
-    phi_q_t_lambda_q[8] = t56;
-    phi_q_t_lambda_q[9] = s_j[1] * t56 - s_j[2] * t55;
-    phi_q_t_lambda_q[10] = s_j[2] * t54 - s_j[0] * t56;
-    phi_q_t_lambda_q[11] = s_j[0] * t55 - s_j[1] * t54;
+    const jg_real t53 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t54 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t55 = cosine_0 * t53 - sine_0 * t54;
+    const jg_real t56 = cosine_0 * t54 + sine_0 * t53;
+    const jg_real t57 = C_j[0] * t55 - C_j[3] * t56;
+    phi_q_t_lambda_q[6] = t57;
+    const jg_real t58 = C_j[1] * t55 - C_j[4] * t56;
+    phi_q_t_lambda_q[7] = t58;
+    const jg_real t59 = C_j[2] * t55 - C_j[5] * t56;
+    phi_q_t_lambda_q[8] = t59;
+    phi_q_t_lambda_q[9] = s_j[1] * t59 - s_j[2] * t58;
+    phi_q_t_lambda_q[10] = s_j[2] * t57 - s_j[0] * t59;
+    phi_q_t_lambda_q[11] = s_j[0] * t58 - s_j[1] * t57;
+    const jg_real t60 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t61 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t58 = C_j[3] * alphadot[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t60 = C_j[4] * alphadot[1];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t62 = C_j[5] * alphadot[1];
-    const jg_real t63 = t58 * s_j_cross_omega_j_0 + t60 * s_j_cross_omega_j_1 + t62 * s_j_cross_omega_j_2;
-    const jg_real t64 = C_j[0] * alphadot[1];
-    const jg_real t65 = C_j[1] * alphadot[1];
-    const jg_real t66 = C_j[2] * alphadot[1];
-    const jg_real t67 = t64 * s_j_cross_omega_j_0 + t65 * s_j_cross_omega_j_1 + t66 * s_j_cross_omega_j_2;
-    const jg_real t68 = v_j[0] * t64 + v_j[1] * t65 + v_j[2] * t66;
-    const jg_real t69 = v_j[0] * t58 + v_j[1] * t60 + v_j[2] * t62;
-    const jg_real t70 = omega_i[2] * alphadot[0];
-    const jg_real t71 = omega_i[1] * alphadot[0];
+    const jg_real t65 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t66 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t73 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t74 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t75 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t73 + A_ij_3_ * t74 + A_ij_6_ * t75 + (f_star_0 * t63 - g_star_0 * t67 + (g_star_0 * t68
-        - f_star_0 * t69 + (C_i[7] * t70 - C_i[8] * t71)) + omega_i_cross_v_i_0));
-    const jg_real t76 = omega_i[0] * alphadot[0];
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (g_star_0 * t60 - f_star_0 * t61) + alphadot[0] * (C_i[7] *
+        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (g_star_0 * t65 - f_star_0 * t66) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t73 + A_ij_4_ * t74 + A_ij_7_ * t75 + (f_star_1 * t63 - g_star_1 * t67 + (g_star_1 * t68
-        - f_star_1 * t69 + (C_i[8] * t76 - C_i[6] * t70)) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (g_star_1 * t60 - f_star_1 * t61) + alphadot[0] * (C_i[8] *
+        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (g_star_1 * t65 - f_star_1 * t66) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t73 + A_ij_5_ * t74 + A_ij_8_ * t75 + (f_star_2 * t63 - g_star_2 * t67 + (g_star_2 * t68
-        - f_star_2 * t69 + (C_i[6] * t71 - C_i[7] * t76)) + omega_i_cross_v_i_2));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (g_star_2 * t60 - f_star_2 * t61) + alphadot[0] * (C_i[6] *
+        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (g_star_2 * t65 - f_star_2 * t66) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[1] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]));
     gamma[4] = alphadot[1] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
     gamma[5] = JG_REAL(0.0);

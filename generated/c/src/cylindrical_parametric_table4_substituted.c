@@ -33,12 +33,16 @@ void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - C_i[6] * alpha[0];
@@ -170,31 +174,29 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t2 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[12] = t2;
-    phi_q_t_lambda_q[3] = C_i[6] * t2;
-    phi_q_t_lambda_q[4] = C_i[7] * t2;
-    phi_q_t_lambda_q[5] = C_i[8] * t2;
-    const jg_real t3 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t4 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t5 = cosine_0 * t3 - sine_0 * t4;
-    const jg_real t6 = cosine_0 * t4 + sine_0 * t3;
-    const jg_real t7 = C_j[0] * t5 - C_j[3] * t6;
-    phi_q_t_lambda_q[6] = t7;
-    const jg_real t8 = C_j[1] * t5 - C_j[4] * t6;
-    phi_q_t_lambda_q[7] = t8;
-    const jg_real t9 = C_j[2] * t5 - C_j[5] * t6;
-    phi_q_t_lambda_q[8] = t9;
-    const jg_real t10 = sine_0 * lambda[4];
-    const jg_real t11 = cosine_0 * lambda[4];
-    const jg_real t12 = cosine_0 * lambda[3];
-    const jg_real t13 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[9] = t9 * s_j[1] - t8 * s_j[2] + (C_j[0] * t10 + C_j[3] * t11 + (C_j[0] * t12 - C_j[3] * t13 -
-        t2 * C_j[6]));
-    phi_q_t_lambda_q[10] = t7 * s_j[2] - t9 * s_j[0] + (C_j[1] * t10 + C_j[4] * t11 + (C_j[1] * t12 - C_j[4] * t13 -
-        t2 * C_j[7]));
-    phi_q_t_lambda_q[11] = t8 * s_j[0] - t7 * s_j[1] + (C_j[2] * t10 + C_j[5] * t11 + (C_j[2] * t12 - C_j[5] * t13 -
-        t2 * C_j[8]));
+    phi_q_t_lambda_q[3] = C_i[6] * cosine_0 * lambda[5];
+    phi_q_t_lambda_q[4] = C_i[7] * cosine_0 * lambda[5];
+    phi_q_t_lambda_q[5] = C_i[8] * cosine_0 * lambda[5];
+    const jg_real t2 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t3 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t4 = cosine_0 * t2 - sine_0 * t3;
+    const jg_real t5 = cosine_0 * t3 + sine_0 * t2;
+    const jg_real t6 = C_j[0] * t4 - C_j[3] * t5;
+    phi_q_t_lambda_q[6] = t6;
+    const jg_real t7 = C_j[1] * t4 - C_j[4] * t5;
+    phi_q_t_lambda_q[7] = t7;
+    const jg_real t8 = C_j[2] * t4 - C_j[5] * t5;
+    phi_q_t_lambda_q[8] = t8;
+    const jg_real t9 = cosine_0 * lambda[3];
+    const jg_real t10 = sine_0 * lambda[3];
+    const jg_real t11 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[12] = t11;
+    phi_q_t_lambda_q[9] = t8 * s_j[1] - t7 * s_j[2] + (C_j[0] * t9 - C_j[3] * t10 - C_j[6] * t11 + lambda[4] *
+        (sine_0 * C_j[0] + cosine_0 * C_j[3]));
+    phi_q_t_lambda_q[10] = t6 * s_j[2] - t8 * s_j[0] + (C_j[1] * t9 - C_j[4] * t10 - C_j[7] * t11 + lambda[4] *
+        (sine_0 * C_j[1] + cosine_0 * C_j[4]));
+    phi_q_t_lambda_q[11] = t7 * s_j[0] - t6 * s_j[1] + (C_j[2] * t9 - C_j[5] * t10 - C_j[8] * t11 + lambda[4] *
+        (sine_0 * C_j[2] + cosine_0 * C_j[5]));
 }
 
 void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -216,48 +218,48 @@ void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRI
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t1 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t2 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real t7 = cosine_0 * C_jt_omega_j_cross_v_j_0 - sine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real t8 = sine_0 * C_jt_omega_j_cross_v_j_0 + cosine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_omega_j_cross_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t11 = C_j[3] * alphadot[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t13 = C_j[4] * alphadot[1];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t15 = C_j[5] * alphadot[1];
-    const jg_real t16 = t11 * s_j_cross_omega_j_0 + t13 * s_j_cross_omega_j_1 + t15 * s_j_cross_omega_j_2;
-    const jg_real t17 = C_j[0] * alphadot[1];
-    const jg_real t18 = C_j[1] * alphadot[1];
-    const jg_real t19 = C_j[2] * alphadot[1];
-    const jg_real t20 = t17 * s_j_cross_omega_j_0 + t18 * s_j_cross_omega_j_1 + t19 * s_j_cross_omega_j_2;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t20;
-    const jg_real t22 = sine_0 * t16 - cosine_0 * t20;
-    const jg_real t23 = v_j[0] * t17 + v_j[1] * t18 + v_j[2] * t19;
-    const jg_real t24 = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t15;
-    const jg_real t25 = cosine_0 * t23 - sine_0 * t24;
-    const jg_real t26 = cosine_0 * t24 + sine_0 * t23;
-    const jg_real t27 = omega_i[2] * alphadot[0];
-    const jg_real t28 = omega_i[1] * alphadot[0];
+    const jg_real t14 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t15 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t16 = cosine_0 * t14 - sine_0 * t15;
+    const jg_real t17 = cosine_0 * t15 + sine_0 * t14;
+    const jg_real t18 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t19 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t20 = cosine_0 * t18 - sine_0 * t19;
+    const jg_real t21 = cosine_0 * t19 + sine_0 * t18;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (C_i[0] * t21 + C_i[3] * t22 + (C_i[3] * t25 - C_i[0] *
-        t26 + (C_i[7] * t27 - C_i[8] * t28)) + omega_i_cross_v_i_0));
-    const jg_real t30 = omega_i[0] * alphadot[0];
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (C_i[3] * t20 - C_i[0] * t21) + alphadot[0] * (C_i[7] *
+        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (C_i[3] * t16 - C_i[0] * t17) + omega_i_cross_v_i_0);
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (C_i[1] * t21 + C_i[4] * t22 + (C_i[4] * t25 - C_i[1] *
-        t26 + (C_i[8] * t30 - C_i[6] * t27)) + omega_i_cross_v_i_1));
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (C_i[4] * t20 - C_i[1] * t21) + alphadot[0] * (C_i[8] *
+        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (C_i[4] * t16 - C_i[1] * t17) + omega_i_cross_v_i_1);
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[2] * t21 + C_i[5] * t22 + (C_i[5] * t25 - C_i[2] *
-        t26 + (C_i[6] * t28 - C_i[7] * t30)) + omega_i_cross_v_i_2));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (C_i[5] * t20 - C_i[2] * t21) + alphadot[0] * (C_i[6] *
+        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (C_i[5] * t16 - C_i[2] * t17) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[1] * (omega_j[0] * (cosine_0 * C_j[0] - sine_0 * C_j[3]) + omega_j[1] * (cosine_0 * C_j[1]
         - sine_0 * C_j[4]) + omega_j[2] * (cosine_0 * C_j[2] - sine_0 * C_j[5])));
     gamma[4] = -(alphadot[1] * (omega_j[0] * (sine_0 * C_j[0] + cosine_0 * C_j[3]) + omega_j[1] * (sine_0 * C_j[1] +
@@ -279,17 +281,24 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t7 = cosine_0 * C_jt_s_j_cross_omega_j_0 - sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t8 = sine_0 * C_jt_s_j_cross_omega_j_0 + cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -299,17 +308,19 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
-    const jg_real t16 = s_i[1] + C_i[7] * alpha[0];
-    const jg_real t17 = s_i[2] + C_i[8] * alpha[0];
-    phi_q_v[0] = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (t16 * omega_i[2] - t17 * omega_i[1] + (A_ij_v_j_0 -
-        v_i[0] - C_i[6] * alphadot[0]));
+    const jg_real t17 = s_i[1] + C_i[7] * alpha[0];
+    const jg_real t18 = s_i[2] + C_i[8] * alpha[0];
+    phi_q_v[0] = t17 * omega_i[2] - t18 * omega_i[1] + (A_ij_v_j_0 - v_i[0] - C_i[6] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
-    const jg_real t19 = s_i[0] + C_i[6] * alpha[0];
-    phi_q_v[1] = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (t17 * omega_i[0] - t19 * omega_i[2] + (A_ij_v_j_1 -
-        v_i[1] - C_i[7] * alphadot[0]));
+    const jg_real t21 = s_i[0] + C_i[6] * alpha[0];
+    phi_q_v[1] = t18 * omega_i[0] - t21 * omega_i[2] + (A_ij_v_j_1 - v_i[1] - C_i[7] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
-    phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (t19 * omega_i[1] - t16 * omega_i[0] + (A_ij_v_j_2 -
-        v_i[2] - C_i[8] * alphadot[0]));
+    phi_q_v[2] = t21 * omega_i[1] - t17 * omega_i[0] + (A_ij_v_j_2 - v_i[2] - C_i[8] * alphadot[0]) -
+        A_ij_s_j_cross_omega_j_2;
     phi_q_v[3] = omega_j[0] * (cosine_0 * C_j[3] + sine_0 * C_j[0]) + omega_j[1] * (cosine_0 * C_j[4] + sine_0 *
         C_j[1]) + omega_j[2] * (cosine_0 * C_j[5] + sine_0 * C_j[2]) - (C_i[3] * omega_i[0] + C_i[4] * omega_i[1] +
         C_i[5] * omega_i[2]);
@@ -353,16 +364,14 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
     phi_q_t_lambda[7] = t12;
     const jg_real t13 = C_j[2] * t8 + C_j[5] * t9 + C_j[8] * t10;
     phi_q_t_lambda[8] = t13;
-    const jg_real t14 = sine_0 * lambda[4];
-    const jg_real t15 = cosine_0 * lambda[4];
-    const jg_real t16 = sine_0 * lambda[3];
-    const jg_real t17 = cosine_0 * lambda[3];
-    phi_q_t_lambda[9] = t13 * s_j[1] - t12 * s_j[2] + (C_j[3] * t14 - C_j[0] * t15 + (C_j[0] * t16 + C_j[3] * t17 -
-        t2 * C_j[6]));
-    phi_q_t_lambda[10] = t11 * s_j[2] - t13 * s_j[0] + (C_j[4] * t14 - C_j[1] * t15 + (C_j[1] * t16 + C_j[4] * t17 -
-        t2 * C_j[7]));
-    phi_q_t_lambda[11] = t12 * s_j[0] - t11 * s_j[1] + (C_j[5] * t14 - C_j[2] * t15 + (C_j[2] * t16 + C_j[5] * t17 -
-        t2 * C_j[8]));
+    const jg_real t14 = sine_0 * lambda[3];
+    const jg_real t15 = cosine_0 * lambda[3];
+    phi_q_t_lambda[9] = t13 * s_j[1] - t12 * s_j[2] + (C_j[0] * t14 + C_j[3] * t15 - t2 * C_j[6] + lambda[4] *
+        (sine_0 * C_j[3] - cosine_0 * C_j[0]));
+    phi_q_t_lambda[10] = t11 * s_j[2] - t13 * s_j[0] + (C_j[1] * t14 + C_j[4] * t15 - t2 * C_j[7] + lambda[4] *
+        (sine_0 * C_j[4] - cosine_0 * C_j[1]));
+    phi_q_t_lambda[11] = t12 * s_j[0] - t11 * s_j[1] + (C_j[2] * t14 + C_j[5] * t15 - t2 * C_j[8] + lambda[4] *
+        (sine_0 * C_j[5] - cosine_0 * C_j[2]));
     phi_q_t_lambda[12] = -t10;
 }
 
@@ -383,22 +392,26 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t7 = C_i[6] * alpha[0];
-    phi[0] = dp_ij_0 - t7;
+    const jg_real t10 = C_i[6] * alpha[0];
+    phi[0] = dp_ij_0 - t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = C_i[7] * alpha[0];
-    phi[1] = dp_ij_1 - t9;
+    const jg_real t12 = C_i[7] * alpha[0];
+    phi[1] = dp_ij_1 - t12;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t11 = C_i[8] * alpha[0];
-    phi[2] = dp_ij_2 - t11;
+    const jg_real t14 = C_i[8] * alpha[0];
+    phi[2] = dp_ij_2 - t14;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -429,20 +442,20 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t29 = s_i[2] + t11;
-    phi_q[3] = t29;
-    const jg_real t30 = s_i[1] + t9;
-    phi_q[13] = t30;
-    phi_q[4] = -t30;
+    const jg_real t32 = s_i[2] + t14;
+    phi_q[3] = t32;
+    const jg_real t33 = s_i[1] + t12;
+    phi_q[13] = t33;
+    phi_q[4] = -t33;
     phi_q[5] = -C_i[3];
     phi_q[48] = sine_0;
     phi_q[7] = C_i[6] * sine_0;
-    phi_q[8] = -t29;
-    const jg_real t31 = s_i[0] + t7;
-    phi_q[9] = t31;
+    phi_q[8] = -t32;
+    const jg_real t34 = s_i[0] + t10;
+    phi_q[9] = t34;
     phi_q[10] = -C_i[4];
     phi_q[12] = C_i[7] * sine_0;
-    phi_q[14] = -t31;
+    phi_q[14] = -t34;
     phi_q[15] = -C_i[5];
     phi_q[17] = C_i[8] * sine_0;
     /* C_i_H = C_i H */
@@ -473,26 +486,26 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q[27] = s_j[1] * A_ij_6_ - s_j[2] * A_ij_3_;
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
-    const jg_real t47 = C_j[3] * cosine_0 + C_j[0] * sine_0;
-    phi_q[30] = t47;
-    const jg_real t48 = C_j[3] * sine_0 - C_j[0] * cosine_0;
-    phi_q[31] = t48;
+    const jg_real t50 = C_j[3] * cosine_0 + C_j[0] * sine_0;
+    phi_q[30] = t50;
+    const jg_real t51 = C_j[3] * sine_0 - C_j[0] * cosine_0;
+    phi_q[31] = t51;
     phi_q[32] = -(C_j[6] * sine_0);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
-    const jg_real t49 = C_j[4] * cosine_0 + C_j[1] * sine_0;
-    phi_q[36] = t49;
-    const jg_real t50 = C_j[4] * sine_0 - C_j[1] * cosine_0;
-    phi_q[37] = t50;
+    const jg_real t52 = C_j[4] * cosine_0 + C_j[1] * sine_0;
+    phi_q[36] = t52;
+    const jg_real t53 = C_j[4] * sine_0 - C_j[1] * cosine_0;
+    phi_q[37] = t53;
     phi_q[38] = -(C_j[7] * sine_0);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
-    const jg_real t51 = C_j[5] * cosine_0 + C_j[2] * sine_0;
-    phi_q[42] = t51;
-    const jg_real t52 = C_j[5] * sine_0 - C_j[2] * cosine_0;
-    phi_q[43] = t52;
+    const jg_real t54 = C_j[5] * cosine_0 + C_j[2] * sine_0;
+    phi_q[42] = t54;
+    const jg_real t55 = C_j[5] * sine_0 - C_j[2] * cosine_0;
+    phi_q[43] = t55;
     phi_q[44] = -(C_j[8] * sine_0);
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
@@ -500,66 +513,66 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
     phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
     phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
-    const jg_real t53 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[12] = t53;
-    phi_q_t_lambda_q[3] = C_i[6] * t53;
-    phi_q_t_lambda_q[4] = C_i[7] * t53;
-    phi_q_t_lambda_q[5] = C_i[8] * t53;
-    const jg_real t54 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t55 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t56 = cosine_0 * t54 - sine_0 * t55;
-    const jg_real t57 = cosine_0 * t55 + sine_0 * t54;
-    const jg_real t58 = C_j[0] * t56 - C_j[3] * t57;
-    phi_q_t_lambda_q[6] = t58;
-    const jg_real t59 = C_j[1] * t56 - C_j[4] * t57;
-    phi_q_t_lambda_q[7] = t59;
-    const jg_real t60 = C_j[2] * t56 - C_j[5] * t57;
-    phi_q_t_lambda_q[8] = t60;
-    const jg_real t61 = sine_0 * lambda[4];
-    const jg_real t62 = cosine_0 * lambda[4];
-    const jg_real t63 = cosine_0 * lambda[3];
-    const jg_real t64 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[9] = s_j[1] * t60 - s_j[2] * t59 + (C_j[0] * t61 + C_j[3] * t62 + (C_j[0] * t63 - C_j[3] * t64
-        - C_j[6] * t53));
-    phi_q_t_lambda_q[10] = s_j[2] * t58 - s_j[0] * t60 + (C_j[1] * t61 + C_j[4] * t62 + (C_j[1] * t63 - C_j[4] * t64
-        - C_j[7] * t53));
-    phi_q_t_lambda_q[11] = s_j[0] * t59 - s_j[1] * t58 + (C_j[2] * t61 + C_j[5] * t62 + (C_j[2] * t63 - C_j[5] * t64
-        - C_j[8] * t53));
+    const jg_real t56 = C_i[6] * cosine_0;
+    phi_q_t_lambda_q[3] = lambda[5] * t56;
+    const jg_real t57 = C_i[7] * cosine_0;
+    phi_q_t_lambda_q[4] = lambda[5] * t57;
+    const jg_real t58 = C_i[8] * cosine_0;
+    phi_q_t_lambda_q[5] = lambda[5] * t58;
+    const jg_real t59 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t60 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t61 = cosine_0 * t59 - sine_0 * t60;
+    const jg_real t62 = cosine_0 * t60 + sine_0 * t59;
+    const jg_real t63 = C_j[0] * t61 - C_j[3] * t62;
+    phi_q_t_lambda_q[6] = t63;
+    const jg_real t64 = C_j[1] * t61 - C_j[4] * t62;
+    phi_q_t_lambda_q[7] = t64;
+    const jg_real t65 = C_j[2] * t61 - C_j[5] * t62;
+    phi_q_t_lambda_q[8] = t65;
+    const jg_real t66 = cosine_0 * lambda[3];
+    const jg_real t67 = sine_0 * lambda[3];
+    const jg_real t68 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[12] = t68;
+    phi_q_t_lambda_q[9] = s_j[1] * t65 - s_j[2] * t64 + (C_j[0] * t66 - C_j[3] * t67 - C_j[6] * t68 + t50 *
+        lambda[4]);
+    phi_q_t_lambda_q[10] = s_j[2] * t63 - s_j[0] * t65 + (C_j[1] * t66 - C_j[4] * t67 - C_j[7] * t68 + t52 *
+        lambda[4]);
+    phi_q_t_lambda_q[11] = s_j[0] * t64 - s_j[1] * t63 + (C_j[2] * t66 - C_j[5] * t67 - C_j[8] * t68 + t54 *
+        lambda[4]);
+    const jg_real t69 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t70 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t66 = C_j[3] * alphadot[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t68 = C_j[4] * alphadot[1];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t70 = C_j[5] * alphadot[1];
-    const jg_real t71 = t66 * s_j_cross_omega_j_0 + t68 * s_j_cross_omega_j_1 + t70 * s_j_cross_omega_j_2;
-    const jg_real t72 = C_j[0] * alphadot[1];
-    const jg_real t73 = C_j[1] * alphadot[1];
-    const jg_real t74 = C_j[2] * alphadot[1];
-    const jg_real t75 = t72 * s_j_cross_omega_j_0 + t73 * s_j_cross_omega_j_1 + t74 * s_j_cross_omega_j_2;
-    const jg_real t76 = v_j[0] * t72 + v_j[1] * t73 + v_j[2] * t74;
-    const jg_real t77 = v_j[0] * t66 + v_j[1] * t68 + v_j[2] * t70;
-    const jg_real t78 = omega_i[2] * alphadot[0];
-    const jg_real t79 = omega_i[1] * alphadot[0];
+    const jg_real t74 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t75 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t81 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t82 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t83 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t81 + A_ij_3_ * t82 + A_ij_6_ * t83 + (C_i_H_0 * t71 - C_i_H_3 * t75 + (C_i_H_3 * t76 -
-        C_i_H_0 * t77 + (C_i[7] * t78 - C_i[8] * t79)) + omega_i_cross_v_i_0));
-    const jg_real t84 = omega_i[0] * alphadot[0];
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (C_i_H_3 * t69 - C_i_H_0 * t70) + alphadot[0] * (C_i[7] *
+        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (C_i_H_3 * t74 - C_i_H_0 * t75) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t81 + A_ij_4_ * t82 + A_ij_7_ * t83 + (C_i_H_1 * t71 - C_i_H_4 * t75 + (C_i_H_4 * t76 -
-        C_i_H_1 * t77 + (C_i[8] * t84 - C_i[6] * t78)) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (C_i_H_4 * t69 - C_i_H_1 * t70) + alphadot[0] * (C_i[8] *
+        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (C_i_H_4 * t74 - C_i_H_1 * t75) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t81 + A_ij_5_ * t82 + A_ij_8_ * t83 + (C_i_H_2 * t71 - C_i_H_5 * t75 + (C_i_H_5 * t76 -
-        C_i_H_2 * t77 + (C_i[6] * t79 - C_i[7] * t84)) + omega_i_cross_v_i_2));
-    gamma[3] = alphadot[1] * (t48 * omega_j[0] + t50 * omega_j[1] + t52 * omega_j[2]);
-    gamma[4] = -(alphadot[1] * (t47 * omega_j[0] + t49 * omega_j[1] + t51 * omega_j[2]));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (C_i_H_5 * t69 - C_i_H_2 * t70) + alphadot[0] * (C_i[6] *
+        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (C_i_H_5 * t74 - C_i_H_2 * t75) + omega_i_cross_v_i_2);
+    gamma[3] = alphadot[1] * (t51 * omega_j[0] + t53 * omega_j[1] + t55 * omega_j[2]);
+    gamma[4] = -(alphadot[1] * (t50 * omega_j[0] + t52 * omega_j[1] + t54 * omega_j[2]));
     gamma[5] = alphadot[1] * (C_j[6] * cosine_0 * omega_j[0] + C_j[7] * cosine_0 * omega_j[1] + C_j[8] * cosine_0 *
-        omega_j[2]) - alphadot[1] * (C_i[6] * cosine_0 * omega_i[0] + C_i[7] * cosine_0 * omega_i[1] + C_i[8] *
-        cosine_0 * omega_i[2]) - alphadot[1] * alphadot[1] * cosine_0;
+        omega_j[2]) - alphadot[1] * (t56 * omega_i[0] + t57 * omega_i[1] + t58 * omega_i[2]) - alphadot[1] *
+        alphadot[1] * cosine_0;
 }
 
 void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -34,12 +34,16 @@ void jg_planar_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - (C_i[0] * alpha[0] + C_i[3] * alpha[1]);
@@ -180,31 +184,29 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    const jg_real t2 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[15] = t2;
-    phi_q_t_lambda_q[6] = C_i[6] * t2;
-    phi_q_t_lambda_q[7] = C_i[7] * t2;
-    phi_q_t_lambda_q[8] = C_i[8] * t2;
-    const jg_real t3 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t4 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t5 = cosine_0 * t3 - sine_0 * t4;
-    const jg_real t6 = cosine_0 * t4 + sine_0 * t3;
-    const jg_real t7 = C_j[0] * t5 - C_j[3] * t6;
-    phi_q_t_lambda_q[9] = t7;
-    const jg_real t8 = C_j[1] * t5 - C_j[4] * t6;
-    phi_q_t_lambda_q[10] = t8;
-    const jg_real t9 = C_j[2] * t5 - C_j[5] * t6;
-    phi_q_t_lambda_q[11] = t9;
-    const jg_real t10 = sine_0 * lambda[4];
-    const jg_real t11 = cosine_0 * lambda[4];
-    const jg_real t12 = cosine_0 * lambda[3];
-    const jg_real t13 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[12] = t9 * s_j[1] - t8 * s_j[2] + (C_j[0] * t10 + C_j[3] * t11 + (C_j[0] * t12 - C_j[3] * t13 -
-        t2 * C_j[6]));
-    phi_q_t_lambda_q[13] = t7 * s_j[2] - t9 * s_j[0] + (C_j[1] * t10 + C_j[4] * t11 + (C_j[1] * t12 - C_j[4] * t13 -
-        t2 * C_j[7]));
-    phi_q_t_lambda_q[14] = t8 * s_j[0] - t7 * s_j[1] + (C_j[2] * t10 + C_j[5] * t11 + (C_j[2] * t12 - C_j[5] * t13 -
-        t2 * C_j[8]));
+    phi_q_t_lambda_q[6] = C_i[6] * cosine_0 * lambda[5];
+    phi_q_t_lambda_q[7] = C_i[7] * cosine_0 * lambda[5];
+    phi_q_t_lambda_q[8] = C_i[8] * cosine_0 * lambda[5];
+    const jg_real t2 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t3 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t4 = cosine_0 * t2 - sine_0 * t3;
+    const jg_real t5 = cosine_0 * t3 + sine_0 * t2;
+    const jg_real t6 = C_j[0] * t4 - C_j[3] * t5;
+    phi_q_t_lambda_q[9] = t6;
+    const jg_real t7 = C_j[1] * t4 - C_j[4] * t5;
+    phi_q_t_lambda_q[10] = t7;
+    const jg_real t8 = C_j[2] * t4 - C_j[5] * t5;
+    phi_q_t_lambda_q[11] = t8;
+    const jg_real t9 = cosine_0 * lambda[3];
+    const jg_real t10 = sine_0 * lambda[3];
+    const jg_real t11 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[15] = t11;
+    phi_q_t_lambda_q[12] = t8 * s_j[1] - t7 * s_j[2] + (C_j[0] * t9 - C_j[3] * t10 - C_j[6] * t11 + lambda[4] *
+        (sine_0 * C_j[0] + cosine_0 * C_j[3]));
+    phi_q_t_lambda_q[13] = t6 * s_j[2] - t8 * s_j[0] + (C_j[1] * t9 - C_j[4] * t10 - C_j[7] * t11 + lambda[4] *
+        (sine_0 * C_j[1] + cosine_0 * C_j[4]));
+    phi_q_t_lambda_q[14] = t7 * s_j[0] - t6 * s_j[1] + (C_j[2] * t9 - C_j[5] * t10 - C_j[8] * t11 + lambda[4] *
+        (sine_0 * C_j[2] + cosine_0 * C_j[5]));
 }
 
 void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -226,51 +228,51 @@ void jg_planar_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT al
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t1 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t2 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real t7 = cosine_0 * C_jt_omega_j_cross_v_j_0 - sine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real t8 = sine_0 * C_jt_omega_j_cross_v_j_0 + cosine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_omega_j_cross_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t11 = C_j[3] * alphadot[2];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t13 = C_j[4] * alphadot[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t15 = C_j[5] * alphadot[2];
-    const jg_real t16 = t11 * s_j_cross_omega_j_0 + t13 * s_j_cross_omega_j_1 + t15 * s_j_cross_omega_j_2;
-    const jg_real t17 = C_j[0] * alphadot[2];
-    const jg_real t18 = C_j[1] * alphadot[2];
-    const jg_real t19 = C_j[2] * alphadot[2];
-    const jg_real t20 = t17 * s_j_cross_omega_j_0 + t18 * s_j_cross_omega_j_1 + t19 * s_j_cross_omega_j_2;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t20;
-    const jg_real t22 = sine_0 * t16 - cosine_0 * t20;
-    const jg_real t23 = v_j[0] * t17 + v_j[1] * t18 + v_j[2] * t19;
-    const jg_real t24 = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t15;
-    const jg_real t25 = cosine_0 * t23 - sine_0 * t24;
-    const jg_real t26 = cosine_0 * t24 + sine_0 * t23;
-    const jg_real t27 = omega_i[2] * alphadot[0];
-    const jg_real t28 = omega_i[1] * alphadot[0];
-    const jg_real t29 = omega_i[2] * alphadot[1];
-    const jg_real t30 = omega_i[1] * alphadot[1];
+    const jg_real t14 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t15 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t16 = cosine_0 * t14 - sine_0 * t15;
+    const jg_real t17 = cosine_0 * t15 + sine_0 * t14;
+    const jg_real t18 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t19 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t20 = cosine_0 * t18 - sine_0 * t19;
+    const jg_real t21 = cosine_0 * t19 + sine_0 * t18;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (C_i[0] * t21 + C_i[3] * t22 + (C_i[4] * t29 - C_i[5] *
-        t30 + (C_i[3] * t25 - C_i[0] * t26 + (C_i[1] * t27 - C_i[2] * t28))) + omega_i_cross_v_i_0));
-    const jg_real t32 = omega_i[0] * alphadot[0];
-    const jg_real t33 = omega_i[0] * alphadot[1];
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[2] * (C_i[3] * t20 - C_i[0] * t21) + alphadot[0] * (C_i[1] *
+        omega_i[2] - C_i[2] * omega_i[1]) + alphadot[1] * (C_i[4] * omega_i[2] - C_i[5] * omega_i[1]) - alphadot[2]
+        * (C_i[3] * t16 - C_i[0] * t17) + omega_i_cross_v_i_0);
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (C_i[1] * t21 + C_i[4] * t22 + (C_i[5] * t33 - C_i[3] *
-        t29 + (C_i[4] * t25 - C_i[1] * t26 + (C_i[2] * t32 - C_i[0] * t27))) + omega_i_cross_v_i_1));
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[2] * (C_i[4] * t20 - C_i[1] * t21) + alphadot[0] * (C_i[2] *
+        omega_i[0] - C_i[0] * omega_i[2]) + alphadot[1] * (C_i[5] * omega_i[0] - C_i[3] * omega_i[2]) - alphadot[2]
+        * (C_i[4] * t16 - C_i[1] * t17) + omega_i_cross_v_i_1);
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[2] * t21 + C_i[5] * t22 + (C_i[3] * t30 - C_i[4] *
-        t33 + (C_i[5] * t25 - C_i[2] * t26 + (C_i[0] * t28 - C_i[1] * t32))) + omega_i_cross_v_i_2));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[2] * (C_i[5] * t20 - C_i[2] * t21) + alphadot[0] * (C_i[0] *
+        omega_i[1] - C_i[1] * omega_i[0]) + alphadot[1] * (C_i[3] * omega_i[1] - C_i[4] * omega_i[0]) - alphadot[2]
+        * (C_i[5] * t16 - C_i[2] * t17) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[2] * (omega_j[0] * (cosine_0 * C_j[0] - sine_0 * C_j[3]) + omega_j[1] * (cosine_0 * C_j[1]
         - sine_0 * C_j[4]) + omega_j[2] * (cosine_0 * C_j[2] - sine_0 * C_j[5])));
     gamma[4] = -(alphadot[2] * (omega_j[0] * (sine_0 * C_j[0] + cosine_0 * C_j[3]) + omega_j[1] * (sine_0 * C_j[1] +
@@ -292,17 +294,24 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t7 = cosine_0 * C_jt_s_j_cross_omega_j_0 - sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t8 = sine_0 * C_jt_s_j_cross_omega_j_0 + cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -312,17 +321,19 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
-    const jg_real t16 = C_i[1] * alpha[0] + C_i[4] * alpha[1] + s_i[1];
-    const jg_real t17 = C_i[2] * alpha[0] + C_i[5] * alpha[1] + s_i[2];
-    phi_q_v[0] = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (t16 * omega_i[2] - t17 * omega_i[1] + (A_ij_v_j_0 -
-        v_i[0] - C_i[0] * alphadot[0] - C_i[3] * alphadot[1]));
+    const jg_real t17 = C_i[1] * alpha[0] + C_i[4] * alpha[1] + s_i[1];
+    const jg_real t18 = C_i[2] * alpha[0] + C_i[5] * alpha[1] + s_i[2];
+    phi_q_v[0] = t17 * omega_i[2] - t18 * omega_i[1] + (A_ij_v_j_0 - v_i[0] - C_i[0] * alphadot[0] - C_i[3] *
+        alphadot[1]) - A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
-    const jg_real t19 = C_i[0] * alpha[0] + C_i[3] * alpha[1] + s_i[0];
-    phi_q_v[1] = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (t17 * omega_i[0] - t19 * omega_i[2] + (A_ij_v_j_1 -
-        v_i[1] - C_i[1] * alphadot[0] - C_i[4] * alphadot[1]));
+    const jg_real t21 = C_i[0] * alpha[0] + C_i[3] * alpha[1] + s_i[0];
+    phi_q_v[1] = t18 * omega_i[0] - t21 * omega_i[2] + (A_ij_v_j_1 - v_i[1] - C_i[1] * alphadot[0] - C_i[4] *
+        alphadot[1]) - A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
-    phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (t19 * omega_i[1] - t16 * omega_i[0] + (A_ij_v_j_2 -
-        v_i[2] - C_i[2] * alphadot[0] - C_i[5] * alphadot[1]));
+    phi_q_v[2] = t21 * omega_i[1] - t17 * omega_i[0] + (A_ij_v_j_2 - v_i[2] - C_i[2] * alphadot[0] - C_i[5] *
+        alphadot[1]) - A_ij_s_j_cross_omega_j_2;
     phi_q_v[3] = omega_j[0] * (cosine_0 * C_j[3] + sine_0 * C_j[0]) + omega_j[1] * (cosine_0 * C_j[4] + sine_0 *
         C_j[1]) + omega_j[2] * (cosine_0 * C_j[5] + sine_0 * C_j[2]) - (C_i[3] * omega_i[0] + C_i[4] * omega_i[1] +
         C_i[5] * omega_i[2]);
@@ -366,16 +377,14 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RE
     phi_q_t_lambda[7] = t12;
     const jg_real t13 = C_j[2] * t8 + C_j[5] * t9 + C_j[8] * t10;
     phi_q_t_lambda[8] = t13;
-    const jg_real t14 = sine_0 * lambda[4];
-    const jg_real t15 = cosine_0 * lambda[4];
-    const jg_real t16 = sine_0 * lambda[3];
-    const jg_real t17 = cosine_0 * lambda[3];
-    phi_q_t_lambda[9] = t13 * s_j[1] - t12 * s_j[2] + (C_j[3] * t14 - C_j[0] * t15 + (C_j[0] * t16 + C_j[3] * t17 -
-        t4 * C_j[6]));
-    phi_q_t_lambda[10] = t11 * s_j[2] - t13 * s_j[0] + (C_j[4] * t14 - C_j[1] * t15 + (C_j[1] * t16 + C_j[4] * t17 -
-        t4 * C_j[7]));
-    phi_q_t_lambda[11] = t12 * s_j[0] - t11 * s_j[1] + (C_j[5] * t14 - C_j[2] * t15 + (C_j[2] * t16 + C_j[5] * t17 -
-        t4 * C_j[8]));
+    const jg_real t14 = sine_0 * lambda[3];
+    const jg_real t15 = cosine_0 * lambda[3];
+    phi_q_t_lambda[9] = t13 * s_j[1] - t12 * s_j[2] + (C_j[0] * t14 + C_j[3] * t15 - t4 * C_j[6] + lambda[4] *
+        (sine_0 * C_j[3] - cosine_0 * C_j[0]));
+    phi_q_t_lambda[10] = t11 * s_j[2] - t13 * s_j[0] + (C_j[1] * t14 + C_j[4] * t15 - t4 * C_j[7] + lambda[4] *
+        (sine_0 * C_j[4] - cosine_0 * C_j[1]));
+    phi_q_t_lambda[11] = t12 * s_j[0] - t11 * s_j[1] + (C_j[2] * t14 + C_j[5] * t15 - t4 * C_j[8] + lambda[4] *
+        (sine_0 * C_j[5] - cosine_0 * C_j[2]));
     phi_q_t_lambda[12] = -t6;
     phi_q_t_lambda[13] = -t7;
 }
@@ -397,25 +406,29 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi_q[6] = C_i[0];
-    const jg_real t7 = C_i[0] * alpha[0] + C_i[3] * alpha[1];
-    phi[0] = dp_ij_0 - t7;
+    const jg_real t10 = C_i[0] * alpha[0] + C_i[3] * alpha[1];
+    phi[0] = dp_ij_0 - t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi_q[11] = C_i[1];
-    const jg_real t9 = C_i[1] * alpha[0] + C_i[4] * alpha[1];
-    phi[1] = dp_ij_1 - t9;
+    const jg_real t12 = C_i[1] * alpha[0] + C_i[4] * alpha[1];
+    phi[1] = dp_ij_1 - t12;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi_q[16] = C_i[2];
-    const jg_real t11 = C_i[2] * alpha[0] + C_i[5] * alpha[1];
-    phi[2] = dp_ij_2 - t11;
+    const jg_real t14 = C_i[2] * alpha[0] + C_i[5] * alpha[1];
+    phi[2] = dp_ij_2 - t14;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -443,27 +456,27 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t29 = s_i[2] + t11;
-    phi_q[3] = t29;
-    const jg_real t30 = s_i[1] + t9;
-    phi_q[13] = t30;
-    phi_q[4] = -t30;
-    const jg_real t31 = -C_i[3];
-    phi_q[5] = t31;
-    phi_q[48] = t31;
+    const jg_real t32 = s_i[2] + t14;
+    phi_q[3] = t32;
+    const jg_real t33 = s_i[1] + t12;
+    phi_q[13] = t33;
+    phi_q[4] = -t33;
+    const jg_real t34 = -C_i[3];
+    phi_q[5] = t34;
+    phi_q[48] = t34;
     phi_q[51] = sine_0;
     phi_q[7] = C_i[6] * sine_0;
-    phi_q[8] = -t29;
-    const jg_real t32 = s_i[0] + t7;
-    phi_q[9] = t32;
-    const jg_real t33 = -C_i[4];
-    phi_q[10] = t33;
-    phi_q[49] = t33;
+    phi_q[8] = -t32;
+    const jg_real t35 = s_i[0] + t10;
+    phi_q[9] = t35;
+    const jg_real t36 = -C_i[4];
+    phi_q[10] = t36;
+    phi_q[49] = t36;
     phi_q[12] = C_i[7] * sine_0;
-    phi_q[14] = -t32;
-    const jg_real t34 = -C_i[5];
-    phi_q[15] = t34;
-    phi_q[50] = t34;
+    phi_q[14] = -t35;
+    const jg_real t37 = -C_i[5];
+    phi_q[15] = t37;
+    phi_q[50] = t37;
     phi_q[17] = C_i[8] * sine_0;
     /* C_i_H = C_i H */
     const jg_real C_i_H_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
@@ -493,26 +506,26 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q[27] = s_j[1] * A_ij_6_ - s_j[2] * A_ij_3_;
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
-    const jg_real t50 = C_j[3] * cosine_0 + C_j[0] * sine_0;
-    phi_q[30] = t50;
-    const jg_real t51 = C_j[3] * sine_0 - C_j[0] * cosine_0;
-    phi_q[31] = t51;
+    const jg_real t53 = C_j[3] * cosine_0 + C_j[0] * sine_0;
+    phi_q[30] = t53;
+    const jg_real t54 = C_j[3] * sine_0 - C_j[0] * cosine_0;
+    phi_q[31] = t54;
     phi_q[32] = -(C_j[6] * sine_0);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
-    const jg_real t52 = C_j[4] * cosine_0 + C_j[1] * sine_0;
-    phi_q[36] = t52;
-    const jg_real t53 = C_j[4] * sine_0 - C_j[1] * cosine_0;
-    phi_q[37] = t53;
+    const jg_real t55 = C_j[4] * cosine_0 + C_j[1] * sine_0;
+    phi_q[36] = t55;
+    const jg_real t56 = C_j[4] * sine_0 - C_j[1] * cosine_0;
+    phi_q[37] = t56;
     phi_q[38] = -(C_j[7] * sine_0);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
-    const jg_real t54 = C_j[5] * cosine_0 + C_j[2] * sine_0;
-    phi_q[42] = t54;
-    const jg_real t55 = C_j[5] * sine_0 - C_j[2] * cosine_0;
-    phi_q[43] = t55;
+    const jg_real t57 = C_j[5] * cosine_0 + C_j[2] * sine_0;
+    phi_q[42] = t57;
+    const jg_real t58 = C_j[5] * sine_0 - C_j[2] * cosine_0;
+    phi_q[43] = t58;
     phi_q[44] = -(C_j[8] * sine_0);
     phi_q[45] = -C_i[0];
     phi_q[46] = -C_i[1];
@@ -523,69 +536,69 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q_t_lambda_q[3] = C_i[5] * lambda[1] - C_i[4] * lambda[2];
     phi_q_t_lambda_q[4] = C_i[3] * lambda[2] - C_i[5] * lambda[0];
     phi_q_t_lambda_q[5] = C_i[4] * lambda[0] - C_i[3] * lambda[1];
-    const jg_real t56 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[15] = t56;
-    phi_q_t_lambda_q[6] = C_i[6] * t56;
-    phi_q_t_lambda_q[7] = C_i[7] * t56;
-    phi_q_t_lambda_q[8] = C_i[8] * t56;
-    const jg_real t57 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t58 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t59 = cosine_0 * t57 - sine_0 * t58;
-    const jg_real t60 = cosine_0 * t58 + sine_0 * t57;
-    const jg_real t61 = C_j[0] * t59 - C_j[3] * t60;
-    phi_q_t_lambda_q[9] = t61;
-    const jg_real t62 = C_j[1] * t59 - C_j[4] * t60;
-    phi_q_t_lambda_q[10] = t62;
-    const jg_real t63 = C_j[2] * t59 - C_j[5] * t60;
-    phi_q_t_lambda_q[11] = t63;
-    const jg_real t64 = sine_0 * lambda[4];
-    const jg_real t65 = cosine_0 * lambda[4];
-    const jg_real t66 = cosine_0 * lambda[3];
-    const jg_real t67 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[12] = s_j[1] * t63 - s_j[2] * t62 + (C_j[0] * t64 + C_j[3] * t65 + (C_j[0] * t66 - C_j[3] * t67
-        - C_j[6] * t56));
-    phi_q_t_lambda_q[13] = s_j[2] * t61 - s_j[0] * t63 + (C_j[1] * t64 + C_j[4] * t65 + (C_j[1] * t66 - C_j[4] * t67
-        - C_j[7] * t56));
-    phi_q_t_lambda_q[14] = s_j[0] * t62 - s_j[1] * t61 + (C_j[2] * t64 + C_j[5] * t65 + (C_j[2] * t66 - C_j[5] * t67
-        - C_j[8] * t56));
+    const jg_real t59 = C_i[6] * cosine_0;
+    phi_q_t_lambda_q[6] = lambda[5] * t59;
+    const jg_real t60 = C_i[7] * cosine_0;
+    phi_q_t_lambda_q[7] = lambda[5] * t60;
+    const jg_real t61 = C_i[8] * cosine_0;
+    phi_q_t_lambda_q[8] = lambda[5] * t61;
+    const jg_real t62 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t63 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t64 = cosine_0 * t62 - sine_0 * t63;
+    const jg_real t65 = cosine_0 * t63 + sine_0 * t62;
+    const jg_real t66 = C_j[0] * t64 - C_j[3] * t65;
+    phi_q_t_lambda_q[9] = t66;
+    const jg_real t67 = C_j[1] * t64 - C_j[4] * t65;
+    phi_q_t_lambda_q[10] = t67;
+    const jg_real t68 = C_j[2] * t64 - C_j[5] * t65;
+    phi_q_t_lambda_q[11] = t68;
+    const jg_real t69 = cosine_0 * lambda[3];
+    const jg_real t70 = sine_0 * lambda[3];
+    const jg_real t71 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[15] = t71;
+    phi_q_t_lambda_q[12] = s_j[1] * t68 - s_j[2] * t67 + (C_j[0] * t69 - C_j[3] * t70 - C_j[6] * t71 + t53 *
+        lambda[4]);
+    phi_q_t_lambda_q[13] = s_j[2] * t66 - s_j[0] * t68 + (C_j[1] * t69 - C_j[4] * t70 - C_j[7] * t71 + t55 *
+        lambda[4]);
+    phi_q_t_lambda_q[14] = s_j[0] * t67 - s_j[1] * t66 + (C_j[2] * t69 - C_j[5] * t70 - C_j[8] * t71 + t57 *
+        lambda[4]);
+    const jg_real t72 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t73 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t69 = C_j[3] * alphadot[2];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t71 = C_j[4] * alphadot[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t73 = C_j[5] * alphadot[2];
-    const jg_real t74 = t69 * s_j_cross_omega_j_0 + t71 * s_j_cross_omega_j_1 + t73 * s_j_cross_omega_j_2;
-    const jg_real t75 = C_j[0] * alphadot[2];
-    const jg_real t76 = C_j[1] * alphadot[2];
-    const jg_real t77 = C_j[2] * alphadot[2];
-    const jg_real t78 = t75 * s_j_cross_omega_j_0 + t76 * s_j_cross_omega_j_1 + t77 * s_j_cross_omega_j_2;
-    const jg_real t79 = v_j[0] * t75 + v_j[1] * t76 + v_j[2] * t77;
-    const jg_real t80 = v_j[0] * t69 + v_j[1] * t71 + v_j[2] * t73;
-    const jg_real t81 = omega_i[2] * alphadot[0];
-    const jg_real t82 = omega_i[1] * alphadot[0];
-    const jg_real t83 = omega_i[2] * alphadot[1];
-    const jg_real t84 = omega_i[1] * alphadot[1];
+    const jg_real t77 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t78 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t86 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t87 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t88 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t86 + A_ij_3_ * t87 + A_ij_6_ * t88 + (C_i_H_0 * t74 - C_i_H_3 * t78 + (C_i[4] * t83 -
-        C_i[5] * t84 + (C_i_H_3 * t79 - C_i_H_0 * t80 + (C_i[1] * t81 - C_i[2] * t82))) + omega_i_cross_v_i_0));
-    const jg_real t89 = omega_i[0] * alphadot[0];
-    const jg_real t90 = omega_i[0] * alphadot[1];
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[2] * (C_i_H_3 * t72 - C_i_H_0 * t73) + alphadot[0] * (C_i[1] *
+        omega_i[2] - C_i[2] * omega_i[1]) + alphadot[1] * (C_i[4] * omega_i[2] - C_i[5] * omega_i[1]) - alphadot[2]
+        * (C_i_H_3 * t77 - C_i_H_0 * t78) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t86 + A_ij_4_ * t87 + A_ij_7_ * t88 + (C_i_H_1 * t74 - C_i_H_4 * t78 + (C_i[5] * t90 -
-        C_i[3] * t83 + (C_i_H_4 * t79 - C_i_H_1 * t80 + (C_i[2] * t89 - C_i[0] * t81))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[2] * (C_i_H_4 * t72 - C_i_H_1 * t73) + alphadot[0] * (C_i[2] *
+        omega_i[0] - C_i[0] * omega_i[2]) + alphadot[1] * (C_i[5] * omega_i[0] - C_i[3] * omega_i[2]) - alphadot[2]
+        * (C_i_H_4 * t77 - C_i_H_1 * t78) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t86 + A_ij_5_ * t87 + A_ij_8_ * t88 + (C_i_H_2 * t74 - C_i_H_5 * t78 + (C_i[3] * t84 -
-        C_i[4] * t90 + (C_i_H_5 * t79 - C_i_H_2 * t80 + (C_i[0] * t82 - C_i[1] * t89))) + omega_i_cross_v_i_2));
-    gamma[3] = alphadot[2] * (t51 * omega_j[0] + t53 * omega_j[1] + t55 * omega_j[2]);
-    gamma[4] = -(alphadot[2] * (t50 * omega_j[0] + t52 * omega_j[1] + t54 * omega_j[2]));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[2] * (C_i_H_5 * t72 - C_i_H_2 * t73) + alphadot[0] * (C_i[0] *
+        omega_i[1] - C_i[1] * omega_i[0]) + alphadot[1] * (C_i[3] * omega_i[1] - C_i[4] * omega_i[0]) - alphadot[2]
+        * (C_i_H_5 * t77 - C_i_H_2 * t78) + omega_i_cross_v_i_2);
+    gamma[3] = alphadot[2] * (t54 * omega_j[0] + t56 * omega_j[1] + t58 * omega_j[2]);
+    gamma[4] = -(alphadot[2] * (t53 * omega_j[0] + t55 * omega_j[1] + t57 * omega_j[2]));
     gamma[5] = alphadot[2] * (C_j[6] * cosine_0 * omega_j[0] + C_j[7] * cosine_0 * omega_j[1] + C_j[8] * cosine_0 *
-        omega_j[2]) - alphadot[2] * (C_i[6] * cosine_0 * omega_i[0] + C_i[7] * cosine_0 * omega_i[1] + C_i[8] *
-        cosine_0 * omega_i[2]) - alphadot[2] * alphadot[2] * cosine_0;
+        omega_j[2]) - alphadot[2] * (t59 * omega_i[0] + t60 * omega_i[1] + t61 * omega_i[2]) - alphadot[2] *
+        alphadot[2] * cosine_0;
 }
 
 void jg_planar_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -34,14 +34,18 @@ void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -176,74 +180,68 @@ void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i
     phi_q_t_lambda_q[1] = t16 * A_ij_h_j_1 - s_i[0] * t14;
     phi_q_t_lambda_q[2] = t16 * A_ij_h_j_2 - s_i[0] * t12;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t18 = t16 * A_ij_0 + t10 * A_ij_1 + t4 * A_ij_2;
-    const jg_real t19 = C_j[6] * t18;
-    const jg_real t20 = C_j[7] * t18;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t22 = C_j[8] * t18;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t25 = t16 * A_ij_h_j_0;
-    const jg_real t26 = t11 + t25;
-    const jg_real t27 = t5 + t26;
-    const jg_real t28 = A_ij_0 * t27;
-    phi_q_t_lambda_q[3] = t28 - (A_ij_0 * t19 + A_ij_3 * t20 + A_ij_6 * t22);
-    const jg_real t29 = t16 * A_ij_3 + t10 * A_ij_4 + t4 * A_ij_5;
-    const jg_real t30 = C_j[6] * t29;
-    const jg_real t31 = C_j[7] * t29;
-    const jg_real t32 = C_j[8] * t29;
-    const jg_real t33 = A_ij_3 * t27;
-    phi_q_t_lambda_q[4] = t33 - (A_ij_0 * t30 + A_ij_3 * t31 + A_ij_6 * t32);
-    const jg_real t34 = t16 * A_ij_6 + t10 * A_ij_7 + t4 * A_ij_8;
-    const jg_real t35 = C_j[6] * t34;
-    const jg_real t36 = C_j[7] * t34;
-    const jg_real t37 = C_j[8] * t34;
-    const jg_real t38 = A_ij_6 * t27;
-    phi_q_t_lambda_q[5] = t38 - (A_ij_0 * t35 + A_ij_3 * t36 + A_ij_6 * t37);
-    const jg_real t39 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
-    phi_q_t_lambda_q[6] = t10 * A_ij_h_j_0 - s_i[1] * t39;
-    const jg_real t40 = s_i[0] * t39;
-    phi_q_t_lambda_q[7] = t13 + t40 - (t5 + t25);
+    const jg_real t21 = t16 * A_ij_h_j_0;
+    const jg_real t22 = t11 + t21;
+    const jg_real t23 = t5 + t22;
+    const jg_real t24 = t16 * A_ij_0 + t10 * A_ij_1 + t4 * A_ij_2;
+    const jg_real t25 = A_ij_0 * t23 - A_ij_h_j_0 * t24;
+    phi_q_t_lambda_q[3] = t25;
+    phi_q_t_lambda_q[18] = t25;
+    const jg_real t26 = t16 * A_ij_3 + t10 * A_ij_4 + t4 * A_ij_5;
+    const jg_real t27 = A_ij_3 * t23 - A_ij_h_j_0 * t26;
+    phi_q_t_lambda_q[4] = t27;
+    phi_q_t_lambda_q[24] = t27;
+    const jg_real t28 = t16 * A_ij_6 + t10 * A_ij_7 + t4 * A_ij_8;
+    const jg_real t29 = A_ij_6 * t23 - A_ij_h_j_0 * t28;
+    phi_q_t_lambda_q[5] = t29;
+    phi_q_t_lambda_q[30] = t29;
+    const jg_real t30 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
+    phi_q_t_lambda_q[6] = t10 * A_ij_h_j_0 - s_i[1] * t30;
+    const jg_real t31 = s_i[0] * t30;
+    phi_q_t_lambda_q[7] = t13 + t31 - (t5 + t21);
     phi_q_t_lambda_q[8] = t10 * A_ij_h_j_2 - s_i[1] * t12;
-    const jg_real t41 = A_ij_1 * t27;
-    phi_q_t_lambda_q[9] = t41 - (A_ij_1 * t19 + A_ij_4 * t20 + A_ij_7 * t22);
-    const jg_real t42 = A_ij_4 * t27;
-    phi_q_t_lambda_q[10] = t42 - (A_ij_1 * t30 + A_ij_4 * t31 + A_ij_7 * t32);
-    const jg_real t43 = A_ij_7 * t27;
-    phi_q_t_lambda_q[11] = t43 - (A_ij_1 * t35 + A_ij_4 * t36 + A_ij_7 * t37);
-    phi_q_t_lambda_q[12] = t4 * A_ij_h_j_0 - s_i[2] * t39;
+    const jg_real t32 = A_ij_1 * t23 - A_ij_h_j_1 * t24;
+    phi_q_t_lambda_q[9] = t32;
+    phi_q_t_lambda_q[19] = t32;
+    const jg_real t33 = A_ij_4 * t23 - A_ij_h_j_1 * t26;
+    phi_q_t_lambda_q[10] = t33;
+    phi_q_t_lambda_q[25] = t33;
+    const jg_real t34 = A_ij_7 * t23 - A_ij_h_j_1 * t28;
+    phi_q_t_lambda_q[11] = t34;
+    phi_q_t_lambda_q[31] = t34;
+    phi_q_t_lambda_q[12] = t4 * A_ij_h_j_0 - s_i[2] * t30;
     phi_q_t_lambda_q[13] = t4 * A_ij_h_j_1 - s_i[2] * t14;
-    phi_q_t_lambda_q[14] = t15 + t40 - t26;
-    const jg_real t44 = A_ij_2 * t27;
-    phi_q_t_lambda_q[15] = t44 - (A_ij_2 * t19 + A_ij_5 * t20 + A_ij_8 * t22);
-    const jg_real t45 = A_ij_5 * t27;
-    phi_q_t_lambda_q[16] = t45 - (A_ij_2 * t30 + A_ij_5 * t31 + A_ij_8 * t32);
-    const jg_real t46 = A_ij_8 * t27;
-    phi_q_t_lambda_q[17] = t46 - (A_ij_2 * t35 + A_ij_5 * t36 + A_ij_8 * t37);
-    phi_q_t_lambda_q[18] = t28 - A_ij_h_j_0 * t18;
-    phi_q_t_lambda_q[19] = t41 - A_ij_h_j_1 * t18;
-    phi_q_t_lambda_q[20] = t44 - A_ij_h_j_2 * t18;
-    const jg_real t47 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real t48 = s_j[2] * t47;
-    const jg_real t49 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    const jg_real t50 = s_j[1] * t49;
-    phi_q_t_lambda_q[21] = -(t48 + t50 + (t31 + t37));
-    phi_q_t_lambda_q[22] = t30 + s_j[0] * t49;
-    phi_q_t_lambda_q[23] = t35 + s_j[0] * t47;
-    phi_q_t_lambda_q[24] = t33 - A_ij_h_j_0 * t29;
-    phi_q_t_lambda_q[25] = t42 - A_ij_h_j_1 * t29;
-    phi_q_t_lambda_q[26] = t45 - A_ij_h_j_2 * t29;
-    const jg_real t51 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    phi_q_t_lambda_q[27] = t20 + s_j[1] * t51;
-    const jg_real t52 = s_j[0] * t51;
-    phi_q_t_lambda_q[28] = -(t48 + t52 + (t19 + t37));
-    phi_q_t_lambda_q[29] = t36 + s_j[1] * t47;
-    phi_q_t_lambda_q[30] = t38 - A_ij_h_j_0 * t34;
-    phi_q_t_lambda_q[31] = t43 - A_ij_h_j_1 * t34;
-    phi_q_t_lambda_q[32] = t46 - A_ij_h_j_2 * t34;
-    phi_q_t_lambda_q[33] = t22 + s_j[2] * t51;
-    phi_q_t_lambda_q[34] = t32 + s_j[2] * t49;
-    phi_q_t_lambda_q[35] = -(t50 + t52 + (t19 + t31));
+    phi_q_t_lambda_q[14] = t15 + t31 - t22;
+    const jg_real t35 = A_ij_2 * t23 - A_ij_h_j_2 * t24;
+    phi_q_t_lambda_q[15] = t35;
+    phi_q_t_lambda_q[20] = t35;
+    const jg_real t36 = A_ij_5 * t23 - A_ij_h_j_2 * t26;
+    phi_q_t_lambda_q[16] = t36;
+    phi_q_t_lambda_q[26] = t36;
+    const jg_real t37 = A_ij_8 * t23 - A_ij_h_j_2 * t28;
+    phi_q_t_lambda_q[17] = t37;
+    phi_q_t_lambda_q[32] = t37;
+    const jg_real t38 = C_j[8] * t28;
+    const jg_real t39 = C_j[7] * t26;
+    const jg_real t40 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
+    const jg_real t41 = s_j[2] * t40;
+    const jg_real t42 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real t43 = s_j[1] * t42;
+    phi_q_t_lambda_q[21] = -(t41 + t43 + (t38 + t39));
+    phi_q_t_lambda_q[22] = s_j[0] * t42 + C_j[6] * t26;
+    phi_q_t_lambda_q[23] = s_j[0] * t40 + C_j[6] * t28;
+    const jg_real t44 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
+    phi_q_t_lambda_q[27] = s_j[1] * t44 + C_j[7] * t24;
+    const jg_real t45 = C_j[6] * t24;
+    const jg_real t46 = s_j[0] * t44;
+    phi_q_t_lambda_q[28] = -(t41 + t46 + (t38 + t45));
+    phi_q_t_lambda_q[29] = s_j[1] * t40 + C_j[7] * t28;
+    phi_q_t_lambda_q[33] = s_j[2] * t44 + C_j[8] * t24;
+    phi_q_t_lambda_q[34] = s_j[2] * t42 + C_j[8] * t26;
+    phi_q_t_lambda_q[35] = -(t43 + t46 + (t39 + t45));
 }
 
 void jg_revolute_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -263,6 +261,17 @@ void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_rea
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -274,18 +283,15 @@ void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_rea
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t6 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
-    const jg_real t7 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t8 = omega_i[1] * t6 - omega_i[2] * t7;
-    const jg_real t9 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t10 = omega_i[2] * t9 - omega_i[0] * t6;
-    const jg_real t11 = omega_i[0] * t7 - omega_i[1] * t9;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t8 + A_i[3] * t10 + A_i[6] * t11));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t8 + A_i[4] * t10 + A_i[7] * t11));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t8 + A_i[5] * t10 + A_i[8] * t11));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
@@ -351,9 +357,6 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    const jg_real t0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t1 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t2 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -361,13 +364,24 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
     /* A_j_omega_j_cross_s_j = A_j tilde(omega_j) s_j */
     const jg_real A_j_omega_j_cross_s_j_0 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = A_i[0] * t0 + A_i[3] * t1 + A_i[6] * t2 + (v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    /* A_i_omega_i_cross_s_i = A_i tilde(omega_i) s_i */
+    const jg_real A_i_omega_i_cross_s_i_0 = A_i[0] * omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_s_i_2;
+    phi_q_v[0] = v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0 - A_i_omega_i_cross_s_i_0;
     const jg_real A_j_omega_j_cross_s_j_1 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = A_i[1] * t0 + A_i[4] * t1 + A_i[7] * t2 + (v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1);
+    const jg_real A_i_omega_i_cross_s_i_1 = A_i[1] * omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_s_i_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1 - A_i_omega_i_cross_s_i_1;
     const jg_real A_j_omega_j_cross_s_j_2 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = A_i[2] * t0 + A_i[5] * t1 + A_i[8] * t2 + (v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2);
+    const jg_real A_i_omega_i_cross_s_i_2 = A_i[2] * omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_s_i_2;
+    phi_q_v[2] = v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2 - A_i_omega_i_cross_s_i_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
@@ -465,14 +479,18 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -544,83 +562,88 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[33] = A_j[5] * s_j[0] - A_j[2] * s_j[1];
     phi_q[34] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[35] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
-    const jg_real t33 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
-    const jg_real t34 = A_ij_h_j_2 * t33;
-    const jg_real t35 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
-    const jg_real t36 = A_ij_h_j_1 * t35;
-    const jg_real t37 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
-    const jg_real t38 = s_i[2] * t37;
-    const jg_real t39 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
-    const jg_real t40 = s_i[1] * t39;
-    phi_q_t_lambda_q[0] = t38 + t40 - (t34 + t36);
-    const jg_real t41 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    phi_q_t_lambda_q[1] = A_ij_h_j_1 * t41 - s_i[0] * t39;
-    phi_q_t_lambda_q[2] = A_ij_h_j_2 * t41 - s_i[0] * t37;
-    const jg_real t42 = A_ij_0 * t41 + A_ij_1 * t35 + A_ij_2 * t33;
-    const jg_real t43 = C_j[6] * t42;
-    const jg_real t44 = C_j[7] * t42;
-    const jg_real t45 = C_j[8] * t42;
-    const jg_real t46 = A_ij_h_j_0 * t41;
-    const jg_real t47 = t36 + t46;
-    const jg_real t48 = t34 + t47;
-    const jg_real t49 = A_ij_0 * t48;
-    phi_q_t_lambda_q[3] = t49 - (A_ij_0 * t43 + A_ij_3 * t44 + A_ij_6 * t45);
-    const jg_real t50 = A_ij_3 * t41 + A_ij_4 * t35 + A_ij_5 * t33;
-    const jg_real t51 = C_j[6] * t50;
-    const jg_real t52 = C_j[7] * t50;
-    const jg_real t53 = C_j[8] * t50;
-    const jg_real t54 = A_ij_3 * t48;
-    phi_q_t_lambda_q[4] = t54 - (A_ij_0 * t51 + A_ij_3 * t52 + A_ij_6 * t53);
-    const jg_real t55 = A_ij_6 * t41 + A_ij_7 * t35 + A_ij_8 * t33;
-    const jg_real t56 = C_j[6] * t55;
-    const jg_real t57 = C_j[7] * t55;
-    const jg_real t58 = C_j[8] * t55;
-    const jg_real t59 = A_ij_6 * t48;
-    phi_q_t_lambda_q[5] = t59 - (A_ij_0 * t56 + A_ij_3 * t57 + A_ij_6 * t58);
-    const jg_real t60 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
-    phi_q_t_lambda_q[6] = A_ij_h_j_0 * t35 - s_i[1] * t60;
-    const jg_real t61 = s_i[0] * t60;
-    phi_q_t_lambda_q[7] = t38 + t61 - (t34 + t46);
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t35 - s_i[1] * t37;
-    const jg_real t62 = A_ij_1 * t48;
-    phi_q_t_lambda_q[9] = t62 - (A_ij_1 * t43 + A_ij_4 * t44 + A_ij_7 * t45);
-    const jg_real t63 = A_ij_4 * t48;
-    phi_q_t_lambda_q[10] = t63 - (A_ij_1 * t51 + A_ij_4 * t52 + A_ij_7 * t53);
-    const jg_real t64 = A_ij_7 * t48;
-    phi_q_t_lambda_q[11] = t64 - (A_ij_1 * t56 + A_ij_4 * t57 + A_ij_7 * t58);
-    phi_q_t_lambda_q[12] = A_ij_h_j_0 * t33 - s_i[2] * t60;
-    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t33 - s_i[2] * t39;
-    phi_q_t_lambda_q[14] = t40 + t61 - t47;
-    const jg_real t65 = A_ij_2 * t48;
-    phi_q_t_lambda_q[15] = t65 - (A_ij_2 * t43 + A_ij_5 * t44 + A_ij_8 * t45);
-    const jg_real t66 = A_ij_5 * t48;
-    phi_q_t_lambda_q[16] = t66 - (A_ij_2 * t51 + A_ij_5 * t52 + A_ij_8 * t53);
-    const jg_real t67 = A_ij_8 * t48;
-    phi_q_t_lambda_q[17] = t67 - (A_ij_2 * t56 + A_ij_5 * t57 + A_ij_8 * t58);
-    phi_q_t_lambda_q[18] = t49 - A_ij_h_j_0 * t42;
-    phi_q_t_lambda_q[19] = t62 - A_ij_h_j_1 * t42;
-    phi_q_t_lambda_q[20] = t65 - A_ij_h_j_2 * t42;
-    const jg_real t68 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
-    const jg_real t69 = s_j[2] * t68;
-    const jg_real t70 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real t71 = s_j[1] * t70;
-    phi_q_t_lambda_q[21] = -(t69 + t71 + (t52 + t58));
-    phi_q_t_lambda_q[22] = t51 + s_j[0] * t70;
-    phi_q_t_lambda_q[23] = t56 + s_j[0] * t68;
-    phi_q_t_lambda_q[24] = t54 - A_ij_h_j_0 * t50;
-    phi_q_t_lambda_q[25] = t63 - A_ij_h_j_1 * t50;
-    phi_q_t_lambda_q[26] = t66 - A_ij_h_j_2 * t50;
-    const jg_real t72 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
-    phi_q_t_lambda_q[27] = t44 + s_j[1] * t72;
-    const jg_real t73 = s_j[0] * t72;
-    phi_q_t_lambda_q[28] = -(t69 + t73 + (t43 + t58));
-    phi_q_t_lambda_q[29] = t57 + s_j[1] * t68;
-    phi_q_t_lambda_q[30] = t59 - A_ij_h_j_0 * t55;
-    phi_q_t_lambda_q[31] = t64 - A_ij_h_j_1 * t55;
-    phi_q_t_lambda_q[32] = t67 - A_ij_h_j_2 * t55;
-    phi_q_t_lambda_q[33] = t45 + s_j[2] * t72;
-    phi_q_t_lambda_q[34] = t53 + s_j[2] * t70;
-    phi_q_t_lambda_q[35] = -(t71 + t73 + (t43 + t52));
+    const jg_real t36 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
+    const jg_real t37 = A_ij_h_j_2 * t36;
+    const jg_real t38 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
+    const jg_real t39 = A_ij_h_j_1 * t38;
+    const jg_real t40 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
+    const jg_real t41 = s_i[2] * t40;
+    const jg_real t42 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
+    const jg_real t43 = s_i[1] * t42;
+    phi_q_t_lambda_q[0] = t41 + t43 - (t37 + t39);
+    const jg_real t44 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
+    phi_q_t_lambda_q[1] = A_ij_h_j_1 * t44 - s_i[0] * t42;
+    phi_q_t_lambda_q[2] = A_ij_h_j_2 * t44 - s_i[0] * t40;
+    const jg_real t45 = A_ij_h_j_0 * t44;
+    const jg_real t46 = t39 + t45;
+    const jg_real t47 = t37 + t46;
+    const jg_real t48 = A_ij_0 * t44 + A_ij_1 * t38 + A_ij_2 * t36;
+    const jg_real t49 = A_ij_0 * t47 - A_ij_h_j_0 * t48;
+    phi_q_t_lambda_q[3] = t49;
+    phi_q_t_lambda_q[18] = t49;
+    const jg_real t50 = A_ij_3 * t44 + A_ij_4 * t38 + A_ij_5 * t36;
+    const jg_real t51 = A_ij_3 * t47 - A_ij_h_j_0 * t50;
+    phi_q_t_lambda_q[4] = t51;
+    phi_q_t_lambda_q[24] = t51;
+    const jg_real t52 = A_ij_6 * t44 + A_ij_7 * t38 + A_ij_8 * t36;
+    const jg_real t53 = A_ij_6 * t47 - A_ij_h_j_0 * t52;
+    phi_q_t_lambda_q[5] = t53;
+    phi_q_t_lambda_q[30] = t53;
+    const jg_real t54 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
+    phi_q_t_lambda_q[6] = A_ij_h_j_0 * t38 - s_i[1] * t54;
+    const jg_real t55 = s_i[0] * t54;
+    phi_q_t_lambda_q[7] = t41 + t55 - (t37 + t45);
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t38 - s_i[1] * t40;
+    const jg_real t56 = A_ij_1 * t47 - A_ij_h_j_1 * t48;
+    phi_q_t_lambda_q[9] = t56;
+    phi_q_t_lambda_q[19] = t56;
+    const jg_real t57 = A_ij_4 * t47 - A_ij_h_j_1 * t50;
+    phi_q_t_lambda_q[10] = t57;
+    phi_q_t_lambda_q[25] = t57;
+    const jg_real t58 = A_ij_7 * t47 - A_ij_h_j_1 * t52;
+    phi_q_t_lambda_q[11] = t58;
+    phi_q_t_lambda_q[31] = t58;
+    phi_q_t_lambda_q[12] = A_ij_h_j_0 * t36 - s_i[2] * t54;
+    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t36 - s_i[2] * t42;
+    phi_q_t_lambda_q[14] = t43 + t55 - t46;
+    const jg_real t59 = A_ij_2 * t47 - A_ij_h_j_2 * t48;
+    phi_q_t_lambda_q[15] = t59;
+    phi_q_t_lambda_q[20] = t59;
+    const jg_real t60 = A_ij_5 * t47 - A_ij_h_j_2 * t50;
+    phi_q_t_lambda_q[16] = t60;
+    phi_q_t_lambda_q[26] = t60;
+    const jg_real t61 = A_ij_8 * t47 - A_ij_h_j_2 * t52;
+    phi_q_t_lambda_q[17] = t61;
+    phi_q_t_lambda_q[32] = t61;
+    const jg_real t62 = C_j[8] * t52;
+    const jg_real t63 = C_j[7] * t50;
+    const jg_real t64 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
+    const jg_real t65 = s_j[2] * t64;
+    const jg_real t66 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
+    const jg_real t67 = s_j[1] * t66;
+    phi_q_t_lambda_q[21] = -(t65 + t67 + (t62 + t63));
+    phi_q_t_lambda_q[22] = s_j[0] * t66 + C_j[6] * t50;
+    phi_q_t_lambda_q[23] = s_j[0] * t64 + C_j[6] * t52;
+    const jg_real t68 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
+    phi_q_t_lambda_q[27] = s_j[1] * t68 + C_j[7] * t48;
+    const jg_real t69 = C_j[6] * t48;
+    const jg_real t70 = s_j[0] * t68;
+    phi_q_t_lambda_q[28] = -(t65 + t70 + (t62 + t69));
+    phi_q_t_lambda_q[29] = s_j[1] * t64 + C_j[7] * t52;
+    phi_q_t_lambda_q[33] = s_j[2] * t68 + C_j[8] * t48;
+    phi_q_t_lambda_q[34] = s_j[2] * t66 + C_j[8] * t50;
+    phi_q_t_lambda_q[35] = -(t67 + t70 + (t63 + t69));
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
+    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -632,18 +655,15 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t80 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    const jg_real t81 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    const jg_real t82 = omega_i[1] * t80 - omega_i[2] * t81;
-    const jg_real t83 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    const jg_real t84 = omega_i[2] * t83 - omega_i[0] * t80;
-    const jg_real t85 = omega_i[0] * t81 - omega_i[1] * t83;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t82 + A_i[3] * t84 + A_i[6] * t85));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t82 + A_i[4] * t84 + A_i[7] * t85));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t82 + A_i[5] * t84 + A_i[8] * t85));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -653,18 +673,18 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t91 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t88 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t93 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t94 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t90 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t91 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t97 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t94 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t99 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t100 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t96 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t97 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -672,16 +692,16 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t104 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t101 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t105 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t102 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t106 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t103 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[3] = JG_REAL(2.0) * (C_i[0] * t91 + C_i[1] * t93 + C_i[2] * t94) - (C_i[0] * t104 + C_i[1] * t105 + C_i[2]
-        * t106 + (C_i[0] * t97 + C_i[1] * t99 + C_i[2] * t100));
-    gamma[4] = JG_REAL(2.0) * (C_i[3] * t91 + C_i[4] * t93 + C_i[5] * t94) - (C_i[3] * t104 + C_i[4] * t105 + C_i[5]
-        * t106 + (C_i[3] * t97 + C_i[4] * t99 + C_i[5] * t100));
+    gamma[3] = JG_REAL(2.0) * (C_i[0] * t88 + C_i[1] * t90 + C_i[2] * t91) - (C_i[0] * t101 + C_i[1] * t102 + C_i[2]
+        * t103 + (C_i[0] * t94 + C_i[1] * t96 + C_i[2] * t97));
+    gamma[4] = JG_REAL(2.0) * (C_i[3] * t88 + C_i[4] * t90 + C_i[5] * t91) - (C_i[3] * t101 + C_i[4] * t102 + C_i[5]
+        * t103 + (C_i[3] * t94 + C_i[4] * t96 + C_i[5] * t97));
 }
 
 void jg_revolute_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -33,12 +33,16 @@ void jg_revolute_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -215,45 +219,48 @@ void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, 
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t1 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t2 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real t7 = cosine_0 * C_jt_omega_j_cross_v_j_0 - sine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real t8 = sine_0 * C_jt_omega_j_cross_v_j_0 + cosine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_omega_j_cross_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t11 = C_j[3] * alphadot;
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t13 = C_j[4] * alphadot;
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t15 = C_j[5] * alphadot;
-    const jg_real t16 = t11 * s_j_cross_omega_j_0 + t13 * s_j_cross_omega_j_1 + t15 * s_j_cross_omega_j_2;
-    const jg_real t17 = C_j[0] * alphadot;
-    const jg_real t18 = C_j[1] * alphadot;
-    const jg_real t19 = C_j[2] * alphadot;
-    const jg_real t20 = t17 * s_j_cross_omega_j_0 + t18 * s_j_cross_omega_j_1 + t19 * s_j_cross_omega_j_2;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t20;
-    const jg_real t22 = sine_0 * t16 - cosine_0 * t20;
-    const jg_real t23 = v_j[0] * t17 + v_j[1] * t18 + v_j[2] * t19;
-    const jg_real t24 = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t15;
-    const jg_real t25 = cosine_0 * t23 - sine_0 * t24;
-    const jg_real t26 = cosine_0 * t24 + sine_0 * t23;
+    const jg_real t14 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t15 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t16 = cosine_0 * t14 - sine_0 * t15;
+    const jg_real t17 = cosine_0 * t15 + sine_0 * t14;
+    const jg_real t18 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t19 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t20 = cosine_0 * t18 - sine_0 * t19;
+    const jg_real t21 = cosine_0 * t19 + sine_0 * t18;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (C_i[3] * t25 - C_i[0] * t26 + (C_i[0] * t21 + C_i[3] *
-        t22) + omega_i_cross_v_i_0));
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (C_i[3] * t20 - C_i[0] * t21) - alphadot * (C_i[3] * t16 -
+        C_i[0] * t17) + omega_i_cross_v_i_0);
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (C_i[4] * t25 - C_i[1] * t26 + (C_i[1] * t21 + C_i[4] *
-        t22) + omega_i_cross_v_i_1));
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (C_i[4] * t20 - C_i[1] * t21) - alphadot * (C_i[4] * t16 -
+        C_i[1] * t17) + omega_i_cross_v_i_1);
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[5] * t25 - C_i[2] * t26 + (C_i[2] * t21 + C_i[5] *
-        t22) + omega_i_cross_v_i_2));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (C_i[5] * t20 - C_i[2] * t21) - alphadot * (C_i[5] * t16 -
+        C_i[2] * t17) + omega_i_cross_v_i_2);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
@@ -279,17 +286,24 @@ void jg_revolute_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t7 = cosine_0 * C_jt_s_j_cross_omega_j_0 - sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t8 = sine_0 * C_jt_s_j_cross_omega_j_0 + cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -301,13 +315,15 @@ void jg_revolute_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
     /* s_i_cross_omega_i = tilde(s_i) omega_i */
     const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - A_ij_s_j_cross_omega_j_2;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -382,12 +398,16 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -486,46 +506,48 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
     phi_q_t_lambda_q[0] = g_star_0 * lambda[3] - f_star_0 * lambda[4];
     phi_q_t_lambda_q[1] = g_star_1 * lambda[3] - f_star_1 * lambda[4];
     phi_q_t_lambda_q[2] = g_star_2 * lambda[3] - f_star_2 * lambda[4];
-    const jg_real t44 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t45 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t46 = cosine_0 * t44 - sine_0 * t45;
-    const jg_real t47 = cosine_0 * t45 + sine_0 * t44;
-    const jg_real t48 = C_j[0] * t46 - C_j[3] * t47;
-    phi_q_t_lambda_q[3] = t48;
-    const jg_real t49 = C_j[1] * t46 - C_j[4] * t47;
-    phi_q_t_lambda_q[4] = t49;
-    const jg_real t50 = C_j[2] * t46 - C_j[5] * t47;
-    phi_q_t_lambda_q[5] = t50;
-    phi_q_t_lambda_q[6] = s_j[1] * t50 - s_j[2] * t49;
-    phi_q_t_lambda_q[7] = s_j[2] * t48 - s_j[0] * t50;
-    phi_q_t_lambda_q[8] = s_j[0] * t49 - s_j[1] * t48;
-    const jg_real t51 = C_j[0] * alphadot;
-    const jg_real t52 = C_j[1] * alphadot;
-    const jg_real t53 = C_j[2] * alphadot;
-    const jg_real t54 = v_j[0] * t51 + v_j[1] * t52 + v_j[2] * t53;
-    const jg_real t55 = C_j[3] * alphadot;
-    const jg_real t56 = C_j[4] * alphadot;
-    const jg_real t57 = C_j[5] * alphadot;
-    const jg_real t58 = v_j[0] * t55 + v_j[1] * t56 + v_j[2] * t57;
+    const jg_real t47 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t48 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t49 = cosine_0 * t47 - sine_0 * t48;
+    const jg_real t50 = cosine_0 * t48 + sine_0 * t47;
+    const jg_real t51 = C_j[0] * t49 - C_j[3] * t50;
+    phi_q_t_lambda_q[3] = t51;
+    const jg_real t52 = C_j[1] * t49 - C_j[4] * t50;
+    phi_q_t_lambda_q[4] = t52;
+    const jg_real t53 = C_j[2] * t49 - C_j[5] * t50;
+    phi_q_t_lambda_q[5] = t53;
+    phi_q_t_lambda_q[6] = s_j[1] * t53 - s_j[2] * t52;
+    phi_q_t_lambda_q[7] = s_j[2] * t51 - s_j[0] * t53;
+    phi_q_t_lambda_q[8] = s_j[0] * t52 - s_j[1] * t51;
+    const jg_real t54 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t55 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t62 = t55 * s_j_cross_omega_j_0 + t56 * s_j_cross_omega_j_1 + t57 * s_j_cross_omega_j_2;
-    const jg_real t63 = t51 * s_j_cross_omega_j_0 + t52 * s_j_cross_omega_j_1 + t53 * s_j_cross_omega_j_2;
+    const jg_real t59 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t60 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t65 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t66 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t67 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t65 + A_ij_3_ * t66 + A_ij_6_ * t67 + (g_star_0 * t54 - f_star_0 * t58 + (f_star_0 * t62
-        - g_star_0 * t63) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (g_star_0 * t54 - f_star_0 * t55) - alphadot * (g_star_0 * t59
+        - f_star_0 * t60) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t65 + A_ij_4_ * t66 + A_ij_7_ * t67 + (g_star_1 * t54 - f_star_1 * t58 + (f_star_1 * t62
-        - g_star_1 * t63) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (g_star_1 * t54 - f_star_1 * t55) - alphadot * (g_star_1 * t59
+        - f_star_1 * t60) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t65 + A_ij_5_ * t66 + A_ij_8_ * t67 + (g_star_2 * t54 - f_star_2 * t58 + (f_star_2 * t62
-        - g_star_2 * t63) + omega_i_cross_v_i_2));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (g_star_2 * t54 - f_star_2 * t55) - alphadot * (g_star_2 * t59
+        - f_star_2 * t60) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]));
     gamma[4] = alphadot * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
     gamma[5] = JG_REAL(0.0);

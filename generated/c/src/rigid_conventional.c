@@ -34,14 +34,18 @@ void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -207,99 +211,87 @@ void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, c
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real t31 = t5 + t29 + lambda[5] * (C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2);
     const jg_real t32 = A_ij_0 * t31;
-    const jg_real t33 = A_ij_0 * t22 + A_ij_1 * t20 + A_ij_2 * t17;
-    const jg_real t34 = C_j[3] * t33;
-    const jg_real t35 = C_j[4] * t33;
-    const jg_real t36 = C_j[5] * t33;
-    const jg_real t37 = t23 * A_ij_0 + t10 * A_ij_1 + t4 * A_ij_2;
-    const jg_real t38 = C_j[6] * t37;
-    const jg_real t39 = C_j[7] * t37;
-    const jg_real t40 = C_j[8] * t37;
-    phi_q_t_lambda_q[3] = t32 - (A_ij_0 * t34 + A_ij_3 * t35 + A_ij_6 * t36) - (A_ij_0 * t38 + A_ij_3 * t39 + A_ij_6
-        * t40);
-    const jg_real t41 = A_ij_3 * t31;
-    const jg_real t42 = A_ij_3 * t22 + A_ij_4 * t20 + A_ij_5 * t17;
-    const jg_real t43 = C_j[3] * t42;
-    const jg_real t44 = C_j[4] * t42;
-    const jg_real t45 = C_j[5] * t42;
-    const jg_real t46 = t23 * A_ij_3 + t10 * A_ij_4 + t4 * A_ij_5;
-    const jg_real t47 = C_j[6] * t46;
-    const jg_real t48 = C_j[7] * t46;
-    const jg_real t49 = C_j[8] * t46;
-    phi_q_t_lambda_q[4] = t41 - (A_ij_0 * t43 + A_ij_3 * t44 + A_ij_6 * t45) - (A_ij_0 * t47 + A_ij_3 * t48 + A_ij_6
-        * t49);
-    const jg_real t50 = A_ij_6 * t31;
-    const jg_real t51 = A_ij_6 * t22 + A_ij_7 * t20 + A_ij_8 * t17;
-    const jg_real t52 = C_j[3] * t51;
-    const jg_real t53 = C_j[4] * t51;
-    const jg_real t54 = C_j[5] * t51;
-    const jg_real t55 = t23 * A_ij_6 + t10 * A_ij_7 + t4 * A_ij_8;
-    const jg_real t56 = C_j[6] * t55;
-    const jg_real t57 = C_j[7] * t55;
-    const jg_real t58 = C_j[8] * t55;
-    phi_q_t_lambda_q[5] = t50 - (A_ij_0 * t52 + A_ij_3 * t53 + A_ij_6 * t54) - (A_ij_0 * t56 + A_ij_3 * t57 + A_ij_6
-        * t58);
-    const jg_real t59 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
-    phi_q_t_lambda_q[6] = t10 * A_ij_h_j_0 - s_i[1] * t59 + A_ij_g_j_0 * t20;
-    const jg_real t60 = s_i[0] * t59;
-    const jg_real t61 = A_ij_g_j_0 * t22;
-    phi_q_t_lambda_q[7] = t13 + t60 - (t5 + t28) - (t18 + t61);
-    phi_q_t_lambda_q[8] = t10 * A_ij_h_j_2 - s_i[1] * t12 + A_ij_g_j_2 * t20;
-    const jg_real t62 = A_ij_1 * t31;
-    phi_q_t_lambda_q[9] = t62 - (A_ij_1 * t34 + A_ij_4 * t35 + A_ij_7 * t36) - (A_ij_1 * t38 + A_ij_4 * t39 + A_ij_7
-        * t40);
-    const jg_real t63 = A_ij_4 * t31;
-    phi_q_t_lambda_q[10] = t63 - (A_ij_1 * t43 + A_ij_4 * t44 + A_ij_7 * t45) - (A_ij_1 * t47 + A_ij_4 * t48 +
-        A_ij_7 * t49);
-    const jg_real t64 = A_ij_7 * t31;
-    phi_q_t_lambda_q[11] = t64 - (A_ij_1 * t52 + A_ij_4 * t53 + A_ij_7 * t54) - (A_ij_1 * t56 + A_ij_4 * t57 +
-        A_ij_7 * t58);
-    phi_q_t_lambda_q[12] = t4 * A_ij_h_j_0 - s_i[2] * t59 + A_ij_g_j_0 * t17;
-    phi_q_t_lambda_q[13] = t4 * A_ij_h_j_1 - s_i[2] * t14 + A_ij_g_j_1 * t17;
-    phi_q_t_lambda_q[14] = t15 + t60 - t29 - (t21 + t61);
-    const jg_real t65 = A_ij_2 * t31;
-    phi_q_t_lambda_q[15] = t65 - (A_ij_2 * t34 + A_ij_5 * t35 + A_ij_8 * t36) - (A_ij_2 * t38 + A_ij_5 * t39 +
-        A_ij_8 * t40);
-    const jg_real t66 = A_ij_5 * t31;
-    phi_q_t_lambda_q[16] = t66 - (A_ij_2 * t43 + A_ij_5 * t44 + A_ij_8 * t45) - (A_ij_2 * t47 + A_ij_5 * t48 +
-        A_ij_8 * t49);
-    const jg_real t67 = A_ij_8 * t31;
-    phi_q_t_lambda_q[17] = t67 - (A_ij_2 * t52 + A_ij_5 * t53 + A_ij_8 * t54) - (A_ij_2 * t56 + A_ij_5 * t57 +
-        A_ij_8 * t58);
-    phi_q_t_lambda_q[18] = t32 - A_ij_h_j_0 * t37 - A_ij_g_j_0 * t33;
-    phi_q_t_lambda_q[19] = t62 - A_ij_h_j_1 * t37 - A_ij_g_j_1 * t33;
-    phi_q_t_lambda_q[20] = t65 - A_ij_h_j_2 * t37 - A_ij_g_j_2 * t33;
     /* A_ijt_f_i = A_ij^T f_i */
-    const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t69 = C_j[5] * lambda[5];
-    const jg_real t70 = A_ijt_f_i_2 * t69;
-    const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t72 = C_j[4] * lambda[5];
-    const jg_real t73 = A_ijt_f_i_1 * t72;
-    const jg_real t74 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real t75 = s_j[2] * t74;
-    const jg_real t76 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    const jg_real t77 = s_j[1] * t76;
-    phi_q_t_lambda_q[21] = -(t48 + t58 + (t70 + t73 + (t75 + t77)));
-    const jg_real t78 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[22] = A_ijt_f_i_1 * t78 + s_j[0] * t76 + t47;
-    phi_q_t_lambda_q[23] = A_ijt_f_i_2 * t78 + s_j[0] * t74 + t56;
-    phi_q_t_lambda_q[24] = t41 - A_ij_h_j_0 * t46 - A_ij_g_j_0 * t42;
-    phi_q_t_lambda_q[25] = t63 - A_ij_h_j_1 * t46 - A_ij_g_j_1 * t42;
-    phi_q_t_lambda_q[26] = t66 - A_ij_h_j_2 * t46 - A_ij_g_j_2 * t42;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t80 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    phi_q_t_lambda_q[27] = A_ijt_f_i_0 * t72 + s_j[1] * t80 + t39;
-    const jg_real t81 = A_ijt_f_i_0 * t78;
-    const jg_real t82 = s_j[0] * t80;
-    phi_q_t_lambda_q[28] = -(t38 + t58 + (t70 + t81 + (t75 + t82)));
-    phi_q_t_lambda_q[29] = A_ijt_f_i_2 * t72 + s_j[1] * t74 + t57;
-    phi_q_t_lambda_q[30] = t50 - A_ij_h_j_0 * t55 - A_ij_g_j_0 * t51;
-    phi_q_t_lambda_q[31] = t64 - A_ij_h_j_1 * t55 - A_ij_g_j_1 * t51;
-    phi_q_t_lambda_q[32] = t67 - A_ij_h_j_2 * t55 - A_ij_g_j_2 * t51;
-    phi_q_t_lambda_q[33] = A_ijt_f_i_0 * t69 + s_j[2] * t80 + t40;
-    phi_q_t_lambda_q[34] = A_ijt_f_i_1 * t69 + s_j[2] * t76 + t49;
-    phi_q_t_lambda_q[35] = -(t38 + t48 + (t73 + t81 + (t77 + t82)));
+    const jg_real t34 = lambda[5] * A_ijt_f_i_0;
+    const jg_real t35 = t23 * A_ij_0 + t10 * A_ij_1 + t4 * A_ij_2;
+    const jg_real t36 = A_ij_h_j_0 * t35;
+    phi_q_t_lambda_q[3] = t32 - A_ij_g_j_0 * t34 - t36;
+    const jg_real t37 = A_ij_3 * t31;
+    const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
+    const jg_real t39 = lambda[5] * A_ijt_f_i_1;
+    const jg_real t40 = t23 * A_ij_3 + t10 * A_ij_4 + t4 * A_ij_5;
+    const jg_real t41 = A_ij_h_j_0 * t40;
+    phi_q_t_lambda_q[4] = t37 - A_ij_g_j_0 * t39 - t41;
+    const jg_real t42 = A_ij_6 * t31;
+    const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
+    const jg_real t44 = lambda[5] * A_ijt_f_i_2;
+    const jg_real t45 = t23 * A_ij_6 + t10 * A_ij_7 + t4 * A_ij_8;
+    const jg_real t46 = A_ij_h_j_0 * t45;
+    phi_q_t_lambda_q[5] = t42 - A_ij_g_j_0 * t44 - t46;
+    const jg_real t47 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
+    phi_q_t_lambda_q[6] = t10 * A_ij_h_j_0 - s_i[1] * t47 + A_ij_g_j_0 * t20;
+    const jg_real t48 = s_i[0] * t47;
+    const jg_real t49 = A_ij_g_j_0 * t22;
+    phi_q_t_lambda_q[7] = t13 + t48 - (t5 + t28) - (t18 + t49);
+    phi_q_t_lambda_q[8] = t10 * A_ij_h_j_2 - s_i[1] * t12 + A_ij_g_j_2 * t20;
+    const jg_real t50 = A_ij_1 * t31;
+    const jg_real t51 = A_ij_h_j_1 * t35;
+    phi_q_t_lambda_q[9] = t50 - A_ij_g_j_1 * t34 - t51;
+    const jg_real t52 = A_ij_4 * t31;
+    const jg_real t53 = A_ij_h_j_1 * t40;
+    phi_q_t_lambda_q[10] = t52 - A_ij_g_j_1 * t39 - t53;
+    const jg_real t54 = A_ij_7 * t31;
+    const jg_real t55 = A_ij_h_j_1 * t45;
+    phi_q_t_lambda_q[11] = t54 - A_ij_g_j_1 * t44 - t55;
+    phi_q_t_lambda_q[12] = t4 * A_ij_h_j_0 - s_i[2] * t47 + A_ij_g_j_0 * t17;
+    phi_q_t_lambda_q[13] = t4 * A_ij_h_j_1 - s_i[2] * t14 + A_ij_g_j_1 * t17;
+    phi_q_t_lambda_q[14] = t15 + t48 - t29 - (t21 + t49);
+    const jg_real t56 = A_ij_2 * t31;
+    const jg_real t57 = A_ij_h_j_2 * t35;
+    phi_q_t_lambda_q[15] = t56 - A_ij_g_j_2 * t34 - t57;
+    const jg_real t58 = A_ij_5 * t31;
+    const jg_real t59 = A_ij_h_j_2 * t40;
+    phi_q_t_lambda_q[16] = t58 - A_ij_g_j_2 * t39 - t59;
+    const jg_real t60 = A_ij_8 * t31;
+    const jg_real t61 = A_ij_h_j_2 * t45;
+    phi_q_t_lambda_q[17] = t60 - A_ij_g_j_2 * t44 - t61;
+    const jg_real t62 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[18] = t32 - t36 - t62 * A_ijt_f_i_0;
+    const jg_real t63 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[19] = t50 - t51 - t63 * A_ijt_f_i_0;
+    const jg_real t64 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[20] = t56 - t57 - t64 * A_ijt_f_i_0;
+    const jg_real t65 = C_j[8] * t45;
+    const jg_real t66 = C_j[7] * t40;
+    const jg_real t67 = C_j[5] * lambda[5];
+    const jg_real t68 = A_ijt_f_i_2 * t67;
+    const jg_real t69 = C_j[4] * lambda[5];
+    const jg_real t70 = A_ijt_f_i_1 * t69;
+    const jg_real t71 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
+    const jg_real t72 = s_j[2] * t71;
+    const jg_real t73 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real t74 = s_j[1] * t73;
+    phi_q_t_lambda_q[21] = -(t65 + t66 + (t68 + t70 + (t72 + t74)));
+    const jg_real t75 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[22] = A_ijt_f_i_1 * t75 + s_j[0] * t73 + C_j[6] * t40;
+    phi_q_t_lambda_q[23] = A_ijt_f_i_2 * t75 + s_j[0] * t71 + C_j[6] * t45;
+    phi_q_t_lambda_q[24] = t37 - t41 - t62 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[25] = t52 - t53 - t63 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[26] = t58 - t59 - t64 * A_ijt_f_i_1;
+    const jg_real t76 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
+    phi_q_t_lambda_q[27] = A_ijt_f_i_0 * t69 + s_j[1] * t76 + C_j[7] * t35;
+    const jg_real t77 = C_j[6] * t35;
+    const jg_real t78 = A_ijt_f_i_0 * t75;
+    const jg_real t79 = s_j[0] * t76;
+    phi_q_t_lambda_q[28] = -(t65 + t77 + (t68 + t78 + (t72 + t79)));
+    phi_q_t_lambda_q[29] = A_ijt_f_i_2 * t69 + s_j[1] * t71 + C_j[7] * t45;
+    phi_q_t_lambda_q[30] = t42 - t46 - t62 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[31] = t54 - t55 - t63 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[32] = t60 - t61 - t64 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[33] = A_ijt_f_i_0 * t67 + s_j[2] * t76 + C_j[8] * t35;
+    phi_q_t_lambda_q[34] = A_ijt_f_i_1 * t67 + s_j[2] * t73 + C_j[8] * t40;
+    phi_q_t_lambda_q[35] = -(t66 + t77 + (t70 + t78 + (t74 + t79)));
 }
 
 void jg_rigid_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -319,6 +311,17 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -330,18 +333,15 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t6 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
-    const jg_real t7 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t8 = omega_i[1] * t6 - omega_i[2] * t7;
-    const jg_real t9 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t10 = omega_i[2] * t9 - omega_i[0] * t6;
-    const jg_real t11 = omega_i[0] * t7 - omega_i[1] * t9;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t8 + A_i[3] * t10 + A_i[6] * t11));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t8 + A_i[4] * t10 + A_i[7] * t11));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t8 + A_i[5] * t10 + A_i[8] * t11));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
@@ -444,9 +444,6 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    const jg_real t0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real t1 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real t2 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
@@ -454,13 +451,24 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
     /* A_j_omega_j_cross_s_j = A_j tilde(omega_j) s_j */
     const jg_real A_j_omega_j_cross_s_j_0 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = A_i[0] * t0 + A_i[3] * t1 + A_i[6] * t2 + (v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    /* A_i_omega_i_cross_s_i = A_i tilde(omega_i) s_i */
+    const jg_real A_i_omega_i_cross_s_i_0 = A_i[0] * omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_s_i_2;
+    phi_q_v[0] = v_j[0] - v_i[0] + A_j_omega_j_cross_s_j_0 - A_i_omega_i_cross_s_i_0;
     const jg_real A_j_omega_j_cross_s_j_1 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = A_i[1] * t0 + A_i[4] * t1 + A_i[7] * t2 + (v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1);
+    const jg_real A_i_omega_i_cross_s_i_1 = A_i[1] * omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_s_i_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + A_j_omega_j_cross_s_j_1 - A_i_omega_i_cross_s_i_1;
     const jg_real A_j_omega_j_cross_s_j_2 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = A_i[2] * t0 + A_i[5] * t1 + A_i[8] * t2 + (v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2);
+    const jg_real A_i_omega_i_cross_s_i_2 = A_i[2] * omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_s_i_2;
+    phi_q_v[2] = v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2 - A_i_omega_i_cross_s_i_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
@@ -537,49 +545,48 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    /* A_ij_g_j = A_ij g_j */
-    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t4 = C_i[1] * lambda[5];
+    /* A_ij_h_j = A_ij h_j */
+    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real t4 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t9 = C_i[2] * lambda[5];
-    /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t11 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t13 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
-    const jg_real t14 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    const jg_real t15 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
-    phi_q_t_lambda[3] = A_ij_g_j_2 * t4 - A_ij_g_j_1 * t9 + (s_i[2] * t14 - s_i[1] * t15 + (A_ij_h_j_2 * t11 -
-        A_ij_h_j_1 * t13));
+    const jg_real t9 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
+    const jg_real t10 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
+    const jg_real t11 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
+    /* A_ij_g_j = A_ij g_j */
+    const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
+    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    phi_q_t_lambda[3] = s_i[2] * t10 - s_i[1] * t11 + (A_ij_h_j_2 * t4 - A_ij_h_j_1 * t9) - lambda[5] * (C_i[2] *
+        A_ij_g_j_1 - C_i[1] * A_ij_g_j_2);
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t20 = C_i[0] * lambda[5];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t22 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    const jg_real t23 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    phi_q_t_lambda[4] = A_ij_g_j_0 * t9 - A_ij_g_j_2 * t20 + (s_i[0] * t15 - s_i[2] * t23 + (A_ij_h_j_0 * t13 -
-        A_ij_h_j_2 * t22));
-    phi_q_t_lambda[5] = A_ij_g_j_1 * t20 - A_ij_g_j_0 * t4 + (s_i[1] * t23 - s_i[0] * t14 + (A_ij_h_j_1 * t22 -
-        A_ij_h_j_0 * t11));
-    const jg_real t24 = A_ij_6 * t22 + A_ij_7 * t11 + A_ij_8 * t13;
-    const jg_real t25 = A_ij_3 * t22 + A_ij_4 * t11 + A_ij_5 * t13;
-    const jg_real t26 = A_ij_6 * t20 + A_ij_7 * t4 + A_ij_8 * t9;
-    const jg_real t27 = A_ij_3 * t20 + A_ij_4 * t4 + A_ij_5 * t9;
-    const jg_real t28 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real t29 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    phi_q_t_lambda[9] = C_j[7] * t24 - C_j[8] * t25 + (C_j[4] * t26 - C_j[5] * t27 + (s_j[1] * t28 - s_j[2] * t29));
-    const jg_real t30 = A_ij_0 * t22 + A_ij_1 * t11 + A_ij_2 * t13;
-    const jg_real t31 = A_ij_0 * t20 + A_ij_1 * t4 + A_ij_2 * t9;
-    const jg_real t32 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    phi_q_t_lambda[10] = C_j[8] * t30 - C_j[6] * t24 + (C_j[5] * t31 - C_j[3] * t26 + (s_j[2] * t32 - s_j[0] *
-        t28));
-    phi_q_t_lambda[11] = C_j[6] * t25 - C_j[7] * t30 + (C_j[3] * t27 - C_j[4] * t31 + (s_j[0] * t29 - s_j[1] *
-        t32));
+    const jg_real t18 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
+    const jg_real t19 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
+    phi_q_t_lambda[4] = s_i[0] * t11 - s_i[2] * t19 + (A_ij_h_j_0 * t9 - A_ij_h_j_2 * t18) - lambda[5] * (C_i[0] *
+        A_ij_g_j_2 - C_i[2] * A_ij_g_j_0);
+    phi_q_t_lambda[5] = s_i[1] * t19 - s_i[0] * t10 + (A_ij_h_j_1 * t18 - A_ij_h_j_0 * t4) - lambda[5] * (C_i[1] *
+        A_ij_g_j_0 - C_i[0] * A_ij_g_j_1);
+    const jg_real t21 = A_ij_6 * t18 + A_ij_7 * t4 + A_ij_8 * t9;
+    const jg_real t22 = A_ij_3 * t18 + A_ij_4 * t4 + A_ij_5 * t9;
+    /* A_ijt_f_i = A_ij^T f_i */
+    const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
+    const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    const jg_real t25 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
+    const jg_real t26 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    phi_q_t_lambda[9] = C_j[7] * t21 - C_j[8] * t22 + (s_j[1] * t25 - s_j[2] * t26 + lambda[5] * (C_j[4] *
+        A_ijt_f_i_2 - C_j[5] * A_ijt_f_i_1));
+    const jg_real t27 = A_ij_0 * t18 + A_ij_1 * t4 + A_ij_2 * t9;
+    const jg_real A_ijt_f_i_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    const jg_real t29 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
+    phi_q_t_lambda[10] = C_j[8] * t27 - C_j[6] * t21 + (s_j[2] * t29 - s_j[0] * t25 + lambda[5] * (C_j[5] *
+        A_ijt_f_i_0 - C_j[3] * A_ijt_f_i_2));
+    phi_q_t_lambda[11] = C_j[6] * t22 - C_j[7] * t27 + (s_j[0] * t26 - s_j[1] * t29 + lambda[5] * (C_j[3] *
+        A_ijt_f_i_1 - C_j[4] * A_ijt_f_i_0));
 }
 
 void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -595,14 +602,18 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     phi[0] = d_ij_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     phi[1] = d_ij_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     phi[2] = d_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -624,8 +635,8 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t21 = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
-    phi[5] = t21;
+    const jg_real t24 = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
+    phi[5] = t24;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
@@ -686,116 +697,115 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[39] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[40] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
     phi_q[41] = C_j[3] * A_ijt_f_i_1 - C_j[4] * A_ijt_f_i_0;
-    const jg_real t37 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
-    const jg_real t38 = A_ij_h_j_2 * t37;
-    const jg_real t39 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
-    const jg_real t40 = A_ij_h_j_1 * t39;
-    const jg_real t41 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
-    const jg_real t42 = s_i[2] * t41;
-    const jg_real t43 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
-    const jg_real t44 = s_i[1] * t43;
-    const jg_real t45 = C_i[2] * lambda[5];
-    const jg_real t46 = A_ij_g_j_2 * t45;
-    const jg_real t47 = C_i[1] * lambda[5];
-    const jg_real t48 = A_ij_g_j_1 * t47;
-    phi_q_t_lambda_q[0] = t42 + t44 - (t38 + t40) - (t46 + t48);
-    const jg_real t49 = C_i[0] * lambda[5];
-    const jg_real t50 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    phi_q_t_lambda_q[1] = A_ij_h_j_1 * t50 - s_i[0] * t43 + A_ij_g_j_1 * t49;
-    phi_q_t_lambda_q[2] = A_ij_h_j_2 * t50 - s_i[0] * t41 + A_ij_g_j_2 * t49;
-    const jg_real t51 = A_ij_h_j_0 * t50;
-    const jg_real t52 = t40 + t51;
-    const jg_real t53 = t38 + t52 + t21 * lambda[5];
-    const jg_real t54 = A_ij_0 * t53;
-    const jg_real t55 = A_ij_0 * t49 + A_ij_1 * t47 + A_ij_2 * t45;
-    const jg_real t56 = C_j[3] * t55;
-    const jg_real t57 = C_j[4] * t55;
-    const jg_real t58 = C_j[5] * t55;
-    const jg_real t59 = A_ij_0 * t50 + A_ij_1 * t39 + A_ij_2 * t37;
-    const jg_real t60 = C_j[6] * t59;
-    const jg_real t61 = C_j[7] * t59;
-    const jg_real t62 = C_j[8] * t59;
-    phi_q_t_lambda_q[3] = t54 - (A_ij_0 * t56 + A_ij_3 * t57 + A_ij_6 * t58) - (A_ij_0 * t60 + A_ij_3 * t61 + A_ij_6
-        * t62);
-    const jg_real t63 = A_ij_3 * t53;
-    const jg_real t64 = A_ij_3 * t49 + A_ij_4 * t47 + A_ij_5 * t45;
-    const jg_real t65 = C_j[3] * t64;
-    const jg_real t66 = C_j[4] * t64;
-    const jg_real t67 = C_j[5] * t64;
-    const jg_real t68 = A_ij_3 * t50 + A_ij_4 * t39 + A_ij_5 * t37;
-    const jg_real t69 = C_j[6] * t68;
-    const jg_real t70 = C_j[7] * t68;
-    const jg_real t71 = C_j[8] * t68;
-    phi_q_t_lambda_q[4] = t63 - (A_ij_0 * t65 + A_ij_3 * t66 + A_ij_6 * t67) - (A_ij_0 * t69 + A_ij_3 * t70 + A_ij_6
-        * t71);
-    const jg_real t72 = A_ij_6 * t53;
-    const jg_real t73 = A_ij_6 * t49 + A_ij_7 * t47 + A_ij_8 * t45;
-    const jg_real t74 = C_j[3] * t73;
-    const jg_real t75 = C_j[4] * t73;
-    const jg_real t76 = C_j[5] * t73;
-    const jg_real t77 = A_ij_6 * t50 + A_ij_7 * t39 + A_ij_8 * t37;
-    const jg_real t78 = C_j[6] * t77;
-    const jg_real t79 = C_j[7] * t77;
-    const jg_real t80 = C_j[8] * t77;
-    phi_q_t_lambda_q[5] = t72 - (A_ij_0 * t74 + A_ij_3 * t75 + A_ij_6 * t76) - (A_ij_0 * t78 + A_ij_3 * t79 + A_ij_6
-        * t80);
-    const jg_real t81 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
-    phi_q_t_lambda_q[6] = A_ij_h_j_0 * t39 - s_i[1] * t81 + A_ij_g_j_0 * t47;
-    const jg_real t82 = s_i[0] * t81;
-    const jg_real t83 = A_ij_g_j_0 * t49;
-    phi_q_t_lambda_q[7] = t42 + t82 - (t38 + t51) - (t46 + t83);
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t39 - s_i[1] * t41 + A_ij_g_j_2 * t47;
-    const jg_real t84 = A_ij_1 * t53;
-    phi_q_t_lambda_q[9] = t84 - (A_ij_1 * t56 + A_ij_4 * t57 + A_ij_7 * t58) - (A_ij_1 * t60 + A_ij_4 * t61 + A_ij_7
-        * t62);
-    const jg_real t85 = A_ij_4 * t53;
-    phi_q_t_lambda_q[10] = t85 - (A_ij_1 * t65 + A_ij_4 * t66 + A_ij_7 * t67) - (A_ij_1 * t69 + A_ij_4 * t70 +
-        A_ij_7 * t71);
-    const jg_real t86 = A_ij_7 * t53;
-    phi_q_t_lambda_q[11] = t86 - (A_ij_1 * t74 + A_ij_4 * t75 + A_ij_7 * t76) - (A_ij_1 * t78 + A_ij_4 * t79 +
-        A_ij_7 * t80);
-    phi_q_t_lambda_q[12] = A_ij_h_j_0 * t37 - s_i[2] * t81 + A_ij_g_j_0 * t45;
-    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t37 - s_i[2] * t43 + A_ij_g_j_1 * t45;
-    phi_q_t_lambda_q[14] = t44 + t82 - t52 - (t48 + t83);
-    const jg_real t87 = A_ij_2 * t53;
-    phi_q_t_lambda_q[15] = t87 - (A_ij_2 * t56 + A_ij_5 * t57 + A_ij_8 * t58) - (A_ij_2 * t60 + A_ij_5 * t61 +
-        A_ij_8 * t62);
-    const jg_real t88 = A_ij_5 * t53;
-    phi_q_t_lambda_q[16] = t88 - (A_ij_2 * t65 + A_ij_5 * t66 + A_ij_8 * t67) - (A_ij_2 * t69 + A_ij_5 * t70 +
-        A_ij_8 * t71);
-    const jg_real t89 = A_ij_8 * t53;
-    phi_q_t_lambda_q[17] = t89 - (A_ij_2 * t74 + A_ij_5 * t75 + A_ij_8 * t76) - (A_ij_2 * t78 + A_ij_5 * t79 +
-        A_ij_8 * t80);
-    phi_q_t_lambda_q[18] = t54 - A_ij_h_j_0 * t59 - A_ij_g_j_0 * t55;
-    phi_q_t_lambda_q[19] = t84 - A_ij_h_j_1 * t59 - A_ij_g_j_1 * t55;
-    phi_q_t_lambda_q[20] = t87 - A_ij_h_j_2 * t59 - A_ij_g_j_2 * t55;
-    const jg_real t90 = C_j[5] * lambda[5];
-    const jg_real t91 = A_ijt_f_i_2 * t90;
-    const jg_real t92 = C_j[4] * lambda[5];
-    const jg_real t93 = A_ijt_f_i_1 * t92;
-    const jg_real t94 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
-    const jg_real t95 = s_j[2] * t94;
-    const jg_real t96 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real t97 = s_j[1] * t96;
-    phi_q_t_lambda_q[21] = -(t70 + t80 + (t91 + t93 + (t95 + t97)));
-    const jg_real t98 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[22] = A_ijt_f_i_1 * t98 + s_j[0] * t96 + t69;
-    phi_q_t_lambda_q[23] = A_ijt_f_i_2 * t98 + s_j[0] * t94 + t78;
-    phi_q_t_lambda_q[24] = t63 - A_ij_h_j_0 * t68 - A_ij_g_j_0 * t64;
-    phi_q_t_lambda_q[25] = t85 - A_ij_h_j_1 * t68 - A_ij_g_j_1 * t64;
-    phi_q_t_lambda_q[26] = t88 - A_ij_h_j_2 * t68 - A_ij_g_j_2 * t64;
-    const jg_real t99 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
-    phi_q_t_lambda_q[27] = A_ijt_f_i_0 * t92 + s_j[1] * t99 + t61;
-    const jg_real t100 = A_ijt_f_i_0 * t98;
-    const jg_real t101 = s_j[0] * t99;
-    phi_q_t_lambda_q[28] = -(t60 + t80 + (t91 + t100 + (t95 + t101)));
-    phi_q_t_lambda_q[29] = A_ijt_f_i_2 * t92 + s_j[1] * t94 + t79;
-    phi_q_t_lambda_q[30] = t72 - A_ij_h_j_0 * t77 - A_ij_g_j_0 * t73;
-    phi_q_t_lambda_q[31] = t86 - A_ij_h_j_1 * t77 - A_ij_g_j_1 * t73;
-    phi_q_t_lambda_q[32] = t89 - A_ij_h_j_2 * t77 - A_ij_g_j_2 * t73;
-    phi_q_t_lambda_q[33] = A_ijt_f_i_0 * t90 + s_j[2] * t99 + t62;
-    phi_q_t_lambda_q[34] = A_ijt_f_i_1 * t90 + s_j[2] * t96 + t71;
-    phi_q_t_lambda_q[35] = -(t60 + t70 + (t93 + t100 + (t97 + t101)));
+    const jg_real t40 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
+    const jg_real t41 = A_ij_h_j_2 * t40;
+    const jg_real t42 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
+    const jg_real t43 = A_ij_h_j_1 * t42;
+    const jg_real t44 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
+    const jg_real t45 = s_i[2] * t44;
+    const jg_real t46 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
+    const jg_real t47 = s_i[1] * t46;
+    const jg_real t48 = C_i[2] * lambda[5];
+    const jg_real t49 = A_ij_g_j_2 * t48;
+    const jg_real t50 = C_i[1] * lambda[5];
+    const jg_real t51 = A_ij_g_j_1 * t50;
+    phi_q_t_lambda_q[0] = t45 + t47 - (t41 + t43) - (t49 + t51);
+    const jg_real t52 = C_i[0] * lambda[5];
+    const jg_real t53 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
+    phi_q_t_lambda_q[1] = A_ij_h_j_1 * t53 - s_i[0] * t46 + A_ij_g_j_1 * t52;
+    phi_q_t_lambda_q[2] = A_ij_h_j_2 * t53 - s_i[0] * t44 + A_ij_g_j_2 * t52;
+    const jg_real t54 = A_ij_h_j_0 * t53;
+    const jg_real t55 = t43 + t54;
+    const jg_real t56 = t41 + t55 + t24 * lambda[5];
+    const jg_real t57 = A_ij_0 * t56;
+    const jg_real t58 = A_ijt_f_i_0 * lambda[5];
+    const jg_real t59 = A_ij_0 * t53 + A_ij_1 * t42 + A_ij_2 * t40;
+    const jg_real t60 = A_ij_h_j_0 * t59;
+    phi_q_t_lambda_q[3] = t57 - A_ij_g_j_0 * t58 - t60;
+    const jg_real t61 = A_ij_3 * t56;
+    const jg_real t62 = A_ijt_f_i_1 * lambda[5];
+    const jg_real t63 = A_ij_3 * t53 + A_ij_4 * t42 + A_ij_5 * t40;
+    const jg_real t64 = A_ij_h_j_0 * t63;
+    phi_q_t_lambda_q[4] = t61 - A_ij_g_j_0 * t62 - t64;
+    const jg_real t65 = A_ij_6 * t56;
+    const jg_real t66 = A_ijt_f_i_2 * lambda[5];
+    const jg_real t67 = A_ij_6 * t53 + A_ij_7 * t42 + A_ij_8 * t40;
+    const jg_real t68 = A_ij_h_j_0 * t67;
+    phi_q_t_lambda_q[5] = t65 - A_ij_g_j_0 * t66 - t68;
+    const jg_real t69 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
+    phi_q_t_lambda_q[6] = A_ij_h_j_0 * t42 - s_i[1] * t69 + A_ij_g_j_0 * t50;
+    const jg_real t70 = s_i[0] * t69;
+    const jg_real t71 = A_ij_g_j_0 * t52;
+    phi_q_t_lambda_q[7] = t45 + t70 - (t41 + t54) - (t49 + t71);
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t42 - s_i[1] * t44 + A_ij_g_j_2 * t50;
+    const jg_real t72 = A_ij_1 * t56;
+    const jg_real t73 = A_ij_h_j_1 * t59;
+    phi_q_t_lambda_q[9] = t72 - A_ij_g_j_1 * t58 - t73;
+    const jg_real t74 = A_ij_4 * t56;
+    const jg_real t75 = A_ij_h_j_1 * t63;
+    phi_q_t_lambda_q[10] = t74 - A_ij_g_j_1 * t62 - t75;
+    const jg_real t76 = A_ij_7 * t56;
+    const jg_real t77 = A_ij_h_j_1 * t67;
+    phi_q_t_lambda_q[11] = t76 - A_ij_g_j_1 * t66 - t77;
+    phi_q_t_lambda_q[12] = A_ij_h_j_0 * t40 - s_i[2] * t69 + A_ij_g_j_0 * t48;
+    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t40 - s_i[2] * t46 + A_ij_g_j_1 * t48;
+    phi_q_t_lambda_q[14] = t47 + t70 - t55 - (t51 + t71);
+    const jg_real t78 = A_ij_2 * t56;
+    const jg_real t79 = A_ij_h_j_2 * t59;
+    phi_q_t_lambda_q[15] = t78 - A_ij_g_j_2 * t58 - t79;
+    const jg_real t80 = A_ij_5 * t56;
+    const jg_real t81 = A_ij_h_j_2 * t63;
+    phi_q_t_lambda_q[16] = t80 - A_ij_g_j_2 * t62 - t81;
+    const jg_real t82 = A_ij_8 * t56;
+    const jg_real t83 = A_ij_h_j_2 * t67;
+    phi_q_t_lambda_q[17] = t82 - A_ij_g_j_2 * t66 - t83;
+    const jg_real t84 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[18] = t57 - t60 - A_ijt_f_i_0 * t84;
+    const jg_real t85 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[19] = t72 - t73 - A_ijt_f_i_0 * t85;
+    const jg_real t86 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[20] = t78 - t79 - A_ijt_f_i_0 * t86;
+    const jg_real t87 = C_j[8] * t67;
+    const jg_real t88 = C_j[7] * t63;
+    const jg_real t89 = C_j[5] * lambda[5];
+    const jg_real t90 = A_ijt_f_i_2 * t89;
+    const jg_real t91 = C_j[4] * lambda[5];
+    const jg_real t92 = A_ijt_f_i_1 * t91;
+    const jg_real t93 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
+    const jg_real t94 = s_j[2] * t93;
+    const jg_real t95 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
+    const jg_real t96 = s_j[1] * t95;
+    phi_q_t_lambda_q[21] = -(t87 + t88 + (t90 + t92 + (t94 + t96)));
+    const jg_real t97 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[22] = A_ijt_f_i_1 * t97 + s_j[0] * t95 + C_j[6] * t63;
+    phi_q_t_lambda_q[23] = A_ijt_f_i_2 * t97 + s_j[0] * t93 + C_j[6] * t67;
+    phi_q_t_lambda_q[24] = t61 - t64 - A_ijt_f_i_1 * t84;
+    phi_q_t_lambda_q[25] = t74 - t75 - A_ijt_f_i_1 * t85;
+    phi_q_t_lambda_q[26] = t80 - t81 - A_ijt_f_i_1 * t86;
+    const jg_real t98 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
+    phi_q_t_lambda_q[27] = A_ijt_f_i_0 * t91 + s_j[1] * t98 + C_j[7] * t59;
+    const jg_real t99 = C_j[6] * t59;
+    const jg_real t100 = A_ijt_f_i_0 * t97;
+    const jg_real t101 = s_j[0] * t98;
+    phi_q_t_lambda_q[28] = -(t87 + t99 + (t90 + t100 + (t94 + t101)));
+    phi_q_t_lambda_q[29] = A_ijt_f_i_2 * t91 + s_j[1] * t93 + C_j[7] * t67;
+    phi_q_t_lambda_q[30] = t65 - t68 - A_ijt_f_i_2 * t84;
+    phi_q_t_lambda_q[31] = t76 - t77 - A_ijt_f_i_2 * t85;
+    phi_q_t_lambda_q[32] = t82 - t83 - A_ijt_f_i_2 * t86;
+    phi_q_t_lambda_q[33] = A_ijt_f_i_0 * t89 + s_j[2] * t98 + C_j[8] * t59;
+    phi_q_t_lambda_q[34] = A_ijt_f_i_1 * t89 + s_j[2] * t95 + C_j[8] * t63;
+    phi_q_t_lambda_q[35] = -(t88 + t99 + (t92 + t100 + (t96 + t101)));
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
+    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
+    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
+        omega_i_cross_s_i_2;
+    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
+        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -807,18 +817,15 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t108 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    const jg_real t109 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    const jg_real t110 = omega_i[1] * t108 - omega_i[2] * t109;
-    const jg_real t111 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    const jg_real t112 = omega_i[2] * t111 - omega_i[0] * t108;
-    const jg_real t113 = omega_i[0] * t109 - omega_i[1] * t111;
-    gamma[0] = -(A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_omega_j_cross_s_j_1 + A_j[6] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[0] * t110 + A_i[3] * t112 + A_i[6] * t113));
-    gamma[1] = -(A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_omega_j_cross_s_j_1 + A_j[7] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[1] * t110 + A_i[4] * t112 + A_i[7] * t113));
-    gamma[2] = -(A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_omega_j_cross_s_j_1 + A_j[8] *
-        omega_j_cross_omega_j_cross_s_j_2 + (A_i[2] * t110 + A_i[5] * t112 + A_i[8] * t113));
+    gamma[0] = A_i[0] * omega_i_cross_omega_i_cross_s_i_0 + A_i[3] * omega_i_cross_omega_i_cross_s_i_1 + A_i[6] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[0] * omega_j_cross_omega_j_cross_s_j_0 + A_j[3] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[1] = A_i[1] * omega_i_cross_omega_i_cross_s_i_0 + A_i[4] * omega_i_cross_omega_i_cross_s_i_1 + A_i[7] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[1] * omega_j_cross_omega_j_cross_s_j_0 + A_j[4] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_omega_j_cross_s_j_2);
+    gamma[2] = A_i[2] * omega_i_cross_omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_omega_i_cross_s_i_1 + A_i[8] *
+        omega_i_cross_omega_i_cross_s_i_2 - (A_j[2] * omega_j_cross_omega_j_cross_s_j_0 + A_j[5] *
+        omega_j_cross_omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_omega_j_cross_s_j_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];

@@ -304,6 +304,16 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
@@ -314,21 +324,19 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real t10 = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0;
-    gamma[0] = -(omega_i[1] * t8 - omega_i[2] * t10 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t13 = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2;
-    gamma[1] = -(omega_i[2] * t13 - omega_i[0] * t8 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
@@ -417,24 +425,25 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
-    phi_q_v[0] = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2 + (v_j[0] - v_i[0] +
-        omega_j_cross_s_j_world_0);
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    phi_q_v[0] = v_j[0] - v_i[0] + omega_j_cross_s_j_world_0 - omega_i_cross_s_i_world_0;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real omega_j_cross_s_j_world_1 = omega_j[2] * s_j_world_0 - omega_j[0] * s_j_world_2;
-    phi_q_v[1] = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0 + (v_j[1] - v_i[1] +
-        omega_j_cross_s_j_world_1);
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + omega_j_cross_s_j_world_1 - omega_i_cross_s_i_world_1;
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
-    phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
-        omega_j_cross_s_j_world_2);
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    phi_q_v[2] = v_j[2] - v_i[2] + omega_j_cross_s_j_world_2 - omega_i_cross_s_i_world_2;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -492,50 +501,52 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real t2 = g_i_1 * lambda[4];
-    const jg_real t3 = f_i_1 * lambda[3] + t2;
+    const jg_real t2 = f_i_1 * lambda[3] + g_i_1 * lambda[4];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real g_i_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real t7 = g_i_2 * lambda[4];
-    const jg_real t8 = f_i_2 * lambda[3] + t7;
+    const jg_real t6 = f_i_2 * lambda[3] + g_i_2 * lambda[4];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* g_j = A_j C_j [0; 1; 0] */
     const jg_real g_j_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t11 = g_j_2 * lambda[5];
     const jg_real g_j_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t13 = g_j_1 * lambda[5];
+    /* f_i_cross_g_j = tilde(f_i) g_j */
+    const jg_real f_i_cross_g_j_0 = f_i_1 * g_j_2 - f_i_2 * g_j_1;
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1 + (t3 * h_j_2 - t8 * h_j_1 + (f_i_1 * t11
-        - f_i_2 * t13));
+    phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1 + (t2 * h_j_2 - t6 * h_j_1 + lambda[5] *
+        f_i_cross_g_j_0);
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real t19 = g_i_0 * lambda[4];
-    const jg_real t20 = f_i_0 * lambda[3] + t19;
+    const jg_real t16 = f_i_0 * lambda[3] + g_i_0 * lambda[4];
     const jg_real g_j_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t22 = g_j_0 * lambda[5];
+    const jg_real f_i_cross_g_j_1 = f_i_2 * g_j_0 - f_i_0 * g_j_2;
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    phi_q_t_lambda[4] = lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2 + (t8 * h_j_0 - t20 * h_j_2 + (f_i_2 * t22
-        - f_i_0 * t11));
-    phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0 + (t20 * h_j_1 - t3 * h_j_0 + (f_i_0 * t13
-        - f_i_1 * t22));
-    const jg_real t24 = t13 + lambda[3] * h_j_1;
-    const jg_real t25 = t11 + lambda[3] * h_j_2;
+    phi_q_t_lambda[4] = lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2 + (t6 * h_j_0 - t16 * h_j_2 + lambda[5] *
+        f_i_cross_g_j_1);
+    const jg_real f_i_cross_g_j_2 = f_i_0 * g_j_1 - f_i_1 * g_j_0;
+    phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0 + (t16 * h_j_1 - t2 * h_j_0 + lambda[5] *
+        f_i_cross_g_j_2);
+    const jg_real t21 = g_j_1 * lambda[5] + lambda[3] * h_j_1;
+    const jg_real t22 = g_j_2 * lambda[5] + lambda[3] * h_j_2;
+    /* h_j_cross_g_i = tilde(h_j) g_i */
+    const jg_real h_j_cross_g_i_0 = g_i_2 * h_j_1 - g_i_1 * h_j_2;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2 + (f_i_2 * t24 - f_i_1 * t25 + (t7 * h_j_1
-        - t2 * h_j_2));
-    const jg_real t28 = t22 + lambda[3] * h_j_0;
+    phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2 + (f_i_2 * t21 - f_i_1 * t22 + lambda[4] *
+        h_j_cross_g_i_0);
+    const jg_real t26 = g_j_0 * lambda[5] + lambda[3] * h_j_0;
+    const jg_real h_j_cross_g_i_1 = g_i_0 * h_j_2 - g_i_2 * h_j_0;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    phi_q_t_lambda[10] = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0 + (f_i_0 * t25 - f_i_2 * t28 + (t19 *
-        h_j_2 - t7 * h_j_0));
-    phi_q_t_lambda[11] = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1 + (f_i_1 * t28 - f_i_0 * t24 + (t2 *
-        h_j_0 - t19 * h_j_1));
+    phi_q_t_lambda[10] = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0 + (f_i_0 * t22 - f_i_2 * t26 + lambda[4]
+        * h_j_cross_g_i_1);
+    const jg_real h_j_cross_g_i_2 = g_i_1 * h_j_0 - g_i_0 * h_j_1;
+    phi_q_t_lambda[11] = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1 + (f_i_1 * t26 - f_i_0 * t21 + lambda[4]
+        * h_j_cross_g_i_2);
 }
 
 void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -727,23 +738,31 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q_t_lambda_q[33] = t58 + h_j_0 * t30 + s_j_world_0 * lambda[2];
     phi_q_t_lambda_q[34] = t71 + h_j_1 * t30 + s_j_world_1 * lambda[2];
     phi_q_t_lambda_q[35] = -(t86 + t89 + (t84 + t88 + t77));
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = s_i_world_1 * omega_i[0] - s_i_world_0 * omega_i[1];
+    const jg_real omega_i_cross_s_i_world_1 = s_i_world_0 * omega_i[2] - s_i_world_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    const jg_real t93 = s_i_world_0 * omega_i[1] - s_i_world_1 * omega_i[0];
-    const jg_real t94 = s_i_world_2 * omega_i[0] - s_i_world_0 * omega_i[2];
-    gamma[0] = -(omega_i[1] * t93 - omega_i[2] * t94 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = s_i_world_2 * omega_i[1] - s_i_world_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = s_j_world_2 * omega_j[1] - s_j_world_1 * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t97 = s_i_world_1 * omega_i[2] - s_i_world_2 * omega_i[1];
-    gamma[1] = -(omega_i[2] * t97 - omega_i[0] * t93 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t94 - omega_i[1] * t97 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_2 = f_i_1 * omega_i[0] - f_i_0 * omega_i[1];
     const jg_real omega_i_cross_f_i_1 = f_i_0 * omega_i[2] - f_i_2 * omega_i[0];

@@ -33,12 +33,16 @@ void jg_rigid_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -164,19 +168,27 @@ void jg_rigid_parametric_substituted_gamma(const jg_real *JG_RESTRICT geometry, 
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    const jg_real t0 = omega_j[2] * v_j[1] - omega_j[1] * v_j[2];
-    const jg_real t1 = omega_j[0] * v_j[2] - omega_j[2] * v_j[0];
-    const jg_real t2 = omega_j[1] * v_j[0] - omega_j[0] * v_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
-    const jg_real t4 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t5 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
+    const jg_real omega_j_cross_v_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
+    const jg_real omega_j_cross_v_j_2 = omega_j[0] * v_j[1] - omega_j[1] * v_j[0];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t3 + C_i[3] * t4 + C_i[6] * t5 + omega_i_cross_v_i_0);
+    gamma[0] = C_i[0] * C_jt_omega_j_cross_v_j_0 + C_i[3] * C_jt_omega_j_cross_v_j_1 + C_i[6] *
+        C_jt_omega_j_cross_v_j_2 - omega_i_cross_v_i_0;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t3 + C_i[4] * t4 + C_i[7] * t5 + omega_i_cross_v_i_1);
+    gamma[1] = C_i[1] * C_jt_omega_j_cross_v_j_0 + C_i[4] * C_jt_omega_j_cross_v_j_1 + C_i[7] *
+        C_jt_omega_j_cross_v_j_2 - omega_i_cross_v_i_1;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t3 + C_i[5] * t4 + C_i[8] * t5 + omega_i_cross_v_i_2);
+    gamma[2] = C_i[2] * C_jt_omega_j_cross_v_j_0 + C_i[5] * C_jt_omega_j_cross_v_j_1 + C_i[8] *
+        C_jt_omega_j_cross_v_j_2 - omega_i_cross_v_i_2;
     gamma[3] = JG_REAL(0.0);
     gamma[4] = JG_REAL(0.0);
     gamma[5] = JG_REAL(0.0);
@@ -193,12 +205,17 @@ void jg_rigid_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT geometry
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
-    const jg_real t4 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t5 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -207,13 +224,16 @@ void jg_rigid_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT geometry
     const jg_real C_i_C_jt_v_j_0 = C_i[0] * C_jt_v_j_0 + C_i[3] * C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
     /* s_i_cross_omega_i = tilde(s_i) omega_i */
     const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t3 + C_i[3] * t4 + C_i[6] * t5 + (C_i_C_jt_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
+    phi_q_v[0] = C_i_C_jt_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - (C_i[0] * C_jt_s_j_cross_omega_j_0 + C_i[3] *
+        C_jt_s_j_cross_omega_j_1 + C_i[6] * C_jt_s_j_cross_omega_j_2);
     const jg_real C_i_C_jt_v_j_1 = C_i[1] * C_jt_v_j_0 + C_i[4] * C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t3 + C_i[4] * t4 + C_i[7] * t5 + (C_i_C_jt_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
+    phi_q_v[1] = C_i_C_jt_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - (C_i[1] * C_jt_s_j_cross_omega_j_0 + C_i[4] *
+        C_jt_s_j_cross_omega_j_1 + C_i[7] * C_jt_s_j_cross_omega_j_2);
     const jg_real C_i_C_jt_v_j_2 = C_i[2] * C_jt_v_j_0 + C_i[5] * C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t3 + C_i[5] * t4 + C_i[8] * t5 + (C_i_C_jt_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
+    phi_q_v[2] = C_i_C_jt_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - (C_i[2] * C_jt_s_j_cross_omega_j_0 + C_i[5] *
+        C_jt_s_j_cross_omega_j_1 + C_i[8] * C_jt_s_j_cross_omega_j_2);
     phi_q_v[3] = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2] - (C_j[0] * omega_j[0] + C_j[1] *
         omega_j[1] + C_j[2] * omega_j[2]);
     phi_q_v[4] = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2] - (C_j[3] * omega_j[0] + C_j[4] *
@@ -270,12 +290,16 @@ void jg_rigid_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -360,16 +384,20 @@ void jg_rigid_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     phi_q[42] = -C_j[2];
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
-    const jg_real t36 = omega_j[2] * v_j[1] - omega_j[1] * v_j[2];
-    const jg_real t37 = omega_j[0] * v_j[2] - omega_j[2] * v_j[0];
-    const jg_real t38 = omega_j[1] * v_j[0] - omega_j[0] * v_j[1];
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
+    const jg_real omega_j_cross_v_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
+    const jg_real omega_j_cross_v_j_2 = omega_j[0] * v_j[1] - omega_j[1] * v_j[0];
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i_C_jt_0 * t36 + C_i_C_jt_3 * t37 + C_i_C_jt_6 * t38 + omega_i_cross_v_i_0);
+    gamma[0] = C_i_C_jt_0 * omega_j_cross_v_j_0 + C_i_C_jt_3 * omega_j_cross_v_j_1 + C_i_C_jt_6 *
+        omega_j_cross_v_j_2 - omega_i_cross_v_i_0;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i_C_jt_1 * t36 + C_i_C_jt_4 * t37 + C_i_C_jt_7 * t38 + omega_i_cross_v_i_1);
+    gamma[1] = C_i_C_jt_1 * omega_j_cross_v_j_0 + C_i_C_jt_4 * omega_j_cross_v_j_1 + C_i_C_jt_7 *
+        omega_j_cross_v_j_2 - omega_i_cross_v_i_1;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i_C_jt_2 * t36 + C_i_C_jt_5 * t37 + C_i_C_jt_8 * t38 + omega_i_cross_v_i_2);
+    gamma[2] = C_i_C_jt_2 * omega_j_cross_v_j_0 + C_i_C_jt_5 * omega_j_cross_v_j_1 + C_i_C_jt_8 *
+        omega_j_cross_v_j_2 - omega_i_cross_v_i_2;
     gamma[3] = JG_REAL(0.0);
     gamma[4] = JG_REAL(0.0);
     gamma[5] = JG_REAL(0.0);

@@ -38,12 +38,16 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real revolutions = geometry[26];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -121,19 +125,23 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[8] = -A_i_h_i_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t16 = s_i[2] + dp_ij_2;
+    const jg_real t19 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t18 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t16 - C_i[2] * t18;
-    phi_q[10] = C_i[4] * t16 - C_i[5] * t18;
+    const jg_real t21 = s_i[1] + dp_ij_1;
+    phi_q[9] = C_i[1] * t19 - C_i[2] * t21;
+    phi_q[10] = C_i[4] * t19 - C_i[5] * t21;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -157,28 +165,28 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real cosine_theta = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2;
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
-    const jg_real t35 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t38 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t35;
-    const jg_real t37 = pitch * theta_sine;
-    const jg_real t38 = sine_theta * t35 * pitch;
-    const jg_real t39 = C_i[5] * t37 - C_i[2] * t38;
-    const jg_real t40 = C_i[4] * t37 - C_i[1] * t38;
-    phi_q[13] = C_i[7] * t16 - C_i[8] * t18 + (A_ij_f_j_1 * t39 - A_ij_f_j_2 * t40);
+    const jg_real theta_sine = cosine_theta * t38;
+    const jg_real t40 = pitch * theta_sine;
+    const jg_real t41 = sine_theta * t38 * pitch;
+    const jg_real t42 = C_i[5] * t40 - C_i[2] * t41;
+    const jg_real t43 = C_i[4] * t40 - C_i[1] * t41;
+    phi_q[13] = C_i[7] * t19 - C_i[8] * t21 + (A_ij_f_j_1 * t42 - A_ij_f_j_2 * t43);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t42 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t42 - C_i[0] * t16;
-    phi_q[15] = C_i[5] * t42 - C_i[3] * t16;
+    const jg_real t45 = s_i[0] + dp_ij_0;
+    phi_q[14] = C_i[2] * t45 - C_i[0] * t19;
+    phi_q[15] = C_i[5] * t45 - C_i[3] * t19;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[16] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[17] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    const jg_real t44 = C_i[3] * t37 - C_i[0] * t38;
-    phi_q[18] = C_i[8] * t42 - C_i[6] * t16 + (A_ij_f_j_2 * t44 - A_ij_f_j_0 * t39);
-    phi_q[19] = C_i[0] * t18 - C_i[1] * t42;
-    phi_q[20] = C_i[3] * t18 - C_i[4] * t42;
+    const jg_real t47 = C_i[3] * t40 - C_i[0] * t41;
+    phi_q[18] = C_i[8] * t45 - C_i[6] * t19 + (A_ij_f_j_2 * t47 - A_ij_f_j_0 * t42);
+    phi_q[19] = C_i[0] * t21 - C_i[1] * t45;
+    phi_q[20] = C_i[3] * t21 - C_i[4] * t45;
     phi_q[21] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[22] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
-    phi_q[23] = C_i[6] * t18 - C_i[7] * t42 + (A_ij_f_j_0 * t40 - A_ij_f_j_1 * t44);
+    phi_q[23] = C_i[6] * t21 - C_i[7] * t45 + (A_ij_f_j_0 * t43 - A_ij_f_j_1 * t47);
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -193,14 +201,14 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[34] = s_j_cross_A_ijt_g_i_0;
     phi_q[35] = A_ijt_f_i_2 * C_j[7] - A_ijt_f_i_1 * C_j[8];
     phi_q[36] = A_ijt_g_i_2 * C_j[7] - A_ijt_g_i_1 * C_j[8];
-    const jg_real t51 = A_ij_3 * t44 + A_ij_4 * t40 + A_ij_5 * t39;
-    const jg_real t52 = A_ij_6 * t44 + A_ij_7 * t40 + A_ij_8 * t39;
+    const jg_real t54 = A_ij_3 * t47 + A_ij_4 * t43 + A_ij_5 * t42;
+    const jg_real t55 = A_ij_6 * t47 + A_ij_7 * t43 + A_ij_8 * t42;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     /* s_j_cross_A_ijt_h_i = tilde(s_j) A_ij^T h_i */
     const jg_real s_j_cross_A_ijt_h_i_0 = s_j[1] * A_ijt_h_i_2 - s_j[2] * A_ijt_h_i_1;
-    phi_q[37] = C_j[2] * t51 - C_j[1] * t52 + s_j_cross_A_ijt_h_i_0;
+    phi_q[37] = C_j[2] * t54 - C_j[1] * t55 + s_j_cross_A_ijt_h_i_0;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
     const jg_real s_j_cross_A_ijt_f_i_1 = s_j[2] * A_ijt_f_i_0 - s_j[0] * A_ijt_f_i_2;
     phi_q[38] = s_j_cross_A_ijt_f_i_1;
@@ -209,10 +217,10 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[39] = s_j_cross_A_ijt_g_i_1;
     phi_q[40] = A_ijt_f_i_0 * C_j[8] - A_ijt_f_i_2 * C_j[6];
     phi_q[41] = A_ijt_g_i_0 * C_j[8] - A_ijt_g_i_2 * C_j[6];
-    const jg_real t60 = A_ij_0 * t44 + A_ij_1 * t40 + A_ij_2 * t39;
+    const jg_real t63 = A_ij_0 * t47 + A_ij_1 * t43 + A_ij_2 * t42;
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     const jg_real s_j_cross_A_ijt_h_i_1 = s_j[2] * A_ijt_h_i_0 - s_j[0] * A_ijt_h_i_2;
-    phi_q[42] = C_j[0] * t52 - C_j[2] * t60 + s_j_cross_A_ijt_h_i_1;
+    phi_q[42] = C_j[0] * t55 - C_j[2] * t63 + s_j_cross_A_ijt_h_i_1;
     const jg_real s_j_cross_A_ijt_f_i_2 = s_j[0] * A_ijt_f_i_1 - s_j[1] * A_ijt_f_i_0;
     phi_q[43] = s_j_cross_A_ijt_f_i_2;
     const jg_real s_j_cross_A_ijt_g_i_2 = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
@@ -220,7 +228,7 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[45] = A_ijt_f_i_1 * C_j[6] - A_ijt_f_i_0 * C_j[7];
     phi_q[46] = A_ijt_g_i_1 * C_j[6] - A_ijt_g_i_0 * C_j[7];
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
-    phi_q[47] = C_j[1] * t60 - C_j[0] * t51 + s_j_cross_A_ijt_h_i_2;
+    phi_q[47] = C_j[1] * t63 - C_j[0] * t54 + s_j_cross_A_ijt_h_i_2;
 }
 
 void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -293,379 +301,255 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real t27 = sine_theta * t26;
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
     const jg_real theta_sine = cosine_theta * t26;
-    const jg_real t29 = lambda[4] * pitch;
-    const jg_real t30 = t29 * (t27 * t27 - theta_sine * theta_sine);
+    const jg_real t29 = t27 * t27 - theta_sine * theta_sine;
+    const jg_real t30 = lambda[4] * pitch;
     const jg_real t31 = C_i[5] * t30;
     const jg_real t32 = C_i[4] * t30;
     const jg_real t33 = A_ij_f_j_1 * t31 - A_ij_f_j_2 * t32;
-    const jg_real t34 = C_i[1] * t33;
-    const jg_real t35 = C_i[2] * t33;
+    const jg_real t34 = t29 * t33;
+    const jg_real t35 = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
     const jg_real t36 = C_i[2] * t30;
     const jg_real t37 = C_i[1] * t30;
     const jg_real t38 = A_ij_f_j_1 * t36 - A_ij_f_j_2 * t37;
-    const jg_real t39 = C_i[4] * t38;
-    const jg_real t40 = C_i[5] * t38;
-    const jg_real t41 = t27 * JG_REAL(2.0) * theta_sine * t29;
-    const jg_real t42 = C_i[2] * t41;
-    const jg_real t43 = C_i[1] * t41;
-    const jg_real t44 = A_ij_f_j_1 * t42 - A_ij_f_j_2 * t43;
-    const jg_real t45 = C_i[1] * t44;
-    const jg_real t46 = C_i[2] * t44;
-    const jg_real t47 = C_i[4] * t41;
-    const jg_real t48 = C_i[5] * t41;
-    const jg_real t49 = A_ij_f_j_2 * t47 - A_ij_f_j_1 * t48;
-    const jg_real t50 = C_i[4] * t49;
-    const jg_real t51 = C_i[5] * t49;
+    const jg_real t39 = t29 * t38;
+    const jg_real t40 = C_i[4] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_1;
+    const jg_real t41 = t27 * JG_REAL(2.0) * theta_sine;
+    const jg_real t42 = t38 * t41;
+    const jg_real t43 = t41 * t33;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t59 = s_i[2] + dp_ij_2;
-    const jg_real t60 = t0 * t59;
+    const jg_real t54 = s_i[2] + dp_ij_2;
+    const jg_real t55 = t0 * t54;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t62 = s_i[1] + dp_ij_1;
-    const jg_real t63 = t1 * t62;
+    const jg_real t57 = s_i[1] + dp_ij_1;
+    const jg_real t58 = t1 * t57;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t65 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t66 = t65 * A_ij_h_j_2;
+    const jg_real t60 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t61 = t60 * A_ij_h_j_2;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t68 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t69 = t68 * A_ij_h_j_1;
-    const jg_real t70 = t29 * t27;
-    const jg_real t71 = t29 * theta_sine;
-    const jg_real t72 = C_i[2] * t70 - C_i[5] * t71;
-    const jg_real t73 = A_ij_f_j_2 * t72;
-    const jg_real t74 = C_i[1] * t70 - C_i[4] * t71;
-    const jg_real t75 = A_ij_f_j_1 * t74;
-    phi_q_t_lambda_q[12] = A_ij_f_j_2 * t50 - A_ij_f_j_1 * t51 + (A_ij_f_j_2 * t34 - A_ij_f_j_1 * t35 + (A_ij_f_j_2
-        * t39 - A_ij_f_j_1 * t40 + (A_ij_f_j_2 * t45 - A_ij_f_j_1 * t46))) - (t60 + t63) - (t66 + t69) - (t73 +
-        t75);
-    const jg_real t76 = C_i[3] * t30;
-    const jg_real t77 = A_ij_f_j_2 * t76 - A_ij_f_j_0 * t31;
-    const jg_real t78 = C_i[1] * t77;
-    const jg_real t79 = C_i[2] * t77;
-    const jg_real t80 = C_i[0] * t30;
-    const jg_real t81 = A_ij_f_j_2 * t80 - A_ij_f_j_0 * t36;
-    const jg_real t82 = C_i[4] * t81;
-    const jg_real t83 = C_i[5] * t81;
-    const jg_real t84 = C_i[0] * t41;
-    const jg_real t85 = A_ij_f_j_2 * t84 - A_ij_f_j_0 * t42;
-    const jg_real t86 = C_i[1] * t85;
-    const jg_real t87 = C_i[2] * t85;
-    const jg_real t88 = C_i[3] * t41;
-    const jg_real t89 = A_ij_f_j_0 * t48 - A_ij_f_j_2 * t88;
-    const jg_real t90 = C_i[4] * t89;
-    const jg_real t91 = C_i[5] * t89;
-    const jg_real t92 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real t93 = C_i[0] * t70 - C_i[3] * t71;
-    phi_q_t_lambda_q[13] = A_ij_f_j_2 * t90 - A_ij_f_j_1 * t91 + (A_ij_f_j_2 * t78 - A_ij_f_j_1 * t79 + (A_ij_f_j_2
-        * t82 - A_ij_f_j_1 * t83 + (A_ij_f_j_2 * t86 - A_ij_f_j_1 * t87))) + t3 * t62 + t92 * A_ij_h_j_1 +
-        A_ij_f_j_1 * t93;
-    const jg_real t94 = A_ij_f_j_0 * t32 - A_ij_f_j_1 * t76;
-    const jg_real t95 = C_i[1] * t94;
-    const jg_real t96 = C_i[2] * t94;
-    const jg_real t97 = A_ij_f_j_0 * t37 - A_ij_f_j_1 * t80;
-    const jg_real t98 = C_i[4] * t97;
-    const jg_real t99 = C_i[5] * t97;
-    const jg_real t100 = A_ij_f_j_0 * t43 - A_ij_f_j_1 * t84;
-    const jg_real t101 = C_i[1] * t100;
-    const jg_real t102 = C_i[2] * t100;
-    const jg_real t103 = A_ij_f_j_1 * t88 - A_ij_f_j_0 * t47;
-    const jg_real t104 = C_i[4] * t103;
-    const jg_real t105 = C_i[5] * t103;
-    phi_q_t_lambda_q[14] = A_ij_f_j_2 * t104 - A_ij_f_j_1 * t105 + (A_ij_f_j_2 * t95 - A_ij_f_j_1 * t96 +
-        (A_ij_f_j_2 * t98 - A_ij_f_j_1 * t99 + (A_ij_f_j_2 * t101 - A_ij_f_j_1 * t102))) + t3 * t59 + t92 *
-        A_ij_h_j_2 + A_ij_f_j_2 * t93;
-    const jg_real t106 = -t2;
-    phi_q_t_lambda_q[15] = t106;
-    phi_q_t_lambda_q[45] = t106;
-    const jg_real t107 = -t6;
-    phi_q_t_lambda_q[16] = t107;
-    phi_q_t_lambda_q[48] = t107;
-    const jg_real t108 = -t9;
-    phi_q_t_lambda_q[17] = t108;
-    phi_q_t_lambda_q[51] = t108;
-    const jg_real t109 = A_ij_6 * t76 + A_ij_7 * t32 + A_ij_8 * t31;
-    const jg_real t110 = A_ij_3 * t76 + A_ij_4 * t32 + A_ij_5 * t31;
-    const jg_real t111 = C_j[1] * t109 - C_j[2] * t110;
-    const jg_real t112 = C_i[2] * t111;
-    const jg_real t113 = C_i[1] * t111;
-    const jg_real t114 = A_ij_6 * t80 + A_ij_7 * t37 + A_ij_8 * t36;
-    const jg_real t115 = A_ij_3 * t80 + A_ij_4 * t37 + A_ij_5 * t36;
-    const jg_real t116 = C_j[1] * t114 - C_j[2] * t115;
-    const jg_real t117 = C_i[5] * t116;
-    const jg_real t118 = C_i[4] * t116;
-    const jg_real t119 = A_ij_6 * t84 + A_ij_7 * t43 + A_ij_8 * t42;
-    const jg_real t120 = A_ij_3 * t84 + A_ij_4 * t43 + A_ij_5 * t42;
-    const jg_real t121 = C_j[1] * t119 - C_j[2] * t120;
-    const jg_real t122 = C_i[2] * t121;
-    const jg_real t123 = C_i[1] * t121;
-    const jg_real t124 = A_ij_3 * t88 + A_ij_4 * t47 + A_ij_5 * t48;
-    const jg_real t125 = A_ij_6 * t88 + A_ij_7 * t47 + A_ij_8 * t48;
-    const jg_real t126 = C_j[2] * t124 - C_j[1] * t125;
-    const jg_real t127 = C_i[5] * t126;
-    const jg_real t128 = C_i[4] * t126;
-    const jg_real t129 = A_ij_0 * t93 + A_ij_1 * t74 + A_ij_2 * t72;
-    const jg_real t130 = C_j[0] * t129;
-    const jg_real t131 = C_j[1] * t129;
-    const jg_real t132 = C_j[2] * t129;
-    const jg_real t133 = A_ij_f_j_0 * t93;
-    const jg_real t134 = t75 + t133;
+    const jg_real t63 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t64 = t63 * A_ij_h_j_1;
+    const jg_real t65 = t30 * t27;
+    const jg_real t66 = t30 * theta_sine;
+    const jg_real t67 = C_i[2] * t65 - C_i[5] * t66;
+    const jg_real t68 = A_ij_f_j_2 * t67;
+    const jg_real t69 = C_i[1] * t65 - C_i[4] * t66;
+    const jg_real t70 = A_ij_f_j_1 * t69;
+    phi_q_t_lambda_q[12] = t39 * t40 + t42 * t35 + t35 * t34 - t40 * t43 - (t55 + t58) - (t61 + t64) - (t68 + t70);
+    const jg_real t71 = C_i[3] * t30;
+    const jg_real t72 = A_ij_f_j_2 * t71 - A_ij_f_j_0 * t31;
+    const jg_real t73 = t29 * t72;
+    const jg_real t74 = C_i[0] * t30;
+    const jg_real t75 = A_ij_f_j_2 * t74 - A_ij_f_j_0 * t36;
+    const jg_real t76 = t29 * t75;
+    const jg_real t77 = t75 * t41;
+    const jg_real t78 = t41 * t72;
+    const jg_real t79 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real t80 = C_i[0] * t65 - C_i[3] * t66;
+    phi_q_t_lambda_q[13] = t76 * t40 + t77 * t35 + t35 * t73 - t40 * t78 + t3 * t57 + t79 * A_ij_h_j_1 + A_ij_f_j_1
+        * t80;
+    const jg_real t81 = A_ij_f_j_0 * t32 - A_ij_f_j_1 * t71;
+    const jg_real t82 = t29 * t81;
+    const jg_real t83 = A_ij_f_j_0 * t37 - A_ij_f_j_1 * t74;
+    const jg_real t84 = t29 * t83;
+    const jg_real t85 = t83 * t41;
+    const jg_real t86 = t41 * t81;
+    phi_q_t_lambda_q[14] = t84 * t40 + t85 * t35 + t35 * t82 - t40 * t86 + t3 * t54 + t79 * A_ij_h_j_2 + A_ij_f_j_2
+        * t80;
+    const jg_real t87 = -t2;
+    phi_q_t_lambda_q[15] = t87;
+    phi_q_t_lambda_q[45] = t87;
+    const jg_real t88 = -t6;
+    phi_q_t_lambda_q[16] = t88;
+    phi_q_t_lambda_q[48] = t88;
+    const jg_real t89 = -t9;
+    phi_q_t_lambda_q[17] = t89;
+    phi_q_t_lambda_q[51] = t89;
+    const jg_real t90 = A_ij_3 * t71 + A_ij_4 * t32 + A_ij_5 * t31;
+    const jg_real t91 = A_ij_6 * t71 + A_ij_7 * t32 + A_ij_8 * t31;
+    const jg_real t92 = C_j[2] * t90 - C_j[1] * t91;
+    const jg_real t93 = t29 * t92;
+    const jg_real t94 = A_ij_3 * t74 + A_ij_4 * t37 + A_ij_5 * t36;
+    const jg_real t95 = A_ij_6 * t74 + A_ij_7 * t37 + A_ij_8 * t36;
+    const jg_real t96 = C_j[2] * t94 - C_j[1] * t95;
+    const jg_real t97 = t29 * t96;
+    const jg_real t98 = t41 * t96;
+    const jg_real t99 = t41 * t92;
+    const jg_real t100 = A_ij_0 * t80 + A_ij_1 * t69 + A_ij_2 * t67;
+    const jg_real t101 = A_ij_f_j_0 * t100;
+    const jg_real t102 = A_ij_f_j_0 * t80;
+    const jg_real t103 = t70 + t102;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t139 = t92 * A_ij_h_j_0;
-    const jg_real t140 = t69 + t139;
-    const jg_real t141 = t73 + t134 + (t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t66 + t140));
-    const jg_real t142 = A_ij_0 * t141;
-    const jg_real t143 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
-    const jg_real t144 = A_ij_s_j_0 * t143;
-    const jg_real t145 = A_ij_0 * t92 + A_ij_1 * t68 + A_ij_2 * t65;
-    const jg_real t146 = C_j[6] * t145;
-    const jg_real t147 = C_j[7] * t145;
-    const jg_real t148 = C_j[8] * t145;
-    phi_q_t_lambda_q[18] = A_ij_f_j_1 * t127 - A_ij_f_j_2 * t128 + (A_ij_f_j_1 * t112 - A_ij_f_j_2 * t113 +
-        (A_ij_f_j_1 * t117 - A_ij_f_j_2 * t118 + (A_ij_f_j_1 * t122 - A_ij_f_j_2 * t123))) - (A_ij_0 * t130 + A_ij_3
-        * t131 + A_ij_6 * t132) + t142 - t144 - (A_ij_0 * t146 + A_ij_3 * t147 + A_ij_6 * t148);
-    const jg_real t149 = A_ij_0 * t76 + A_ij_1 * t32 + A_ij_2 * t31;
-    const jg_real t150 = C_j[2] * t149 - C_j[0] * t109;
-    const jg_real t151 = C_i[2] * t150;
-    const jg_real t152 = C_i[1] * t150;
-    const jg_real t153 = A_ij_0 * t80 + A_ij_1 * t37 + A_ij_2 * t36;
-    const jg_real t154 = C_j[2] * t153 - C_j[0] * t114;
-    const jg_real t155 = C_i[5] * t154;
-    const jg_real t156 = C_i[4] * t154;
-    const jg_real t157 = A_ij_0 * t84 + A_ij_1 * t43 + A_ij_2 * t42;
-    const jg_real t158 = C_j[2] * t157 - C_j[0] * t119;
-    const jg_real t159 = C_i[2] * t158;
-    const jg_real t160 = C_i[1] * t158;
-    const jg_real t161 = A_ij_0 * t88 + A_ij_1 * t47 + A_ij_2 * t48;
-    const jg_real t162 = C_j[0] * t125 - C_j[2] * t161;
-    const jg_real t163 = C_i[5] * t162;
-    const jg_real t164 = C_i[4] * t162;
-    const jg_real t165 = A_ij_3 * t93 + A_ij_4 * t74 + A_ij_5 * t72;
-    const jg_real t166 = C_j[0] * t165;
-    const jg_real t167 = C_j[1] * t165;
-    const jg_real t168 = C_j[2] * t165;
-    const jg_real t169 = A_ij_3 * t141;
-    const jg_real t170 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
-    const jg_real t171 = A_ij_s_j_0 * t170;
-    const jg_real t172 = A_ij_3 * t92 + A_ij_4 * t68 + A_ij_5 * t65;
-    const jg_real t173 = C_j[6] * t172;
-    const jg_real t174 = C_j[7] * t172;
-    const jg_real t175 = C_j[8] * t172;
-    phi_q_t_lambda_q[19] = A_ij_f_j_1 * t163 - A_ij_f_j_2 * t164 + (A_ij_f_j_1 * t151 - A_ij_f_j_2 * t152 +
-        (A_ij_f_j_1 * t155 - A_ij_f_j_2 * t156 + (A_ij_f_j_1 * t159 - A_ij_f_j_2 * t160))) - (A_ij_0 * t166 + A_ij_3
-        * t167 + A_ij_6 * t168) + t169 - t171 - (A_ij_0 * t173 + A_ij_3 * t174 + A_ij_6 * t175);
-    const jg_real t176 = C_j[0] * t110 - C_j[1] * t149;
-    const jg_real t177 = C_i[2] * t176;
-    const jg_real t178 = C_i[1] * t176;
-    const jg_real t179 = C_j[0] * t115 - C_j[1] * t153;
-    const jg_real t180 = C_i[5] * t179;
-    const jg_real t181 = C_i[4] * t179;
-    const jg_real t182 = C_j[0] * t120 - C_j[1] * t157;
-    const jg_real t183 = C_i[2] * t182;
-    const jg_real t184 = C_i[1] * t182;
-    const jg_real t185 = C_j[1] * t161 - C_j[0] * t124;
-    const jg_real t186 = C_i[5] * t185;
-    const jg_real t187 = C_i[4] * t185;
-    const jg_real t188 = A_ij_6 * t93 + A_ij_7 * t74 + A_ij_8 * t72;
-    const jg_real t189 = C_j[0] * t188;
-    const jg_real t190 = C_j[1] * t188;
-    const jg_real t191 = C_j[2] * t188;
-    const jg_real t192 = A_ij_6 * t141;
-    const jg_real t193 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
-    const jg_real t194 = A_ij_s_j_0 * t193;
-    const jg_real t195 = A_ij_6 * t92 + A_ij_7 * t68 + A_ij_8 * t65;
-    const jg_real t196 = C_j[6] * t195;
-    const jg_real t197 = C_j[7] * t195;
-    const jg_real t198 = C_j[8] * t195;
-    phi_q_t_lambda_q[20] = A_ij_f_j_1 * t186 - A_ij_f_j_2 * t187 + (A_ij_f_j_1 * t177 - A_ij_f_j_2 * t178 +
-        (A_ij_f_j_1 * t180 - A_ij_f_j_2 * t181 + (A_ij_f_j_1 * t183 - A_ij_f_j_2 * t184))) - (A_ij_0 * t189 + A_ij_3
-        * t190 + A_ij_6 * t191) + t192 - t194 - (A_ij_0 * t196 + A_ij_3 * t197 + A_ij_6 * t198);
-    const jg_real t199 = C_i[0] * t33;
-    const jg_real t200 = C_i[3] * t38;
-    const jg_real t201 = C_i[0] * t44;
-    const jg_real t202 = C_i[3] * t49;
+    const jg_real t108 = t79 * A_ij_h_j_0;
+    const jg_real t109 = t64 + t108;
+    const jg_real t110 = t68 + t103 + (t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t61 + t109));
+    const jg_real t111 = A_ij_0 * t110;
+    const jg_real t112 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
+    const jg_real t113 = A_ij_s_j_0 * t112;
+    const jg_real t114 = A_ij_0 * t79 + A_ij_1 * t63 + A_ij_2 * t60;
+    const jg_real t115 = A_ij_h_j_0 * t114;
+    phi_q_t_lambda_q[18] = t40 * t97 + t35 * t98 + t35 * t93 - t40 * t99 - t101 + t111 - t113 - t115;
+    const jg_real t116 = A_ij_0 * t71 + A_ij_1 * t32 + A_ij_2 * t31;
+    const jg_real t117 = C_j[0] * t91 - C_j[2] * t116;
+    const jg_real t118 = t29 * t117;
+    const jg_real t119 = A_ij_0 * t74 + A_ij_1 * t37 + A_ij_2 * t36;
+    const jg_real t120 = C_j[0] * t95 - C_j[2] * t119;
+    const jg_real t121 = t29 * t120;
+    const jg_real t122 = t41 * t120;
+    const jg_real t123 = t41 * t117;
+    const jg_real t124 = A_ij_3 * t80 + A_ij_4 * t69 + A_ij_5 * t67;
+    const jg_real t125 = A_ij_f_j_0 * t124;
+    const jg_real t126 = A_ij_3 * t110;
+    const jg_real t127 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
+    const jg_real t128 = A_ij_s_j_0 * t127;
+    const jg_real t129 = A_ij_3 * t79 + A_ij_4 * t63 + A_ij_5 * t60;
+    const jg_real t130 = A_ij_h_j_0 * t129;
+    phi_q_t_lambda_q[19] = t40 * t121 + t35 * t122 + t35 * t118 - t40 * t123 - t125 + t126 - t128 - t130;
+    const jg_real t131 = C_j[1] * t116 - C_j[0] * t90;
+    const jg_real t132 = t29 * t131;
+    const jg_real t133 = C_j[1] * t119 - C_j[0] * t94;
+    const jg_real t134 = t29 * t133;
+    const jg_real t135 = t41 * t133;
+    const jg_real t136 = t41 * t131;
+    const jg_real t137 = A_ij_6 * t80 + A_ij_7 * t69 + A_ij_8 * t67;
+    const jg_real t138 = A_ij_f_j_0 * t137;
+    const jg_real t139 = A_ij_6 * t110;
+    const jg_real t140 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
+    const jg_real t141 = A_ij_s_j_0 * t140;
+    const jg_real t142 = A_ij_6 * t79 + A_ij_7 * t63 + A_ij_8 * t60;
+    const jg_real t143 = A_ij_h_j_0 * t142;
+    phi_q_t_lambda_q[20] = t40 * t134 + t35 * t135 + t35 * t132 - t40 * t136 - t138 + t139 - t141 - t143;
+    const jg_real t144 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
+    const jg_real t145 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t204 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t51 - A_ij_f_j_2 * t202 + (A_ij_f_j_0 * t35 - A_ij_f_j_2 * t199 +
-        (A_ij_f_j_0 * t40 - A_ij_f_j_2 * t200 + (A_ij_f_j_0 * t46 - A_ij_f_j_2 * t201))) + t1 * t204 + t68 *
-        A_ij_h_j_0 + A_ij_f_j_0 * t74;
-    const jg_real t205 = C_i[0] * t77;
-    const jg_real t206 = C_i[3] * t81;
-    const jg_real t207 = C_i[0] * t85;
-    const jg_real t208 = C_i[3] * t89;
-    const jg_real t209 = t3 * t204;
-    phi_q_t_lambda_q[25] = A_ij_f_j_0 * t91 - A_ij_f_j_2 * t208 + (A_ij_f_j_0 * t79 - A_ij_f_j_2 * t205 +
-        (A_ij_f_j_0 * t83 - A_ij_f_j_2 * t206 + (A_ij_f_j_0 * t87 - A_ij_f_j_2 * t207))) - (t60 + t209) - (t66 +
-        t139) - (t73 + t133);
-    const jg_real t210 = C_i[0] * t94;
-    const jg_real t211 = C_i[3] * t97;
-    const jg_real t212 = C_i[0] * t100;
-    const jg_real t213 = C_i[3] * t103;
-    phi_q_t_lambda_q[26] = A_ij_f_j_0 * t105 - A_ij_f_j_2 * t213 + (A_ij_f_j_0 * t96 - A_ij_f_j_2 * t210 +
-        (A_ij_f_j_0 * t99 - A_ij_f_j_2 * t211 + (A_ij_f_j_0 * t102 - A_ij_f_j_2 * t212))) + t1 * t59 + t68 *
-        A_ij_h_j_2 + A_ij_f_j_2 * t74;
-    const jg_real t214 = -t4;
-    phi_q_t_lambda_q[27] = t214;
-    phi_q_t_lambda_q[46] = t214;
-    const jg_real t215 = -t7;
-    phi_q_t_lambda_q[28] = t215;
-    phi_q_t_lambda_q[49] = t215;
-    const jg_real t216 = -t10;
-    phi_q_t_lambda_q[29] = t216;
-    phi_q_t_lambda_q[52] = t216;
-    const jg_real t217 = C_i[0] * t111;
-    const jg_real t218 = C_i[3] * t116;
-    const jg_real t219 = C_i[0] * t121;
-    const jg_real t220 = C_i[3] * t126;
-    const jg_real t221 = A_ij_1 * t141;
-    const jg_real t222 = A_ij_s_j_1 * t143;
-    phi_q_t_lambda_q[30] = A_ij_f_j_2 * t220 - A_ij_f_j_0 * t127 + (A_ij_f_j_2 * t217 - A_ij_f_j_0 * t112 +
-        (A_ij_f_j_2 * t218 - A_ij_f_j_0 * t117 + (A_ij_f_j_2 * t219 - A_ij_f_j_0 * t122))) - (A_ij_1 * t130 + A_ij_4
-        * t131 + A_ij_7 * t132) + t221 - t222 - (A_ij_1 * t146 + A_ij_4 * t147 + A_ij_7 * t148);
-    const jg_real t223 = C_i[0] * t150;
-    const jg_real t224 = C_i[3] * t154;
-    const jg_real t225 = C_i[0] * t158;
-    const jg_real t226 = C_i[3] * t162;
-    const jg_real t227 = A_ij_4 * t141;
-    const jg_real t228 = A_ij_s_j_1 * t170;
-    phi_q_t_lambda_q[31] = A_ij_f_j_2 * t226 - A_ij_f_j_0 * t163 + (A_ij_f_j_2 * t223 - A_ij_f_j_0 * t151 +
-        (A_ij_f_j_2 * t224 - A_ij_f_j_0 * t155 + (A_ij_f_j_2 * t225 - A_ij_f_j_0 * t159))) - (A_ij_1 * t166 + A_ij_4
-        * t167 + A_ij_7 * t168) + t227 - t228 - (A_ij_1 * t173 + A_ij_4 * t174 + A_ij_7 * t175);
-    const jg_real t229 = C_i[0] * t176;
-    const jg_real t230 = C_i[3] * t179;
-    const jg_real t231 = C_i[0] * t182;
-    const jg_real t232 = C_i[3] * t185;
-    const jg_real t233 = A_ij_7 * t141;
-    const jg_real t234 = A_ij_s_j_1 * t193;
-    phi_q_t_lambda_q[32] = A_ij_f_j_2 * t232 - A_ij_f_j_0 * t186 + (A_ij_f_j_2 * t229 - A_ij_f_j_0 * t177 +
-        (A_ij_f_j_2 * t230 - A_ij_f_j_0 * t180 + (A_ij_f_j_2 * t231 - A_ij_f_j_0 * t183))) - (A_ij_1 * t189 + A_ij_4
-        * t190 + A_ij_7 * t191) + t233 - t234 - (A_ij_1 * t196 + A_ij_4 * t197 + A_ij_7 * t198);
-    phi_q_t_lambda_q[36] = A_ij_f_j_1 * t202 - A_ij_f_j_0 * t50 + (A_ij_f_j_1 * t199 - A_ij_f_j_0 * t34 +
-        (A_ij_f_j_1 * t200 - A_ij_f_j_0 * t39 + (A_ij_f_j_1 * t201 - A_ij_f_j_0 * t45))) + t0 * t204 + t65 *
-        A_ij_h_j_0 + A_ij_f_j_0 * t72;
-    phi_q_t_lambda_q[37] = A_ij_f_j_1 * t208 - A_ij_f_j_0 * t90 + (A_ij_f_j_1 * t205 - A_ij_f_j_0 * t78 +
-        (A_ij_f_j_1 * t206 - A_ij_f_j_0 * t82 + (A_ij_f_j_1 * t207 - A_ij_f_j_0 * t86))) + t0 * t62 + t65 *
-        A_ij_h_j_1 + A_ij_f_j_1 * t72;
-    phi_q_t_lambda_q[38] = A_ij_f_j_1 * t213 - A_ij_f_j_0 * t104 + (A_ij_f_j_1 * t210 - A_ij_f_j_0 * t95 +
-        (A_ij_f_j_1 * t211 - A_ij_f_j_0 * t98 + (A_ij_f_j_1 * t212 - A_ij_f_j_0 * t101))) - (t63 + t209) - t140 -
-        t134;
-    const jg_real t235 = -t5;
-    phi_q_t_lambda_q[39] = t235;
-    phi_q_t_lambda_q[47] = t235;
-    const jg_real t236 = -t8;
-    phi_q_t_lambda_q[40] = t236;
-    phi_q_t_lambda_q[50] = t236;
-    const jg_real t237 = -t11;
-    phi_q_t_lambda_q[41] = t237;
-    phi_q_t_lambda_q[53] = t237;
-    const jg_real t238 = A_ij_2 * t141;
-    const jg_real t239 = A_ij_s_j_2 * t143;
-    phi_q_t_lambda_q[42] = A_ij_f_j_0 * t128 - A_ij_f_j_1 * t220 + (A_ij_f_j_0 * t113 - A_ij_f_j_1 * t217 +
-        (A_ij_f_j_0 * t118 - A_ij_f_j_1 * t218 + (A_ij_f_j_0 * t123 - A_ij_f_j_1 * t219))) - (A_ij_2 * t130 + A_ij_5
-        * t131 + A_ij_8 * t132) + t238 - t239 - (A_ij_2 * t146 + A_ij_5 * t147 + A_ij_8 * t148);
-    const jg_real t240 = A_ij_5 * t141;
-    const jg_real t241 = A_ij_s_j_2 * t170;
-    phi_q_t_lambda_q[43] = A_ij_f_j_0 * t164 - A_ij_f_j_1 * t226 + (A_ij_f_j_0 * t152 - A_ij_f_j_1 * t223 +
-        (A_ij_f_j_0 * t156 - A_ij_f_j_1 * t224 + (A_ij_f_j_0 * t160 - A_ij_f_j_1 * t225))) - (A_ij_2 * t166 + A_ij_5
-        * t167 + A_ij_8 * t168) + t240 - t241 - (A_ij_2 * t173 + A_ij_5 * t174 + A_ij_8 * t175);
-    const jg_real t242 = A_ij_8 * t141;
-    const jg_real t243 = A_ij_s_j_2 * t193;
-    phi_q_t_lambda_q[44] = A_ij_f_j_0 * t187 - A_ij_f_j_1 * t232 + (A_ij_f_j_0 * t178 - A_ij_f_j_1 * t229 +
-        (A_ij_f_j_0 * t181 - A_ij_f_j_1 * t230 + (A_ij_f_j_0 * t184 - A_ij_f_j_1 * t231))) - (A_ij_2 * t189 + A_ij_5
-        * t190 + A_ij_8 * t191) + t242 - t243 - (A_ij_2 * t196 + A_ij_5 * t197 + A_ij_8 * t198);
-    const jg_real t244 = C_i[5] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_2;
-    const jg_real t245 = C_i[2] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_2;
-    phi_q_t_lambda_q[54] = t245 * t111 + t245 * t121 + t244 * t116 + t244 * t126 - t144 + t142 - A_ij_h_j_0 * t145 -
-        A_ij_f_j_0 * t129;
-    const jg_real t246 = C_i[3] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_0;
-    const jg_real t247 = C_i[0] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_0;
-    phi_q_t_lambda_q[55] = t247 * t111 + t247 * t121 + t246 * t116 + t246 * t126 - t222 + t221 - A_ij_h_j_1 * t145 -
-        A_ij_f_j_1 * t129;
-    const jg_real t248 = C_i[4] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_1;
-    const jg_real t249 = C_i[1] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_1;
-    phi_q_t_lambda_q[56] = t249 * t111 + t249 * t121 + t248 * t116 + t248 * t126 - t239 + t238 - A_ij_h_j_2 * t145 -
-        A_ij_f_j_2 * t129;
-    const jg_real t250 = A_ij_3 * t217 + A_ij_4 * t113 + A_ij_5 * t112;
-    const jg_real t251 = A_ij_6 * t217 + A_ij_7 * t113 + A_ij_8 * t112;
-    const jg_real t252 = A_ij_3 * t218 + A_ij_4 * t118 + A_ij_5 * t117;
-    const jg_real t253 = A_ij_6 * t218 + A_ij_7 * t118 + A_ij_8 * t117;
-    const jg_real t254 = A_ij_3 * t219 + A_ij_4 * t123 + A_ij_5 * t122;
-    const jg_real t255 = A_ij_6 * t219 + A_ij_7 * t123 + A_ij_8 * t122;
-    const jg_real t256 = A_ij_3 * t220 + A_ij_4 * t128 + A_ij_5 * t127;
-    const jg_real t257 = A_ij_6 * t220 + A_ij_7 * t128 + A_ij_8 * t127;
-    const jg_real t258 = s_j[2] * t193;
-    const jg_real t259 = s_j[1] * t170;
-    phi_q_t_lambda_q[57] = C_j[2] * t256 - C_j[1] * t257 + (C_j[2] * t250 - C_j[1] * t251 + (C_j[2] * t252 - C_j[1]
-        * t253 + (C_j[2] * t254 - C_j[1] * t255))) - (t167 + t191) - (t258 + t259) - (t174 + t198);
-    const jg_real t260 = A_ij_3 * t223 + A_ij_4 * t152 + A_ij_5 * t151;
-    const jg_real t261 = A_ij_6 * t223 + A_ij_7 * t152 + A_ij_8 * t151;
-    const jg_real t262 = A_ij_3 * t224 + A_ij_4 * t156 + A_ij_5 * t155;
-    const jg_real t263 = A_ij_6 * t224 + A_ij_7 * t156 + A_ij_8 * t155;
-    const jg_real t264 = A_ij_3 * t225 + A_ij_4 * t160 + A_ij_5 * t159;
-    const jg_real t265 = A_ij_6 * t225 + A_ij_7 * t160 + A_ij_8 * t159;
-    const jg_real t266 = A_ij_3 * t226 + A_ij_4 * t164 + A_ij_5 * t163;
-    const jg_real t267 = A_ij_6 * t226 + A_ij_7 * t164 + A_ij_8 * t163;
-    phi_q_t_lambda_q[58] = C_j[2] * t266 - C_j[1] * t267 + (C_j[2] * t260 - C_j[1] * t261 + (C_j[2] * t262 - C_j[1]
-        * t263 + (C_j[2] * t264 - C_j[1] * t265))) + t166 + s_j[0] * t170 + t173;
-    const jg_real t268 = A_ij_3 * t229 + A_ij_4 * t178 + A_ij_5 * t177;
-    const jg_real t269 = A_ij_6 * t229 + A_ij_7 * t178 + A_ij_8 * t177;
-    const jg_real t270 = A_ij_3 * t230 + A_ij_4 * t181 + A_ij_5 * t180;
-    const jg_real t271 = A_ij_6 * t230 + A_ij_7 * t181 + A_ij_8 * t180;
-    const jg_real t272 = A_ij_3 * t231 + A_ij_4 * t184 + A_ij_5 * t183;
-    const jg_real t273 = A_ij_6 * t231 + A_ij_7 * t184 + A_ij_8 * t183;
-    const jg_real t274 = A_ij_3 * t232 + A_ij_4 * t187 + A_ij_5 * t186;
-    const jg_real t275 = A_ij_6 * t232 + A_ij_7 * t187 + A_ij_8 * t186;
-    phi_q_t_lambda_q[59] = C_j[2] * t274 - C_j[1] * t275 + (C_j[2] * t268 - C_j[1] * t269 + (C_j[2] * t270 - C_j[1]
-        * t271 + (C_j[2] * t272 - C_j[1] * t273))) + t189 + s_j[0] * t193 + t196;
-    phi_q_t_lambda_q[60] = t245 * t150 + t245 * t158 + t244 * t154 + t244 * t162 - t171 + t169 - A_ij_h_j_0 * t172 -
-        A_ij_f_j_0 * t165;
-    phi_q_t_lambda_q[61] = t247 * t150 + t247 * t158 + t246 * t154 + t246 * t162 - t228 + t227 - A_ij_h_j_1 * t172 -
-        A_ij_f_j_1 * t165;
-    phi_q_t_lambda_q[62] = t249 * t150 + t249 * t158 + t248 * t154 + t248 * t162 - t241 + t240 - A_ij_h_j_2 * t172 -
-        A_ij_f_j_2 * t165;
-    const jg_real t276 = A_ij_0 * t217 + A_ij_1 * t113 + A_ij_2 * t112;
-    const jg_real t277 = A_ij_0 * t218 + A_ij_1 * t118 + A_ij_2 * t117;
-    const jg_real t278 = A_ij_0 * t219 + A_ij_1 * t123 + A_ij_2 * t122;
-    const jg_real t279 = A_ij_0 * t220 + A_ij_1 * t128 + A_ij_2 * t127;
-    phi_q_t_lambda_q[63] = C_j[0] * t257 - C_j[2] * t279 + (C_j[0] * t251 - C_j[2] * t276 + (C_j[0] * t253 - C_j[2]
-        * t277 + (C_j[0] * t255 - C_j[2] * t278))) + t131 + s_j[1] * t143 + t147;
-    const jg_real t280 = A_ij_0 * t223 + A_ij_1 * t152 + A_ij_2 * t151;
-    const jg_real t281 = A_ij_0 * t224 + A_ij_1 * t156 + A_ij_2 * t155;
-    const jg_real t282 = A_ij_0 * t225 + A_ij_1 * t160 + A_ij_2 * t159;
-    const jg_real t283 = A_ij_0 * t226 + A_ij_1 * t164 + A_ij_2 * t163;
-    const jg_real t284 = s_j[0] * t143;
-    phi_q_t_lambda_q[64] = C_j[0] * t267 - C_j[2] * t283 + (C_j[0] * t261 - C_j[2] * t280 + (C_j[0] * t263 - C_j[2]
-        * t281 + (C_j[0] * t265 - C_j[2] * t282))) - (t130 + t191) - (t258 + t284) - (t146 + t198);
-    const jg_real t285 = A_ij_0 * t229 + A_ij_1 * t178 + A_ij_2 * t177;
-    const jg_real t286 = A_ij_0 * t230 + A_ij_1 * t181 + A_ij_2 * t180;
-    const jg_real t287 = A_ij_0 * t231 + A_ij_1 * t184 + A_ij_2 * t183;
-    const jg_real t288 = A_ij_0 * t232 + A_ij_1 * t187 + A_ij_2 * t186;
-    phi_q_t_lambda_q[65] = C_j[0] * t275 - C_j[2] * t288 + (C_j[0] * t269 - C_j[2] * t285 + (C_j[0] * t271 - C_j[2]
-        * t286 + (C_j[0] * t273 - C_j[2] * t287))) + t190 + s_j[1] * t193 + t197;
-    phi_q_t_lambda_q[66] = t245 * t176 + t245 * t182 + t244 * t179 + t244 * t185 - t194 + t192 - A_ij_h_j_0 * t195 -
-        A_ij_f_j_0 * t188;
-    phi_q_t_lambda_q[67] = t247 * t176 + t247 * t182 + t246 * t179 + t246 * t185 - t234 + t233 - A_ij_h_j_1 * t195 -
-        A_ij_f_j_1 * t188;
-    phi_q_t_lambda_q[68] = t249 * t176 + t249 * t182 + t248 * t179 + t248 * t185 - t243 + t242 - A_ij_h_j_2 * t195 -
-        A_ij_f_j_2 * t188;
-    phi_q_t_lambda_q[69] = C_j[1] * t279 - C_j[0] * t256 + (C_j[1] * t276 - C_j[0] * t250 + (C_j[1] * t277 - C_j[0]
-        * t252 + (C_j[1] * t278 - C_j[0] * t254))) + t132 + s_j[2] * t143 + t148;
-    phi_q_t_lambda_q[70] = C_j[1] * t283 - C_j[0] * t266 + (C_j[1] * t280 - C_j[0] * t260 + (C_j[1] * t281 - C_j[0]
-        * t262 + (C_j[1] * t282 - C_j[0] * t264))) + t168 + s_j[2] * t170 + t175;
-    phi_q_t_lambda_q[71] = C_j[1] * t288 - C_j[0] * t274 + (C_j[1] * t285 - C_j[0] * t268 + (C_j[1] * t286 - C_j[0]
-        * t270 + (C_j[1] * t287 - C_j[0] * t272))) - (t130 + t167) - (t259 + t284) - (t146 + t174);
+    const jg_real t147 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[24] = t39 * t145 + t42 * t144 + t144 * t34 - t145 * t43 + t1 * t147 + t63 * A_ij_h_j_0 +
+        A_ij_f_j_0 * t69;
+    const jg_real t148 = t3 * t147;
+    phi_q_t_lambda_q[25] = t76 * t145 + t77 * t144 + t144 * t73 - t145 * t78 - (t55 + t148) - (t61 + t108) - (t68 +
+        t102);
+    phi_q_t_lambda_q[26] = t84 * t145 + t85 * t144 + t144 * t82 - t145 * t86 + t1 * t54 + t63 * A_ij_h_j_2 +
+        A_ij_f_j_2 * t69;
+    const jg_real t149 = -t4;
+    phi_q_t_lambda_q[27] = t149;
+    phi_q_t_lambda_q[46] = t149;
+    const jg_real t150 = -t7;
+    phi_q_t_lambda_q[28] = t150;
+    phi_q_t_lambda_q[49] = t150;
+    const jg_real t151 = -t10;
+    phi_q_t_lambda_q[29] = t151;
+    phi_q_t_lambda_q[52] = t151;
+    const jg_real t152 = A_ij_f_j_1 * t100;
+    const jg_real t153 = A_ij_1 * t110;
+    const jg_real t154 = A_ij_s_j_1 * t112;
+    const jg_real t155 = A_ij_h_j_1 * t114;
+    phi_q_t_lambda_q[30] = t145 * t97 + t144 * t98 + t144 * t93 - t145 * t99 - t152 + t153 - t154 - t155;
+    const jg_real t156 = A_ij_f_j_1 * t124;
+    const jg_real t157 = A_ij_4 * t110;
+    const jg_real t158 = A_ij_s_j_1 * t127;
+    const jg_real t159 = A_ij_h_j_1 * t129;
+    phi_q_t_lambda_q[31] = t145 * t121 + t144 * t122 + t144 * t118 - t145 * t123 - t156 + t157 - t158 - t159;
+    const jg_real t160 = A_ij_f_j_1 * t137;
+    const jg_real t161 = A_ij_7 * t110;
+    const jg_real t162 = A_ij_s_j_1 * t140;
+    const jg_real t163 = A_ij_h_j_1 * t142;
+    phi_q_t_lambda_q[32] = t145 * t134 + t144 * t135 + t144 * t132 - t145 * t136 - t160 + t161 - t162 - t163;
+    const jg_real t164 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
+    const jg_real t165 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
+    phi_q_t_lambda_q[36] = t39 * t165 + t42 * t164 + t164 * t34 - t165 * t43 + t0 * t147 + t60 * A_ij_h_j_0 +
+        A_ij_f_j_0 * t67;
+    phi_q_t_lambda_q[37] = t76 * t165 + t77 * t164 + t164 * t73 - t165 * t78 + t0 * t57 + t60 * A_ij_h_j_1 +
+        A_ij_f_j_1 * t67;
+    phi_q_t_lambda_q[38] = t84 * t165 + t85 * t164 + t164 * t82 - t165 * t86 - (t58 + t148) - t109 - t103;
+    const jg_real t166 = -t5;
+    phi_q_t_lambda_q[39] = t166;
+    phi_q_t_lambda_q[47] = t166;
+    const jg_real t167 = -t8;
+    phi_q_t_lambda_q[40] = t167;
+    phi_q_t_lambda_q[50] = t167;
+    const jg_real t168 = -t11;
+    phi_q_t_lambda_q[41] = t168;
+    phi_q_t_lambda_q[53] = t168;
+    const jg_real t169 = A_ij_f_j_2 * t100;
+    const jg_real t170 = A_ij_2 * t110;
+    const jg_real t171 = A_ij_s_j_2 * t112;
+    const jg_real t172 = A_ij_h_j_2 * t114;
+    phi_q_t_lambda_q[42] = t165 * t97 + t164 * t98 + t164 * t93 - t165 * t99 - t169 + t170 - t171 - t172;
+    const jg_real t173 = A_ij_f_j_2 * t124;
+    const jg_real t174 = A_ij_5 * t110;
+    const jg_real t175 = A_ij_s_j_2 * t127;
+    const jg_real t176 = A_ij_h_j_2 * t129;
+    phi_q_t_lambda_q[43] = t165 * t121 + t164 * t122 + t164 * t118 - t165 * t123 - t173 + t174 - t175 - t176;
+    const jg_real t177 = A_ij_f_j_2 * t137;
+    const jg_real t178 = A_ij_8 * t110;
+    const jg_real t179 = A_ij_s_j_2 * t140;
+    const jg_real t180 = A_ij_h_j_2 * t142;
+    phi_q_t_lambda_q[44] = t165 * t134 + t164 * t135 + t164 * t132 - t165 * t136 - t177 + t178 - t179 - t180;
+    const jg_real t181 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
+    const jg_real t182 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
+    const jg_real t183 = C_j[2] * t181 - C_j[1] * t182;
+    const jg_real t184 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
+    const jg_real t185 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
+    const jg_real t186 = C_j[2] * t184 - C_j[1] * t185;
+    phi_q_t_lambda_q[54] = t43 * t186 - (t39 * t186 + t42 * t183 + t34 * t183) - t113 + t111 - t115 - t101;
+    phi_q_t_lambda_q[55] = t78 * t186 - (t76 * t186 + t77 * t183 + t73 * t183) - t154 + t153 - t155 - t152;
+    phi_q_t_lambda_q[56] = t86 * t186 - (t84 * t186 + t85 * t183 + t82 * t183) - t171 + t170 - t172 - t169;
+    const jg_real t187 = C_j[2] * t137;
+    const jg_real t188 = C_j[1] * t124;
+    const jg_real t189 = s_j[2] * t140;
+    const jg_real t190 = s_j[1] * t127;
+    const jg_real t191 = C_j[8] * t142;
+    const jg_real t192 = C_j[7] * t129;
+    phi_q_t_lambda_q[57] = t186 * t99 - (t186 * t97 + t183 * t98 + t183 * t93) - (t187 + t188) - (t189 + t190) -
+        (t191 + t192);
+    phi_q_t_lambda_q[58] = t186 * t123 - (t186 * t121 + t183 * t122 + t183 * t118) + C_j[0] * t124 + s_j[0] * t127 +
+        C_j[6] * t129;
+    phi_q_t_lambda_q[59] = t186 * t136 - (t186 * t134 + t183 * t135 + t183 * t132) + C_j[0] * t137 + s_j[0] * t140 +
+        C_j[6] * t142;
+    const jg_real t193 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
+    const jg_real t194 = C_j[0] * t182 - C_j[2] * t193;
+    const jg_real t195 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
+    const jg_real t196 = C_j[0] * t185 - C_j[2] * t195;
+    phi_q_t_lambda_q[60] = t43 * t196 - (t39 * t196 + t42 * t194 + t34 * t194) - t128 + t126 - t130 - t125;
+    phi_q_t_lambda_q[61] = t78 * t196 - (t76 * t196 + t77 * t194 + t73 * t194) - t158 + t157 - t159 - t156;
+    phi_q_t_lambda_q[62] = t86 * t196 - (t84 * t196 + t85 * t194 + t82 * t194) - t175 + t174 - t176 - t173;
+    phi_q_t_lambda_q[63] = t196 * t99 - (t196 * t97 + t194 * t98 + t194 * t93) + C_j[1] * t100 + s_j[1] * t112 +
+        C_j[7] * t114;
+    const jg_real t197 = C_j[0] * t100;
+    const jg_real t198 = s_j[0] * t112;
+    const jg_real t199 = C_j[6] * t114;
+    phi_q_t_lambda_q[64] = t196 * t123 - (t196 * t121 + t194 * t122 + t194 * t118) - (t187 + t197) - (t189 + t198) -
+        (t191 + t199);
+    phi_q_t_lambda_q[65] = t196 * t136 - (t196 * t134 + t194 * t135 + t194 * t132) + C_j[1] * t137 + s_j[1] * t140 +
+        C_j[7] * t142;
+    const jg_real t200 = C_j[1] * t193 - C_j[0] * t181;
+    const jg_real t201 = C_j[1] * t195 - C_j[0] * t184;
+    phi_q_t_lambda_q[66] = t43 * t201 - (t39 * t201 + t42 * t200 + t34 * t200) - t141 + t139 - t143 - t138;
+    phi_q_t_lambda_q[67] = t78 * t201 - (t76 * t201 + t77 * t200 + t73 * t200) - t162 + t161 - t163 - t160;
+    phi_q_t_lambda_q[68] = t86 * t201 - (t84 * t201 + t85 * t200 + t82 * t200) - t179 + t178 - t180 - t177;
+    phi_q_t_lambda_q[69] = t201 * t99 - (t201 * t97 + t200 * t98 + t200 * t93) + C_j[2] * t100 + s_j[2] * t112 +
+        C_j[8] * t114;
+    phi_q_t_lambda_q[70] = t201 * t123 - (t201 * t121 + t200 * t122 + t200 * t118) + C_j[2] * t124 + s_j[2] * t127 +
+        C_j[8] * t129;
+    phi_q_t_lambda_q[71] = t201 * t136 - (t201 * t134 + t200 * t135 + t200 * t132) - (t188 + t197) - (t190 + t198) -
+        (t192 + t199);
 }
 
 void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -692,12 +576,16 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -739,17 +627,17 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t30 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t33 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t34 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t37 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t38 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t41 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -772,25 +660,25 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    const jg_real t53 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real t55 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t56 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t30 + C_i[1] * t34 + C_i[2] * t38 + (C_i[0] *
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * t33 + C_i[1] * t37 + C_i[2] * t41 + (C_i[0] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
         omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t53 + C_i[1] * t55 + C_i[2] * t56);
+        JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t30 + C_i[4] * t34 + C_i[5] * t38 + (C_i[3] *
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * t33 + C_i[4] * t37 + C_i[5] * t41 + (C_i[3] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
         omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t53 + C_i[4] * t55 + C_i[5] * t56);
+        JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -800,11 +688,11 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t62 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t65 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t64 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t65 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t67 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t68 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -812,10 +700,10 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t71 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t74 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t73 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t74 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t76 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t77 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -823,16 +711,16 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t78 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t81 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t79 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t82 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t80 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t83 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t62 + C_i[1] * t64 + C_i[2] * t65) - (C_i[0] * t78 + C_i[1] * t79 + C_i[2] *
-        t80 + (C_i[0] * t71 + C_i[1] * t73 + C_i[2] * t74));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t62 + C_i[4] * t64 + C_i[5] * t65) - (C_i[3] * t78 + C_i[4] * t79 + C_i[5] *
-        t80 + (C_i[3] * t71 + C_i[4] * t73 + C_i[5] * t74));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68) - (C_i[0] * t81 + C_i[1] * t82 + C_i[2] *
+        t83 + (C_i[0] * t74 + C_i[1] * t76 + C_i[2] * t77));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68) - (C_i[3] * t81 + C_i[4] * t82 + C_i[5] *
+        t83 + (C_i[3] * t74 + C_i[4] * t76 + C_i[5] * t77));
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -841,9 +729,9 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real cosine_theta = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2;
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
-    const jg_real t86 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t87 = sine_theta * t86;
-    const jg_real t88 = pitch * t87;
+    const jg_real t89 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t90 = sine_theta * t89;
+    const jg_real t91 = pitch * t90;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -855,63 +743,63 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t95 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t98 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t96 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t99 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t97 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t100 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    const jg_real t100 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t103 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    const jg_real t102 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t103 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t105 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t106 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t86;
-    const jg_real t105 = pitch * theta_sine;
+    const jg_real theta_sine = cosine_theta * t89;
+    const jg_real t108 = pitch * theta_sine;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t108 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t111 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t110 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t111 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
-    const jg_real t112 = JG_REAL(2.0) * pitch;
-    const jg_real t113 = t87 * t112;
-    const jg_real t114 = theta_sine * t113;
-    const jg_real t115 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
+    const jg_real t113 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t114 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t115 = JG_REAL(2.0) * pitch;
+    const jg_real t116 = t90 * t115;
+    const jg_real t117 = theta_sine * t116;
+    const jg_real t118 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t116 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
+    const jg_real t119 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t117 = t87 * t87 * t112;
-    const jg_real t118 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
+    const jg_real t120 = t90 * t90 * t115;
+    const jg_real t121 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t119 = t118 * t117;
-    const jg_real t120 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
+    const jg_real t122 = t121 * t120;
+    const jg_real t123 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t121 = t117 * t120;
-    const jg_real t122 = theta_sine * theta_sine * t112;
-    const jg_real t123 = t118 * t122;
-    const jg_real t124 = t120 * t122;
-    const jg_real t125 = pitch * JG_REAL(4.0) * t87 * theta_sine;
+    const jg_real t124 = t120 * t123;
+    const jg_real t125 = theta_sine * theta_sine * t115;
+    const jg_real t126 = t121 * t125;
+    const jg_real t127 = t123 * t125;
+    const jg_real t128 = pitch * JG_REAL(4.0) * t90 * theta_sine;
     gamma[4] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * t30 + C_i[7] * t34 + C_i[8] * t38 + (C_i[6] *
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * t33 + C_i[7] * t37 + C_i[8] * t41 + (C_i[6] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
         omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * t53 + C_i[7] * t55 + C_i[8] * t56) - (C_i[0] * t95 + C_i[1] * t96 + C_i[2] * t97) *
-        t88 - t88 * (C_i[0] * t100 + C_i[1] * t102 + C_i[2] * t103) + (C_i[3] * t95 + C_i[4] * t96 + C_i[5] * t97) *
-        t105 + t105 * (C_i[3] * t100 + C_i[4] * t102 + C_i[5] * t103) + (C_i[0] * t108 + C_i[1] * t110 + C_i[2] *
-        t111) * t113 - (C_i[3] * t108 + C_i[4] * t110 + C_i[5] * t111) * (theta_sine * t112) + t115 * t115 * t114 +
-        t116 * t116 * t114 - t116 * t119 - t115 * t121 - t115 * t123 - t116 * t124 - t118 * t118 * t114 - t120 *
-        t120 * t114 + t115 * t119 + t116 * t121 + t116 * t123 + t115 * t124 + t118 * t125 * t120 - t115 * t125 *
-        t116;
+        JG_REAL(2.0) * (C_i[6] * t56 + C_i[7] * t58 + C_i[8] * t59) - (C_i[0] * t98 + C_i[1] * t99 + C_i[2] * t100)
+        * t91 - t91 * (C_i[0] * t103 + C_i[1] * t105 + C_i[2] * t106) + (C_i[3] * t98 + C_i[4] * t99 + C_i[5] *
+        t100) * t108 + t108 * (C_i[3] * t103 + C_i[4] * t105 + C_i[5] * t106) + (C_i[0] * t111 + C_i[1] * t113 +
+        C_i[2] * t114) * t116 - (C_i[3] * t111 + C_i[4] * t113 + C_i[5] * t114) * (theta_sine * t115) + t118 * t118
+        * t117 + t119 * t119 * t117 - t119 * t122 - t118 * t124 - t118 * t126 - t119 * t127 - t121 * t121 * t117 -
+        t123 * t123 * t117 + t118 * t122 + t119 * t124 + t119 * t126 + t118 * t127 + t121 * t128 * t123 - t118 *
+        t128 * t119;
 }
 
 void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -929,12 +817,16 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -1019,15 +911,15 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real cosine_theta = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2;
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
-    const jg_real t53 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t54 = sine_theta * t53 * pitch;
+    const jg_real t56 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t57 = sine_theta * t56 * pitch;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t53;
-    const jg_real t59 = pitch * theta_sine;
+    const jg_real theta_sine = cosine_theta * t56;
+    const jg_real t62 = pitch * theta_sine;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -1041,12 +933,12 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_f_j_2;
     phi_q_v[4] = C_i[6] * A_ij_omega_j_cross_s_j_0 + C_i[7] * A_ij_omega_j_cross_s_j_1 + C_i[8] *
         A_ij_omega_j_cross_s_j_2 + (C_i[6] * A_it_v_j_0 + C_i[7] * A_it_v_j_1 + C_i[8] * A_it_v_j_2 + ((C_i[3] *
-        omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] * omega_i_cross_A_ij_f_j_2) * t59 -
+        omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] * omega_i_cross_A_ij_f_j_2) * t62 -
         (C_i[6] * A_it_v_i_0 + C_i[7] * A_it_v_i_1 + C_i[8] * A_it_v_i_2 + (C_i[6] * omega_i_cross_dp_ij_0 + C_i[7]
         * omega_i_cross_dp_ij_1 + C_i[8] * omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_s_i_0 + C_i[7] *
         omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_s_i_2)) + (C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] *
-        omega_i_cross_A_ij_f_j_1 + C_i[2] * omega_i_cross_A_ij_f_j_2) * t54) + t54 * (C_i[0] *
-        A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] * A_ij_omega_j_cross_f_j_2) - t59 *
+        omega_i_cross_A_ij_f_j_1 + C_i[2] * omega_i_cross_A_ij_f_j_2) * t57) + t57 * (C_i[0] *
+        A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] * A_ij_omega_j_cross_f_j_2) - t62 *
         (C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
         A_ij_omega_j_cross_f_j_2)));
 }
@@ -1100,47 +992,51 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real t26 = C_i[4] * t23 - C_i[1] * t24;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t34 = s_i[2] + dp_ij_2;
+    const jg_real t37 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t36 = s_i[1] + dp_ij_1;
+    const jg_real t39 = s_i[1] + dp_ij_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t38 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t41 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t40 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    phi_q_t_lambda[3] = A_ij_f_j_1 * t25 - A_ij_f_j_2 * t26 + (t1 * t34 - t2 * t36 + (A_ij_h_j_2 * t38 - A_ij_h_j_1
-        * t40));
-    const jg_real t41 = C_i[3] * t23 - C_i[0] * t24;
+    const jg_real t43 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    phi_q_t_lambda[3] = A_ij_f_j_1 * t25 - A_ij_f_j_2 * t26 + (t1 * t37 - t2 * t39 + (A_ij_h_j_2 * t41 - A_ij_h_j_1
+        * t43));
+    const jg_real t44 = C_i[3] * t23 - C_i[0] * t24;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t43 = s_i[0] + dp_ij_0;
+    const jg_real t46 = s_i[0] + dp_ij_0;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t45 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda[4] = A_ij_f_j_2 * t41 - A_ij_f_j_0 * t25 + (t2 * t43 - t0 * t34 + (A_ij_h_j_0 * t40 - A_ij_h_j_2
-        * t45));
-    phi_q_t_lambda[5] = A_ij_f_j_0 * t26 - A_ij_f_j_1 * t41 + (t0 * t36 - t1 * t43 + (A_ij_h_j_1 * t45 - A_ij_h_j_0
-        * t38));
-    const jg_real t46 = A_ij_3 * t41 + A_ij_4 * t26 + A_ij_5 * t25;
-    const jg_real t47 = A_ij_6 * t41 + A_ij_7 * t26 + A_ij_8 * t25;
-    const jg_real t48 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
-    const jg_real t49 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
-    const jg_real t50 = A_ij_6 * t45 + A_ij_7 * t38 + A_ij_8 * t40;
-    const jg_real t51 = A_ij_3 * t45 + A_ij_4 * t38 + A_ij_5 * t40;
-    phi_q_t_lambda[9] = C_j[7] * t50 - C_j[8] * t51 + (C_j[2] * t46 - C_j[1] * t47 + (s_j[1] * t48 - s_j[2] * t49));
-    const jg_real t52 = A_ij_0 * t41 + A_ij_1 * t26 + A_ij_2 * t25;
-    const jg_real t53 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
-    const jg_real t54 = A_ij_0 * t45 + A_ij_1 * t38 + A_ij_2 * t40;
-    phi_q_t_lambda[10] = C_j[8] * t54 - C_j[6] * t50 + (C_j[0] * t47 - C_j[2] * t52 + (s_j[2] * t53 - s_j[0] *
-        t48));
-    phi_q_t_lambda[11] = C_j[6] * t51 - C_j[7] * t54 + (C_j[1] * t52 - C_j[0] * t46 + (s_j[0] * t49 - s_j[1] *
-        t53));
+    const jg_real t48 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda[4] = A_ij_f_j_2 * t44 - A_ij_f_j_0 * t25 + (t2 * t46 - t0 * t37 + (A_ij_h_j_0 * t43 - A_ij_h_j_2
+        * t48));
+    phi_q_t_lambda[5] = A_ij_f_j_0 * t26 - A_ij_f_j_1 * t44 + (t0 * t39 - t1 * t46 + (A_ij_h_j_1 * t48 - A_ij_h_j_0
+        * t41));
+    const jg_real t49 = A_ij_3 * t44 + A_ij_4 * t26 + A_ij_5 * t25;
+    const jg_real t50 = A_ij_6 * t44 + A_ij_7 * t26 + A_ij_8 * t25;
+    const jg_real t51 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
+    const jg_real t52 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
+    const jg_real t53 = A_ij_6 * t48 + A_ij_7 * t41 + A_ij_8 * t43;
+    const jg_real t54 = A_ij_3 * t48 + A_ij_4 * t41 + A_ij_5 * t43;
+    phi_q_t_lambda[9] = C_j[7] * t53 - C_j[8] * t54 + (C_j[2] * t49 - C_j[1] * t50 + (s_j[1] * t51 - s_j[2] * t52));
+    const jg_real t55 = A_ij_0 * t44 + A_ij_1 * t26 + A_ij_2 * t25;
+    const jg_real t56 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
+    const jg_real t57 = A_ij_0 * t48 + A_ij_1 * t41 + A_ij_2 * t43;
+    phi_q_t_lambda[10] = C_j[8] * t57 - C_j[6] * t53 + (C_j[0] * t50 - C_j[2] * t55 + (s_j[2] * t56 - s_j[0] *
+        t51));
+    phi_q_t_lambda[11] = C_j[6] * t54 - C_j[7] * t57 + (C_j[1] * t55 - C_j[0] * t49 + (s_j[0] * t52 - s_j[1] *
+        t56));
 }
 
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1161,12 +1057,16 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -1231,33 +1131,33 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_i_h_i_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
     phi_q[32] = A_i_h_i_2;
     phi_q[8] = -A_i_h_i_2;
-    const jg_real t36 = s_i[2] + dp_ij_2;
-    const jg_real t37 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t36 - C_i[2] * t37;
-    phi_q[10] = C_i[4] * t36 - C_i[5] * t37;
+    const jg_real t39 = s_i[2] + dp_ij_2;
+    const jg_real t40 = s_i[1] + dp_ij_1;
+    phi_q[9] = C_i[1] * t39 - C_i[2] * t40;
+    phi_q[10] = C_i[4] * t39 - C_i[5] * t40;
     phi_q[11] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[12] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real t38 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t41 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t38;
-    const jg_real t40 = pitch * theta_sine;
-    const jg_real t41 = sine_theta * t38;
-    const jg_real t42 = pitch * t41;
-    const jg_real t43 = C_i[5] * t40 - C_i[2] * t42;
-    const jg_real t44 = C_i[4] * t40 - C_i[1] * t42;
-    phi_q[13] = C_i[7] * t36 - C_i[8] * t37 + (A_ij_f_j_1 * t43 - A_ij_f_j_2 * t44);
-    const jg_real t45 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t45 - C_i[0] * t36;
-    phi_q[15] = C_i[5] * t45 - C_i[3] * t36;
+    const jg_real theta_sine = cosine_theta * t41;
+    const jg_real t43 = pitch * theta_sine;
+    const jg_real t44 = sine_theta * t41;
+    const jg_real t45 = pitch * t44;
+    const jg_real t46 = C_i[5] * t43 - C_i[2] * t45;
+    const jg_real t47 = C_i[4] * t43 - C_i[1] * t45;
+    phi_q[13] = C_i[7] * t39 - C_i[8] * t40 + (A_ij_f_j_1 * t46 - A_ij_f_j_2 * t47);
+    const jg_real t48 = s_i[0] + dp_ij_0;
+    phi_q[14] = C_i[2] * t48 - C_i[0] * t39;
+    phi_q[15] = C_i[5] * t48 - C_i[3] * t39;
     phi_q[16] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[17] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    const jg_real t46 = C_i[3] * t40 - C_i[0] * t42;
-    phi_q[18] = C_i[8] * t45 - C_i[6] * t36 + (A_ij_f_j_2 * t46 - A_ij_f_j_0 * t43);
-    phi_q[19] = C_i[0] * t37 - C_i[1] * t45;
-    phi_q[20] = C_i[3] * t37 - C_i[4] * t45;
+    const jg_real t49 = C_i[3] * t43 - C_i[0] * t45;
+    phi_q[18] = C_i[8] * t48 - C_i[6] * t39 + (A_ij_f_j_2 * t49 - A_ij_f_j_0 * t46);
+    phi_q[19] = C_i[0] * t40 - C_i[1] * t48;
+    phi_q[20] = C_i[3] * t40 - C_i[4] * t48;
     phi_q[21] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[22] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
-    phi_q[23] = C_i[6] * t37 - C_i[7] * t45 + (A_ij_f_j_0 * t44 - A_ij_f_j_1 * t46);
+    phi_q[23] = C_i[6] * t40 - C_i[7] * t48 + (A_ij_f_j_0 * t47 - A_ij_f_j_1 * t49);
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -1272,14 +1172,14 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[34] = s_j_cross_A_ijt_g_i_0;
     phi_q[35] = C_j[7] * A_ijt_f_i_2 - C_j[8] * A_ijt_f_i_1;
     phi_q[36] = C_j[7] * A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1;
-    const jg_real t53 = A_ij_3 * t46 + A_ij_4 * t44 + A_ij_5 * t43;
-    const jg_real t54 = A_ij_6 * t46 + A_ij_7 * t44 + A_ij_8 * t43;
+    const jg_real t56 = A_ij_3 * t49 + A_ij_4 * t47 + A_ij_5 * t46;
+    const jg_real t57 = A_ij_6 * t49 + A_ij_7 * t47 + A_ij_8 * t46;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     /* s_j_cross_A_ijt_h_i = tilde(s_j) A_ij^T h_i */
     const jg_real s_j_cross_A_ijt_h_i_0 = s_j[1] * A_ijt_h_i_2 - s_j[2] * A_ijt_h_i_1;
-    phi_q[37] = C_j[2] * t53 - C_j[1] * t54 + s_j_cross_A_ijt_h_i_0;
+    phi_q[37] = C_j[2] * t56 - C_j[1] * t57 + s_j_cross_A_ijt_h_i_0;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
     const jg_real s_j_cross_A_ijt_f_i_1 = s_j[2] * A_ijt_f_i_0 - s_j[0] * A_ijt_f_i_2;
     phi_q[38] = s_j_cross_A_ijt_f_i_1;
@@ -1288,10 +1188,10 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[39] = s_j_cross_A_ijt_g_i_1;
     phi_q[40] = C_j[8] * A_ijt_f_i_0 - C_j[6] * A_ijt_f_i_2;
     phi_q[41] = C_j[8] * A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2;
-    const jg_real t62 = A_ij_0 * t46 + A_ij_1 * t44 + A_ij_2 * t43;
+    const jg_real t65 = A_ij_0 * t49 + A_ij_1 * t47 + A_ij_2 * t46;
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     const jg_real s_j_cross_A_ijt_h_i_1 = s_j[2] * A_ijt_h_i_0 - s_j[0] * A_ijt_h_i_2;
-    phi_q[42] = C_j[0] * t54 - C_j[2] * t62 + s_j_cross_A_ijt_h_i_1;
+    phi_q[42] = C_j[0] * t57 - C_j[2] * t65 + s_j_cross_A_ijt_h_i_1;
     const jg_real s_j_cross_A_ijt_f_i_2 = s_j[0] * A_ijt_f_i_1 - s_j[1] * A_ijt_f_i_0;
     phi_q[43] = s_j_cross_A_ijt_f_i_2;
     const jg_real s_j_cross_A_ijt_g_i_2 = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
@@ -1299,393 +1199,260 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[45] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[46] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
-    phi_q[47] = C_j[1] * t62 - C_j[0] * t53 + s_j_cross_A_ijt_h_i_2;
-    const jg_real t68 = C_i[2] * lambda[0] + C_i[5] * lambda[1] + C_i[8] * lambda[4];
-    const jg_real t69 = C_i[1] * lambda[0] + C_i[4] * lambda[1] + C_i[7] * lambda[4];
-    const jg_real t70 = A_i[3] * t68 - A_i[6] * t69;
-    phi_q_t_lambda_q[0] = t70;
-    phi_q_t_lambda_q[9] = t70;
-    const jg_real t71 = C_i[0] * lambda[0] + C_i[3] * lambda[1] + C_i[6] * lambda[4];
-    const jg_real t72 = A_i[6] * t71 - A_i[0] * t68;
-    phi_q_t_lambda_q[1] = t72;
-    phi_q_t_lambda_q[21] = t72;
-    const jg_real t73 = A_i[0] * t69 - A_i[3] * t71;
-    phi_q_t_lambda_q[2] = t73;
-    phi_q_t_lambda_q[33] = t73;
-    const jg_real t74 = A_i[4] * t68 - A_i[7] * t69;
-    phi_q_t_lambda_q[3] = t74;
-    phi_q_t_lambda_q[10] = t74;
-    const jg_real t75 = A_i[7] * t71 - A_i[1] * t68;
-    phi_q_t_lambda_q[4] = t75;
-    phi_q_t_lambda_q[22] = t75;
-    const jg_real t76 = A_i[1] * t69 - A_i[4] * t71;
-    phi_q_t_lambda_q[5] = t76;
-    phi_q_t_lambda_q[34] = t76;
-    const jg_real t77 = A_i[5] * t68 - A_i[8] * t69;
-    phi_q_t_lambda_q[6] = t77;
-    phi_q_t_lambda_q[11] = t77;
-    const jg_real t78 = A_i[8] * t71 - A_i[2] * t68;
-    phi_q_t_lambda_q[7] = t78;
-    phi_q_t_lambda_q[23] = t78;
-    const jg_real t79 = A_i[2] * t69 - A_i[5] * t71;
-    phi_q_t_lambda_q[8] = t79;
-    phi_q_t_lambda_q[35] = t79;
-    const jg_real t80 = t41 * t41;
-    const jg_real t81 = theta_sine * theta_sine;
-    const jg_real t82 = pitch * lambda[4];
-    const jg_real t83 = t82 * (t80 - t81);
-    const jg_real t84 = C_i[5] * t83;
-    const jg_real t85 = C_i[4] * t83;
-    const jg_real t86 = A_ij_f_j_1 * t84 - A_ij_f_j_2 * t85;
-    const jg_real t87 = C_i[1] * t86;
-    const jg_real t88 = C_i[2] * t86;
-    const jg_real t89 = C_i[2] * t83;
-    const jg_real t90 = C_i[1] * t83;
-    const jg_real t91 = A_ij_f_j_1 * t89 - A_ij_f_j_2 * t90;
-    const jg_real t92 = C_i[4] * t91;
-    const jg_real t93 = C_i[5] * t91;
-    const jg_real t94 = JG_REAL(2.0) * t41 * theta_sine * t82;
-    const jg_real t95 = C_i[2] * t94;
-    const jg_real t96 = C_i[1] * t94;
-    const jg_real t97 = A_ij_f_j_1 * t95 - A_ij_f_j_2 * t96;
-    const jg_real t98 = C_i[1] * t97;
-    const jg_real t99 = C_i[2] * t97;
-    const jg_real t100 = C_i[4] * t94;
-    const jg_real t101 = C_i[5] * t94;
-    const jg_real t102 = A_ij_f_j_2 * t100 - A_ij_f_j_1 * t101;
-    const jg_real t103 = C_i[4] * t102;
-    const jg_real t104 = C_i[5] * t102;
-    const jg_real t105 = t36 * t68;
-    const jg_real t106 = t37 * t69;
-    const jg_real t107 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t108 = A_ij_h_j_2 * t107;
-    const jg_real t109 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t110 = A_ij_h_j_1 * t109;
-    const jg_real t111 = t41 * t82;
-    const jg_real t112 = theta_sine * t82;
-    const jg_real t113 = C_i[2] * t111 - C_i[5] * t112;
-    const jg_real t114 = A_ij_f_j_2 * t113;
-    const jg_real t115 = C_i[1] * t111 - C_i[4] * t112;
-    const jg_real t116 = A_ij_f_j_1 * t115;
-    phi_q_t_lambda_q[12] = A_ij_f_j_2 * t103 - A_ij_f_j_1 * t104 + (A_ij_f_j_2 * t87 - A_ij_f_j_1 * t88 +
-        (A_ij_f_j_2 * t92 - A_ij_f_j_1 * t93 + (A_ij_f_j_2 * t98 - A_ij_f_j_1 * t99))) - (t105 + t106) - (t108 +
-        t110) - (t114 + t116);
-    const jg_real t117 = C_i[3] * t83;
-    const jg_real t118 = A_ij_f_j_2 * t117 - A_ij_f_j_0 * t84;
-    const jg_real t119 = C_i[1] * t118;
-    const jg_real t120 = C_i[2] * t118;
-    const jg_real t121 = C_i[0] * t83;
-    const jg_real t122 = A_ij_f_j_2 * t121 - A_ij_f_j_0 * t89;
-    const jg_real t123 = C_i[4] * t122;
-    const jg_real t124 = C_i[5] * t122;
-    const jg_real t125 = C_i[0] * t94;
-    const jg_real t126 = A_ij_f_j_2 * t125 - A_ij_f_j_0 * t95;
-    const jg_real t127 = C_i[1] * t126;
-    const jg_real t128 = C_i[2] * t126;
-    const jg_real t129 = C_i[3] * t94;
-    const jg_real t130 = A_ij_f_j_0 * t101 - A_ij_f_j_2 * t129;
-    const jg_real t131 = C_i[4] * t130;
-    const jg_real t132 = C_i[5] * t130;
-    const jg_real t133 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real t134 = C_i[0] * t111 - C_i[3] * t112;
-    phi_q_t_lambda_q[13] = A_ij_f_j_2 * t131 - A_ij_f_j_1 * t132 + (A_ij_f_j_2 * t119 - A_ij_f_j_1 * t120 +
-        (A_ij_f_j_2 * t123 - A_ij_f_j_1 * t124 + (A_ij_f_j_2 * t127 - A_ij_f_j_1 * t128))) + t37 * t71 + A_ij_h_j_1
-        * t133 + A_ij_f_j_1 * t134;
-    const jg_real t135 = A_ij_f_j_0 * t85 - A_ij_f_j_1 * t117;
-    const jg_real t136 = C_i[1] * t135;
-    const jg_real t137 = C_i[2] * t135;
-    const jg_real t138 = A_ij_f_j_0 * t90 - A_ij_f_j_1 * t121;
-    const jg_real t139 = C_i[4] * t138;
-    const jg_real t140 = C_i[5] * t138;
-    const jg_real t141 = A_ij_f_j_0 * t96 - A_ij_f_j_1 * t125;
-    const jg_real t142 = C_i[1] * t141;
-    const jg_real t143 = C_i[2] * t141;
-    const jg_real t144 = A_ij_f_j_1 * t129 - A_ij_f_j_0 * t100;
-    const jg_real t145 = C_i[4] * t144;
-    const jg_real t146 = C_i[5] * t144;
-    phi_q_t_lambda_q[14] = A_ij_f_j_2 * t145 - A_ij_f_j_1 * t146 + (A_ij_f_j_2 * t136 - A_ij_f_j_1 * t137 +
-        (A_ij_f_j_2 * t139 - A_ij_f_j_1 * t140 + (A_ij_f_j_2 * t142 - A_ij_f_j_1 * t143))) + t36 * t71 + A_ij_h_j_2
-        * t133 + A_ij_f_j_2 * t134;
-    const jg_real t147 = -t70;
-    phi_q_t_lambda_q[15] = t147;
-    phi_q_t_lambda_q[45] = t147;
-    const jg_real t148 = -t74;
-    phi_q_t_lambda_q[16] = t148;
-    phi_q_t_lambda_q[48] = t148;
-    const jg_real t149 = -t77;
-    phi_q_t_lambda_q[17] = t149;
-    phi_q_t_lambda_q[51] = t149;
-    const jg_real t150 = A_ij_6 * t117 + A_ij_7 * t85 + A_ij_8 * t84;
-    const jg_real t151 = A_ij_3 * t117 + A_ij_4 * t85 + A_ij_5 * t84;
-    const jg_real t152 = C_j[1] * t150 - C_j[2] * t151;
-    const jg_real t153 = C_i[2] * t152;
-    const jg_real t154 = C_i[1] * t152;
-    const jg_real t155 = A_ij_6 * t121 + A_ij_7 * t90 + A_ij_8 * t89;
-    const jg_real t156 = A_ij_3 * t121 + A_ij_4 * t90 + A_ij_5 * t89;
-    const jg_real t157 = C_j[1] * t155 - C_j[2] * t156;
-    const jg_real t158 = C_i[5] * t157;
-    const jg_real t159 = C_i[4] * t157;
-    const jg_real t160 = A_ij_6 * t125 + A_ij_7 * t96 + A_ij_8 * t95;
-    const jg_real t161 = A_ij_3 * t125 + A_ij_4 * t96 + A_ij_5 * t95;
-    const jg_real t162 = C_j[1] * t160 - C_j[2] * t161;
-    const jg_real t163 = C_i[2] * t162;
-    const jg_real t164 = C_i[1] * t162;
-    const jg_real t165 = A_ij_3 * t129 + A_ij_4 * t100 + A_ij_5 * t101;
-    const jg_real t166 = A_ij_6 * t129 + A_ij_7 * t100 + A_ij_8 * t101;
-    const jg_real t167 = C_j[2] * t165 - C_j[1] * t166;
-    const jg_real t168 = C_i[5] * t167;
-    const jg_real t169 = C_i[4] * t167;
-    const jg_real t170 = A_ij_0 * t134 + A_ij_1 * t115 + A_ij_2 * t113;
-    const jg_real t171 = C_j[0] * t170;
-    const jg_real t172 = C_j[1] * t170;
-    const jg_real t173 = C_j[2] * t170;
-    const jg_real t174 = A_ij_f_j_0 * t134;
-    const jg_real t175 = t116 + t174;
+    phi_q[47] = C_j[1] * t65 - C_j[0] * t56 + s_j_cross_A_ijt_h_i_2;
+    const jg_real t71 = C_i[2] * lambda[0] + C_i[5] * lambda[1] + C_i[8] * lambda[4];
+    const jg_real t72 = C_i[1] * lambda[0] + C_i[4] * lambda[1] + C_i[7] * lambda[4];
+    const jg_real t73 = A_i[3] * t71 - A_i[6] * t72;
+    phi_q_t_lambda_q[0] = t73;
+    phi_q_t_lambda_q[9] = t73;
+    const jg_real t74 = C_i[0] * lambda[0] + C_i[3] * lambda[1] + C_i[6] * lambda[4];
+    const jg_real t75 = A_i[6] * t74 - A_i[0] * t71;
+    phi_q_t_lambda_q[1] = t75;
+    phi_q_t_lambda_q[21] = t75;
+    const jg_real t76 = A_i[0] * t72 - A_i[3] * t74;
+    phi_q_t_lambda_q[2] = t76;
+    phi_q_t_lambda_q[33] = t76;
+    const jg_real t77 = A_i[4] * t71 - A_i[7] * t72;
+    phi_q_t_lambda_q[3] = t77;
+    phi_q_t_lambda_q[10] = t77;
+    const jg_real t78 = A_i[7] * t74 - A_i[1] * t71;
+    phi_q_t_lambda_q[4] = t78;
+    phi_q_t_lambda_q[22] = t78;
+    const jg_real t79 = A_i[1] * t72 - A_i[4] * t74;
+    phi_q_t_lambda_q[5] = t79;
+    phi_q_t_lambda_q[34] = t79;
+    const jg_real t80 = A_i[5] * t71 - A_i[8] * t72;
+    phi_q_t_lambda_q[6] = t80;
+    phi_q_t_lambda_q[11] = t80;
+    const jg_real t81 = A_i[8] * t74 - A_i[2] * t71;
+    phi_q_t_lambda_q[7] = t81;
+    phi_q_t_lambda_q[23] = t81;
+    const jg_real t82 = A_i[2] * t72 - A_i[5] * t74;
+    phi_q_t_lambda_q[8] = t82;
+    phi_q_t_lambda_q[35] = t82;
+    const jg_real t83 = t44 * t44;
+    const jg_real t84 = theta_sine * theta_sine;
+    const jg_real t85 = t83 - t84;
+    const jg_real t86 = pitch * lambda[4];
+    const jg_real t87 = C_i[5] * t86;
+    const jg_real t88 = C_i[4] * t86;
+    const jg_real t89 = A_ij_f_j_1 * t87 - A_ij_f_j_2 * t88;
+    const jg_real t90 = t85 * t89;
+    const jg_real t91 = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
+    const jg_real t92 = C_i[2] * t86;
+    const jg_real t93 = C_i[1] * t86;
+    const jg_real t94 = A_ij_f_j_1 * t92 - A_ij_f_j_2 * t93;
+    const jg_real t95 = t85 * t94;
+    const jg_real t96 = C_i[4] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_1;
+    const jg_real t97 = JG_REAL(2.0) * t44 * theta_sine;
+    const jg_real t98 = t94 * t97;
+    const jg_real t99 = t97 * t89;
+    const jg_real t100 = t39 * t71;
+    const jg_real t101 = t40 * t72;
+    const jg_real t102 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t103 = A_ij_h_j_2 * t102;
+    const jg_real t104 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t105 = A_ij_h_j_1 * t104;
+    const jg_real t106 = t44 * t86;
+    const jg_real t107 = theta_sine * t86;
+    const jg_real t108 = C_i[2] * t106 - C_i[5] * t107;
+    const jg_real t109 = A_ij_f_j_2 * t108;
+    const jg_real t110 = C_i[1] * t106 - C_i[4] * t107;
+    const jg_real t111 = A_ij_f_j_1 * t110;
+    phi_q_t_lambda_q[12] = t95 * t96 + t98 * t91 + t91 * t90 - t96 * t99 - (t100 + t101) - (t103 + t105) - (t109 +
+        t111);
+    const jg_real t112 = C_i[3] * t86;
+    const jg_real t113 = A_ij_f_j_2 * t112 - A_ij_f_j_0 * t87;
+    const jg_real t114 = t85 * t113;
+    const jg_real t115 = C_i[0] * t86;
+    const jg_real t116 = A_ij_f_j_2 * t115 - A_ij_f_j_0 * t92;
+    const jg_real t117 = t85 * t116;
+    const jg_real t118 = t116 * t97;
+    const jg_real t119 = t97 * t113;
+    const jg_real t120 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real t121 = C_i[0] * t106 - C_i[3] * t107;
+    phi_q_t_lambda_q[13] = t117 * t96 + t118 * t91 + t91 * t114 - t96 * t119 + t40 * t74 + A_ij_h_j_1 * t120 +
+        A_ij_f_j_1 * t121;
+    const jg_real t122 = A_ij_f_j_0 * t88 - A_ij_f_j_1 * t112;
+    const jg_real t123 = t85 * t122;
+    const jg_real t124 = A_ij_f_j_0 * t93 - A_ij_f_j_1 * t115;
+    const jg_real t125 = t85 * t124;
+    const jg_real t126 = t124 * t97;
+    const jg_real t127 = t97 * t122;
+    phi_q_t_lambda_q[14] = t125 * t96 + t126 * t91 + t91 * t123 - t96 * t127 + t39 * t74 + A_ij_h_j_2 * t120 +
+        A_ij_f_j_2 * t121;
+    const jg_real t128 = -t73;
+    phi_q_t_lambda_q[15] = t128;
+    phi_q_t_lambda_q[45] = t128;
+    const jg_real t129 = -t77;
+    phi_q_t_lambda_q[16] = t129;
+    phi_q_t_lambda_q[48] = t129;
+    const jg_real t130 = -t80;
+    phi_q_t_lambda_q[17] = t130;
+    phi_q_t_lambda_q[51] = t130;
+    const jg_real t131 = A_ij_3 * t112 + A_ij_4 * t88 + A_ij_5 * t87;
+    const jg_real t132 = A_ij_6 * t112 + A_ij_7 * t88 + A_ij_8 * t87;
+    const jg_real t133 = C_j[2] * t131 - C_j[1] * t132;
+    const jg_real t134 = t85 * t133;
+    const jg_real t135 = A_ij_3 * t115 + A_ij_4 * t93 + A_ij_5 * t92;
+    const jg_real t136 = A_ij_6 * t115 + A_ij_7 * t93 + A_ij_8 * t92;
+    const jg_real t137 = C_j[2] * t135 - C_j[1] * t136;
+    const jg_real t138 = t85 * t137;
+    const jg_real t139 = t97 * t137;
+    const jg_real t140 = t97 * t133;
+    const jg_real t141 = A_ij_0 * t121 + A_ij_1 * t110 + A_ij_2 * t108;
+    const jg_real t142 = A_ij_f_j_0 * t141;
+    const jg_real t143 = A_ij_f_j_0 * t121;
+    const jg_real t144 = t111 + t143;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real t179 = A_ij_h_j_0 * t133;
-    const jg_real t180 = t110 + t179;
-    const jg_real t181 = t114 + t175 + (t71 * A_ij_s_j_0 + t69 * A_ij_s_j_1 + t68 * A_ij_s_j_2 + (t108 + t180));
-    const jg_real t182 = A_ij_0 * t181;
-    const jg_real t183 = A_ij_0 * t71 + A_ij_1 * t69 + A_ij_2 * t68;
-    const jg_real t184 = A_ij_s_j_0 * t183;
-    const jg_real t185 = A_ij_0 * t133 + A_ij_1 * t109 + A_ij_2 * t107;
-    const jg_real t186 = C_j[6] * t185;
-    const jg_real t187 = C_j[7] * t185;
-    const jg_real t188 = C_j[8] * t185;
-    phi_q_t_lambda_q[18] = A_ij_f_j_1 * t168 - A_ij_f_j_2 * t169 + (A_ij_f_j_1 * t153 - A_ij_f_j_2 * t154 +
-        (A_ij_f_j_1 * t158 - A_ij_f_j_2 * t159 + (A_ij_f_j_1 * t163 - A_ij_f_j_2 * t164))) - (A_ij_0 * t171 + A_ij_3
-        * t172 + A_ij_6 * t173) + t182 - t184 - (A_ij_0 * t186 + A_ij_3 * t187 + A_ij_6 * t188);
-    const jg_real t189 = A_ij_0 * t117 + A_ij_1 * t85 + A_ij_2 * t84;
-    const jg_real t190 = C_j[2] * t189 - C_j[0] * t150;
-    const jg_real t191 = C_i[2] * t190;
-    const jg_real t192 = C_i[1] * t190;
-    const jg_real t193 = A_ij_0 * t121 + A_ij_1 * t90 + A_ij_2 * t89;
-    const jg_real t194 = C_j[2] * t193 - C_j[0] * t155;
-    const jg_real t195 = C_i[5] * t194;
-    const jg_real t196 = C_i[4] * t194;
-    const jg_real t197 = A_ij_0 * t125 + A_ij_1 * t96 + A_ij_2 * t95;
-    const jg_real t198 = C_j[2] * t197 - C_j[0] * t160;
-    const jg_real t199 = C_i[2] * t198;
-    const jg_real t200 = C_i[1] * t198;
-    const jg_real t201 = A_ij_0 * t129 + A_ij_1 * t100 + A_ij_2 * t101;
-    const jg_real t202 = C_j[0] * t166 - C_j[2] * t201;
-    const jg_real t203 = C_i[5] * t202;
-    const jg_real t204 = C_i[4] * t202;
-    const jg_real t205 = A_ij_3 * t134 + A_ij_4 * t115 + A_ij_5 * t113;
-    const jg_real t206 = C_j[0] * t205;
-    const jg_real t207 = C_j[1] * t205;
-    const jg_real t208 = C_j[2] * t205;
-    const jg_real t209 = A_ij_3 * t181;
-    const jg_real t210 = A_ij_3 * t71 + A_ij_4 * t69 + A_ij_5 * t68;
-    const jg_real t211 = A_ij_s_j_0 * t210;
-    const jg_real t212 = A_ij_3 * t133 + A_ij_4 * t109 + A_ij_5 * t107;
-    const jg_real t213 = C_j[6] * t212;
-    const jg_real t214 = C_j[7] * t212;
-    const jg_real t215 = C_j[8] * t212;
-    phi_q_t_lambda_q[19] = A_ij_f_j_1 * t203 - A_ij_f_j_2 * t204 + (A_ij_f_j_1 * t191 - A_ij_f_j_2 * t192 +
-        (A_ij_f_j_1 * t195 - A_ij_f_j_2 * t196 + (A_ij_f_j_1 * t199 - A_ij_f_j_2 * t200))) - (A_ij_0 * t206 + A_ij_3
-        * t207 + A_ij_6 * t208) + t209 - t211 - (A_ij_0 * t213 + A_ij_3 * t214 + A_ij_6 * t215);
-    const jg_real t216 = C_j[0] * t151 - C_j[1] * t189;
-    const jg_real t217 = C_i[2] * t216;
-    const jg_real t218 = C_i[1] * t216;
-    const jg_real t219 = C_j[0] * t156 - C_j[1] * t193;
-    const jg_real t220 = C_i[5] * t219;
-    const jg_real t221 = C_i[4] * t219;
-    const jg_real t222 = C_j[0] * t161 - C_j[1] * t197;
-    const jg_real t223 = C_i[2] * t222;
-    const jg_real t224 = C_i[1] * t222;
-    const jg_real t225 = C_j[1] * t201 - C_j[0] * t165;
-    const jg_real t226 = C_i[5] * t225;
-    const jg_real t227 = C_i[4] * t225;
-    const jg_real t228 = A_ij_6 * t134 + A_ij_7 * t115 + A_ij_8 * t113;
-    const jg_real t229 = C_j[0] * t228;
-    const jg_real t230 = C_j[1] * t228;
-    const jg_real t231 = C_j[2] * t228;
-    const jg_real t232 = A_ij_6 * t181;
-    const jg_real t233 = A_ij_6 * t71 + A_ij_7 * t69 + A_ij_8 * t68;
-    const jg_real t234 = A_ij_s_j_0 * t233;
-    const jg_real t235 = A_ij_6 * t133 + A_ij_7 * t109 + A_ij_8 * t107;
-    const jg_real t236 = C_j[6] * t235;
-    const jg_real t237 = C_j[7] * t235;
-    const jg_real t238 = C_j[8] * t235;
-    phi_q_t_lambda_q[20] = A_ij_f_j_1 * t226 - A_ij_f_j_2 * t227 + (A_ij_f_j_1 * t217 - A_ij_f_j_2 * t218 +
-        (A_ij_f_j_1 * t220 - A_ij_f_j_2 * t221 + (A_ij_f_j_1 * t223 - A_ij_f_j_2 * t224))) - (A_ij_0 * t229 + A_ij_3
-        * t230 + A_ij_6 * t231) + t232 - t234 - (A_ij_0 * t236 + A_ij_3 * t237 + A_ij_6 * t238);
-    const jg_real t239 = C_i[0] * t86;
-    const jg_real t240 = C_i[3] * t91;
-    const jg_real t241 = C_i[0] * t97;
-    const jg_real t242 = C_i[3] * t102;
-    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t104 - A_ij_f_j_2 * t242 + (A_ij_f_j_0 * t88 - A_ij_f_j_2 * t239 +
-        (A_ij_f_j_0 * t93 - A_ij_f_j_2 * t240 + (A_ij_f_j_0 * t99 - A_ij_f_j_2 * t241))) + t45 * t69 + A_ij_h_j_0 *
-        t109 + A_ij_f_j_0 * t115;
-    const jg_real t243 = C_i[0] * t118;
-    const jg_real t244 = C_i[3] * t122;
-    const jg_real t245 = C_i[0] * t126;
-    const jg_real t246 = C_i[3] * t130;
-    const jg_real t247 = t45 * t71;
-    phi_q_t_lambda_q[25] = A_ij_f_j_0 * t132 - A_ij_f_j_2 * t246 + (A_ij_f_j_0 * t120 - A_ij_f_j_2 * t243 +
-        (A_ij_f_j_0 * t124 - A_ij_f_j_2 * t244 + (A_ij_f_j_0 * t128 - A_ij_f_j_2 * t245))) - (t105 + t247) - (t108 +
-        t179) - (t114 + t174);
-    const jg_real t248 = C_i[0] * t135;
-    const jg_real t249 = C_i[3] * t138;
-    const jg_real t250 = C_i[0] * t141;
-    const jg_real t251 = C_i[3] * t144;
-    phi_q_t_lambda_q[26] = A_ij_f_j_0 * t146 - A_ij_f_j_2 * t251 + (A_ij_f_j_0 * t137 - A_ij_f_j_2 * t248 +
-        (A_ij_f_j_0 * t140 - A_ij_f_j_2 * t249 + (A_ij_f_j_0 * t143 - A_ij_f_j_2 * t250))) + t36 * t69 + A_ij_h_j_2
-        * t109 + A_ij_f_j_2 * t115;
-    const jg_real t252 = -t72;
-    phi_q_t_lambda_q[27] = t252;
-    phi_q_t_lambda_q[46] = t252;
-    const jg_real t253 = -t75;
-    phi_q_t_lambda_q[28] = t253;
-    phi_q_t_lambda_q[49] = t253;
-    const jg_real t254 = -t78;
-    phi_q_t_lambda_q[29] = t254;
-    phi_q_t_lambda_q[52] = t254;
-    const jg_real t255 = C_i[0] * t152;
-    const jg_real t256 = C_i[3] * t157;
-    const jg_real t257 = C_i[0] * t162;
-    const jg_real t258 = C_i[3] * t167;
-    const jg_real t259 = A_ij_1 * t181;
-    const jg_real t260 = A_ij_s_j_1 * t183;
-    phi_q_t_lambda_q[30] = A_ij_f_j_2 * t258 - A_ij_f_j_0 * t168 + (A_ij_f_j_2 * t255 - A_ij_f_j_0 * t153 +
-        (A_ij_f_j_2 * t256 - A_ij_f_j_0 * t158 + (A_ij_f_j_2 * t257 - A_ij_f_j_0 * t163))) - (A_ij_1 * t171 + A_ij_4
-        * t172 + A_ij_7 * t173) + t259 - t260 - (A_ij_1 * t186 + A_ij_4 * t187 + A_ij_7 * t188);
-    const jg_real t261 = C_i[0] * t190;
-    const jg_real t262 = C_i[3] * t194;
-    const jg_real t263 = C_i[0] * t198;
-    const jg_real t264 = C_i[3] * t202;
-    const jg_real t265 = A_ij_4 * t181;
-    const jg_real t266 = A_ij_s_j_1 * t210;
-    phi_q_t_lambda_q[31] = A_ij_f_j_2 * t264 - A_ij_f_j_0 * t203 + (A_ij_f_j_2 * t261 - A_ij_f_j_0 * t191 +
-        (A_ij_f_j_2 * t262 - A_ij_f_j_0 * t195 + (A_ij_f_j_2 * t263 - A_ij_f_j_0 * t199))) - (A_ij_1 * t206 + A_ij_4
-        * t207 + A_ij_7 * t208) + t265 - t266 - (A_ij_1 * t213 + A_ij_4 * t214 + A_ij_7 * t215);
-    const jg_real t267 = C_i[0] * t216;
-    const jg_real t268 = C_i[3] * t219;
-    const jg_real t269 = C_i[0] * t222;
-    const jg_real t270 = C_i[3] * t225;
-    const jg_real t271 = A_ij_7 * t181;
-    const jg_real t272 = A_ij_s_j_1 * t233;
-    phi_q_t_lambda_q[32] = A_ij_f_j_2 * t270 - A_ij_f_j_0 * t226 + (A_ij_f_j_2 * t267 - A_ij_f_j_0 * t217 +
-        (A_ij_f_j_2 * t268 - A_ij_f_j_0 * t220 + (A_ij_f_j_2 * t269 - A_ij_f_j_0 * t223))) - (A_ij_1 * t229 + A_ij_4
-        * t230 + A_ij_7 * t231) + t271 - t272 - (A_ij_1 * t236 + A_ij_4 * t237 + A_ij_7 * t238);
-    phi_q_t_lambda_q[36] = A_ij_f_j_1 * t242 - A_ij_f_j_0 * t103 + (A_ij_f_j_1 * t239 - A_ij_f_j_0 * t87 +
-        (A_ij_f_j_1 * t240 - A_ij_f_j_0 * t92 + (A_ij_f_j_1 * t241 - A_ij_f_j_0 * t98))) + t45 * t68 + A_ij_h_j_0 *
-        t107 + A_ij_f_j_0 * t113;
-    phi_q_t_lambda_q[37] = A_ij_f_j_1 * t246 - A_ij_f_j_0 * t131 + (A_ij_f_j_1 * t243 - A_ij_f_j_0 * t119 +
-        (A_ij_f_j_1 * t244 - A_ij_f_j_0 * t123 + (A_ij_f_j_1 * t245 - A_ij_f_j_0 * t127))) + t37 * t68 + A_ij_h_j_1
-        * t107 + A_ij_f_j_1 * t113;
-    phi_q_t_lambda_q[38] = A_ij_f_j_1 * t251 - A_ij_f_j_0 * t145 + (A_ij_f_j_1 * t248 - A_ij_f_j_0 * t136 +
-        (A_ij_f_j_1 * t249 - A_ij_f_j_0 * t139 + (A_ij_f_j_1 * t250 - A_ij_f_j_0 * t142))) - (t106 + t247) - t180 -
-        t175;
-    const jg_real t273 = -t73;
-    phi_q_t_lambda_q[39] = t273;
-    phi_q_t_lambda_q[47] = t273;
-    const jg_real t274 = -t76;
-    phi_q_t_lambda_q[40] = t274;
-    phi_q_t_lambda_q[50] = t274;
-    const jg_real t275 = -t79;
-    phi_q_t_lambda_q[41] = t275;
-    phi_q_t_lambda_q[53] = t275;
-    const jg_real t276 = A_ij_2 * t181;
-    const jg_real t277 = A_ij_s_j_2 * t183;
-    phi_q_t_lambda_q[42] = A_ij_f_j_0 * t169 - A_ij_f_j_1 * t258 + (A_ij_f_j_0 * t154 - A_ij_f_j_1 * t255 +
-        (A_ij_f_j_0 * t159 - A_ij_f_j_1 * t256 + (A_ij_f_j_0 * t164 - A_ij_f_j_1 * t257))) - (A_ij_2 * t171 + A_ij_5
-        * t172 + A_ij_8 * t173) + t276 - t277 - (A_ij_2 * t186 + A_ij_5 * t187 + A_ij_8 * t188);
-    const jg_real t278 = A_ij_5 * t181;
-    const jg_real t279 = A_ij_s_j_2 * t210;
-    phi_q_t_lambda_q[43] = A_ij_f_j_0 * t204 - A_ij_f_j_1 * t264 + (A_ij_f_j_0 * t192 - A_ij_f_j_1 * t261 +
-        (A_ij_f_j_0 * t196 - A_ij_f_j_1 * t262 + (A_ij_f_j_0 * t200 - A_ij_f_j_1 * t263))) - (A_ij_2 * t206 + A_ij_5
-        * t207 + A_ij_8 * t208) + t278 - t279 - (A_ij_2 * t213 + A_ij_5 * t214 + A_ij_8 * t215);
-    const jg_real t280 = A_ij_8 * t181;
-    const jg_real t281 = A_ij_s_j_2 * t233;
-    phi_q_t_lambda_q[44] = A_ij_f_j_0 * t227 - A_ij_f_j_1 * t270 + (A_ij_f_j_0 * t218 - A_ij_f_j_1 * t267 +
-        (A_ij_f_j_0 * t221 - A_ij_f_j_1 * t268 + (A_ij_f_j_0 * t224 - A_ij_f_j_1 * t269))) - (A_ij_2 * t229 + A_ij_5
-        * t230 + A_ij_8 * t231) + t280 - t281 - (A_ij_2 * t236 + A_ij_5 * t237 + A_ij_8 * t238);
-    const jg_real t282 = C_i[5] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_2;
-    const jg_real t283 = C_i[2] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_2;
-    phi_q_t_lambda_q[54] = t283 * t152 + t283 * t162 + t282 * t157 + t282 * t167 - t184 + t182 - A_ij_h_j_0 * t185 -
-        A_ij_f_j_0 * t170;
-    const jg_real t284 = C_i[3] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_0;
-    const jg_real t285 = C_i[0] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_0;
-    phi_q_t_lambda_q[55] = t285 * t152 + t285 * t162 + t284 * t157 + t284 * t167 - t260 + t259 - A_ij_h_j_1 * t185 -
-        A_ij_f_j_1 * t170;
-    const jg_real t286 = C_i[4] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_1;
-    const jg_real t287 = C_i[1] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_1;
-    phi_q_t_lambda_q[56] = t287 * t152 + t287 * t162 + t286 * t157 + t286 * t167 - t277 + t276 - A_ij_h_j_2 * t185 -
-        A_ij_f_j_2 * t170;
-    const jg_real t288 = A_ij_3 * t255 + A_ij_4 * t154 + A_ij_5 * t153;
-    const jg_real t289 = A_ij_6 * t255 + A_ij_7 * t154 + A_ij_8 * t153;
-    const jg_real t290 = A_ij_3 * t256 + A_ij_4 * t159 + A_ij_5 * t158;
-    const jg_real t291 = A_ij_6 * t256 + A_ij_7 * t159 + A_ij_8 * t158;
-    const jg_real t292 = A_ij_3 * t257 + A_ij_4 * t164 + A_ij_5 * t163;
-    const jg_real t293 = A_ij_6 * t257 + A_ij_7 * t164 + A_ij_8 * t163;
-    const jg_real t294 = A_ij_3 * t258 + A_ij_4 * t169 + A_ij_5 * t168;
-    const jg_real t295 = A_ij_6 * t258 + A_ij_7 * t169 + A_ij_8 * t168;
-    const jg_real t296 = s_j[2] * t233;
-    const jg_real t297 = s_j[1] * t210;
-    phi_q_t_lambda_q[57] = C_j[2] * t294 - C_j[1] * t295 + (C_j[2] * t288 - C_j[1] * t289 + (C_j[2] * t290 - C_j[1]
-        * t291 + (C_j[2] * t292 - C_j[1] * t293))) - (t207 + t231) - (t296 + t297) - (t214 + t238);
-    const jg_real t298 = A_ij_3 * t261 + A_ij_4 * t192 + A_ij_5 * t191;
-    const jg_real t299 = A_ij_6 * t261 + A_ij_7 * t192 + A_ij_8 * t191;
-    const jg_real t300 = A_ij_3 * t262 + A_ij_4 * t196 + A_ij_5 * t195;
-    const jg_real t301 = A_ij_6 * t262 + A_ij_7 * t196 + A_ij_8 * t195;
-    const jg_real t302 = A_ij_3 * t263 + A_ij_4 * t200 + A_ij_5 * t199;
-    const jg_real t303 = A_ij_6 * t263 + A_ij_7 * t200 + A_ij_8 * t199;
-    const jg_real t304 = A_ij_3 * t264 + A_ij_4 * t204 + A_ij_5 * t203;
-    const jg_real t305 = A_ij_6 * t264 + A_ij_7 * t204 + A_ij_8 * t203;
-    phi_q_t_lambda_q[58] = C_j[2] * t304 - C_j[1] * t305 + (C_j[2] * t298 - C_j[1] * t299 + (C_j[2] * t300 - C_j[1]
-        * t301 + (C_j[2] * t302 - C_j[1] * t303))) + t206 + s_j[0] * t210 + t213;
-    const jg_real t306 = A_ij_3 * t267 + A_ij_4 * t218 + A_ij_5 * t217;
-    const jg_real t307 = A_ij_6 * t267 + A_ij_7 * t218 + A_ij_8 * t217;
-    const jg_real t308 = A_ij_3 * t268 + A_ij_4 * t221 + A_ij_5 * t220;
-    const jg_real t309 = A_ij_6 * t268 + A_ij_7 * t221 + A_ij_8 * t220;
-    const jg_real t310 = A_ij_3 * t269 + A_ij_4 * t224 + A_ij_5 * t223;
-    const jg_real t311 = A_ij_6 * t269 + A_ij_7 * t224 + A_ij_8 * t223;
-    const jg_real t312 = A_ij_3 * t270 + A_ij_4 * t227 + A_ij_5 * t226;
-    const jg_real t313 = A_ij_6 * t270 + A_ij_7 * t227 + A_ij_8 * t226;
-    phi_q_t_lambda_q[59] = C_j[2] * t312 - C_j[1] * t313 + (C_j[2] * t306 - C_j[1] * t307 + (C_j[2] * t308 - C_j[1]
-        * t309 + (C_j[2] * t310 - C_j[1] * t311))) + t229 + s_j[0] * t233 + t236;
-    phi_q_t_lambda_q[60] = t283 * t190 + t283 * t198 + t282 * t194 + t282 * t202 - t211 + t209 - A_ij_h_j_0 * t212 -
-        A_ij_f_j_0 * t205;
-    phi_q_t_lambda_q[61] = t285 * t190 + t285 * t198 + t284 * t194 + t284 * t202 - t266 + t265 - A_ij_h_j_1 * t212 -
-        A_ij_f_j_1 * t205;
-    phi_q_t_lambda_q[62] = t287 * t190 + t287 * t198 + t286 * t194 + t286 * t202 - t279 + t278 - A_ij_h_j_2 * t212 -
-        A_ij_f_j_2 * t205;
-    const jg_real t314 = A_ij_0 * t255 + A_ij_1 * t154 + A_ij_2 * t153;
-    const jg_real t315 = A_ij_0 * t256 + A_ij_1 * t159 + A_ij_2 * t158;
-    const jg_real t316 = A_ij_0 * t257 + A_ij_1 * t164 + A_ij_2 * t163;
-    const jg_real t317 = A_ij_0 * t258 + A_ij_1 * t169 + A_ij_2 * t168;
-    phi_q_t_lambda_q[63] = C_j[0] * t295 - C_j[2] * t317 + (C_j[0] * t289 - C_j[2] * t314 + (C_j[0] * t291 - C_j[2]
-        * t315 + (C_j[0] * t293 - C_j[2] * t316))) + t172 + s_j[1] * t183 + t187;
-    const jg_real t318 = A_ij_0 * t261 + A_ij_1 * t192 + A_ij_2 * t191;
-    const jg_real t319 = A_ij_0 * t262 + A_ij_1 * t196 + A_ij_2 * t195;
-    const jg_real t320 = A_ij_0 * t263 + A_ij_1 * t200 + A_ij_2 * t199;
-    const jg_real t321 = A_ij_0 * t264 + A_ij_1 * t204 + A_ij_2 * t203;
-    const jg_real t322 = s_j[0] * t183;
-    phi_q_t_lambda_q[64] = C_j[0] * t305 - C_j[2] * t321 + (C_j[0] * t299 - C_j[2] * t318 + (C_j[0] * t301 - C_j[2]
-        * t319 + (C_j[0] * t303 - C_j[2] * t320))) - (t171 + t231) - (t296 + t322) - (t186 + t238);
-    const jg_real t323 = A_ij_0 * t267 + A_ij_1 * t218 + A_ij_2 * t217;
-    const jg_real t324 = A_ij_0 * t268 + A_ij_1 * t221 + A_ij_2 * t220;
-    const jg_real t325 = A_ij_0 * t269 + A_ij_1 * t224 + A_ij_2 * t223;
-    const jg_real t326 = A_ij_0 * t270 + A_ij_1 * t227 + A_ij_2 * t226;
-    phi_q_t_lambda_q[65] = C_j[0] * t313 - C_j[2] * t326 + (C_j[0] * t307 - C_j[2] * t323 + (C_j[0] * t309 - C_j[2]
-        * t324 + (C_j[0] * t311 - C_j[2] * t325))) + t230 + s_j[1] * t233 + t237;
-    phi_q_t_lambda_q[66] = t283 * t216 + t283 * t222 + t282 * t219 + t282 * t225 - t234 + t232 - A_ij_h_j_0 * t235 -
-        A_ij_f_j_0 * t228;
-    phi_q_t_lambda_q[67] = t285 * t216 + t285 * t222 + t284 * t219 + t284 * t225 - t272 + t271 - A_ij_h_j_1 * t235 -
-        A_ij_f_j_1 * t228;
-    phi_q_t_lambda_q[68] = t287 * t216 + t287 * t222 + t286 * t219 + t286 * t225 - t281 + t280 - A_ij_h_j_2 * t235 -
-        A_ij_f_j_2 * t228;
-    phi_q_t_lambda_q[69] = C_j[1] * t317 - C_j[0] * t294 + (C_j[1] * t314 - C_j[0] * t288 + (C_j[1] * t315 - C_j[0]
-        * t290 + (C_j[1] * t316 - C_j[0] * t292))) + t173 + s_j[2] * t183 + t188;
-    phi_q_t_lambda_q[70] = C_j[1] * t321 - C_j[0] * t304 + (C_j[1] * t318 - C_j[0] * t298 + (C_j[1] * t319 - C_j[0]
-        * t300 + (C_j[1] * t320 - C_j[0] * t302))) + t208 + s_j[2] * t210 + t215;
-    phi_q_t_lambda_q[71] = C_j[1] * t326 - C_j[0] * t312 + (C_j[1] * t323 - C_j[0] * t306 + (C_j[1] * t324 - C_j[0]
-        * t308 + (C_j[1] * t325 - C_j[0] * t310))) - (t171 + t207) - (t297 + t322) - (t186 + t214);
+    const jg_real t148 = A_ij_h_j_0 * t120;
+    const jg_real t149 = t105 + t148;
+    const jg_real t150 = t109 + t144 + (t74 * A_ij_s_j_0 + t72 * A_ij_s_j_1 + t71 * A_ij_s_j_2 + (t103 + t149));
+    const jg_real t151 = A_ij_0 * t150;
+    const jg_real t152 = A_ij_0 * t74 + A_ij_1 * t72 + A_ij_2 * t71;
+    const jg_real t153 = A_ij_s_j_0 * t152;
+    const jg_real t154 = A_ij_0 * t120 + A_ij_1 * t104 + A_ij_2 * t102;
+    const jg_real t155 = A_ij_h_j_0 * t154;
+    phi_q_t_lambda_q[18] = t96 * t138 + t91 * t139 + t91 * t134 - t96 * t140 - t142 + t151 - t153 - t155;
+    const jg_real t156 = A_ij_0 * t112 + A_ij_1 * t88 + A_ij_2 * t87;
+    const jg_real t157 = C_j[0] * t132 - C_j[2] * t156;
+    const jg_real t158 = t85 * t157;
+    const jg_real t159 = A_ij_0 * t115 + A_ij_1 * t93 + A_ij_2 * t92;
+    const jg_real t160 = C_j[0] * t136 - C_j[2] * t159;
+    const jg_real t161 = t85 * t160;
+    const jg_real t162 = t97 * t160;
+    const jg_real t163 = t97 * t157;
+    const jg_real t164 = A_ij_3 * t121 + A_ij_4 * t110 + A_ij_5 * t108;
+    const jg_real t165 = A_ij_f_j_0 * t164;
+    const jg_real t166 = A_ij_3 * t150;
+    const jg_real t167 = A_ij_3 * t74 + A_ij_4 * t72 + A_ij_5 * t71;
+    const jg_real t168 = A_ij_s_j_0 * t167;
+    const jg_real t169 = A_ij_3 * t120 + A_ij_4 * t104 + A_ij_5 * t102;
+    const jg_real t170 = A_ij_h_j_0 * t169;
+    phi_q_t_lambda_q[19] = t96 * t161 + t91 * t162 + t91 * t158 - t96 * t163 - t165 + t166 - t168 - t170;
+    const jg_real t171 = C_j[1] * t156 - C_j[0] * t131;
+    const jg_real t172 = t85 * t171;
+    const jg_real t173 = C_j[1] * t159 - C_j[0] * t135;
+    const jg_real t174 = t85 * t173;
+    const jg_real t175 = t97 * t173;
+    const jg_real t176 = t97 * t171;
+    const jg_real t177 = A_ij_6 * t121 + A_ij_7 * t110 + A_ij_8 * t108;
+    const jg_real t178 = A_ij_f_j_0 * t177;
+    const jg_real t179 = A_ij_6 * t150;
+    const jg_real t180 = A_ij_6 * t74 + A_ij_7 * t72 + A_ij_8 * t71;
+    const jg_real t181 = A_ij_s_j_0 * t180;
+    const jg_real t182 = A_ij_6 * t120 + A_ij_7 * t104 + A_ij_8 * t102;
+    const jg_real t183 = A_ij_h_j_0 * t182;
+    phi_q_t_lambda_q[20] = t96 * t174 + t91 * t175 + t91 * t172 - t96 * t176 - t178 + t179 - t181 - t183;
+    const jg_real t184 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
+    const jg_real t185 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
+    phi_q_t_lambda_q[24] = t95 * t185 + t98 * t184 + t184 * t90 - t185 * t99 + t48 * t72 + A_ij_h_j_0 * t104 +
+        A_ij_f_j_0 * t110;
+    const jg_real t186 = t48 * t74;
+    phi_q_t_lambda_q[25] = t117 * t185 + t118 * t184 + t184 * t114 - t185 * t119 - (t100 + t186) - (t103 + t148) -
+        (t109 + t143);
+    phi_q_t_lambda_q[26] = t125 * t185 + t126 * t184 + t184 * t123 - t185 * t127 + t39 * t72 + A_ij_h_j_2 * t104 +
+        A_ij_f_j_2 * t110;
+    const jg_real t187 = -t75;
+    phi_q_t_lambda_q[27] = t187;
+    phi_q_t_lambda_q[46] = t187;
+    const jg_real t188 = -t78;
+    phi_q_t_lambda_q[28] = t188;
+    phi_q_t_lambda_q[49] = t188;
+    const jg_real t189 = -t81;
+    phi_q_t_lambda_q[29] = t189;
+    phi_q_t_lambda_q[52] = t189;
+    const jg_real t190 = A_ij_f_j_1 * t141;
+    const jg_real t191 = A_ij_1 * t150;
+    const jg_real t192 = A_ij_s_j_1 * t152;
+    const jg_real t193 = A_ij_h_j_1 * t154;
+    phi_q_t_lambda_q[30] = t185 * t138 + t184 * t139 + t184 * t134 - t185 * t140 - t190 + t191 - t192 - t193;
+    const jg_real t194 = A_ij_f_j_1 * t164;
+    const jg_real t195 = A_ij_4 * t150;
+    const jg_real t196 = A_ij_s_j_1 * t167;
+    const jg_real t197 = A_ij_h_j_1 * t169;
+    phi_q_t_lambda_q[31] = t185 * t161 + t184 * t162 + t184 * t158 - t185 * t163 - t194 + t195 - t196 - t197;
+    const jg_real t198 = A_ij_f_j_1 * t177;
+    const jg_real t199 = A_ij_7 * t150;
+    const jg_real t200 = A_ij_s_j_1 * t180;
+    const jg_real t201 = A_ij_h_j_1 * t182;
+    phi_q_t_lambda_q[32] = t185 * t174 + t184 * t175 + t184 * t172 - t185 * t176 - t198 + t199 - t200 - t201;
+    const jg_real t202 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
+    const jg_real t203 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
+    phi_q_t_lambda_q[36] = t95 * t203 + t98 * t202 + t202 * t90 - t203 * t99 + t48 * t71 + A_ij_h_j_0 * t102 +
+        A_ij_f_j_0 * t108;
+    phi_q_t_lambda_q[37] = t117 * t203 + t118 * t202 + t202 * t114 - t203 * t119 + t40 * t71 + A_ij_h_j_1 * t102 +
+        A_ij_f_j_1 * t108;
+    phi_q_t_lambda_q[38] = t125 * t203 + t126 * t202 + t202 * t123 - t203 * t127 - (t101 + t186) - t149 - t144;
+    const jg_real t204 = -t76;
+    phi_q_t_lambda_q[39] = t204;
+    phi_q_t_lambda_q[47] = t204;
+    const jg_real t205 = -t79;
+    phi_q_t_lambda_q[40] = t205;
+    phi_q_t_lambda_q[50] = t205;
+    const jg_real t206 = -t82;
+    phi_q_t_lambda_q[41] = t206;
+    phi_q_t_lambda_q[53] = t206;
+    const jg_real t207 = A_ij_f_j_2 * t141;
+    const jg_real t208 = A_ij_2 * t150;
+    const jg_real t209 = A_ij_s_j_2 * t152;
+    const jg_real t210 = A_ij_h_j_2 * t154;
+    phi_q_t_lambda_q[42] = t203 * t138 + t202 * t139 + t202 * t134 - t203 * t140 - t207 + t208 - t209 - t210;
+    const jg_real t211 = A_ij_f_j_2 * t164;
+    const jg_real t212 = A_ij_5 * t150;
+    const jg_real t213 = A_ij_s_j_2 * t167;
+    const jg_real t214 = A_ij_h_j_2 * t169;
+    phi_q_t_lambda_q[43] = t203 * t161 + t202 * t162 + t202 * t158 - t203 * t163 - t211 + t212 - t213 - t214;
+    const jg_real t215 = A_ij_f_j_2 * t177;
+    const jg_real t216 = A_ij_8 * t150;
+    const jg_real t217 = A_ij_s_j_2 * t180;
+    const jg_real t218 = A_ij_h_j_2 * t182;
+    phi_q_t_lambda_q[44] = t203 * t174 + t202 * t175 + t202 * t172 - t203 * t176 - t215 + t216 - t217 - t218;
+    const jg_real t219 = C_j[2] * A_ijt_f_i_1 - C_j[1] * A_ijt_f_i_2;
+    const jg_real t220 = C_j[2] * A_ijt_g_i_1 - C_j[1] * A_ijt_g_i_2;
+    phi_q_t_lambda_q[54] = t99 * t220 - (t95 * t220 + t98 * t219 + t90 * t219) - t153 + t151 - t155 - t142;
+    phi_q_t_lambda_q[55] = t119 * t220 - (t117 * t220 + t118 * t219 + t114 * t219) - t192 + t191 - t193 - t190;
+    phi_q_t_lambda_q[56] = t127 * t220 - (t125 * t220 + t126 * t219 + t123 * t219) - t209 + t208 - t210 - t207;
+    const jg_real t221 = C_j[2] * t177;
+    const jg_real t222 = C_j[1] * t164;
+    const jg_real t223 = s_j[2] * t180;
+    const jg_real t224 = s_j[1] * t167;
+    const jg_real t225 = C_j[8] * t182;
+    const jg_real t226 = C_j[7] * t169;
+    phi_q_t_lambda_q[57] = t220 * t140 - (t220 * t138 + t219 * t139 + t219 * t134) - (t221 + t222) - (t223 + t224) -
+        (t225 + t226);
+    phi_q_t_lambda_q[58] = t220 * t163 - (t220 * t161 + t219 * t162 + t219 * t158) + C_j[0] * t164 + s_j[0] * t167 +
+        C_j[6] * t169;
+    phi_q_t_lambda_q[59] = t220 * t176 - (t220 * t174 + t219 * t175 + t219 * t172) + C_j[0] * t177 + s_j[0] * t180 +
+        C_j[6] * t182;
+    const jg_real t227 = C_j[0] * A_ijt_f_i_2 - C_j[2] * A_ijt_f_i_0;
+    const jg_real t228 = C_j[0] * A_ijt_g_i_2 - C_j[2] * A_ijt_g_i_0;
+    phi_q_t_lambda_q[60] = t99 * t228 - (t95 * t228 + t98 * t227 + t90 * t227) - t168 + t166 - t170 - t165;
+    phi_q_t_lambda_q[61] = t119 * t228 - (t117 * t228 + t118 * t227 + t114 * t227) - t196 + t195 - t197 - t194;
+    phi_q_t_lambda_q[62] = t127 * t228 - (t125 * t228 + t126 * t227 + t123 * t227) - t213 + t212 - t214 - t211;
+    phi_q_t_lambda_q[63] = t228 * t140 - (t228 * t138 + t227 * t139 + t227 * t134) + C_j[1] * t141 + s_j[1] * t152 +
+        C_j[7] * t154;
+    const jg_real t229 = C_j[0] * t141;
+    const jg_real t230 = s_j[0] * t152;
+    const jg_real t231 = C_j[6] * t154;
+    phi_q_t_lambda_q[64] = t228 * t163 - (t228 * t161 + t227 * t162 + t227 * t158) - (t221 + t229) - (t223 + t230) -
+        (t225 + t231);
+    phi_q_t_lambda_q[65] = t228 * t176 - (t228 * t174 + t227 * t175 + t227 * t172) + C_j[1] * t177 + s_j[1] * t180 +
+        C_j[7] * t182;
+    const jg_real t232 = C_j[1] * A_ijt_f_i_0 - C_j[0] * A_ijt_f_i_1;
+    const jg_real t233 = C_j[1] * A_ijt_g_i_0 - C_j[0] * A_ijt_g_i_1;
+    phi_q_t_lambda_q[66] = t99 * t233 - (t95 * t233 + t98 * t232 + t90 * t232) - t181 + t179 - t183 - t178;
+    phi_q_t_lambda_q[67] = t119 * t233 - (t117 * t233 + t118 * t232 + t114 * t232) - t200 + t199 - t201 - t198;
+    phi_q_t_lambda_q[68] = t127 * t233 - (t125 * t233 + t126 * t232 + t123 * t232) - t217 + t216 - t218 - t215;
+    phi_q_t_lambda_q[69] = t233 * t140 - (t233 * t138 + t232 * t139 + t232 * t134) + C_j[2] * t141 + s_j[2] * t152 +
+        C_j[8] * t154;
+    phi_q_t_lambda_q[70] = t233 * t163 - (t233 * t161 + t232 * t162 + t232 * t158) + C_j[2] * t164 + s_j[2] * t167 +
+        C_j[8] * t169;
+    phi_q_t_lambda_q[71] = t233 * t176 - (t233 * t174 + t232 * t175 + t232 * t172) - (t222 + t229) - (t224 + t230) -
+        (t226 + t231);
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
     const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
@@ -1719,11 +1486,11 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t345 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t252 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t346 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t253 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t347 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t254 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -1746,25 +1513,25 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    const jg_real t362 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real t269 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real t364 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t365 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    const jg_real t271 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t272 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t345 + C_i[1] * t346 + C_i[2] * t347 + (C_i[0] *
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * t252 + C_i[1] * t253 + C_i[2] * t254 + (C_i[0] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
         omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t362 + C_i[1] * t364 + C_i[2] * t365);
+        JG_REAL(2.0) * (C_i[0] * t269 + C_i[1] * t271 + C_i[2] * t272);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t345 + C_i[4] * t346 + C_i[5] * t347 + (C_i[3] *
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * t252 + C_i[4] * t253 + C_i[5] * t254 + (C_i[3] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
         omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t362 + C_i[4] * t364 + C_i[5] * t365);
+        JG_REAL(2.0) * (C_i[3] * t269 + C_i[4] * t271 + C_i[5] * t272);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1774,18 +1541,18 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t371 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t278 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t373 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t374 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t280 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t281 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t377 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t284 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t379 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t380 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t286 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t287 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -1793,16 +1560,16 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t384 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t291 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t385 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t292 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t386 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t293 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t371 + C_i[1] * t373 + C_i[2] * t374) - (C_i[0] * t384 + C_i[1] * t385 +
-        C_i[2] * t386 + (C_i[0] * t377 + C_i[1] * t379 + C_i[2] * t380));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t371 + C_i[4] * t373 + C_i[5] * t374) - (C_i[3] * t384 + C_i[4] * t385 +
-        C_i[5] * t386 + (C_i[3] * t377 + C_i[4] * t379 + C_i[5] * t380));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t278 + C_i[1] * t280 + C_i[2] * t281) - (C_i[0] * t291 + C_i[1] * t292 +
+        C_i[2] * t293 + (C_i[0] * t284 + C_i[1] * t286 + C_i[2] * t287));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t278 + C_i[4] * t280 + C_i[5] * t281) - (C_i[3] * t291 + C_i[4] * t292 +
+        C_i[5] * t293 + (C_i[3] * t284 + C_i[4] * t286 + C_i[5] * t287));
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_2 = C_j[1] * omega_j[0] - C_j[0] * omega_j[1];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -1814,60 +1581,60 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t393 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t300 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t394 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t301 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t395 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t302 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_2 = A_ij_f_j_1 * omega_i[0] - A_ij_f_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_f_j_1 = A_ij_f_j_0 * omega_i[2] - A_ij_f_j_2 * omega_i[0];
-    const jg_real t398 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t305 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = A_ij_f_j_2 * omega_i[1] - A_ij_f_j_1 * omega_i[2];
-    const jg_real t400 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t401 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t307 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t308 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t404 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t311 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t406 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t407 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
-    const jg_real t408 = pitch * JG_REAL(2.0);
-    const jg_real t409 = t41 * t408;
-    const jg_real t410 = theta_sine * t409;
-    const jg_real t411 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
+    const jg_real t313 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t314 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t315 = pitch * JG_REAL(2.0);
+    const jg_real t316 = t44 * t315;
+    const jg_real t317 = theta_sine * t316;
+    const jg_real t318 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t412 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
+    const jg_real t319 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t413 = t80 * t408;
-    const jg_real t414 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
+    const jg_real t320 = t83 * t315;
+    const jg_real t321 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t415 = t414 * t413;
-    const jg_real t416 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
+    const jg_real t322 = t321 * t320;
+    const jg_real t323 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t417 = t413 * t416;
-    const jg_real t418 = t81 * t408;
-    const jg_real t419 = t414 * t418;
-    const jg_real t420 = t416 * t418;
-    const jg_real t421 = pitch * JG_REAL(4.0) * t41 * theta_sine;
+    const jg_real t324 = t320 * t323;
+    const jg_real t325 = t84 * t315;
+    const jg_real t326 = t321 * t325;
+    const jg_real t327 = t323 * t325;
+    const jg_real t328 = pitch * JG_REAL(4.0) * t44 * theta_sine;
     gamma[4] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * t345 + C_i[7] * t346 + C_i[8] * t347 + (C_i[6] *
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * t252 + C_i[7] * t253 + C_i[8] * t254 + (C_i[6] *
         omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
         omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
         omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
         omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * t362 + C_i[7] * t364 + C_i[8] * t365) - t42 * (C_i[0] * t393 + C_i[1] * t394 +
-        C_i[2] * t395) - t42 * (C_i[0] * t398 + C_i[1] * t400 + C_i[2] * t401) + t40 * (C_i[3] * t393 + C_i[4] *
-        t394 + C_i[5] * t395) + t40 * (C_i[3] * t398 + C_i[4] * t400 + C_i[5] * t401) + (C_i[0] * t404 + C_i[1] *
-        t406 + C_i[2] * t407) * t409 - (C_i[3] * t404 + C_i[4] * t406 + C_i[5] * t407) * (theta_sine * t408) + t411
-        * t411 * t410 + t412 * t412 * t410 - t412 * t415 - t411 * t417 - t411 * t419 - t412 * t420 - t414 * t414 *
-        t410 - t416 * t416 * t410 + t411 * t415 + t412 * t417 + t412 * t419 + t411 * t420 + t414 * t421 * t416 -
-        t411 * t421 * t412;
+        JG_REAL(2.0) * (C_i[6] * t269 + C_i[7] * t271 + C_i[8] * t272) - t45 * (C_i[0] * t300 + C_i[1] * t301 +
+        C_i[2] * t302) - t45 * (C_i[0] * t305 + C_i[1] * t307 + C_i[2] * t308) + t43 * (C_i[3] * t300 + C_i[4] *
+        t301 + C_i[5] * t302) + t43 * (C_i[3] * t305 + C_i[4] * t307 + C_i[5] * t308) + (C_i[0] * t311 + C_i[1] *
+        t313 + C_i[2] * t314) * t316 - (C_i[3] * t311 + C_i[4] * t313 + C_i[5] * t314) * (theta_sine * t315) + t318
+        * t318 * t317 + t319 * t319 * t317 - t319 * t322 - t318 * t324 - t318 * t326 - t319 * t327 - t321 * t321 *
+        t317 - t323 * t323 * t317 + t318 * t322 + t319 * t324 + t319 * t326 + t318 * t327 + t321 * t328 * t323 -
+        t318 * t328 * t319;
 }
 
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

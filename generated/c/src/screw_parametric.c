@@ -38,12 +38,16 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real revolutions = geometry[26];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
@@ -105,42 +109,47 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    phi_q[3] = t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    phi_q[3] = t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
-    phi_q[13] = t9;
-    phi_q[4] = -t9;
+    const jg_real t12 = s_i[1] + dp_ij_1;
+    phi_q[13] = t12;
+    phi_q[4] = -t12;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[19] = A_ij_1;
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ij_7;
-    /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t16 = C_i[2] * sine_0 - C_i[5] * cosine_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
+    /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t21 = C_i[1] * sine_0 - C_i[4] * cosine_0;
-    phi_q[5] = A_ij_h_j_1 * t16 - A_ij_h_j_2 * t21;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    phi_q[19] = A_ij_1;
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    phi_q[22] = A_ij_4;
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    phi_q[25] = A_ij_7;
+    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    phi_q[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -152,11 +161,10 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t7;
+    phi_q[8] = -t10;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t29 = s_i[0] + dp_ij_0;
-    phi_q[9] = t29;
-    const jg_real t30 = C_i[0] * sine_0 - C_i[3] * cosine_0;
+    const jg_real t32 = s_i[0] + dp_ij_0;
+    phi_q[9] = t32;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -164,22 +172,24 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     phi_q[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q[10] = A_ij_h_j_2 * t30 - A_ij_h_j_0 * t16;
+    const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    phi_q[10] = A_ij_h_j_0 * g_star_2 - A_ij_h_j_2 * g_star_0;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t29;
-    phi_q[15] = A_ij_h_j_0 * t21 - A_ij_h_j_1 * t30;
+    phi_q[14] = -t32;
+    phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
     phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real t38 = A_ij_3 * t30 + A_ij_4 * t21 + A_ij_5 * t16;
-    const jg_real t39 = A_ij_6 * t30 + A_ij_7 * t21 + A_ij_8 * t16;
-    phi_q[30] = C_j[8] * t38 - C_j[7] * t39;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    phi_q[30] = C_j[7] * A_ijt_g_star_2 - C_j[8] * A_ijt_g_star_1;
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real A_ijt_h_star_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
@@ -191,8 +201,8 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    const jg_real t44 = A_ij_0 * t30 + A_ij_1 * t21 + A_ij_2 * t16;
-    phi_q[36] = C_j[6] * t39 - C_j[8] * t44;
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    phi_q[36] = C_j[8] * A_ijt_g_star_0 - C_j[6] * A_ijt_g_star_2;
     const jg_real A_ijt_h_star_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     phi_q[37] = C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2;
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
@@ -200,14 +210,14 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    phi_q[42] = C_j[7] * t44 - C_j[6] * t38;
+    phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
     phi_q[45] = -(C_i[6] * pitch);
     phi_q[46] = -(C_i[7] * pitch);
     phi_q[47] = -(C_i[8] * pitch);
     phi_q[48] = -(A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
-    phi_q[49] = -(t30 * A_ij_g_j_0 + t21 * A_ij_g_j_1 + t16 * A_ij_g_j_2);
+    phi_q[49] = g_star_0 * A_ij_g_j_0 + g_star_1 * A_ij_g_j_1 + g_star_2 * A_ij_g_j_2;
 }
 
 void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -235,19 +245,23 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     phi_q_t_lambda_q[4] = -lambda[1];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    const jg_real t8 = lambda[2] * t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    const jg_real t11 = lambda[2] * t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t10 = s_i[1] + dp_ij_1;
-    const jg_real t11 = lambda[1] * t10;
+    const jg_real t13 = s_i[1] + dp_ij_1;
+    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -259,261 +273,218 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t19 = g_star_2 * lambda[3];
-    const jg_real t20 = A_ij_h_j_2 * t19;
+    const jg_real t22 = g_star_2 * lambda[3];
+    const jg_real t23 = A_ij_h_j_2 * t22;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    const jg_real t26 = g_star_1 * lambda[3];
-    const jg_real t27 = A_ij_h_j_1 * t26;
+    const jg_real t29 = g_star_1 * lambda[3];
+    const jg_real t30 = A_ij_h_j_1 * t29;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t29 = C_i[8] * lambda[4];
-    const jg_real t30 = A_ij_f_j_2 * t29;
+    const jg_real t32 = C_i[8] * lambda[4];
+    const jg_real t33 = A_ij_f_j_2 * t32;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t32 = C_i[7] * lambda[4];
-    const jg_real t33 = A_ij_f_j_1 * t32;
+    const jg_real t35 = C_i[7] * lambda[4];
+    const jg_real t36 = A_ij_f_j_1 * t35;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t36 = f_star_2 * lambda[5];
-    const jg_real t37 = A_ij_g_j_2 * t36;
+    const jg_real t39 = f_star_2 * lambda[5];
+    const jg_real t40 = A_ij_g_j_2 * t39;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real t40 = f_star_1 * lambda[5];
-    const jg_real t41 = A_ij_g_j_1 * t40;
-    phi_q_t_lambda_q[6] = -(t8 + t11 + (t37 + t41 + (t20 + t27 + (t30 + t33))));
+    const jg_real t43 = f_star_1 * lambda[5];
+    const jg_real t44 = A_ij_g_j_1 * t43;
+    phi_q_t_lambda_q[6] = -(t11 + t14 + (t40 + t44 + (t23 + t30 + (t33 + t36))));
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real t43 = g_star_0 * lambda[3];
-    const jg_real t44 = C_i[6] * lambda[4];
+    const jg_real t46 = g_star_0 * lambda[3];
+    const jg_real t47 = C_i[6] * lambda[4];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real t46 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t43 + A_ij_f_j_1 * t44 + A_ij_g_j_1 * t46 + lambda[0] * t10;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t43 + A_ij_f_j_2 * t44 + A_ij_g_j_2 * t46 + lambda[0] * t7;
-    const jg_real t47 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t47;
-    phi_q_t_lambda_q[36] = t47;
-    const jg_real t48 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t48;
-    phi_q_t_lambda_q[39] = t48;
-    const jg_real t49 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t49;
-    phi_q_t_lambda_q[42] = t49;
+    const jg_real t49 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t46 + A_ij_f_j_1 * t47 + A_ij_g_j_1 * t49 + lambda[0] * t13;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t46 + A_ij_f_j_2 * t47 + A_ij_g_j_2 * t49 + lambda[0] * t10;
+    const jg_real t50 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t50;
+    phi_q_t_lambda_q[36] = t50;
+    const jg_real t51 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t51;
+    phi_q_t_lambda_q[39] = t51;
+    const jg_real t52 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t52;
+    phi_q_t_lambda_q[42] = t52;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t54 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
+    const jg_real t57 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t57 = lambda[5] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2);
-    const jg_real t58 = t54 + lambda[4] * (C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2) + t57;
-    const jg_real t59 = A_ij_0 * t58;
-    const jg_real t60 = sine_0 * lambda[3];
-    const jg_real t61 = cosine_0 * lambda[3];
-    const jg_real t62 = C_i[0] * t60 - C_i[3] * t61;
-    const jg_real t63 = C_i[1] * t60 - C_i[4] * t61;
-    const jg_real t64 = C_i[2] * t60 - C_i[5] * t61;
-    const jg_real t65 = A_ij_0 * t62 + A_ij_1 * t63 + A_ij_2 * t64;
-    const jg_real t66 = C_j[6] * t65;
-    const jg_real t67 = C_j[7] * t65;
-    const jg_real t68 = C_j[8] * t65;
-    const jg_real t69 = A_ij_0 * t44 + A_ij_1 * t32 + A_ij_2 * t29;
-    const jg_real t70 = C_j[0] * t69;
-    const jg_real t71 = C_j[1] * t69;
-    const jg_real t72 = C_j[2] * t69;
-    const jg_real t73 = cosine_0 * lambda[5];
-    const jg_real t74 = sine_0 * lambda[5];
-    const jg_real t75 = C_i[0] * t73 + C_i[3] * t74;
-    const jg_real t76 = C_i[1] * t73 + C_i[4] * t74;
-    const jg_real t77 = C_i[2] * t73 + C_i[5] * t74;
-    const jg_real t78 = A_ij_0 * t75 + A_ij_1 * t76 + A_ij_2 * t77;
-    const jg_real t79 = C_j[3] * t78;
-    const jg_real t80 = C_j[4] * t78;
-    const jg_real t81 = C_j[5] * t78;
-    const jg_real t82 = s_j[1] * t49 - s_j[2] * t48;
-    phi_q_t_lambda_q[12] = A_ij_0 * t66 + A_ij_3 * t67 + A_ij_6 * t68 + t59 - (A_ij_0 * t70 + A_ij_3 * t71 + A_ij_6
-        * t72) - (A_ij_0 * t79 + A_ij_3 * t80 + A_ij_6 * t81) + t82;
-    const jg_real t83 = A_ij_3 * t58;
-    const jg_real t84 = A_ij_3 * t62 + A_ij_4 * t63 + A_ij_5 * t64;
-    const jg_real t85 = C_j[6] * t84;
-    const jg_real t86 = C_j[7] * t84;
-    const jg_real t87 = C_j[8] * t84;
-    const jg_real t88 = A_ij_3 * t44 + A_ij_4 * t32 + A_ij_5 * t29;
-    const jg_real t89 = C_j[0] * t88;
-    const jg_real t90 = C_j[1] * t88;
-    const jg_real t91 = C_j[2] * t88;
-    const jg_real t92 = A_ij_3 * t75 + A_ij_4 * t76 + A_ij_5 * t77;
-    const jg_real t93 = C_j[3] * t92;
-    const jg_real t94 = C_j[4] * t92;
-    const jg_real t95 = C_j[5] * t92;
-    const jg_real t96 = s_j[2] * t47 - s_j[0] * t49;
-    phi_q_t_lambda_q[13] = A_ij_0 * t85 + A_ij_3 * t86 + A_ij_6 * t87 + t83 - (A_ij_0 * t89 + A_ij_3 * t90 + A_ij_6
-        * t91) - (A_ij_0 * t93 + A_ij_3 * t94 + A_ij_6 * t95) + t96;
-    const jg_real t97 = A_ij_6 * t58;
-    const jg_real t98 = A_ij_6 * t62 + A_ij_7 * t63 + A_ij_8 * t64;
-    const jg_real t99 = C_j[6] * t98;
-    const jg_real t100 = C_j[7] * t98;
-    const jg_real t101 = C_j[8] * t98;
-    const jg_real t102 = A_ij_6 * t44 + A_ij_7 * t32 + A_ij_8 * t29;
-    const jg_real t103 = C_j[0] * t102;
-    const jg_real t104 = C_j[1] * t102;
-    const jg_real t105 = C_j[2] * t102;
-    const jg_real t106 = A_ij_6 * t75 + A_ij_7 * t76 + A_ij_8 * t77;
-    const jg_real t107 = C_j[3] * t106;
-    const jg_real t108 = C_j[4] * t106;
-    const jg_real t109 = C_j[5] * t106;
-    const jg_real t110 = s_j[0] * t48 - s_j[1] * t47;
-    phi_q_t_lambda_q[14] = A_ij_0 * t99 + A_ij_3 * t100 + A_ij_6 * t101 + t97 - (A_ij_0 * t103 + A_ij_3 * t104 +
-        A_ij_6 * t105) - (A_ij_0 * t107 + A_ij_3 * t108 + A_ij_6 * t109) + t110;
-    const jg_real t111 = C_i[2] * t61 + C_i[5] * t60;
-    const jg_real t112 = C_i[1] * t61 + C_i[4] * t60;
-    const jg_real t113 = C_i[2] * t74 - C_i[5] * t73;
-    const jg_real t114 = C_i[1] * t74 - C_i[4] * t73;
-    const jg_real t115 = A_ij_h_j_1 * t111 - A_ij_h_j_2 * t112 + (A_ij_g_j_1 * t113 - A_ij_g_j_2 * t114);
-    phi_q_t_lambda_q[15] = t115;
-    phi_q_t_lambda_q[72] = t115;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t117 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t26 + A_ij_f_j_0 * t32 + A_ij_g_j_0 * t40 + lambda[1] * t117;
-    const jg_real t118 = lambda[0] * t117;
-    const jg_real t119 = A_ij_h_j_0 * t43;
-    const jg_real t120 = A_ij_f_j_0 * t44;
-    const jg_real t121 = A_ij_g_j_0 * t46;
-    phi_q_t_lambda_q[17] = -(t8 + t118 + (t37 + t121 + (t20 + t119 + (t30 + t120))));
-    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t26 + A_ij_f_j_2 * t32 + A_ij_g_j_2 * t40 + lambda[1] * t7;
-    const jg_real t122 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[19] = t122;
-    phi_q_t_lambda_q[37] = t122;
-    const jg_real t123 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[20] = t123;
-    phi_q_t_lambda_q[40] = t123;
-    const jg_real t124 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[21] = t124;
-    phi_q_t_lambda_q[43] = t124;
-    const jg_real t125 = A_ij_1 * t58;
-    const jg_real t126 = s_j[1] * t124 - s_j[2] * t123;
-    phi_q_t_lambda_q[22] = A_ij_1 * t66 + A_ij_4 * t67 + A_ij_7 * t68 + t125 - (A_ij_1 * t70 + A_ij_4 * t71 + A_ij_7
-        * t72) - (A_ij_1 * t79 + A_ij_4 * t80 + A_ij_7 * t81) + t126;
-    const jg_real t127 = A_ij_4 * t58;
-    const jg_real t128 = s_j[2] * t122 - s_j[0] * t124;
-    phi_q_t_lambda_q[23] = A_ij_1 * t85 + A_ij_4 * t86 + A_ij_7 * t87 + t127 - (A_ij_1 * t89 + A_ij_4 * t90 + A_ij_7
-        * t91) - (A_ij_1 * t93 + A_ij_4 * t94 + A_ij_7 * t95) + t128;
-    const jg_real t129 = A_ij_7 * t58;
-    const jg_real t130 = s_j[0] * t123 - s_j[1] * t122;
-    phi_q_t_lambda_q[24] = A_ij_1 * t99 + A_ij_4 * t100 + A_ij_7 * t101 + t129 - (A_ij_1 * t103 + A_ij_4 * t104 +
-        A_ij_7 * t105) - (A_ij_1 * t107 + A_ij_4 * t108 + A_ij_7 * t109) + t130;
-    const jg_real t131 = C_i[0] * t61 + C_i[3] * t60;
-    const jg_real t132 = C_i[0] * t74 - C_i[3] * t73;
-    const jg_real t133 = A_ij_h_j_2 * t131 - A_ij_h_j_0 * t111 + (A_ij_g_j_2 * t132 - A_ij_g_j_0 * t113);
-    phi_q_t_lambda_q[25] = t133;
-    phi_q_t_lambda_q[73] = t133;
-    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t19 + A_ij_f_j_0 * t29 + A_ij_g_j_0 * t36 + lambda[2] * t117;
-    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t19 + A_ij_f_j_1 * t29 + A_ij_g_j_1 * t36 + lambda[2] * t10;
-    phi_q_t_lambda_q[28] = -(t11 + t118 + (t41 + t121 + (t27 + t119 + (t33 + t120))));
-    const jg_real t134 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[29] = t134;
-    phi_q_t_lambda_q[38] = t134;
-    const jg_real t135 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[30] = t135;
-    phi_q_t_lambda_q[41] = t135;
-    const jg_real t136 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[31] = t136;
-    phi_q_t_lambda_q[44] = t136;
-    const jg_real t137 = A_ij_2 * t58;
-    const jg_real t138 = s_j[1] * t136 - s_j[2] * t135;
-    phi_q_t_lambda_q[32] = A_ij_2 * t66 + A_ij_5 * t67 + A_ij_8 * t68 + t137 - (A_ij_2 * t70 + A_ij_5 * t71 + A_ij_8
-        * t72) - (A_ij_2 * t79 + A_ij_5 * t80 + A_ij_8 * t81) + t138;
-    const jg_real t139 = A_ij_5 * t58;
-    const jg_real t140 = s_j[2] * t134 - s_j[0] * t136;
-    phi_q_t_lambda_q[33] = A_ij_2 * t85 + A_ij_5 * t86 + A_ij_8 * t87 + t139 - (A_ij_2 * t89 + A_ij_5 * t90 + A_ij_8
-        * t91) - (A_ij_2 * t93 + A_ij_5 * t94 + A_ij_8 * t95) + t140;
-    const jg_real t141 = A_ij_8 * t58;
-    const jg_real t142 = s_j[0] * t135 - s_j[1] * t134;
-    phi_q_t_lambda_q[34] = A_ij_2 * t99 + A_ij_5 * t100 + A_ij_8 * t101 + t141 - (A_ij_2 * t103 + A_ij_5 * t104 +
-        A_ij_8 * t105) - (A_ij_2 * t107 + A_ij_5 * t108 + A_ij_8 * t109) + t142;
-    const jg_real t143 = A_ij_h_j_0 * t112 - A_ij_h_j_1 * t131 + (A_ij_g_j_0 * t114 - A_ij_g_j_1 * t132);
-    phi_q_t_lambda_q[35] = t143;
-    phi_q_t_lambda_q[74] = t143;
-    phi_q_t_lambda_q[45] = A_ij_h_j_0 * t65 + t59 - A_ij_f_j_0 * t69 - A_ij_g_j_0 * t78 + t82;
-    phi_q_t_lambda_q[46] = A_ij_h_j_1 * t65 + t125 - A_ij_f_j_1 * t69 - A_ij_g_j_1 * t78 + t126;
-    phi_q_t_lambda_q[47] = A_ij_h_j_2 * t65 + t137 - A_ij_f_j_2 * t69 - A_ij_g_j_2 * t78 + t138;
-    const jg_real t144 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[48] = t144;
-    const jg_real t145 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[66] = t145;
-    phi_q_t_lambda_q[49] = -t145;
-    /* A_ijt_f_star = A_ij^T f_star */
-    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t147 = C_j[5] * lambda[5];
-    const jg_real t148 = A_ijt_f_star_2 * t147;
-    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t150 = C_j[4] * lambda[5];
-    const jg_real t151 = A_ijt_f_star_1 * t150;
+    const jg_real t60 = lambda[5] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2);
+    const jg_real t61 = t57 + lambda[4] * (C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2) + t60;
+    const jg_real t62 = A_ij_0 * t61;
     /* A_ijt_g_star = A_ij^T g_star */
-    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t153 = C_j[8] * lambda[3];
-    const jg_real t154 = A_ijt_g_star_2 * t153;
-    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t156 = C_j[7] * lambda[3];
-    const jg_real t157 = A_ijt_g_star_1 * t156;
-    /* A_ijt_h_star = A_ij^T h_star */
-    const jg_real A_ijt_h_star_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t159 = C_j[2] * lambda[4];
-    const jg_real t160 = A_ijt_h_star_2 * t159;
-    const jg_real A_ijt_h_star_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real t162 = C_j[1] * lambda[4];
-    const jg_real t163 = A_ijt_h_star_1 * t162;
-    const jg_real t164 = s_j[2] * t144;
-    const jg_real t165 = s_j[1] * t145;
-    phi_q_t_lambda_q[50] = -(t164 + t165 + (t148 + t151 + (t154 + t157 + (t160 + t163))));
-    const jg_real t166 = C_j[3] * lambda[5];
-    const jg_real t167 = C_j[6] * lambda[3];
-    const jg_real t168 = C_j[0] * lambda[4];
-    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t167 + A_ijt_h_star_1 * t168 + A_ijt_f_star_1 * t166 + s_j[0] * t145;
-    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t167 + A_ijt_h_star_2 * t168 + A_ijt_f_star_2 * t166 + s_j[0] * t144;
-    const jg_real t169 = A_ij_3 * t131 + A_ij_4 * t112 + A_ij_5 * t111;
-    const jg_real t170 = A_ij_6 * t131 + A_ij_7 * t112 + A_ij_8 * t111;
-    const jg_real t171 = A_ij_3 * t132 + A_ij_4 * t114 + A_ij_5 * t113;
-    const jg_real t172 = A_ij_6 * t132 + A_ij_7 * t114 + A_ij_8 * t113;
-    const jg_real t173 = C_j[8] * t169 - C_j[7] * t170 + (C_j[5] * t171 - C_j[4] * t172);
-    phi_q_t_lambda_q[53] = t173;
-    phi_q_t_lambda_q[75] = t173;
-    phi_q_t_lambda_q[54] = A_ij_h_j_0 * t84 + t83 - A_ij_f_j_0 * t88 - A_ij_g_j_0 * t92 + t96;
-    phi_q_t_lambda_q[55] = A_ij_h_j_1 * t84 + t127 - A_ij_f_j_1 * t88 - A_ij_g_j_1 * t92 + t128;
-    phi_q_t_lambda_q[56] = A_ij_h_j_2 * t84 + t139 - A_ij_f_j_2 * t88 - A_ij_g_j_2 * t92 + t140;
-    phi_q_t_lambda_q[57] = -t144;
-    const jg_real t174 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[58] = t174;
-    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
+    const jg_real t64 = lambda[3] * A_ijt_g_star_0;
+    /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t156 + A_ijt_h_star_0 * t162 + A_ijt_f_star_0 * t150 + s_j[1] * t174;
-    const jg_real t178 = A_ijt_f_star_0 * t166;
-    const jg_real t179 = A_ijt_g_star_0 * t167;
-    const jg_real t180 = A_ijt_h_star_0 * t168;
-    const jg_real t181 = s_j[0] * t174;
-    phi_q_t_lambda_q[60] = -(t164 + t181 + (t148 + t178 + (t154 + t179 + (t160 + t180))));
-    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t156 + A_ijt_h_star_2 * t162 + A_ijt_f_star_2 * t150 + s_j[1] * t144;
-    const jg_real t182 = A_ij_0 * t131 + A_ij_1 * t112 + A_ij_2 * t111;
-    const jg_real t183 = A_ij_0 * t132 + A_ij_1 * t114 + A_ij_2 * t113;
-    const jg_real t184 = C_j[6] * t170 - C_j[8] * t182 + (C_j[3] * t172 - C_j[5] * t183);
-    phi_q_t_lambda_q[62] = t184;
-    phi_q_t_lambda_q[76] = t184;
-    phi_q_t_lambda_q[63] = A_ij_h_j_0 * t98 + t97 - A_ij_f_j_0 * t102 - A_ij_g_j_0 * t106 + t110;
-    phi_q_t_lambda_q[64] = A_ij_h_j_1 * t98 + t129 - A_ij_f_j_1 * t102 - A_ij_g_j_1 * t106 + t130;
-    phi_q_t_lambda_q[65] = A_ij_h_j_2 * t98 + t141 - A_ij_f_j_2 * t102 - A_ij_g_j_2 * t106 + t142;
-    phi_q_t_lambda_q[67] = -t174;
-    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t153 + A_ijt_h_star_0 * t159 + A_ijt_f_star_0 * t147 + s_j[2] * t174;
-    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t153 + A_ijt_h_star_1 * t159 + A_ijt_f_star_1 * t147 + s_j[2] * t145;
-    phi_q_t_lambda_q[70] = -(t165 + t181 + (t151 + t178 + (t157 + t179 + (t163 + t180))));
-    const jg_real t185 = C_j[7] * t182 - C_j[6] * t169 + (C_j[4] * t183 - C_j[3] * t171);
-    phi_q_t_lambda_q[71] = t185;
-    phi_q_t_lambda_q[77] = t185;
-    phi_q_t_lambda_q[78] = -(t54 + t57);
+    const jg_real t66 = lambda[4] * A_ijt_h_star_0;
+    /* A_ijt_f_star = A_ij^T f_star */
+    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
+    const jg_real t68 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t69 = s_j[1] * t52 - s_j[2] * t51;
+    phi_q_t_lambda_q[12] = t62 - A_ij_h_j_0 * t64 - A_ij_f_j_0 * t66 - A_ij_g_j_0 * t68 + t69;
+    const jg_real t70 = A_ij_3 * t61;
+    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
+    const jg_real t72 = lambda[3] * A_ijt_g_star_1;
+    const jg_real A_ijt_h_star_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
+    const jg_real t74 = lambda[4] * A_ijt_h_star_1;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    const jg_real t76 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t77 = s_j[2] * t50 - s_j[0] * t52;
+    phi_q_t_lambda_q[13] = t70 - A_ij_h_j_0 * t72 - A_ij_f_j_0 * t74 - A_ij_g_j_0 * t76 + t77;
+    const jg_real t78 = A_ij_6 * t61;
+    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
+    const jg_real t80 = lambda[3] * A_ijt_g_star_2;
+    const jg_real A_ijt_h_star_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
+    const jg_real t82 = lambda[4] * A_ijt_h_star_2;
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real t84 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t85 = s_j[0] * t51 - s_j[1] * t50;
+    phi_q_t_lambda_q[14] = t78 - A_ij_h_j_0 * t80 - A_ij_f_j_0 * t82 - A_ij_g_j_0 * t84 + t85;
+    const jg_real t86 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
+        A_ij_g_j_1 - g_star_1 * A_ij_g_j_2);
+    phi_q_t_lambda_q[15] = t86;
+    phi_q_t_lambda_q[72] = t86;
+    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real t88 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t29 + A_ij_f_j_0 * t35 + A_ij_g_j_0 * t43 + lambda[1] * t88;
+    const jg_real t89 = lambda[0] * t88;
+    const jg_real t90 = A_ij_h_j_0 * t46;
+    const jg_real t91 = A_ij_f_j_0 * t47;
+    const jg_real t92 = A_ij_g_j_0 * t49;
+    phi_q_t_lambda_q[17] = -(t11 + t89 + (t40 + t92 + (t23 + t90 + (t33 + t91))));
+    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t29 + A_ij_f_j_2 * t35 + A_ij_g_j_2 * t43 + lambda[1] * t10;
+    const jg_real t93 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[19] = t93;
+    phi_q_t_lambda_q[37] = t93;
+    const jg_real t94 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[20] = t94;
+    phi_q_t_lambda_q[40] = t94;
+    const jg_real t95 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[21] = t95;
+    phi_q_t_lambda_q[43] = t95;
+    const jg_real t96 = A_ij_1 * t61;
+    const jg_real t97 = s_j[1] * t95 - s_j[2] * t94;
+    phi_q_t_lambda_q[22] = t96 - A_ij_h_j_1 * t64 - A_ij_f_j_1 * t66 - A_ij_g_j_1 * t68 + t97;
+    const jg_real t98 = A_ij_4 * t61;
+    const jg_real t99 = s_j[2] * t93 - s_j[0] * t95;
+    phi_q_t_lambda_q[23] = t98 - A_ij_h_j_1 * t72 - A_ij_f_j_1 * t74 - A_ij_g_j_1 * t76 + t99;
+    const jg_real t100 = A_ij_7 * t61;
+    const jg_real t101 = s_j[0] * t94 - s_j[1] * t93;
+    phi_q_t_lambda_q[24] = t100 - A_ij_h_j_1 * t80 - A_ij_f_j_1 * t82 - A_ij_g_j_1 * t84 + t101;
+    const jg_real t102 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
+        A_ij_g_j_2 - g_star_2 * A_ij_g_j_0);
+    phi_q_t_lambda_q[25] = t102;
+    phi_q_t_lambda_q[73] = t102;
+    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t22 + A_ij_f_j_0 * t32 + A_ij_g_j_0 * t39 + lambda[2] * t88;
+    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t22 + A_ij_f_j_1 * t32 + A_ij_g_j_1 * t39 + lambda[2] * t13;
+    phi_q_t_lambda_q[28] = -(t14 + t89 + (t44 + t92 + (t30 + t90 + (t36 + t91))));
+    const jg_real t103 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[29] = t103;
+    phi_q_t_lambda_q[38] = t103;
+    const jg_real t104 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[30] = t104;
+    phi_q_t_lambda_q[41] = t104;
+    const jg_real t105 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[31] = t105;
+    phi_q_t_lambda_q[44] = t105;
+    const jg_real t106 = A_ij_2 * t61;
+    const jg_real t107 = s_j[1] * t105 - s_j[2] * t104;
+    phi_q_t_lambda_q[32] = t106 - A_ij_h_j_2 * t64 - A_ij_f_j_2 * t66 - A_ij_g_j_2 * t68 + t107;
+    const jg_real t108 = A_ij_5 * t61;
+    const jg_real t109 = s_j[2] * t103 - s_j[0] * t105;
+    phi_q_t_lambda_q[33] = t108 - A_ij_h_j_2 * t72 - A_ij_f_j_2 * t74 - A_ij_g_j_2 * t76 + t109;
+    const jg_real t110 = A_ij_8 * t61;
+    const jg_real t111 = s_j[0] * t104 - s_j[1] * t103;
+    phi_q_t_lambda_q[34] = t110 - A_ij_h_j_2 * t80 - A_ij_f_j_2 * t82 - A_ij_g_j_2 * t84 + t111;
+    const jg_real t112 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
+        A_ij_g_j_0 - g_star_0 * A_ij_g_j_1);
+    phi_q_t_lambda_q[35] = t112;
+    phi_q_t_lambda_q[74] = t112;
+    const jg_real t113 = A_ij_h_j_0 * lambda[3];
+    const jg_real t114 = A_ij_f_j_0 * lambda[4];
+    const jg_real t115 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[45] = t62 - t113 * A_ijt_g_star_0 - t114 * A_ijt_h_star_0 - t115 * A_ijt_f_star_0 + t69;
+    const jg_real t116 = A_ij_h_j_1 * lambda[3];
+    const jg_real t117 = A_ij_f_j_1 * lambda[4];
+    const jg_real t118 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[46] = t96 - t116 * A_ijt_g_star_0 - t117 * A_ijt_h_star_0 - t118 * A_ijt_f_star_0 + t97;
+    const jg_real t119 = A_ij_h_j_2 * lambda[3];
+    const jg_real t120 = A_ij_f_j_2 * lambda[4];
+    const jg_real t121 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[47] = t106 - t119 * A_ijt_g_star_0 - t120 * A_ijt_h_star_0 - t121 * A_ijt_f_star_0 + t107;
+    const jg_real t122 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[48] = t122;
+    const jg_real t123 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[66] = t123;
+    phi_q_t_lambda_q[49] = -t123;
+    const jg_real t124 = C_j[5] * lambda[5];
+    const jg_real t125 = A_ijt_f_star_2 * t124;
+    const jg_real t126 = C_j[4] * lambda[5];
+    const jg_real t127 = A_ijt_f_star_1 * t126;
+    const jg_real t128 = C_j[8] * lambda[3];
+    const jg_real t129 = A_ijt_g_star_2 * t128;
+    const jg_real t130 = C_j[7] * lambda[3];
+    const jg_real t131 = A_ijt_g_star_1 * t130;
+    const jg_real t132 = C_j[2] * lambda[4];
+    const jg_real t133 = A_ijt_h_star_2 * t132;
+    const jg_real t134 = C_j[1] * lambda[4];
+    const jg_real t135 = A_ijt_h_star_1 * t134;
+    const jg_real t136 = s_j[2] * t122;
+    const jg_real t137 = s_j[1] * t123;
+    phi_q_t_lambda_q[50] = -(t136 + t137 + (t125 + t127 + (t129 + t131 + (t133 + t135))));
+    const jg_real t138 = C_j[3] * lambda[5];
+    const jg_real t139 = C_j[6] * lambda[3];
+    const jg_real t140 = C_j[0] * lambda[4];
+    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t139 + A_ijt_h_star_1 * t140 + A_ijt_f_star_1 * t138 + s_j[0] * t123;
+    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t139 + A_ijt_h_star_2 * t140 + A_ijt_f_star_2 * t138 + s_j[0] * t122;
+    const jg_real t141 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
+        A_ijt_f_star_2 - C_j[8] * A_ijt_f_star_1);
+    phi_q_t_lambda_q[53] = t141;
+    phi_q_t_lambda_q[75] = t141;
+    phi_q_t_lambda_q[54] = t70 - t113 * A_ijt_g_star_1 - t114 * A_ijt_h_star_1 - t115 * A_ijt_f_star_1 + t77;
+    phi_q_t_lambda_q[55] = t98 - t116 * A_ijt_g_star_1 - t117 * A_ijt_h_star_1 - t118 * A_ijt_f_star_1 + t99;
+    phi_q_t_lambda_q[56] = t108 - t119 * A_ijt_g_star_1 - t120 * A_ijt_h_star_1 - t121 * A_ijt_f_star_1 + t109;
+    phi_q_t_lambda_q[57] = -t122;
+    const jg_real t142 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[58] = t142;
+    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t130 + A_ijt_h_star_0 * t134 + A_ijt_f_star_0 * t126 + s_j[1] * t142;
+    const jg_real t143 = A_ijt_f_star_0 * t138;
+    const jg_real t144 = A_ijt_g_star_0 * t139;
+    const jg_real t145 = A_ijt_h_star_0 * t140;
+    const jg_real t146 = s_j[0] * t142;
+    phi_q_t_lambda_q[60] = -(t136 + t146 + (t125 + t143 + (t129 + t144 + (t133 + t145))));
+    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t130 + A_ijt_h_star_2 * t134 + A_ijt_f_star_2 * t126 + s_j[1] * t122;
+    const jg_real t147 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
+        A_ijt_f_star_0 - C_j[6] * A_ijt_f_star_2);
+    phi_q_t_lambda_q[62] = t147;
+    phi_q_t_lambda_q[76] = t147;
+    phi_q_t_lambda_q[63] = t78 - t113 * A_ijt_g_star_2 - t114 * A_ijt_h_star_2 - t115 * A_ijt_f_star_2 + t85;
+    phi_q_t_lambda_q[64] = t100 - t116 * A_ijt_g_star_2 - t117 * A_ijt_h_star_2 - t118 * A_ijt_f_star_2 + t101;
+    phi_q_t_lambda_q[65] = t110 - t119 * A_ijt_g_star_2 - t120 * A_ijt_h_star_2 - t121 * A_ijt_f_star_2 + t111;
+    phi_q_t_lambda_q[67] = -t142;
+    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t128 + A_ijt_h_star_0 * t132 + A_ijt_f_star_0 * t124 + s_j[2] * t142;
+    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t128 + A_ijt_h_star_1 * t132 + A_ijt_f_star_1 * t124 + s_j[2] * t123;
+    phi_q_t_lambda_q[70] = -(t137 + t146 + (t127 + t143 + (t131 + t144 + (t135 + t145))));
+    const jg_real t148 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
+        A_ijt_f_star_1 - C_j[7] * A_ijt_f_star_0);
+    phi_q_t_lambda_q[71] = t148;
+    phi_q_t_lambda_q[77] = t148;
+    phi_q_t_lambda_q[78] = -(t57 + t60);
 }
 
 void jg_screw_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -540,12 +511,16 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -558,71 +533,72 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_i_cross_dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t13 = s_j[1] * JG_REAL(2.0);
-    const jg_real t14 = s_j[2] * JG_REAL(2.0);
-    const jg_real t15 = omega_j[2] * t13 - omega_j[1] * t14;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t17 = s_j[0] * JG_REAL(2.0);
-    const jg_real t18 = omega_j[0] * t14 - omega_j[2] * t17;
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t20 = omega_j[1] * t17 - omega_j[0] * t13;
-    const jg_real t21 = A_ij_2 * t15 + A_ij_5 * t18 + A_ij_8 * t20;
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t25 = A_ij_1 * t15 + A_ij_4 * t18 + A_ij_7 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t38 = JG_REAL(2.0) * v_j[0];
-    const jg_real t39 = JG_REAL(2.0) * v_j[1];
-    const jg_real t40 = JG_REAL(2.0) * v_j[2];
-    const jg_real t41 = A_ij_1 * t38 + A_ij_4 * t39 + A_ij_7 * t40;
-    const jg_real t42 = A_ij_2 * t38 + A_ij_5 * t39 + A_ij_8 * t40;
-    const jg_real t43 = JG_REAL(2.0) * v_i[2];
-    const jg_real t44 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t43 - omega_i[2] * t44 + (omega_i[2] * t41 - omega_i[1] * t42 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t21 - omega_i[2] * t25 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t47 = A_ij_0 * t15 + A_ij_3 * t18 + A_ij_6 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t50 = A_ij_0 * t38 + A_ij_3 * t39 + A_ij_6 * t40;
-    const jg_real t51 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t51 - omega_i[0] * t43 + (omega_i[0] * t42 - omega_i[2] * t50 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t47 - omega_i[0] * t21 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t44 - omega_i[1] * t51 + (omega_i[1] * t50 - omega_i[0] * t41 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t25 - omega_i[1] * t47 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -656,12 +632,12 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t74 = alphadot * alphadot;
+    const jg_real t71 = alphadot * alphadot;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t78 = JG_REAL(2.0) * alphadot;
+    const jg_real t75 = JG_REAL(2.0) * alphadot;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -672,9 +648,9 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t74 * (g_star_0 * A_ij_h_j_0 +
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t71 * (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) - (omega_i_cross_A_ij_h_j_0 * f_star_0 +
-        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * t78 + t78 *
+        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * t75 + t75 *
         (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 + A_ij_omega_j_cross_h_j_2 *
         f_star_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
@@ -750,9 +726,9 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t74 * (f_star_0 * A_ij_g_j_0 +
-        f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2) - t78 * (g_star_0 * A_ij_omega_j_cross_g_j_0 + g_star_1 *
-        A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t78 * (g_star_0 * omega_i_cross_A_ij_g_j_0
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t71 * (f_star_0 * A_ij_g_j_0 +
+        f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2) - t75 * (g_star_0 * A_ij_omega_j_cross_g_j_0 + g_star_1 *
+        A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t75 * (g_star_0 * omega_i_cross_A_ij_g_j_0
         + g_star_1 * omega_i_cross_A_ij_g_j_1 + g_star_2 * omega_i_cross_A_ij_g_j_2);
 }
 
@@ -772,22 +748,28 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
+    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
+    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
+    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
-    const jg_real t12 = alphadot * pitch;
+    const jg_real t16 = alphadot * pitch;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -795,25 +777,31 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = omega_i[2] * s_i[1] - omega_i[1] * s_i[2] + (omega_i[2] * dp_ij_1 - omega_i[1] * dp_ij_2 +
-        (A_ij_v_j_0 - v_i[0] - C_i[6] * t12) + A_ij_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - C_i[6] * t16 - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = omega_i[0] * s_i[2] - omega_i[2] * s_i[0] + (omega_i[0] * dp_ij_2 - omega_i[2] * dp_ij_0 +
-        (A_ij_v_j_1 - v_i[1] - C_i[7] * t12) + A_ij_omega_j_cross_s_j_1);
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - C_i[7] * t16 - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = omega_i[1] * s_i[0] - omega_i[0] * s_i[1] + (omega_i[1] * dp_ij_0 - omega_i[0] * dp_ij_1 +
-        (A_ij_v_j_2 - v_i[2] - C_i[8] * t12) + A_ij_omega_j_cross_s_j_2);
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - C_i[8] * t16 - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -909,17 +897,21 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
+    const jg_real t10 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
+    const jg_real t12 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -929,73 +921,69 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t16 = sine_0 * lambda[3];
-    const jg_real t17 = cosine_0 * lambda[3];
-    const jg_real t18 = C_i[2] * t16 - C_i[5] * t17;
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t23 = C_i[1] * t16 - C_i[4] * t17;
+    const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     /* A_ij_f_j = A_ij f_j */
-    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t25 = C_i[7] * lambda[4];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t27 = C_i[8] * lambda[4];
+    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     /* A_ij_g_j = A_ij g_j */
-    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t29 = cosine_0 * lambda[5];
-    const jg_real t30 = sine_0 * lambda[5];
-    const jg_real t31 = C_i[1] * t29 + C_i[4] * t30;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t33 = C_i[2] * t29 + C_i[5] * t30;
-    phi_q_t_lambda[3] = A_ij_g_j_2 * t31 - A_ij_g_j_1 * t33 + (A_ij_f_j_2 * t25 - A_ij_f_j_1 * t27 + (lambda[1] * t7
-        - lambda[2] * t9 + (A_ij_h_j_1 * t18 - A_ij_h_j_2 * t23)));
+    /* f_star = C_i H [1; 0; 0] */
+    const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
+    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
+    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
+        g_star_1) - lambda[4] * (C_i[8] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_2) - lambda[5] * (A_ij_g_j_1 * f_star_2 -
+        A_ij_g_j_2 * f_star_1);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t35 = s_i[0] + dp_ij_0;
-    const jg_real t36 = C_i[0] * t16 - C_i[3] * t17;
+    const jg_real t32 = s_i[0] + dp_ij_0;
+    const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t42 = C_i[6] * lambda[4];
-    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t44 = C_i[0] * t29 + C_i[3] * t30;
-    phi_q_t_lambda[4] = A_ij_g_j_0 * t33 - A_ij_g_j_2 * t44 + (A_ij_f_j_0 * t27 - A_ij_f_j_2 * t42 + (lambda[2] *
-        t35 - lambda[0] * t7 + (A_ij_h_j_2 * t36 - A_ij_h_j_0 * t18)));
-    phi_q_t_lambda[5] = A_ij_g_j_1 * t44 - A_ij_g_j_0 * t31 + (A_ij_f_j_1 * t42 - A_ij_f_j_0 * t25 + (lambda[0] * t9
-        - lambda[1] * t35 + (A_ij_h_j_0 * t23 - A_ij_h_j_1 * t36)));
-    const jg_real t45 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t45;
-    const jg_real t46 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t46;
-    const jg_real t47 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t47;
-    const jg_real t48 = A_ij_6 * t44 + A_ij_7 * t31 + A_ij_8 * t33;
-    const jg_real t49 = A_ij_3 * t44 + A_ij_4 * t31 + A_ij_5 * t33;
-    const jg_real t50 = A_ij_3 * t36 + A_ij_4 * t23 + A_ij_5 * t18;
-    const jg_real t51 = A_ij_6 * t36 + A_ij_7 * t23 + A_ij_8 * t18;
-    const jg_real t52 = A_ij_6 * t42 + A_ij_7 * t25 + A_ij_8 * t27;
-    const jg_real t53 = A_ij_3 * t42 + A_ij_4 * t25 + A_ij_5 * t27;
-    phi_q_t_lambda[9] = s_j[1] * t47 - s_j[2] * t46 + (C_j[4] * t48 - C_j[5] * t49 + (C_j[8] * t50 - C_j[7] * t51 +
-        (C_j[1] * t52 - C_j[2] * t53)));
-    const jg_real t54 = A_ij_0 * t44 + A_ij_1 * t31 + A_ij_2 * t33;
-    const jg_real t55 = A_ij_0 * t36 + A_ij_1 * t23 + A_ij_2 * t18;
-    const jg_real t56 = A_ij_0 * t42 + A_ij_1 * t25 + A_ij_2 * t27;
-    phi_q_t_lambda[10] = s_j[2] * t45 - s_j[0] * t47 + (C_j[5] * t54 - C_j[3] * t48 + (C_j[6] * t51 - C_j[8] * t55 +
-        (C_j[2] * t56 - C_j[0] * t52)));
-    phi_q_t_lambda[11] = s_j[0] * t46 - s_j[1] * t45 + (C_j[3] * t49 - C_j[4] * t54 + (C_j[7] * t55 - C_j[6] * t50 +
-        (C_j[0] * t53 - C_j[1] * t56)));
-    /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    phi_q_t_lambda[12] = lambda[5] * (A_ij_g_j_0 * g_star_0 + A_ij_g_j_1 * g_star_1 + A_ij_g_j_2 * g_star_2) -
+    const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
+    phi_q_t_lambda[4] = lambda[2] * t32 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
+        g_star_2) - lambda[4] * (C_i[6] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_0) - lambda[5] * (A_ij_g_j_2 * f_star_0 -
+        A_ij_g_j_0 * f_star_2);
+    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t32 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
+        g_star_0) - lambda[4] * (C_i[7] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_1) - lambda[5] * (A_ij_g_j_0 * f_star_1 -
+        A_ij_g_j_1 * f_star_0);
+    const jg_real t41 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t41;
+    const jg_real t42 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t42;
+    const jg_real t43 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t43;
+    /* A_ijt_f_star = A_ij^T f_star */
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    /* A_ijt_h_star = A_ij^T h_star */
+    const jg_real A_ijt_h_star_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real A_ijt_h_star_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    phi_q_t_lambda[9] = s_j[1] * t43 - s_j[2] * t42 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+        A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
+        A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
+    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    const jg_real A_ijt_h_star_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    phi_q_t_lambda[10] = s_j[2] * t41 - s_j[0] * t43 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+        A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
+        A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
+    phi_q_t_lambda[11] = s_j[0] * t42 - s_j[1] * t41 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+        A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
+        A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
+    phi_q_t_lambda[12] = lambda[5] * (g_star_0 * A_ij_g_j_0 + g_star_1 * A_ij_g_j_1 + g_star_2 * A_ij_g_j_2) -
         lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) - pitch * (lambda[0] *
         C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8]);
 }
@@ -1020,12 +1008,16 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
@@ -1065,14 +1057,14 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t27 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t27;
+    const jg_real t30 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t30;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t31 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
-    phi[4] = t31;
+    const jg_real t34 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
+    phi[4] = t34;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
@@ -1081,26 +1073,26 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t38 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t38;
+    const jg_real t41 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t41;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t39 = s_i[2] + dp_ij_2;
-    phi_q[3] = t39;
-    const jg_real t40 = s_i[1] + dp_ij_1;
-    phi_q[13] = t40;
-    phi_q[4] = -t40;
+    const jg_real t42 = s_i[2] + dp_ij_2;
+    phi_q[3] = t42;
+    const jg_real t43 = s_i[1] + dp_ij_1;
+    phi_q[13] = t43;
+    phi_q[4] = -t43;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t39;
-    const jg_real t41 = s_i[0] + dp_ij_0;
-    phi_q[9] = t41;
+    phi_q[8] = -t42;
+    const jg_real t44 = s_i[0] + dp_ij_0;
+    phi_q[9] = t44;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t41;
+    phi_q[14] = -t44;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1145,290 +1137,248 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t51 = t39 * lambda[2];
-    const jg_real t52 = t40 * lambda[1];
-    const jg_real t53 = g_star_2 * lambda[3];
-    const jg_real t54 = A_ij_h_j_2 * t53;
-    const jg_real t55 = g_star_1 * lambda[3];
-    const jg_real t56 = A_ij_h_j_1 * t55;
-    const jg_real t57 = C_i[8] * lambda[4];
-    const jg_real t58 = A_ij_f_j_2 * t57;
-    const jg_real t59 = C_i[7] * lambda[4];
-    const jg_real t60 = A_ij_f_j_1 * t59;
-    const jg_real t61 = f_star_2 * lambda[5];
-    const jg_real t62 = A_ij_g_j_2 * t61;
-    const jg_real t63 = f_star_1 * lambda[5];
-    const jg_real t64 = A_ij_g_j_1 * t63;
-    phi_q_t_lambda_q[6] = -(t51 + t52 + (t62 + t64 + (t54 + t56 + (t58 + t60))));
-    const jg_real t65 = g_star_0 * lambda[3];
-    const jg_real t66 = C_i[6] * lambda[4];
-    const jg_real t67 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t65 + A_ij_f_j_1 * t66 + A_ij_g_j_1 * t67 + t40 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t65 + A_ij_f_j_2 * t66 + A_ij_g_j_2 * t67 + t39 * lambda[0];
-    const jg_real t68 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t68;
-    phi_q_t_lambda_q[36] = t68;
-    const jg_real t69 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t69;
-    phi_q_t_lambda_q[39] = t69;
-    const jg_real t70 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t70;
-    phi_q_t_lambda_q[42] = t70;
-    const jg_real t71 = t27 * lambda[3];
-    const jg_real t72 = t38 * lambda[5];
-    const jg_real t73 = t71 + t31 * lambda[4] + t72;
-    const jg_real t74 = A_ij_0 * t73;
-    const jg_real t75 = sine_0 * lambda[3];
-    const jg_real t76 = cosine_0 * lambda[3];
-    const jg_real t77 = C_i[0] * t75 - C_i[3] * t76;
-    const jg_real t78 = C_i[1] * t75 - C_i[4] * t76;
-    const jg_real t79 = C_i[2] * t75 - C_i[5] * t76;
-    const jg_real t80 = A_ij_0 * t77 + A_ij_1 * t78 + A_ij_2 * t79;
-    const jg_real t81 = C_j[6] * t80;
-    const jg_real t82 = C_j[7] * t80;
-    const jg_real t83 = C_j[8] * t80;
-    const jg_real t84 = A_ij_0 * t66 + A_ij_1 * t59 + A_ij_2 * t57;
-    const jg_real t85 = C_j[0] * t84;
-    const jg_real t86 = C_j[1] * t84;
-    const jg_real t87 = C_j[2] * t84;
-    const jg_real t88 = cosine_0 * lambda[5];
-    const jg_real t89 = sine_0 * lambda[5];
-    const jg_real t90 = C_i[0] * t88 + C_i[3] * t89;
-    const jg_real t91 = C_i[1] * t88 + C_i[4] * t89;
-    const jg_real t92 = C_i[2] * t88 + C_i[5] * t89;
-    const jg_real t93 = A_ij_0 * t90 + A_ij_1 * t91 + A_ij_2 * t92;
-    const jg_real t94 = C_j[3] * t93;
-    const jg_real t95 = C_j[4] * t93;
-    const jg_real t96 = C_j[5] * t93;
-    const jg_real t97 = s_j[1] * t70 - s_j[2] * t69;
-    phi_q_t_lambda_q[12] = A_ij_0 * t81 + A_ij_3 * t82 + A_ij_6 * t83 + t74 - (A_ij_0 * t85 + A_ij_3 * t86 + A_ij_6
-        * t87) - (A_ij_0 * t94 + A_ij_3 * t95 + A_ij_6 * t96) + t97;
-    const jg_real t98 = A_ij_3 * t73;
-    const jg_real t99 = A_ij_3 * t77 + A_ij_4 * t78 + A_ij_5 * t79;
-    const jg_real t100 = C_j[6] * t99;
-    const jg_real t101 = C_j[7] * t99;
-    const jg_real t102 = C_j[8] * t99;
-    const jg_real t103 = A_ij_3 * t66 + A_ij_4 * t59 + A_ij_5 * t57;
-    const jg_real t104 = C_j[0] * t103;
-    const jg_real t105 = C_j[1] * t103;
-    const jg_real t106 = C_j[2] * t103;
-    const jg_real t107 = A_ij_3 * t90 + A_ij_4 * t91 + A_ij_5 * t92;
-    const jg_real t108 = C_j[3] * t107;
-    const jg_real t109 = C_j[4] * t107;
-    const jg_real t110 = C_j[5] * t107;
-    const jg_real t111 = s_j[2] * t68 - s_j[0] * t70;
-    phi_q_t_lambda_q[13] = A_ij_0 * t100 + A_ij_3 * t101 + A_ij_6 * t102 + t98 - (A_ij_0 * t104 + A_ij_3 * t105 +
-        A_ij_6 * t106) - (A_ij_0 * t108 + A_ij_3 * t109 + A_ij_6 * t110) + t111;
-    const jg_real t112 = A_ij_6 * t73;
-    const jg_real t113 = A_ij_6 * t77 + A_ij_7 * t78 + A_ij_8 * t79;
-    const jg_real t114 = C_j[6] * t113;
-    const jg_real t115 = C_j[7] * t113;
-    const jg_real t116 = C_j[8] * t113;
-    const jg_real t117 = A_ij_6 * t66 + A_ij_7 * t59 + A_ij_8 * t57;
-    const jg_real t118 = C_j[0] * t117;
-    const jg_real t119 = C_j[1] * t117;
-    const jg_real t120 = C_j[2] * t117;
-    const jg_real t121 = A_ij_6 * t90 + A_ij_7 * t91 + A_ij_8 * t92;
-    const jg_real t122 = C_j[3] * t121;
-    const jg_real t123 = C_j[4] * t121;
-    const jg_real t124 = C_j[5] * t121;
-    const jg_real t125 = s_j[0] * t69 - s_j[1] * t68;
-    phi_q_t_lambda_q[14] = A_ij_0 * t114 + A_ij_3 * t115 + A_ij_6 * t116 + t112 - (A_ij_0 * t118 + A_ij_3 * t119 +
-        A_ij_6 * t120) - (A_ij_0 * t122 + A_ij_3 * t123 + A_ij_6 * t124) + t125;
-    const jg_real t126 = C_i[2] * t76 + C_i[5] * t75;
-    const jg_real t127 = C_i[1] * t76 + C_i[4] * t75;
-    const jg_real t128 = C_i[2] * t89 - C_i[5] * t88;
-    const jg_real t129 = C_i[1] * t89 - C_i[4] * t88;
-    const jg_real t130 = A_ij_h_j_1 * t126 - A_ij_h_j_2 * t127 + (A_ij_g_j_1 * t128 - A_ij_g_j_2 * t129);
-    phi_q_t_lambda_q[15] = t130;
-    phi_q_t_lambda_q[72] = t130;
-    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t55 + A_ij_f_j_0 * t59 + A_ij_g_j_0 * t63 + t41 * lambda[1];
-    const jg_real t131 = t41 * lambda[0];
-    const jg_real t132 = A_ij_h_j_0 * t65;
-    const jg_real t133 = A_ij_f_j_0 * t66;
-    const jg_real t134 = A_ij_g_j_0 * t67;
-    phi_q_t_lambda_q[17] = -(t51 + t131 + (t62 + t134 + (t54 + t132 + (t58 + t133))));
-    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t55 + A_ij_f_j_2 * t59 + A_ij_g_j_2 * t63 + t39 * lambda[1];
-    const jg_real t135 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[19] = t135;
-    phi_q_t_lambda_q[37] = t135;
-    const jg_real t136 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[20] = t136;
-    phi_q_t_lambda_q[40] = t136;
-    const jg_real t137 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[21] = t137;
-    phi_q_t_lambda_q[43] = t137;
-    const jg_real t138 = A_ij_1 * t73;
-    const jg_real t139 = s_j[1] * t137 - s_j[2] * t136;
-    phi_q_t_lambda_q[22] = A_ij_1 * t81 + A_ij_4 * t82 + A_ij_7 * t83 + t138 - (A_ij_1 * t85 + A_ij_4 * t86 + A_ij_7
-        * t87) - (A_ij_1 * t94 + A_ij_4 * t95 + A_ij_7 * t96) + t139;
-    const jg_real t140 = A_ij_4 * t73;
-    const jg_real t141 = s_j[2] * t135 - s_j[0] * t137;
-    phi_q_t_lambda_q[23] = A_ij_1 * t100 + A_ij_4 * t101 + A_ij_7 * t102 + t140 - (A_ij_1 * t104 + A_ij_4 * t105 +
-        A_ij_7 * t106) - (A_ij_1 * t108 + A_ij_4 * t109 + A_ij_7 * t110) + t141;
-    const jg_real t142 = A_ij_7 * t73;
-    const jg_real t143 = s_j[0] * t136 - s_j[1] * t135;
-    phi_q_t_lambda_q[24] = A_ij_1 * t114 + A_ij_4 * t115 + A_ij_7 * t116 + t142 - (A_ij_1 * t118 + A_ij_4 * t119 +
-        A_ij_7 * t120) - (A_ij_1 * t122 + A_ij_4 * t123 + A_ij_7 * t124) + t143;
-    const jg_real t144 = C_i[0] * t76 + C_i[3] * t75;
-    const jg_real t145 = C_i[0] * t89 - C_i[3] * t88;
-    const jg_real t146 = A_ij_h_j_2 * t144 - A_ij_h_j_0 * t126 + (A_ij_g_j_2 * t145 - A_ij_g_j_0 * t128);
-    phi_q_t_lambda_q[25] = t146;
-    phi_q_t_lambda_q[73] = t146;
-    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t53 + A_ij_f_j_0 * t57 + A_ij_g_j_0 * t61 + t41 * lambda[2];
-    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t53 + A_ij_f_j_1 * t57 + A_ij_g_j_1 * t61 + t40 * lambda[2];
-    phi_q_t_lambda_q[28] = -(t52 + t131 + (t64 + t134 + (t56 + t132 + (t60 + t133))));
-    const jg_real t147 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[29] = t147;
-    phi_q_t_lambda_q[38] = t147;
-    const jg_real t148 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[30] = t148;
-    phi_q_t_lambda_q[41] = t148;
-    const jg_real t149 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[31] = t149;
-    phi_q_t_lambda_q[44] = t149;
-    const jg_real t150 = A_ij_2 * t73;
-    const jg_real t151 = s_j[1] * t149 - s_j[2] * t148;
-    phi_q_t_lambda_q[32] = A_ij_2 * t81 + A_ij_5 * t82 + A_ij_8 * t83 + t150 - (A_ij_2 * t85 + A_ij_5 * t86 + A_ij_8
-        * t87) - (A_ij_2 * t94 + A_ij_5 * t95 + A_ij_8 * t96) + t151;
-    const jg_real t152 = A_ij_5 * t73;
-    const jg_real t153 = s_j[2] * t147 - s_j[0] * t149;
-    phi_q_t_lambda_q[33] = A_ij_2 * t100 + A_ij_5 * t101 + A_ij_8 * t102 + t152 - (A_ij_2 * t104 + A_ij_5 * t105 +
-        A_ij_8 * t106) - (A_ij_2 * t108 + A_ij_5 * t109 + A_ij_8 * t110) + t153;
-    const jg_real t154 = A_ij_8 * t73;
-    const jg_real t155 = s_j[0] * t148 - s_j[1] * t147;
-    phi_q_t_lambda_q[34] = A_ij_2 * t114 + A_ij_5 * t115 + A_ij_8 * t116 + t154 - (A_ij_2 * t118 + A_ij_5 * t119 +
-        A_ij_8 * t120) - (A_ij_2 * t122 + A_ij_5 * t123 + A_ij_8 * t124) + t155;
-    const jg_real t156 = A_ij_h_j_0 * t127 - A_ij_h_j_1 * t144 + (A_ij_g_j_0 * t129 - A_ij_g_j_1 * t145);
-    phi_q_t_lambda_q[35] = t156;
-    phi_q_t_lambda_q[74] = t156;
-    phi_q_t_lambda_q[45] = A_ij_h_j_0 * t80 + t74 - A_ij_f_j_0 * t84 - A_ij_g_j_0 * t93 + t97;
-    phi_q_t_lambda_q[46] = A_ij_h_j_1 * t80 + t138 - A_ij_f_j_1 * t84 - A_ij_g_j_1 * t93 + t139;
-    phi_q_t_lambda_q[47] = A_ij_h_j_2 * t80 + t150 - A_ij_f_j_2 * t84 - A_ij_g_j_2 * t93 + t151;
-    const jg_real t157 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[48] = t157;
-    const jg_real t158 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[66] = t158;
-    phi_q_t_lambda_q[49] = -t158;
-    const jg_real t159 = C_j[5] * lambda[5];
-    const jg_real t160 = A_ijt_f_star_2 * t159;
-    const jg_real t161 = C_j[4] * lambda[5];
-    const jg_real t162 = A_ijt_f_star_1 * t161;
-    const jg_real t163 = C_j[8] * lambda[3];
-    const jg_real t164 = A_ijt_g_star_2 * t163;
-    const jg_real t165 = C_j[7] * lambda[3];
-    const jg_real t166 = A_ijt_g_star_1 * t165;
-    const jg_real t167 = C_j[2] * lambda[4];
-    const jg_real t168 = A_ijt_h_star_2 * t167;
-    const jg_real t169 = C_j[1] * lambda[4];
-    const jg_real t170 = A_ijt_h_star_1 * t169;
-    const jg_real t171 = s_j[2] * t157;
-    const jg_real t172 = s_j[1] * t158;
-    phi_q_t_lambda_q[50] = -(t171 + t172 + (t160 + t162 + (t164 + t166 + (t168 + t170))));
-    const jg_real t173 = C_j[3] * lambda[5];
-    const jg_real t174 = C_j[6] * lambda[3];
-    const jg_real t175 = C_j[0] * lambda[4];
-    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t174 + A_ijt_h_star_1 * t175 + A_ijt_f_star_1 * t173 + s_j[0] * t158;
-    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t174 + A_ijt_h_star_2 * t175 + A_ijt_f_star_2 * t173 + s_j[0] * t157;
-    const jg_real t176 = A_ij_3 * t144 + A_ij_4 * t127 + A_ij_5 * t126;
-    const jg_real t177 = A_ij_6 * t144 + A_ij_7 * t127 + A_ij_8 * t126;
-    const jg_real t178 = A_ij_3 * t145 + A_ij_4 * t129 + A_ij_5 * t128;
-    const jg_real t179 = A_ij_6 * t145 + A_ij_7 * t129 + A_ij_8 * t128;
-    const jg_real t180 = C_j[8] * t176 - C_j[7] * t177 + (C_j[5] * t178 - C_j[4] * t179);
-    phi_q_t_lambda_q[53] = t180;
-    phi_q_t_lambda_q[75] = t180;
-    phi_q_t_lambda_q[54] = A_ij_h_j_0 * t99 + t98 - A_ij_f_j_0 * t103 - A_ij_g_j_0 * t107 + t111;
-    phi_q_t_lambda_q[55] = A_ij_h_j_1 * t99 + t140 - A_ij_f_j_1 * t103 - A_ij_g_j_1 * t107 + t141;
-    phi_q_t_lambda_q[56] = A_ij_h_j_2 * t99 + t152 - A_ij_f_j_2 * t103 - A_ij_g_j_2 * t107 + t153;
-    phi_q_t_lambda_q[57] = -t157;
-    const jg_real t181 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[58] = t181;
-    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t165 + A_ijt_h_star_0 * t169 + A_ijt_f_star_0 * t161 + s_j[1] * t181;
-    const jg_real t182 = A_ijt_f_star_0 * t173;
-    const jg_real t183 = A_ijt_g_star_0 * t174;
-    const jg_real t184 = A_ijt_h_star_0 * t175;
-    const jg_real t185 = s_j[0] * t181;
-    phi_q_t_lambda_q[60] = -(t171 + t185 + (t160 + t182 + (t164 + t183 + (t168 + t184))));
-    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t165 + A_ijt_h_star_2 * t169 + A_ijt_f_star_2 * t161 + s_j[1] * t157;
-    const jg_real t186 = A_ij_0 * t144 + A_ij_1 * t127 + A_ij_2 * t126;
-    const jg_real t187 = A_ij_0 * t145 + A_ij_1 * t129 + A_ij_2 * t128;
-    const jg_real t188 = C_j[6] * t177 - C_j[8] * t186 + (C_j[3] * t179 - C_j[5] * t187);
-    phi_q_t_lambda_q[62] = t188;
-    phi_q_t_lambda_q[76] = t188;
-    phi_q_t_lambda_q[63] = A_ij_h_j_0 * t113 + t112 - A_ij_f_j_0 * t117 - A_ij_g_j_0 * t121 + t125;
-    phi_q_t_lambda_q[64] = A_ij_h_j_1 * t113 + t142 - A_ij_f_j_1 * t117 - A_ij_g_j_1 * t121 + t143;
-    phi_q_t_lambda_q[65] = A_ij_h_j_2 * t113 + t154 - A_ij_f_j_2 * t117 - A_ij_g_j_2 * t121 + t155;
-    phi_q_t_lambda_q[67] = -t181;
-    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t163 + A_ijt_h_star_0 * t167 + A_ijt_f_star_0 * t159 + s_j[2] * t181;
-    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t163 + A_ijt_h_star_1 * t167 + A_ijt_f_star_1 * t159 + s_j[2] * t158;
-    phi_q_t_lambda_q[70] = -(t172 + t185 + (t162 + t182 + (t166 + t183 + (t170 + t184))));
-    const jg_real t189 = C_j[7] * t186 - C_j[6] * t176 + (C_j[4] * t187 - C_j[3] * t178);
-    phi_q_t_lambda_q[71] = t189;
-    phi_q_t_lambda_q[77] = t189;
-    phi_q_t_lambda_q[78] = -(t71 + t72);
+    const jg_real t54 = t42 * lambda[2];
+    const jg_real t55 = t43 * lambda[1];
+    const jg_real t56 = g_star_2 * lambda[3];
+    const jg_real t57 = A_ij_h_j_2 * t56;
+    const jg_real t58 = g_star_1 * lambda[3];
+    const jg_real t59 = A_ij_h_j_1 * t58;
+    const jg_real t60 = C_i[8] * lambda[4];
+    const jg_real t61 = A_ij_f_j_2 * t60;
+    const jg_real t62 = C_i[7] * lambda[4];
+    const jg_real t63 = A_ij_f_j_1 * t62;
+    const jg_real t64 = f_star_2 * lambda[5];
+    const jg_real t65 = A_ij_g_j_2 * t64;
+    const jg_real t66 = f_star_1 * lambda[5];
+    const jg_real t67 = A_ij_g_j_1 * t66;
+    phi_q_t_lambda_q[6] = -(t54 + t55 + (t65 + t67 + (t57 + t59 + (t61 + t63))));
+    const jg_real t68 = g_star_0 * lambda[3];
+    const jg_real t69 = C_i[6] * lambda[4];
+    const jg_real t70 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t68 + A_ij_f_j_1 * t69 + A_ij_g_j_1 * t70 + t43 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t68 + A_ij_f_j_2 * t69 + A_ij_g_j_2 * t70 + t42 * lambda[0];
+    const jg_real t71 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t71;
+    phi_q_t_lambda_q[36] = t71;
+    const jg_real t72 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t72;
+    phi_q_t_lambda_q[39] = t72;
+    const jg_real t73 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t73;
+    phi_q_t_lambda_q[42] = t73;
+    const jg_real t74 = t30 * lambda[3];
+    const jg_real t75 = t41 * lambda[5];
+    const jg_real t76 = t74 + t34 * lambda[4] + t75;
+    const jg_real t77 = A_ij_0 * t76;
+    const jg_real t78 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t79 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t80 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t81 = s_j[1] * t73 - s_j[2] * t72;
+    phi_q_t_lambda_q[12] = t77 - A_ij_h_j_0 * t78 - A_ij_f_j_0 * t79 - A_ij_g_j_0 * t80 + t81;
+    const jg_real t82 = A_ij_3 * t76;
+    const jg_real t83 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t84 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t85 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t86 = s_j[2] * t71 - s_j[0] * t73;
+    phi_q_t_lambda_q[13] = t82 - A_ij_h_j_0 * t83 - A_ij_f_j_0 * t84 - A_ij_g_j_0 * t85 + t86;
+    const jg_real t87 = A_ij_6 * t76;
+    const jg_real t88 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t89 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t90 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t91 = s_j[0] * t72 - s_j[1] * t71;
+    phi_q_t_lambda_q[14] = t87 - A_ij_h_j_0 * t88 - A_ij_f_j_0 * t89 - A_ij_g_j_0 * t90 + t91;
+    const jg_real t92 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
+        A_ij_g_j_1 - g_star_1 * A_ij_g_j_2);
+    phi_q_t_lambda_q[15] = t92;
+    phi_q_t_lambda_q[72] = t92;
+    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t58 + A_ij_f_j_0 * t62 + A_ij_g_j_0 * t66 + t44 * lambda[1];
+    const jg_real t93 = t44 * lambda[0];
+    const jg_real t94 = A_ij_h_j_0 * t68;
+    const jg_real t95 = A_ij_f_j_0 * t69;
+    const jg_real t96 = A_ij_g_j_0 * t70;
+    phi_q_t_lambda_q[17] = -(t54 + t93 + (t65 + t96 + (t57 + t94 + (t61 + t95))));
+    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t58 + A_ij_f_j_2 * t62 + A_ij_g_j_2 * t66 + t42 * lambda[1];
+    const jg_real t97 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[19] = t97;
+    phi_q_t_lambda_q[37] = t97;
+    const jg_real t98 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[20] = t98;
+    phi_q_t_lambda_q[40] = t98;
+    const jg_real t99 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[21] = t99;
+    phi_q_t_lambda_q[43] = t99;
+    const jg_real t100 = A_ij_1 * t76;
+    const jg_real t101 = s_j[1] * t99 - s_j[2] * t98;
+    phi_q_t_lambda_q[22] = t100 - A_ij_h_j_1 * t78 - A_ij_f_j_1 * t79 - A_ij_g_j_1 * t80 + t101;
+    const jg_real t102 = A_ij_4 * t76;
+    const jg_real t103 = s_j[2] * t97 - s_j[0] * t99;
+    phi_q_t_lambda_q[23] = t102 - A_ij_h_j_1 * t83 - A_ij_f_j_1 * t84 - A_ij_g_j_1 * t85 + t103;
+    const jg_real t104 = A_ij_7 * t76;
+    const jg_real t105 = s_j[0] * t98 - s_j[1] * t97;
+    phi_q_t_lambda_q[24] = t104 - A_ij_h_j_1 * t88 - A_ij_f_j_1 * t89 - A_ij_g_j_1 * t90 + t105;
+    const jg_real t106 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
+        A_ij_g_j_2 - g_star_2 * A_ij_g_j_0);
+    phi_q_t_lambda_q[25] = t106;
+    phi_q_t_lambda_q[73] = t106;
+    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t56 + A_ij_f_j_0 * t60 + A_ij_g_j_0 * t64 + t44 * lambda[2];
+    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t56 + A_ij_f_j_1 * t60 + A_ij_g_j_1 * t64 + t43 * lambda[2];
+    phi_q_t_lambda_q[28] = -(t55 + t93 + (t67 + t96 + (t59 + t94 + (t63 + t95))));
+    const jg_real t107 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[29] = t107;
+    phi_q_t_lambda_q[38] = t107;
+    const jg_real t108 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[30] = t108;
+    phi_q_t_lambda_q[41] = t108;
+    const jg_real t109 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[31] = t109;
+    phi_q_t_lambda_q[44] = t109;
+    const jg_real t110 = A_ij_2 * t76;
+    const jg_real t111 = s_j[1] * t109 - s_j[2] * t108;
+    phi_q_t_lambda_q[32] = t110 - A_ij_h_j_2 * t78 - A_ij_f_j_2 * t79 - A_ij_g_j_2 * t80 + t111;
+    const jg_real t112 = A_ij_5 * t76;
+    const jg_real t113 = s_j[2] * t107 - s_j[0] * t109;
+    phi_q_t_lambda_q[33] = t112 - A_ij_h_j_2 * t83 - A_ij_f_j_2 * t84 - A_ij_g_j_2 * t85 + t113;
+    const jg_real t114 = A_ij_8 * t76;
+    const jg_real t115 = s_j[0] * t108 - s_j[1] * t107;
+    phi_q_t_lambda_q[34] = t114 - A_ij_h_j_2 * t88 - A_ij_f_j_2 * t89 - A_ij_g_j_2 * t90 + t115;
+    const jg_real t116 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
+        A_ij_g_j_0 - g_star_0 * A_ij_g_j_1);
+    phi_q_t_lambda_q[35] = t116;
+    phi_q_t_lambda_q[74] = t116;
+    const jg_real t117 = A_ij_h_j_0 * lambda[3];
+    const jg_real t118 = A_ij_f_j_0 * lambda[4];
+    const jg_real t119 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[45] = t77 - A_ijt_g_star_0 * t117 - A_ijt_h_star_0 * t118 - A_ijt_f_star_0 * t119 + t81;
+    const jg_real t120 = A_ij_h_j_1 * lambda[3];
+    const jg_real t121 = A_ij_f_j_1 * lambda[4];
+    const jg_real t122 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[46] = t100 - A_ijt_g_star_0 * t120 - A_ijt_h_star_0 * t121 - A_ijt_f_star_0 * t122 + t101;
+    const jg_real t123 = A_ij_h_j_2 * lambda[3];
+    const jg_real t124 = A_ij_f_j_2 * lambda[4];
+    const jg_real t125 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[47] = t110 - A_ijt_g_star_0 * t123 - A_ijt_h_star_0 * t124 - A_ijt_f_star_0 * t125 + t111;
+    const jg_real t126 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[48] = t126;
+    const jg_real t127 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[66] = t127;
+    phi_q_t_lambda_q[49] = -t127;
+    const jg_real t128 = C_j[5] * lambda[5];
+    const jg_real t129 = A_ijt_f_star_2 * t128;
+    const jg_real t130 = C_j[4] * lambda[5];
+    const jg_real t131 = A_ijt_f_star_1 * t130;
+    const jg_real t132 = C_j[8] * lambda[3];
+    const jg_real t133 = A_ijt_g_star_2 * t132;
+    const jg_real t134 = C_j[7] * lambda[3];
+    const jg_real t135 = A_ijt_g_star_1 * t134;
+    const jg_real t136 = C_j[2] * lambda[4];
+    const jg_real t137 = A_ijt_h_star_2 * t136;
+    const jg_real t138 = C_j[1] * lambda[4];
+    const jg_real t139 = A_ijt_h_star_1 * t138;
+    const jg_real t140 = s_j[2] * t126;
+    const jg_real t141 = s_j[1] * t127;
+    phi_q_t_lambda_q[50] = -(t140 + t141 + (t129 + t131 + (t133 + t135 + (t137 + t139))));
+    const jg_real t142 = C_j[3] * lambda[5];
+    const jg_real t143 = C_j[6] * lambda[3];
+    const jg_real t144 = C_j[0] * lambda[4];
+    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t143 + A_ijt_h_star_1 * t144 + A_ijt_f_star_1 * t142 + s_j[0] * t127;
+    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t143 + A_ijt_h_star_2 * t144 + A_ijt_f_star_2 * t142 + s_j[0] * t126;
+    const jg_real t145 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
+        A_ijt_f_star_2 - C_j[8] * A_ijt_f_star_1);
+    phi_q_t_lambda_q[53] = t145;
+    phi_q_t_lambda_q[75] = t145;
+    phi_q_t_lambda_q[54] = t82 - A_ijt_g_star_1 * t117 - A_ijt_h_star_1 * t118 - A_ijt_f_star_1 * t119 + t86;
+    phi_q_t_lambda_q[55] = t102 - A_ijt_g_star_1 * t120 - A_ijt_h_star_1 * t121 - A_ijt_f_star_1 * t122 + t103;
+    phi_q_t_lambda_q[56] = t112 - A_ijt_g_star_1 * t123 - A_ijt_h_star_1 * t124 - A_ijt_f_star_1 * t125 + t113;
+    phi_q_t_lambda_q[57] = -t126;
+    const jg_real t146 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[58] = t146;
+    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t134 + A_ijt_h_star_0 * t138 + A_ijt_f_star_0 * t130 + s_j[1] * t146;
+    const jg_real t147 = A_ijt_f_star_0 * t142;
+    const jg_real t148 = A_ijt_g_star_0 * t143;
+    const jg_real t149 = A_ijt_h_star_0 * t144;
+    const jg_real t150 = s_j[0] * t146;
+    phi_q_t_lambda_q[60] = -(t140 + t150 + (t129 + t147 + (t133 + t148 + (t137 + t149))));
+    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t134 + A_ijt_h_star_2 * t138 + A_ijt_f_star_2 * t130 + s_j[1] * t126;
+    const jg_real t151 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
+        A_ijt_f_star_0 - C_j[6] * A_ijt_f_star_2);
+    phi_q_t_lambda_q[62] = t151;
+    phi_q_t_lambda_q[76] = t151;
+    phi_q_t_lambda_q[63] = t87 - A_ijt_g_star_2 * t117 - A_ijt_h_star_2 * t118 - A_ijt_f_star_2 * t119 + t91;
+    phi_q_t_lambda_q[64] = t104 - A_ijt_g_star_2 * t120 - A_ijt_h_star_2 * t121 - A_ijt_f_star_2 * t122 + t105;
+    phi_q_t_lambda_q[65] = t114 - A_ijt_g_star_2 * t123 - A_ijt_h_star_2 * t124 - A_ijt_f_star_2 * t125 + t115;
+    phi_q_t_lambda_q[67] = -t146;
+    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t132 + A_ijt_h_star_0 * t136 + A_ijt_f_star_0 * t128 + s_j[2] * t146;
+    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t132 + A_ijt_h_star_1 * t136 + A_ijt_f_star_1 * t128 + s_j[2] * t127;
+    phi_q_t_lambda_q[70] = -(t141 + t150 + (t131 + t147 + (t135 + t148 + (t139 + t149))));
+    const jg_real t152 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
+        A_ijt_f_star_1 - C_j[7] * A_ijt_f_star_0);
+    phi_q_t_lambda_q[71] = t152;
+    phi_q_t_lambda_q[77] = t152;
+    phi_q_t_lambda_q[78] = -(t74 + t75);
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
     const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    const jg_real t193 = s_j[1] * JG_REAL(2.0);
-    const jg_real t194 = s_j[2] * JG_REAL(2.0);
-    const jg_real t195 = omega_j[2] * t193 - omega_j[1] * t194;
-    const jg_real t196 = s_j[0] * JG_REAL(2.0);
-    const jg_real t197 = omega_j[0] * t194 - omega_j[2] * t196;
-    const jg_real t198 = omega_j[1] * t196 - omega_j[0] * t193;
-    const jg_real t199 = A_ij_2 * t195 + A_ij_5 * t197 + A_ij_8 * t198;
-    const jg_real t200 = A_ij_1 * t195 + A_ij_4 * t197 + A_ij_7 * t198;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
     const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t210 = JG_REAL(2.0) * v_j[0];
-    const jg_real t211 = JG_REAL(2.0) * v_j[1];
-    const jg_real t212 = JG_REAL(2.0) * v_j[2];
-    const jg_real t213 = A_ij_1 * t210 + A_ij_4 * t211 + A_ij_7 * t212;
-    const jg_real t214 = A_ij_2 * t210 + A_ij_5 * t211 + A_ij_8 * t212;
-    const jg_real t215 = JG_REAL(2.0) * v_i[2];
-    const jg_real t216 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t215 - omega_i[2] * t216 + (omega_i[2] * t213 - omega_i[1] * t214 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t199 - omega_i[2] * t200 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t219 = A_ij_0 * t195 + A_ij_3 * t197 + A_ij_6 * t198;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t222 = A_ij_0 * t210 + A_ij_3 * t211 + A_ij_6 * t212;
-    const jg_real t223 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t223 - omega_i[0] * t215 + (omega_i[0] * t214 - omega_i[2] * t222 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t219 - omega_i[0] * t199 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t216 - omega_i[1] * t223 + (omega_i[1] * t222 - omega_i[0] * t213 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t200 - omega_i[1] * t219 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1451,8 +1401,8 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t238 = alphadot * alphadot;
-    const jg_real t239 = JG_REAL(2.0) * alphadot;
+    const jg_real t195 = alphadot * alphadot;
+    const jg_real t196 = JG_REAL(2.0) * alphadot;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1463,9 +1413,9 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t27 * t238 - (f_star_0 *
-        omega_i_cross_A_ij_h_j_0 + f_star_1 * omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t239
-        + t239 * (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 *
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t30 * t195 - (f_star_0 *
+        omega_i_cross_A_ij_h_j_0 + f_star_1 * omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t196
+        + t196 * (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 *
         A_ij_omega_j_cross_h_j_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
@@ -1532,8 +1482,8 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t38 * t238 - t239 * (g_star_0 *
-        A_ij_omega_j_cross_g_j_0 + g_star_1 * A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t239
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t41 * t195 - t196 * (g_star_0 *
+        A_ij_omega_j_cross_g_j_0 + g_star_1 * A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t196
         * (g_star_0 * omega_i_cross_A_ij_g_j_0 + g_star_1 * omega_i_cross_A_ij_g_j_1 + g_star_2 *
         omega_i_cross_A_ij_g_j_2);
 }

@@ -36,12 +36,16 @@ void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, 
     const jg_real revolutions = geometry[26];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
@@ -180,32 +184,30 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *J
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t4 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = t4;
-    phi_q_t_lambda_q[0] = C_i[8] * t0 - C_i[7] * t1 + C_i[6] * t4;
-    const jg_real t5 = lambda[0] * pitch;
-    phi_q_t_lambda_q[1] = C_i[6] * t1 - C_i[8] * t5 + C_i[7] * t4;
-    phi_q_t_lambda_q[2] = C_i[7] * t5 - C_i[6] * t0 + C_i[8] * t4;
-    const jg_real t6 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t7 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t8 = cosine_0 * t6 - sine_0 * t7;
-    const jg_real t9 = cosine_0 * t7 + sine_0 * t6;
-    const jg_real t10 = C_j[0] * t8 - C_j[3] * t9;
-    phi_q_t_lambda_q[3] = t10;
-    const jg_real t11 = C_j[1] * t8 - C_j[4] * t9;
-    phi_q_t_lambda_q[4] = t11;
-    const jg_real t12 = C_j[2] * t8 - C_j[5] * t9;
-    phi_q_t_lambda_q[5] = t12;
-    const jg_real t13 = sine_0 * lambda[4];
-    const jg_real t14 = cosine_0 * lambda[4];
-    const jg_real t15 = cosine_0 * lambda[3];
-    const jg_real t16 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[6] = t12 * s_j[1] - t11 * s_j[2] + (C_j[0] * t13 + C_j[3] * t14 + (C_j[0] * t15 - C_j[3] * t16
-        - t4 * C_j[6]));
-    phi_q_t_lambda_q[7] = t10 * s_j[2] - t12 * s_j[0] + (C_j[1] * t13 + C_j[4] * t14 + (C_j[1] * t15 - C_j[4] * t16
-        - t4 * C_j[7]));
-    phi_q_t_lambda_q[8] = t11 * s_j[0] - t10 * s_j[1] + (C_j[2] * t13 + C_j[5] * t14 + (C_j[2] * t15 - C_j[5] * t16
-        - t4 * C_j[8]));
+    phi_q_t_lambda_q[0] = C_i[8] * t0 - C_i[7] * t1 + C_i[6] * cosine_0 * lambda[5];
+    const jg_real t4 = lambda[0] * pitch;
+    phi_q_t_lambda_q[1] = C_i[6] * t1 - C_i[8] * t4 + C_i[7] * cosine_0 * lambda[5];
+    phi_q_t_lambda_q[2] = C_i[7] * t4 - C_i[6] * t0 + C_i[8] * cosine_0 * lambda[5];
+    const jg_real t5 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t6 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t7 = cosine_0 * t5 - sine_0 * t6;
+    const jg_real t8 = cosine_0 * t6 + sine_0 * t5;
+    const jg_real t9 = C_j[0] * t7 - C_j[3] * t8;
+    phi_q_t_lambda_q[3] = t9;
+    const jg_real t10 = C_j[1] * t7 - C_j[4] * t8;
+    phi_q_t_lambda_q[4] = t10;
+    const jg_real t11 = C_j[2] * t7 - C_j[5] * t8;
+    phi_q_t_lambda_q[5] = t11;
+    const jg_real t12 = cosine_0 * lambda[3];
+    const jg_real t13 = sine_0 * lambda[3];
+    const jg_real t14 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[9] = t14;
+    phi_q_t_lambda_q[6] = t11 * s_j[1] - t10 * s_j[2] + (C_j[0] * t12 - C_j[3] * t13 - C_j[6] * t14 + lambda[4] *
+        (sine_0 * C_j[0] + cosine_0 * C_j[3]));
+    phi_q_t_lambda_q[7] = t9 * s_j[2] - t11 * s_j[0] + (C_j[1] * t12 - C_j[4] * t13 - C_j[7] * t14 + lambda[4] *
+        (sine_0 * C_j[1] + cosine_0 * C_j[4]));
+    phi_q_t_lambda_q[8] = t10 * s_j[0] - t9 * s_j[1] + (C_j[2] * t12 - C_j[5] * t13 - C_j[8] * t14 + lambda[4] *
+        (sine_0 * C_j[2] + cosine_0 * C_j[5]));
 }
 
 void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -228,49 +230,49 @@ void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alp
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t1 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t2 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real t7 = cosine_0 * C_jt_omega_j_cross_v_j_0 - sine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real t8 = sine_0 * C_jt_omega_j_cross_v_j_0 + cosine_0 * C_jt_omega_j_cross_v_j_1;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_omega_j_cross_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t11 = C_j[3] * alphadot;
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t13 = C_j[4] * alphadot;
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t15 = C_j[5] * alphadot;
-    const jg_real t16 = t11 * s_j_cross_omega_j_0 + t13 * s_j_cross_omega_j_1 + t15 * s_j_cross_omega_j_2;
-    const jg_real t17 = C_j[0] * alphadot;
-    const jg_real t18 = C_j[1] * alphadot;
-    const jg_real t19 = C_j[2] * alphadot;
-    const jg_real t20 = t17 * s_j_cross_omega_j_0 + t18 * s_j_cross_omega_j_1 + t19 * s_j_cross_omega_j_2;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t20;
-    const jg_real t22 = sine_0 * t16 - cosine_0 * t20;
-    const jg_real t23 = v_j[0] * t17 + v_j[1] * t18 + v_j[2] * t19;
-    const jg_real t24 = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t15;
-    const jg_real t25 = cosine_0 * t23 - sine_0 * t24;
-    const jg_real t26 = cosine_0 * t24 + sine_0 * t23;
-    const jg_real t27 = alphadot * pitch;
-    const jg_real t28 = omega_i[2] * t27;
-    const jg_real t29 = omega_i[1] * t27;
+    const jg_real t14 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t15 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t16 = cosine_0 * t14 - sine_0 * t15;
+    const jg_real t17 = cosine_0 * t15 + sine_0 * t14;
+    const jg_real t18 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t19 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t20 = cosine_0 * t18 - sine_0 * t19;
+    const jg_real t21 = cosine_0 * t19 + sine_0 * t18;
+    const jg_real t22 = alphadot * pitch;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (C_i[0] * t21 + C_i[3] * t22 + (C_i[3] * t25 - C_i[0] *
-        t26 + (C_i[7] * t28 - C_i[8] * t29)) + omega_i_cross_v_i_0));
-    const jg_real t31 = omega_i[0] * t27;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (C_i[3] * t20 - C_i[0] * t21) + t22 * (C_i[7] * omega_i[2] -
+        C_i[8] * omega_i[1]) - alphadot * (C_i[3] * t16 - C_i[0] * t17) + omega_i_cross_v_i_0);
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (C_i[1] * t21 + C_i[4] * t22 + (C_i[4] * t25 - C_i[1] *
-        t26 + (C_i[8] * t31 - C_i[6] * t28)) + omega_i_cross_v_i_1));
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (C_i[4] * t20 - C_i[1] * t21) + t22 * (C_i[8] * omega_i[0] -
+        C_i[6] * omega_i[2]) - alphadot * (C_i[4] * t16 - C_i[1] * t17) + omega_i_cross_v_i_1);
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_omega_j_cross_v_j_2;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (C_i[2] * t21 + C_i[5] * t22 + (C_i[5] * t25 - C_i[2] *
-        t26 + (C_i[6] * t29 - C_i[7] * t31)) + omega_i_cross_v_i_2));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (C_i[5] * t20 - C_i[2] * t21) + t22 * (C_i[6] * omega_i[1] -
+        C_i[7] * omega_i[0]) - alphadot * (C_i[5] * t16 - C_i[2] * t17) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot * (omega_j[0] * (cosine_0 * C_j[0] - sine_0 * C_j[3]) + omega_j[1] * (cosine_0 * C_j[1] -
         sine_0 * C_j[4]) + omega_j[2] * (cosine_0 * C_j[2] - sine_0 * C_j[5])));
     gamma[4] = -(alphadot * (omega_j[0] * (sine_0 * C_j[0] + cosine_0 * C_j[3]) + omega_j[1] * (sine_0 * C_j[1] +
@@ -295,17 +297,24 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t7 = cosine_0 * t3 - sine_0 * t6;
-    const jg_real t8 = sine_0 * t3 + cosine_0 * t6;
-    const jg_real t9 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t7 = cosine_0 * C_jt_s_j_cross_omega_j_0 - sine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t8 = sine_0 * C_jt_s_j_cross_omega_j_0 + cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -315,20 +324,22 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* A_ij_v_j = A_ij v_j */
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
-    const jg_real t16 = alphadot * pitch;
+    const jg_real t17 = alphadot * pitch;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    const jg_real t18 = s_i[1] + C_i[7] * advance;
-    const jg_real t19 = s_i[2] + C_i[8] * advance;
-    phi_q_v[0] = C_i[0] * t7 + C_i[3] * t8 + C_i[6] * t9 + (t18 * omega_i[2] - t19 * omega_i[1] + (A_ij_v_j_0 -
-        v_i[0] - C_i[6] * t16));
+    const jg_real t19 = s_i[1] + C_i[7] * advance;
+    const jg_real t20 = s_i[2] + C_i[8] * advance;
+    phi_q_v[0] = t19 * omega_i[2] - t20 * omega_i[1] + (A_ij_v_j_0 - v_i[0] - C_i[6] * t17) -
+        A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
-    const jg_real t21 = s_i[0] + C_i[6] * advance;
-    phi_q_v[1] = C_i[1] * t7 + C_i[4] * t8 + C_i[7] * t9 + (t19 * omega_i[0] - t21 * omega_i[2] + (A_ij_v_j_1 -
-        v_i[1] - C_i[7] * t16));
+    const jg_real t23 = s_i[0] + C_i[6] * advance;
+    phi_q_v[1] = t20 * omega_i[0] - t23 * omega_i[2] + (A_ij_v_j_1 - v_i[1] - C_i[7] * t17) -
+        A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * C_jt_s_j_cross_omega_j_2;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
-    phi_q_v[2] = C_i[2] * t7 + C_i[5] * t8 + C_i[8] * t9 + (t21 * omega_i[1] - t18 * omega_i[0] + (A_ij_v_j_2 -
-        v_i[2] - C_i[8] * t16));
+    phi_q_v[2] = t23 * omega_i[1] - t19 * omega_i[0] + (A_ij_v_j_2 - v_i[2] - C_i[8] * t17) -
+        A_ij_s_j_cross_omega_j_2;
     phi_q_v[3] = omega_j[0] * (cosine_0 * C_j[3] + sine_0 * C_j[0]) + omega_j[1] * (cosine_0 * C_j[4] + sine_0 *
         C_j[1]) + omega_j[2] * (cosine_0 * C_j[5] + sine_0 * C_j[2]) - (C_i[3] * omega_i[0] + C_i[4] * omega_i[1] +
         C_i[5] * omega_i[2]);
@@ -375,16 +386,14 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
     phi_q_t_lambda[7] = t13;
     const jg_real t14 = C_j[2] * t9 + C_j[5] * t10 + C_j[8] * t11;
     phi_q_t_lambda[8] = t14;
-    const jg_real t15 = sine_0 * lambda[4];
-    const jg_real t16 = cosine_0 * lambda[4];
-    const jg_real t17 = sine_0 * lambda[3];
-    const jg_real t18 = cosine_0 * lambda[3];
-    phi_q_t_lambda[9] = t14 * s_j[1] - t13 * s_j[2] + (C_j[3] * t15 - C_j[0] * t16 + (C_j[0] * t17 + C_j[3] * t18 -
-        t5 * C_j[6]));
-    phi_q_t_lambda[10] = t12 * s_j[2] - t14 * s_j[0] + (C_j[4] * t15 - C_j[1] * t16 + (C_j[1] * t17 + C_j[4] * t18 -
-        t5 * C_j[7]));
-    phi_q_t_lambda[11] = t13 * s_j[0] - t12 * s_j[1] + (C_j[5] * t15 - C_j[2] * t16 + (C_j[2] * t17 + C_j[5] * t18 -
-        t5 * C_j[8]));
+    const jg_real t15 = sine_0 * lambda[3];
+    const jg_real t16 = cosine_0 * lambda[3];
+    phi_q_t_lambda[9] = t14 * s_j[1] - t13 * s_j[2] + (C_j[0] * t15 + C_j[3] * t16 - t5 * C_j[6] + lambda[4] *
+        (sine_0 * C_j[3] - cosine_0 * C_j[0]));
+    phi_q_t_lambda[10] = t12 * s_j[2] - t14 * s_j[0] + (C_j[1] * t15 + C_j[4] * t16 - t5 * C_j[7] + lambda[4] *
+        (sine_0 * C_j[4] - cosine_0 * C_j[1]));
+    phi_q_t_lambda[11] = t13 * s_j[0] - t12 * s_j[1] + (C_j[2] * t15 + C_j[5] * t16 - t5 * C_j[8] + lambda[4] *
+        (sine_0 * C_j[5] - cosine_0 * C_j[2]));
     phi_q_t_lambda[12] = t5 - pitch * t11;
 }
 
@@ -408,24 +417,28 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
     const jg_real advance = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    const jg_real t8 = C_i[6] * advance;
-    phi[0] = dp_ij_0 - t8;
+    const jg_real t11 = C_i[6] * advance;
+    phi[0] = dp_ij_0 - t11;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t10 = C_i[7] * advance;
-    phi[1] = dp_ij_1 - t10;
+    const jg_real t13 = C_i[7] * advance;
+    phi[1] = dp_ij_1 - t13;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t12 = C_i[8] * advance;
-    phi[2] = dp_ij_2 - t12;
+    const jg_real t15 = C_i[8] * advance;
+    phi[2] = dp_ij_2 - t15;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -456,20 +469,20 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t30 = s_i[2] + t12;
-    phi_q[3] = t30;
-    const jg_real t31 = s_i[1] + t10;
-    phi_q[13] = t31;
-    phi_q[4] = -t31;
+    const jg_real t33 = s_i[2] + t15;
+    phi_q[3] = t33;
+    const jg_real t34 = s_i[1] + t13;
+    phi_q[13] = t34;
+    phi_q[4] = -t34;
     phi_q[5] = -C_i[3];
     phi_q[48] = sine_0;
     phi_q[7] = C_i[6] * sine_0;
-    phi_q[8] = -t30;
-    const jg_real t32 = s_i[0] + t8;
-    phi_q[9] = t32;
+    phi_q[8] = -t33;
+    const jg_real t35 = s_i[0] + t11;
+    phi_q[9] = t35;
     phi_q[10] = -C_i[4];
     phi_q[12] = C_i[7] * sine_0;
-    phi_q[14] = -t32;
+    phi_q[14] = -t35;
     phi_q[15] = -C_i[5];
     phi_q[17] = C_i[8] * sine_0;
     /* C_i_H = C_i H */
@@ -500,94 +513,94 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
     phi_q[27] = s_j[1] * A_ij_6_ - s_j[2] * A_ij_3_;
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
-    const jg_real t48 = C_j[3] * cosine_0 + C_j[0] * sine_0;
-    phi_q[30] = t48;
-    const jg_real t49 = C_j[3] * sine_0 - C_j[0] * cosine_0;
-    phi_q[31] = t49;
+    const jg_real t51 = C_j[3] * cosine_0 + C_j[0] * sine_0;
+    phi_q[30] = t51;
+    const jg_real t52 = C_j[3] * sine_0 - C_j[0] * cosine_0;
+    phi_q[31] = t52;
     phi_q[32] = -(C_j[6] * sine_0);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
-    const jg_real t50 = C_j[4] * cosine_0 + C_j[1] * sine_0;
-    phi_q[36] = t50;
-    const jg_real t51 = C_j[4] * sine_0 - C_j[1] * cosine_0;
-    phi_q[37] = t51;
+    const jg_real t53 = C_j[4] * cosine_0 + C_j[1] * sine_0;
+    phi_q[36] = t53;
+    const jg_real t54 = C_j[4] * sine_0 - C_j[1] * cosine_0;
+    phi_q[37] = t54;
     phi_q[38] = -(C_j[7] * sine_0);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
-    const jg_real t52 = C_j[5] * cosine_0 + C_j[2] * sine_0;
-    phi_q[42] = t52;
-    const jg_real t53 = C_j[5] * sine_0 - C_j[2] * cosine_0;
-    phi_q[43] = t53;
+    const jg_real t55 = C_j[5] * cosine_0 + C_j[2] * sine_0;
+    phi_q[42] = t55;
+    const jg_real t56 = C_j[5] * sine_0 - C_j[2] * cosine_0;
+    phi_q[43] = t56;
     phi_q[44] = -(C_j[8] * sine_0);
     phi_q[45] = -(C_i[6] * pitch);
     phi_q[46] = -(C_i[7] * pitch);
     phi_q[47] = -(C_i[8] * pitch);
-    const jg_real t54 = pitch * lambda[1];
-    const jg_real t55 = pitch * lambda[2];
-    const jg_real t56 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = t56;
-    phi_q_t_lambda_q[0] = C_i[8] * t54 - C_i[7] * t55 + C_i[6] * t56;
-    const jg_real t57 = pitch * lambda[0];
-    phi_q_t_lambda_q[1] = C_i[6] * t55 - C_i[8] * t57 + C_i[7] * t56;
-    phi_q_t_lambda_q[2] = C_i[7] * t57 - C_i[6] * t54 + C_i[8] * t56;
-    const jg_real t58 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t59 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t60 = cosine_0 * t58 - sine_0 * t59;
-    const jg_real t61 = cosine_0 * t59 + sine_0 * t58;
-    const jg_real t62 = C_j[0] * t60 - C_j[3] * t61;
-    phi_q_t_lambda_q[3] = t62;
-    const jg_real t63 = C_j[1] * t60 - C_j[4] * t61;
-    phi_q_t_lambda_q[4] = t63;
-    const jg_real t64 = C_j[2] * t60 - C_j[5] * t61;
-    phi_q_t_lambda_q[5] = t64;
-    const jg_real t65 = sine_0 * lambda[4];
-    const jg_real t66 = cosine_0 * lambda[4];
-    const jg_real t67 = cosine_0 * lambda[3];
-    const jg_real t68 = sine_0 * lambda[3];
-    phi_q_t_lambda_q[6] = s_j[1] * t64 - s_j[2] * t63 + (C_j[0] * t65 + C_j[3] * t66 + (C_j[0] * t67 - C_j[3] * t68
-        - C_j[6] * t56));
-    phi_q_t_lambda_q[7] = s_j[2] * t62 - s_j[0] * t64 + (C_j[1] * t65 + C_j[4] * t66 + (C_j[1] * t67 - C_j[4] * t68
-        - C_j[7] * t56));
-    phi_q_t_lambda_q[8] = s_j[0] * t63 - s_j[1] * t62 + (C_j[2] * t65 + C_j[5] * t66 + (C_j[2] * t67 - C_j[5] * t68
-        - C_j[8] * t56));
+    const jg_real t57 = pitch * lambda[1];
+    const jg_real t58 = pitch * lambda[2];
+    const jg_real t59 = C_i[6] * cosine_0;
+    phi_q_t_lambda_q[0] = C_i[8] * t57 - C_i[7] * t58 + lambda[5] * t59;
+    const jg_real t60 = pitch * lambda[0];
+    const jg_real t61 = C_i[7] * cosine_0;
+    phi_q_t_lambda_q[1] = C_i[6] * t58 - C_i[8] * t60 + lambda[5] * t61;
+    const jg_real t62 = C_i[8] * cosine_0;
+    phi_q_t_lambda_q[2] = C_i[7] * t60 - C_i[6] * t57 + lambda[5] * t62;
+    const jg_real t63 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t64 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t65 = cosine_0 * t63 - sine_0 * t64;
+    const jg_real t66 = cosine_0 * t64 + sine_0 * t63;
+    const jg_real t67 = C_j[0] * t65 - C_j[3] * t66;
+    phi_q_t_lambda_q[3] = t67;
+    const jg_real t68 = C_j[1] * t65 - C_j[4] * t66;
+    phi_q_t_lambda_q[4] = t68;
+    const jg_real t69 = C_j[2] * t65 - C_j[5] * t66;
+    phi_q_t_lambda_q[5] = t69;
+    const jg_real t70 = cosine_0 * lambda[3];
+    const jg_real t71 = sine_0 * lambda[3];
+    const jg_real t72 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[9] = t72;
+    phi_q_t_lambda_q[6] = s_j[1] * t69 - s_j[2] * t68 + (C_j[0] * t70 - C_j[3] * t71 - C_j[6] * t72 + t51 *
+        lambda[4]);
+    phi_q_t_lambda_q[7] = s_j[2] * t67 - s_j[0] * t69 + (C_j[1] * t70 - C_j[4] * t71 - C_j[7] * t72 + t53 *
+        lambda[4]);
+    phi_q_t_lambda_q[8] = s_j[0] * t68 - s_j[1] * t67 + (C_j[2] * t70 - C_j[5] * t71 - C_j[8] * t72 + t55 *
+        lambda[4]);
+    const jg_real t73 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t74 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t75 = pitch * alphadot;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real t70 = C_j[3] * alphadot;
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real t72 = C_j[4] * alphadot;
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t74 = C_j[5] * alphadot;
-    const jg_real t75 = t70 * s_j_cross_omega_j_0 + t72 * s_j_cross_omega_j_1 + t74 * s_j_cross_omega_j_2;
-    const jg_real t76 = C_j[0] * alphadot;
-    const jg_real t77 = C_j[1] * alphadot;
-    const jg_real t78 = C_j[2] * alphadot;
-    const jg_real t79 = t76 * s_j_cross_omega_j_0 + t77 * s_j_cross_omega_j_1 + t78 * s_j_cross_omega_j_2;
-    const jg_real t80 = v_j[0] * t76 + v_j[1] * t77 + v_j[2] * t78;
-    const jg_real t81 = v_j[0] * t70 + v_j[1] * t72 + v_j[2] * t74;
-    const jg_real t82 = pitch * alphadot;
-    const jg_real t83 = omega_i[2] * t82;
-    const jg_real t84 = omega_i[1] * t82;
+    const jg_real t79 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t80 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t86 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t87 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t88 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t86 + A_ij_3_ * t87 + A_ij_6_ * t88 + (C_i_H_0 * t75 - C_i_H_3 * t79 + (C_i_H_3 * t80 -
-        C_i_H_0 * t81 + (C_i[7] * t83 - C_i[8] * t84)) + omega_i_cross_v_i_0));
-    const jg_real t89 = omega_i[0] * t82;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (C_i_H_3 * t73 - C_i_H_0 * t74) + t75 * (C_i[7] * omega_i[2] -
+        C_i[8] * omega_i[1]) - alphadot * (C_i_H_3 * t79 - C_i_H_0 * t80) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t86 + A_ij_4_ * t87 + A_ij_7_ * t88 + (C_i_H_1 * t75 - C_i_H_4 * t79 + (C_i_H_4 * t80 -
-        C_i_H_1 * t81 + (C_i[8] * t89 - C_i[6] * t83)) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (C_i_H_4 * t73 - C_i_H_1 * t74) + t75 * (C_i[8] * omega_i[0] -
+        C_i[6] * omega_i[2]) - alphadot * (C_i_H_4 * t79 - C_i_H_1 * t80) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t86 + A_ij_5_ * t87 + A_ij_8_ * t88 + (C_i_H_2 * t75 - C_i_H_5 * t79 + (C_i_H_5 * t80 -
-        C_i_H_2 * t81 + (C_i[6] * t84 - C_i[7] * t89)) + omega_i_cross_v_i_2));
-    gamma[3] = alphadot * (t49 * omega_j[0] + t51 * omega_j[1] + t53 * omega_j[2]);
-    gamma[4] = -(alphadot * (t48 * omega_j[0] + t50 * omega_j[1] + t52 * omega_j[2]));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (C_i_H_5 * t73 - C_i_H_2 * t74) + t75 * (C_i[6] * omega_i[1] -
+        C_i[7] * omega_i[0]) - alphadot * (C_i_H_5 * t79 - C_i_H_2 * t80) + omega_i_cross_v_i_2);
+    gamma[3] = alphadot * (t52 * omega_j[0] + t54 * omega_j[1] + t56 * omega_j[2]);
+    gamma[4] = -(alphadot * (t51 * omega_j[0] + t53 * omega_j[1] + t55 * omega_j[2]));
     gamma[5] = alphadot * (C_j[6] * cosine_0 * omega_j[0] + C_j[7] * cosine_0 * omega_j[1] + C_j[8] * cosine_0 *
-        omega_j[2]) - alphadot * (C_i[6] * cosine_0 * omega_i[0] + C_i[7] * cosine_0 * omega_i[1] + C_i[8] *
-        cosine_0 * omega_i[2]) - alphadot * alphadot * cosine_0;
+        omega_j[2]) - alphadot * (t59 * omega_i[0] + t61 * omega_i[1] + t62 * omega_i[2]) - alphadot * alphadot *
+        cosine_0;
 }
 
 void jg_screw_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -33,12 +33,16 @@ void jg_translational_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i,
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - C_i[6] * alpha[0];
@@ -178,22 +182,27 @@ void jg_translational_parametric_substituted_gamma(const jg_real *JG_RESTRICT ge
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = omega_j[2] * v_j[1] - omega_j[1] * v_j[2];
-    const jg_real t1 = omega_j[0] * v_j[2] - omega_j[2] * v_j[0];
-    const jg_real t2 = omega_j[1] * v_j[0] - omega_j[0] * v_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
-    const jg_real t4 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t5 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
-    const jg_real t6 = omega_i[2] * alphadot;
-    const jg_real t7 = omega_i[1] * alphadot;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
+    const jg_real omega_j_cross_v_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
+    const jg_real omega_j_cross_v_j_2 = omega_j[0] * v_j[1] - omega_j[1] * v_j[0];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i[0] * t3 + C_i[3] * t4 + C_i[6] * t5 + (C_i[7] * t6 - C_i[8] * t7 + omega_i_cross_v_i_0));
-    const jg_real t9 = omega_i[0] * alphadot;
+    gamma[0] = C_i[0] * C_jt_omega_j_cross_v_j_0 + C_i[3] * C_jt_omega_j_cross_v_j_1 + C_i[6] *
+        C_jt_omega_j_cross_v_j_2 - (alphadot * (C_i[7] * omega_i[2] - C_i[8] * omega_i[1]) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t3 + C_i[4] * t4 + C_i[7] * t5 + (C_i[8] * t9 - C_i[6] * t6 + omega_i_cross_v_i_1));
+    gamma[1] = C_i[1] * C_jt_omega_j_cross_v_j_0 + C_i[4] * C_jt_omega_j_cross_v_j_1 + C_i[7] *
+        C_jt_omega_j_cross_v_j_2 - (alphadot * (C_i[8] * omega_i[0] - C_i[6] * omega_i[2]) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t3 + C_i[5] * t4 + C_i[8] * t5 + (C_i[6] * t7 - C_i[7] * t9 + omega_i_cross_v_i_2));
+    gamma[2] = C_i[2] * C_jt_omega_j_cross_v_j_0 + C_i[5] * C_jt_omega_j_cross_v_j_1 + C_i[8] *
+        C_jt_omega_j_cross_v_j_2 - (alphadot * (C_i[6] * omega_i[1] - C_i[7] * omega_i[0]) + omega_i_cross_v_i_2);
     gamma[3] = JG_REAL(0.0);
     gamma[4] = JG_REAL(0.0);
     gamma[5] = JG_REAL(0.0);
@@ -211,12 +220,17 @@ void jg_translational_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
-    const jg_real t4 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
-    const jg_real t5 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -225,15 +239,15 @@ void jg_translational_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real C_i_C_jt_v_j_0 = C_i[0] * C_jt_v_j_0 + C_i[3] * C_jt_v_j_1 + C_i[6] * C_jt_v_j_2;
     const jg_real t10 = s_i[1] + C_i[7] * alpha[0];
     const jg_real t11 = s_i[2] + C_i[8] * alpha[0];
-    phi_q_v[0] = C_i[0] * t3 + C_i[3] * t4 + C_i[6] * t5 + (t10 * omega_i[2] - t11 * omega_i[1] + (C_i_C_jt_v_j_0 -
-        v_i[0] - C_i[6] * alphadot));
+    phi_q_v[0] = t10 * omega_i[2] - t11 * omega_i[1] + (C_i_C_jt_v_j_0 - v_i[0] - C_i[6] * alphadot) - (C_i[0] *
+        C_jt_s_j_cross_omega_j_0 + C_i[3] * C_jt_s_j_cross_omega_j_1 + C_i[6] * C_jt_s_j_cross_omega_j_2);
     const jg_real C_i_C_jt_v_j_1 = C_i[1] * C_jt_v_j_0 + C_i[4] * C_jt_v_j_1 + C_i[7] * C_jt_v_j_2;
     const jg_real t13 = s_i[0] + C_i[6] * alpha[0];
-    phi_q_v[1] = C_i[1] * t3 + C_i[4] * t4 + C_i[7] * t5 + (t11 * omega_i[0] - t13 * omega_i[2] + (C_i_C_jt_v_j_1 -
-        v_i[1] - C_i[7] * alphadot));
+    phi_q_v[1] = t11 * omega_i[0] - t13 * omega_i[2] + (C_i_C_jt_v_j_1 - v_i[1] - C_i[7] * alphadot) - (C_i[1] *
+        C_jt_s_j_cross_omega_j_0 + C_i[4] * C_jt_s_j_cross_omega_j_1 + C_i[7] * C_jt_s_j_cross_omega_j_2);
     const jg_real C_i_C_jt_v_j_2 = C_i[2] * C_jt_v_j_0 + C_i[5] * C_jt_v_j_1 + C_i[8] * C_jt_v_j_2;
-    phi_q_v[2] = C_i[2] * t3 + C_i[5] * t4 + C_i[8] * t5 + (t13 * omega_i[1] - t10 * omega_i[0] + (C_i_C_jt_v_j_2 -
-        v_i[2] - C_i[8] * alphadot));
+    phi_q_v[2] = t13 * omega_i[1] - t10 * omega_i[0] + (C_i_C_jt_v_j_2 - v_i[2] - C_i[8] * alphadot) - (C_i[2] *
+        C_jt_s_j_cross_omega_j_0 + C_i[5] * C_jt_s_j_cross_omega_j_1 + C_i[8] * C_jt_s_j_cross_omega_j_2);
     phi_q_v[3] = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2] - (C_j[0] * omega_j[0] + C_j[1] *
         omega_j[1] + C_j[2] * omega_j[2]);
     phi_q_v[4] = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2] - (C_j[3] * omega_j[0] + C_j[4] *
@@ -293,25 +307,29 @@ void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i,
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi_q[7] = C_i[6];
-    const jg_real t7 = C_i[6] * alpha[0];
-    phi[0] = dp_ij_0 - t7;
+    const jg_real t10 = C_i[6] * alpha[0];
+    phi[0] = dp_ij_0 - t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     phi_q[12] = C_i[7];
-    const jg_real t9 = C_i[7] * alpha[0];
-    phi[1] = dp_ij_1 - t9;
+    const jg_real t12 = C_i[7] * alpha[0];
+    phi[1] = dp_ij_1 - t12;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi_q[17] = C_i[8];
-    const jg_real t11 = C_i[8] * alpha[0];
-    phi[2] = dp_ij_2 - t11;
+    const jg_real t14 = C_i[8] * alpha[0];
+    phi[2] = dp_ij_2 - t14;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -346,15 +364,15 @@ void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t30 = s_i[2] + t11;
-    phi_q[3] = t30;
-    const jg_real t31 = s_i[1] + t9;
-    phi_q[13] = t31;
-    phi_q[4] = -t31;
-    phi_q[8] = -t30;
-    const jg_real t32 = s_i[0] + t7;
-    phi_q[9] = t32;
-    phi_q[14] = -t32;
+    const jg_real t33 = s_i[2] + t14;
+    phi_q[3] = t33;
+    const jg_real t34 = s_i[1] + t12;
+    phi_q[13] = t34;
+    phi_q[4] = -t34;
+    phi_q[8] = -t33;
+    const jg_real t35 = s_i[0] + t10;
+    phi_q[9] = t35;
+    phi_q[14] = -t35;
     /* C_i_C_jt = C_i C_j^T */
     const jg_real C_i_C_jt_0 = C_i[0] * C_j[0] + C_i[3] * C_j[3] + C_i[6] * C_j[6];
     phi_q[18] = C_i_C_jt_0;
@@ -398,22 +416,20 @@ void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
     phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
     phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
-    const jg_real t42 = omega_j[2] * v_j[1] - omega_j[1] * v_j[2];
-    const jg_real t43 = omega_j[0] * v_j[2] - omega_j[2] * v_j[0];
-    const jg_real t44 = omega_j[1] * v_j[0] - omega_j[0] * v_j[1];
-    const jg_real t45 = omega_i[2] * alphadot;
-    const jg_real t46 = omega_i[1] * alphadot;
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
+    const jg_real omega_j_cross_v_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
+    const jg_real omega_j_cross_v_j_2 = omega_j[0] * v_j[1] - omega_j[1] * v_j[0];
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    gamma[0] = -(C_i_C_jt_0 * t42 + C_i_C_jt_3 * t43 + C_i_C_jt_6 * t44 + (C_i[7] * t45 - C_i[8] * t46 +
-        omega_i_cross_v_i_0));
-    const jg_real t48 = omega_i[0] * alphadot;
+    gamma[0] = C_i_C_jt_0 * omega_j_cross_v_j_0 + C_i_C_jt_3 * omega_j_cross_v_j_1 + C_i_C_jt_6 *
+        omega_j_cross_v_j_2 - (alphadot * (C_i[7] * omega_i[2] - C_i[8] * omega_i[1]) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i_C_jt_1 * t42 + C_i_C_jt_4 * t43 + C_i_C_jt_7 * t44 + (C_i[8] * t48 - C_i[6] * t45 +
-        omega_i_cross_v_i_1));
+    gamma[1] = C_i_C_jt_1 * omega_j_cross_v_j_0 + C_i_C_jt_4 * omega_j_cross_v_j_1 + C_i_C_jt_7 *
+        omega_j_cross_v_j_2 - (alphadot * (C_i[8] * omega_i[0] - C_i[6] * omega_i[2]) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i_C_jt_2 * t42 + C_i_C_jt_5 * t43 + C_i_C_jt_8 * t44 + (C_i[6] * t46 - C_i[7] * t48 +
-        omega_i_cross_v_i_2));
+    gamma[2] = C_i_C_jt_2 * omega_j_cross_v_j_0 + C_i_C_jt_5 * omega_j_cross_v_j_1 + C_i_C_jt_8 *
+        omega_j_cross_v_j_2 - (alphadot * (C_i[6] * omega_i[1] - C_i[7] * omega_i[0]) + omega_i_cross_v_i_2);
     gamma[3] = JG_REAL(0.0);
     gamma[4] = JG_REAL(0.0);
     gamma[5] = JG_REAL(0.0);

@@ -235,6 +235,16 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     const jg_real *const C_j = geometry + 15;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
@@ -245,21 +255,19 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real t8 = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1;
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real t10 = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0;
-    gamma[0] = -(omega_i[1] * t8 - omega_i[2] * t10 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t13 = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2;
-    gamma[1] = -(omega_i[2] * t13 - omega_i[0] * t8 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t10 - omega_i[1] * t13 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
     /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
@@ -308,24 +316,25 @@ void jg_universal_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, con
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_0 = omega_j[1] * s_j_world_2 - omega_j[2] * s_j_world_1;
-    phi_q_v[0] = omega_i[2] * s_i_world_1 - omega_i[1] * s_i_world_2 + (v_j[0] - v_i[0] +
-        omega_j_cross_s_j_world_0);
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    /* s_i_world = A_i s_i */
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
+    phi_q_v[0] = v_j[0] - v_i[0] + omega_j_cross_s_j_world_0 - omega_i_cross_s_i_world_0;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real omega_j_cross_s_j_world_1 = omega_j[2] * s_j_world_0 - omega_j[0] * s_j_world_2;
-    phi_q_v[1] = omega_i[0] * s_i_world_2 - omega_i[2] * s_i_world_0 + (v_j[1] - v_i[1] +
-        omega_j_cross_s_j_world_1);
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
+    phi_q_v[1] = v_j[1] - v_i[1] + omega_j_cross_s_j_world_1 - omega_i_cross_s_i_world_1;
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
-    phi_q_v[2] = omega_i[1] * s_i_world_0 - omega_i[0] * s_i_world_1 + (v_j[2] - v_i[2] +
-        omega_j_cross_s_j_world_2);
+    const jg_real omega_i_cross_s_i_world_2 = omega_i[0] * s_i_world_1 - omega_i[1] * s_i_world_0;
+    phi_q_v[2] = v_j[2] - v_i[2] + omega_j_cross_s_j_world_2 - omega_i_cross_s_i_world_2;
     /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
@@ -363,30 +372,31 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t2 = h_j_2 * lambda[3];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t5 = h_j_1 * lambda[3];
+    /* h_i_cross_h_j = tilde(h_i) h_j */
+    const jg_real h_i_cross_h_j_0 = h_i_1 * h_j_2 - h_i_2 * h_j_1;
+    const jg_real t5 = lambda[3] * h_i_cross_h_j_0;
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    phi_q_t_lambda[3] = h_i_1 * t2 - h_i_2 * t5 + (lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1);
+    phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1 + t5;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t9 = h_j_0 * lambda[3];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real h_i_cross_h_j_1 = h_i_2 * h_j_0 - h_i_0 * h_j_2;
+    const jg_real t11 = lambda[3] * h_i_cross_h_j_1;
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    phi_q_t_lambda[4] = h_i_2 * t9 - h_i_0 * t2 + (lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2);
-    phi_q_t_lambda[5] = h_i_0 * t5 - h_i_1 * t9 + (lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0);
-    const jg_real t12 = h_i_2 * lambda[3];
-    const jg_real t13 = h_i_1 * lambda[3];
+    phi_q_t_lambda[4] = lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2 + t11;
+    const jg_real h_i_cross_h_j_2 = h_i_0 * h_j_1 - h_i_1 * h_j_0;
+    const jg_real t14 = lambda[3] * h_i_cross_h_j_2;
+    phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0 + t14;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    phi_q_t_lambda[9] = h_j_1 * t12 - h_j_2 * t13 + (lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2);
-    const jg_real t16 = h_i_0 * lambda[3];
+    phi_q_t_lambda[9] = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2 - t5;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    phi_q_t_lambda[10] = h_j_2 * t16 - h_j_0 * t12 + (lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0);
-    phi_q_t_lambda[11] = h_j_0 * t13 - h_j_1 * t16 + (lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1);
+    phi_q_t_lambda[10] = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0 - t11;
+    phi_q_t_lambda[11] = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1 - t14;
 }
 
 void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -524,23 +534,31 @@ void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const j
     phi_q_t_lambda_q[33] = t51 + s_j_world_0 * lambda[2];
     phi_q_t_lambda_q[34] = t52 + s_j_world_1 * lambda[2];
     phi_q_t_lambda_q[35] = -(t45 + t50 + t53);
+    /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_s_i_world_2 = s_i_world_1 * omega_i[0] - s_i_world_0 * omega_i[1];
+    const jg_real omega_i_cross_s_i_world_1 = s_i_world_0 * omega_i[2] - s_i_world_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_s_i_world = tilde(omega_i) tilde(omega_i) s_i_world */
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_0 = omega_i[1] * omega_i_cross_s_i_world_2 - omega_i[2] *
+        omega_i_cross_s_i_world_1;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j_world = tilde(omega_j) tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_omega_j_cross_s_j_world_0 = omega_j[1] * omega_j_cross_s_j_world_2 - omega_j[2] *
         omega_j_cross_s_j_world_1;
-    const jg_real t57 = s_i_world_0 * omega_i[1] - s_i_world_1 * omega_i[0];
-    const jg_real t58 = s_i_world_2 * omega_i[0] - s_i_world_0 * omega_i[2];
-    gamma[0] = -(omega_i[1] * t57 - omega_i[2] * t58 + omega_j_cross_omega_j_cross_s_j_world_0);
+    gamma[0] = omega_i_cross_omega_i_cross_s_i_world_0 - omega_j_cross_omega_j_cross_s_j_world_0;
+    const jg_real omega_i_cross_s_i_world_0 = s_i_world_2 * omega_i[1] - s_i_world_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_1 = omega_i[2] * omega_i_cross_s_i_world_0 - omega_i[0] *
+        omega_i_cross_s_i_world_2;
     const jg_real omega_j_cross_s_j_world_0 = s_j_world_2 * omega_j[1] - s_j_world_1 * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_world_1 = omega_j[2] * omega_j_cross_s_j_world_0 - omega_j[0] *
         omega_j_cross_s_j_world_2;
-    const jg_real t61 = s_i_world_1 * omega_i[2] - s_i_world_2 * omega_i[1];
-    gamma[1] = -(omega_i[2] * t61 - omega_i[0] * t57 + omega_j_cross_omega_j_cross_s_j_world_1);
+    gamma[1] = omega_i_cross_omega_i_cross_s_i_world_1 - omega_j_cross_omega_j_cross_s_j_world_1;
+    const jg_real omega_i_cross_omega_i_cross_s_i_world_2 = omega_i[0] * omega_i_cross_s_i_world_1 - omega_i[1] *
+        omega_i_cross_s_i_world_0;
     const jg_real omega_j_cross_omega_j_cross_s_j_world_2 = omega_j[0] * omega_j_cross_s_j_world_1 - omega_j[1] *
         omega_j_cross_s_j_world_0;
-    gamma[2] = -(omega_i[0] * t58 - omega_i[1] * t61 + omega_j_cross_omega_j_cross_s_j_world_2);
+    gamma[2] = omega_i_cross_omega_i_cross_s_i_world_2 - omega_j_cross_omega_j_cross_s_j_world_2;
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
     const jg_real omega_i_cross_h_i_2 = h_i_1 * omega_i[0] - h_i_0 * omega_i[1];
     const jg_real omega_i_cross_h_i_1 = h_i_0 * omega_i[2] - h_i_2 * omega_i[0];

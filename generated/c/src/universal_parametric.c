@@ -36,12 +36,16 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -64,30 +68,30 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t18 = cosine_1 * sine_0;
+    const jg_real t21 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t32 = cosine_0 * sine_1;
+    const jg_real t35 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t32 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
@@ -113,70 +117,74 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    phi_q[3] = t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    phi_q[3] = t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
-    phi_q[13] = t9;
-    phi_q[4] = -t9;
+    const jg_real t12 = s_i[1] + dp_ij_1;
+    phi_q[13] = t12;
+    phi_q[4] = -t12;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[19] = A_ij_1;
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ij_7;
-    /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
-    jg_real sine_1;
-    jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real t18 = cosine_0 * sine_1;
-    /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
-        cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
-    const jg_real H_4 = cosine_1 * cosine_0;
-    const jg_real t20 = C_i[2] * t18 - C_i[5] * H_4 - C_i[8] * sine_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
+    /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t25 = C_i[1] * t18 - C_i[4] * H_4 - C_i[7] * sine_0;
-    phi_q[5] = A_ij_h_j_1 * t20 - A_ij_h_j_2 * t25;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    jg_real sine_1;
+    jg_real cosine_1;
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
+        cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
+    const jg_real H_4 = cosine_0 * cosine_1;
+    const jg_real t22 = cosine_1 * sine_0;
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t22 + C_i[7] * sine_1;
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    phi_q[19] = A_ij_1;
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    phi_q[22] = A_ij_4;
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    phi_q[25] = A_ij_7;
+    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t22 + C_i[8] * sine_1;
+    phi_q[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real H_6 = sine_1 * sine_0;
-    const jg_real t28 = cosine_1 * sine_0;
+    const jg_real H_6 = sine_0 * sine_1;
+    const jg_real t31 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t28 + C_i[7] * cosine_0;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t31 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t28 + C_i[8] * cosine_0;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t31 + C_i[8] * cosine_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
+    const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
+    const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t7;
+    phi_q[8] = -t10;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t37 = s_i[0] + dp_ij_0;
-    phi_q[9] = t37;
-    const jg_real t38 = C_i[0] * t18 - C_i[3] * H_4 - C_i[6] * sine_0;
+    const jg_real t40 = s_i[0] + dp_ij_0;
+    phi_q[9] = t40;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -184,23 +192,25 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     phi_q[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q[10] = A_ij_h_j_2 * t38 - A_ij_h_j_0 * t20;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t22 + C_i[6] * sine_1;
+    phi_q[10] = A_ij_h_j_0 * g_star_2 - A_ij_h_j_2 * g_star_0;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t28 + C_i[6] * cosine_0;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t31 + C_i[6] * cosine_1;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real f_star_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
+    const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t37;
-    phi_q[15] = A_ij_h_j_0 * t25 - A_ij_h_j_1 * t38;
+    phi_q[14] = -t40;
+    phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
     phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real t47 = A_ij_3 * t38 + A_ij_4 * t25 + A_ij_5 * t20;
-    const jg_real t48 = A_ij_6 * t38 + A_ij_7 * t25 + A_ij_8 * t20;
-    phi_q[30] = C_j[8] * t47 - C_j[7] * t48;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    phi_q[30] = C_j[7] * A_ijt_g_star_2 - C_j[8] * A_ijt_g_star_1;
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
     const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
@@ -212,8 +222,8 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    const jg_real t53 = A_ij_0 * t38 + A_ij_1 * t25 + A_ij_2 * t20;
-    phi_q[36] = C_j[6] * t48 - C_j[8] * t53;
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    phi_q[36] = C_j[8] * A_ijt_g_star_0 - C_j[6] * A_ijt_g_star_2;
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
     phi_q[37] = C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2;
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
@@ -221,17 +231,17 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    phi_q[42] = C_j[7] * t53 - C_j[6] * t47;
+    phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    phi_q[45] = -(cosine_0 * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2));
-    phi_q[46] = sine_0 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2);
-    const jg_real t56 = cosine_0 * H_4 + sine_0 * t28;
-    const jg_real t57 = cosine_0 * t18 + sine_0 * H_6;
-    phi_q[47] = A_ij_g_j_0 * (C_i[3] * t56 - C_i[0] * t57) + A_ij_g_j_1 * (C_i[4] * t56 - C_i[1] * t57) + A_ij_g_j_2
-        * (C_i[5] * t56 - C_i[2] * t57);
+    phi_q[45] = -(cosine_1 * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2));
+    phi_q[46] = sine_1 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2);
+    const jg_real t59 = cosine_1 * H_4 + sine_1 * t31;
+    const jg_real t60 = cosine_1 * t22 + sine_1 * H_6;
+    phi_q[47] = A_ij_g_j_0 * (C_i[3] * t59 - C_i[0] * t60) + A_ij_g_j_1 * (C_i[4] * t59 - C_i[1] * t60) + A_ij_g_j_2
+        * (C_i[5] * t59 - C_i[2] * t60);
     phi_q[48] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
-    phi_q[49] = t38 * A_ij_f_j_0 + t25 * A_ij_f_j_1 + t20 * A_ij_f_j_2;
+    phi_q[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
 
 void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -259,19 +269,23 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     phi_q_t_lambda_q[4] = -lambda[1];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
-    const jg_real t8 = lambda[2] * t7;
+    const jg_real t10 = s_i[2] + dp_ij_2;
+    const jg_real t11 = lambda[2] * t10;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t10 = s_i[1] + dp_ij_1;
-    const jg_real t11 = lambda[1] * t10;
+    const jg_real t13 = s_i[1] + dp_ij_1;
+    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -287,331 +301,277 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_1 * sine_0;
+    const jg_real t24 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
-    const jg_real t23 = g_star_2 * lambda[3];
-    const jg_real t24 = A_ij_h_j_2 * t23;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
+    const jg_real t26 = g_star_2 * lambda[3];
+    const jg_real t27 = A_ij_h_j_2 * t26;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
-    const jg_real t30 = g_star_1 * lambda[3];
-    const jg_real t31 = A_ij_h_j_1 * t30;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
+    const jg_real t33 = g_star_1 * lambda[3];
+    const jg_real t34 = A_ij_h_j_1 * t33;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t34 = cosine_0 * sine_1;
+    const jg_real t37 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t34 + C_i[8] * cosine_1;
-    const jg_real t36 = h_star_2 * lambda[4];
-    const jg_real t37 = A_ij_f_j_2 * t36;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t37 + C_i[8] * cosine_1;
+    const jg_real t39 = h_star_2 * lambda[4];
+    const jg_real t40 = A_ij_f_j_2 * t39;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t34 + C_i[7] * cosine_1;
-    const jg_real t40 = h_star_1 * lambda[4];
-    const jg_real t41 = A_ij_f_j_1 * t40;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t37 + C_i[7] * cosine_1;
+    const jg_real t43 = h_star_1 * lambda[4];
+    const jg_real t44 = A_ij_f_j_1 * t43;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t44 = f_star_2 * lambda[5];
-    const jg_real t45 = A_ij_g_j_2 * t44;
+    const jg_real t47 = f_star_2 * lambda[5];
+    const jg_real t48 = A_ij_g_j_2 * t47;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real t48 = f_star_1 * lambda[5];
-    const jg_real t49 = A_ij_g_j_1 * t48;
-    phi_q_t_lambda_q[6] = -(t8 + t11 + (t45 + t49 + (t24 + t31 + (t37 + t41))));
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
-    const jg_real t51 = g_star_0 * lambda[3];
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t34 + C_i[6] * cosine_1;
-    const jg_real t53 = h_star_0 * lambda[4];
+    const jg_real t51 = f_star_1 * lambda[5];
+    const jg_real t52 = A_ij_g_j_1 * t51;
+    phi_q_t_lambda_q[6] = -(t11 + t14 + (t48 + t52 + (t27 + t34 + (t40 + t44))));
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
+    const jg_real t54 = g_star_0 * lambda[3];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t37 + C_i[6] * cosine_1;
+    const jg_real t56 = h_star_0 * lambda[4];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real t55 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t51 + A_ij_f_j_1 * t53 + A_ij_g_j_1 * t55 + lambda[0] * t10;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t51 + A_ij_f_j_2 * t53 + A_ij_g_j_2 * t55 + lambda[0] * t7;
-    const jg_real t56 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t56;
-    phi_q_t_lambda_q[39] = t56;
-    const jg_real t57 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t57;
-    phi_q_t_lambda_q[42] = t57;
-    const jg_real t58 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t58;
-    phi_q_t_lambda_q[45] = t58;
+    const jg_real t58 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t54 + A_ij_f_j_1 * t56 + A_ij_g_j_1 * t58 + lambda[0] * t13;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t54 + A_ij_f_j_2 * t56 + A_ij_g_j_2 * t58 + lambda[0] * t10;
+    const jg_real t59 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t59;
+    phi_q_t_lambda_q[39] = t59;
+    const jg_real t60 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t60;
+    phi_q_t_lambda_q[42] = t60;
+    const jg_real t61 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t61;
+    phi_q_t_lambda_q[45] = t61;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t64 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) +
+    const jg_real t67 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) +
         lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t66 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t67 = lambda[5] * t66 + t64;
-    const jg_real t68 = A_ij_0 * t67;
-    const jg_real t69 = t21 * lambda[3];
-    const jg_real t70 = H_4 * lambda[3];
-    const jg_real t71 = sine_1 * lambda[3];
-    const jg_real t72 = C_i[0] * t69 - C_i[3] * t70 - C_i[6] * t71;
-    const jg_real t73 = C_i[1] * t69 - C_i[4] * t70 - C_i[7] * t71;
-    const jg_real t74 = C_i[2] * t69 - C_i[5] * t70 - C_i[8] * t71;
-    const jg_real t75 = A_ij_0 * t72 + A_ij_1 * t73 + A_ij_2 * t74;
-    const jg_real t76 = C_j[6] * t75;
-    const jg_real t77 = C_j[7] * t75;
-    const jg_real t78 = C_j[8] * t75;
-    const jg_real t79 = t34 * lambda[4];
-    const jg_real t80 = H_6 * lambda[4];
-    const jg_real t81 = cosine_1 * lambda[4];
-    const jg_real t82 = C_i[3] * t79 - C_i[0] * t80 - C_i[6] * t81;
-    const jg_real t83 = C_i[4] * t79 - C_i[1] * t80 - C_i[7] * t81;
-    const jg_real t84 = C_i[5] * t79 - C_i[2] * t80 - C_i[8] * t81;
-    const jg_real t85 = A_ij_0 * t82 + A_ij_1 * t83 + A_ij_2 * t84;
-    const jg_real t86 = C_j[0] * t85;
-    const jg_real t87 = C_j[1] * t85;
-    const jg_real t88 = C_j[2] * t85;
-    const jg_real t89 = cosine_0 * lambda[5];
-    const jg_real t90 = sine_0 * lambda[5];
-    const jg_real t91 = C_i[0] * t89 + C_i[3] * t90;
-    const jg_real t92 = C_i[1] * t89 + C_i[4] * t90;
-    const jg_real t93 = C_i[2] * t89 + C_i[5] * t90;
-    const jg_real t94 = A_ij_0 * t91 + A_ij_1 * t92 + A_ij_2 * t93;
-    const jg_real t95 = C_j[3] * t94;
-    const jg_real t96 = C_j[4] * t94;
-    const jg_real t97 = C_j[5] * t94;
-    const jg_real t98 = s_j[1] * t58 - s_j[2] * t57;
-    phi_q_t_lambda_q[12] = A_ij_0 * t86 + A_ij_3 * t87 + A_ij_6 * t88 + (A_ij_0 * t76 + A_ij_3 * t77 + A_ij_6 * t78
-        + t68) - (A_ij_0 * t95 + A_ij_3 * t96 + A_ij_6 * t97) + t98;
-    const jg_real t99 = A_ij_3 * t67;
-    const jg_real t100 = A_ij_3 * t72 + A_ij_4 * t73 + A_ij_5 * t74;
-    const jg_real t101 = C_j[6] * t100;
-    const jg_real t102 = C_j[7] * t100;
-    const jg_real t103 = C_j[8] * t100;
-    const jg_real t104 = A_ij_3 * t82 + A_ij_4 * t83 + A_ij_5 * t84;
-    const jg_real t105 = C_j[0] * t104;
-    const jg_real t106 = C_j[1] * t104;
-    const jg_real t107 = C_j[2] * t104;
-    const jg_real t108 = A_ij_3 * t91 + A_ij_4 * t92 + A_ij_5 * t93;
-    const jg_real t109 = C_j[3] * t108;
-    const jg_real t110 = C_j[4] * t108;
-    const jg_real t111 = C_j[5] * t108;
-    const jg_real t112 = s_j[2] * t56 - s_j[0] * t58;
-    phi_q_t_lambda_q[13] = A_ij_0 * t105 + A_ij_3 * t106 + A_ij_6 * t107 + (A_ij_0 * t101 + A_ij_3 * t102 + A_ij_6 *
-        t103 + t99) - (A_ij_0 * t109 + A_ij_3 * t110 + A_ij_6 * t111) + t112;
-    const jg_real t113 = A_ij_6 * t67;
-    const jg_real t114 = A_ij_6 * t72 + A_ij_7 * t73 + A_ij_8 * t74;
-    const jg_real t115 = C_j[6] * t114;
-    const jg_real t116 = C_j[7] * t114;
-    const jg_real t117 = C_j[8] * t114;
-    const jg_real t118 = A_ij_6 * t82 + A_ij_7 * t83 + A_ij_8 * t84;
-    const jg_real t119 = C_j[0] * t118;
-    const jg_real t120 = C_j[1] * t118;
-    const jg_real t121 = C_j[2] * t118;
-    const jg_real t122 = A_ij_6 * t91 + A_ij_7 * t92 + A_ij_8 * t93;
-    const jg_real t123 = C_j[3] * t122;
-    const jg_real t124 = C_j[4] * t122;
-    const jg_real t125 = C_j[5] * t122;
-    const jg_real t126 = s_j[0] * t57 - s_j[1] * t56;
-    phi_q_t_lambda_q[14] = A_ij_0 * t119 + A_ij_3 * t120 + A_ij_6 * t121 + (A_ij_0 * t115 + A_ij_3 * t116 + A_ij_6 *
-        t117 + t113) - (A_ij_0 * t123 + A_ij_3 * t124 + A_ij_6 * t125) + t126;
-    const jg_real t127 = cosine_1 * lambda[3];
-    const jg_real t128 = sine_1 * lambda[4];
-    const jg_real t129 = A_ij_h_j_1 * t127 - A_ij_f_j_1 * t128;
-    const jg_real t130 = A_ij_h_j_2 * t127 - A_ij_f_j_2 * t128;
-    const jg_real t131 = cosine_1 * lambda[5];
-    const jg_real t132 = sine_1 * lambda[5];
-    const jg_real t133 = t21 * t131 + H_6 * t132;
-    const jg_real t134 = H_4 * t131 + t34 * t132;
-    const jg_real t135 = cosine_1 * t132 - sine_1 * t131;
-    const jg_real t136 = C_i[2] * t133 - C_i[5] * t134 + C_i[8] * t135;
-    const jg_real t137 = C_i[1] * t133 - C_i[4] * t134 + C_i[7] * t135;
-    const jg_real t138 = f_star_2 * t129 - f_star_1 * t130 + (A_ij_g_j_1 * t136 - A_ij_g_j_2 * t137);
-    phi_q_t_lambda_q[15] = t138;
-    phi_q_t_lambda_q[78] = t138;
-    const jg_real t139 = t34 * lambda[3];
-    const jg_real t140 = H_6 * lambda[3];
-    const jg_real t141 = C_i[5] * t139 - C_i[2] * t140 - C_i[8] * t127;
-    const jg_real t142 = C_i[4] * t139 - C_i[1] * t140 - C_i[7] * t127;
-    const jg_real t143 = H_4 * lambda[4];
-    const jg_real t144 = t21 * lambda[4];
-    const jg_real t145 = C_i[5] * t143 - C_i[2] * t144 + C_i[8] * t128;
-    const jg_real t146 = C_i[4] * t143 - C_i[1] * t144 + C_i[7] * t128;
-    const jg_real t147 = A_ij_h_j_1 * t141 - A_ij_h_j_2 * t142 + (A_ij_f_j_1 * t145 - A_ij_f_j_2 * t146);
-    phi_q_t_lambda_q[16] = t147;
-    phi_q_t_lambda_q[86] = t147;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t149 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t30 + A_ij_f_j_0 * t40 + A_ij_g_j_0 * t48 + lambda[1] * t149;
-    const jg_real t150 = lambda[0] * t149;
-    const jg_real t151 = A_ij_h_j_0 * t51;
-    const jg_real t152 = A_ij_f_j_0 * t53;
-    const jg_real t153 = A_ij_g_j_0 * t55;
-    phi_q_t_lambda_q[18] = -(t8 + t150 + (t45 + t153 + (t24 + t151 + (t37 + t152))));
-    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t30 + A_ij_f_j_2 * t40 + A_ij_g_j_2 * t48 + lambda[1] * t7;
-    const jg_real t154 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[20] = t154;
-    phi_q_t_lambda_q[40] = t154;
-    const jg_real t155 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[21] = t155;
-    phi_q_t_lambda_q[43] = t155;
-    const jg_real t156 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[22] = t156;
-    phi_q_t_lambda_q[46] = t156;
-    const jg_real t157 = A_ij_1 * t67;
-    const jg_real t158 = s_j[1] * t156 - s_j[2] * t155;
-    phi_q_t_lambda_q[23] = A_ij_1 * t86 + A_ij_4 * t87 + A_ij_7 * t88 + (A_ij_1 * t76 + A_ij_4 * t77 + A_ij_7 * t78
-        + t157) - (A_ij_1 * t95 + A_ij_4 * t96 + A_ij_7 * t97) + t158;
-    const jg_real t159 = A_ij_4 * t67;
-    const jg_real t160 = s_j[2] * t154 - s_j[0] * t156;
-    phi_q_t_lambda_q[24] = A_ij_1 * t105 + A_ij_4 * t106 + A_ij_7 * t107 + (A_ij_1 * t101 + A_ij_4 * t102 + A_ij_7 *
-        t103 + t159) - (A_ij_1 * t109 + A_ij_4 * t110 + A_ij_7 * t111) + t160;
-    const jg_real t161 = A_ij_7 * t67;
-    const jg_real t162 = s_j[0] * t155 - s_j[1] * t154;
-    phi_q_t_lambda_q[25] = A_ij_1 * t119 + A_ij_4 * t120 + A_ij_7 * t121 + (A_ij_1 * t115 + A_ij_4 * t116 + A_ij_7 *
-        t117 + t161) - (A_ij_1 * t123 + A_ij_4 * t124 + A_ij_7 * t125) + t162;
-    const jg_real t163 = A_ij_h_j_0 * t127 - A_ij_f_j_0 * t128;
-    const jg_real t164 = C_i[0] * t133 - C_i[3] * t134 + C_i[6] * t135;
-    const jg_real t165 = f_star_0 * t130 - f_star_2 * t163 + (A_ij_g_j_2 * t164 - A_ij_g_j_0 * t136);
-    phi_q_t_lambda_q[26] = t165;
-    phi_q_t_lambda_q[79] = t165;
-    const jg_real t166 = C_i[3] * t139 - C_i[0] * t140 - C_i[6] * t127;
-    const jg_real t167 = C_i[3] * t143 - C_i[0] * t144 + C_i[6] * t128;
-    const jg_real t168 = A_ij_h_j_2 * t166 - A_ij_h_j_0 * t141 + (A_ij_f_j_2 * t167 - A_ij_f_j_0 * t145);
-    phi_q_t_lambda_q[27] = t168;
-    phi_q_t_lambda_q[87] = t168;
-    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t23 + A_ij_f_j_0 * t36 + A_ij_g_j_0 * t44 + lambda[2] * t149;
-    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t23 + A_ij_f_j_1 * t36 + A_ij_g_j_1 * t44 + lambda[2] * t10;
-    phi_q_t_lambda_q[30] = -(t11 + t150 + (t49 + t153 + (t31 + t151 + (t41 + t152))));
-    const jg_real t169 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[31] = t169;
-    phi_q_t_lambda_q[41] = t169;
-    const jg_real t170 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[32] = t170;
-    phi_q_t_lambda_q[44] = t170;
-    const jg_real t171 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[33] = t171;
-    phi_q_t_lambda_q[47] = t171;
-    const jg_real t172 = A_ij_2 * t67;
-    const jg_real t173 = s_j[1] * t171 - s_j[2] * t170;
-    phi_q_t_lambda_q[34] = A_ij_2 * t86 + A_ij_5 * t87 + A_ij_8 * t88 + (A_ij_2 * t76 + A_ij_5 * t77 + A_ij_8 * t78
-        + t172) - (A_ij_2 * t95 + A_ij_5 * t96 + A_ij_8 * t97) + t173;
-    const jg_real t174 = A_ij_5 * t67;
-    const jg_real t175 = s_j[2] * t169 - s_j[0] * t171;
-    phi_q_t_lambda_q[35] = A_ij_2 * t105 + A_ij_5 * t106 + A_ij_8 * t107 + (A_ij_2 * t101 + A_ij_5 * t102 + A_ij_8 *
-        t103 + t174) - (A_ij_2 * t109 + A_ij_5 * t110 + A_ij_8 * t111) + t175;
-    const jg_real t176 = A_ij_8 * t67;
-    const jg_real t177 = s_j[0] * t170 - s_j[1] * t169;
-    phi_q_t_lambda_q[36] = A_ij_2 * t119 + A_ij_5 * t120 + A_ij_8 * t121 + (A_ij_2 * t115 + A_ij_5 * t116 + A_ij_8 *
-        t117 + t176) - (A_ij_2 * t123 + A_ij_5 * t124 + A_ij_8 * t125) + t177;
-    const jg_real t178 = f_star_1 * t163 - f_star_0 * t129 + (A_ij_g_j_0 * t137 - A_ij_g_j_1 * t164);
-    phi_q_t_lambda_q[37] = t178;
-    phi_q_t_lambda_q[80] = t178;
-    const jg_real t179 = A_ij_h_j_0 * t142 - A_ij_h_j_1 * t166 + (A_ij_f_j_0 * t146 - A_ij_f_j_1 * t167);
-    phi_q_t_lambda_q[38] = t179;
-    phi_q_t_lambda_q[88] = t179;
-    phi_q_t_lambda_q[48] = A_ij_h_j_0 * t75 + t68 + A_ij_f_j_0 * t85 - A_ij_g_j_0 * t94 + t98;
-    phi_q_t_lambda_q[49] = A_ij_h_j_1 * t75 + t157 + A_ij_f_j_1 * t85 - A_ij_g_j_1 * t94 + t158;
-    phi_q_t_lambda_q[50] = A_ij_h_j_2 * t75 + t172 + A_ij_f_j_2 * t85 - A_ij_g_j_2 * t94 + t173;
-    const jg_real t180 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[51] = t180;
-    const jg_real t181 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[71] = t181;
-    phi_q_t_lambda_q[52] = -t181;
+    const jg_real t69 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t70 = lambda[5] * t69 + t67;
+    const jg_real t71 = A_ij_0 * t70;
     /* A_ijt_g_star = A_ij^T g_star */
-    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t183 = C_j[8] * lambda[3];
-    const jg_real t184 = A_ijt_g_star_2 * t183;
-    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t186 = C_j[7] * lambda[3];
-    const jg_real t187 = A_ijt_g_star_1 * t186;
-    /* A_ijt_h_star = A_ij^T h_star */
-    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
-    const jg_real t189 = C_j[2] * lambda[4];
-    const jg_real t190 = A_ijt_h_star_2 * t189;
-    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
-    const jg_real t192 = C_j[1] * lambda[4];
-    const jg_real t193 = A_ijt_h_star_1 * t192;
-    /* A_ijt_f_star = A_ij^T f_star */
-    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t195 = C_j[5] * lambda[5];
-    const jg_real t196 = A_ijt_f_star_2 * t195;
-    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t198 = C_j[4] * lambda[5];
-    const jg_real t199 = A_ijt_f_star_1 * t198;
-    const jg_real t200 = s_j[2] * t180;
-    const jg_real t201 = s_j[1] * t181;
-    phi_q_t_lambda_q[53] = -(t200 + t201 + (t196 + t199 + (t184 + t187 + (t190 + t193))));
-    const jg_real t202 = C_j[6] * lambda[3];
-    const jg_real t203 = C_j[0] * lambda[4];
-    const jg_real t204 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t202 + A_ijt_h_star_1 * t203 + A_ijt_f_star_1 * t204 + s_j[0] * t181;
-    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t202 + A_ijt_h_star_2 * t203 + A_ijt_f_star_2 * t204 + s_j[0] * t180;
-    const jg_real t205 = A_ij_3 * t164 + A_ij_4 * t137 + A_ij_5 * t136;
-    const jg_real t206 = A_ij_6 * t164 + A_ij_7 * t137 + A_ij_8 * t136;
-    const jg_real t207 = C_j[1] * t128 - C_j[7] * t127;
-    const jg_real t208 = C_j[2] * t128 - C_j[8] * t127;
-    const jg_real t209 = A_ijt_f_star_2 * t207 - A_ijt_f_star_1 * t208 + (C_j[5] * t205 - C_j[4] * t206);
-    phi_q_t_lambda_q[56] = t209;
-    phi_q_t_lambda_q[81] = t209;
-    const jg_real t210 = A_ij_3 * t166 + A_ij_4 * t142 + A_ij_5 * t141;
-    const jg_real t211 = A_ij_6 * t166 + A_ij_7 * t142 + A_ij_8 * t141;
-    const jg_real t212 = A_ij_3 * t167 + A_ij_4 * t146 + A_ij_5 * t145;
-    const jg_real t213 = A_ij_6 * t167 + A_ij_7 * t146 + A_ij_8 * t145;
-    const jg_real t214 = C_j[8] * t210 - C_j[7] * t211 + (C_j[2] * t212 - C_j[1] * t213);
-    phi_q_t_lambda_q[57] = t214;
-    phi_q_t_lambda_q[89] = t214;
-    phi_q_t_lambda_q[58] = A_ij_h_j_0 * t100 + t99 + A_ij_f_j_0 * t104 - A_ij_g_j_0 * t108 + t112;
-    phi_q_t_lambda_q[59] = A_ij_h_j_1 * t100 + t159 + A_ij_f_j_1 * t104 - A_ij_g_j_1 * t108 + t160;
-    phi_q_t_lambda_q[60] = A_ij_h_j_2 * t100 + t174 + A_ij_f_j_2 * t104 - A_ij_g_j_2 * t108 + t175;
-    phi_q_t_lambda_q[61] = -t180;
-    const jg_real t215 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[62] = t215;
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
+    const jg_real t73 = lambda[3] * A_ijt_g_star_0;
+    /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
+    const jg_real t75 = lambda[4] * A_ijt_h_star_0;
+    /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t186 + A_ijt_h_star_0 * t192 + A_ijt_f_star_0 * t198 + s_j[1] * t215;
-    const jg_real t219 = A_ijt_g_star_0 * t202;
-    const jg_real t220 = A_ijt_h_star_0 * t203;
-    const jg_real t221 = A_ijt_f_star_0 * t204;
-    const jg_real t222 = s_j[0] * t215;
-    phi_q_t_lambda_q[64] = -(t200 + t222 + (t196 + t221 + (t184 + t219 + (t190 + t220))));
-    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t186 + A_ijt_h_star_2 * t192 + A_ijt_f_star_2 * t198 + s_j[1] * t180;
-    const jg_real t223 = A_ij_0 * t164 + A_ij_1 * t137 + A_ij_2 * t136;
-    const jg_real t224 = C_j[0] * t128 - C_j[6] * t127;
-    const jg_real t225 = A_ijt_f_star_0 * t208 - A_ijt_f_star_2 * t224 + (C_j[3] * t206 - C_j[5] * t223);
-    phi_q_t_lambda_q[66] = t225;
-    phi_q_t_lambda_q[82] = t225;
-    const jg_real t226 = A_ij_0 * t166 + A_ij_1 * t142 + A_ij_2 * t141;
-    const jg_real t227 = A_ij_0 * t167 + A_ij_1 * t146 + A_ij_2 * t145;
-    const jg_real t228 = C_j[6] * t211 - C_j[8] * t226 + (C_j[0] * t213 - C_j[2] * t227);
-    phi_q_t_lambda_q[67] = t228;
-    phi_q_t_lambda_q[90] = t228;
-    phi_q_t_lambda_q[68] = A_ij_h_j_0 * t114 + t113 + A_ij_f_j_0 * t118 - A_ij_g_j_0 * t122 + t126;
-    phi_q_t_lambda_q[69] = A_ij_h_j_1 * t114 + t161 + A_ij_f_j_1 * t118 - A_ij_g_j_1 * t122 + t162;
-    phi_q_t_lambda_q[70] = A_ij_h_j_2 * t114 + t176 + A_ij_f_j_2 * t118 - A_ij_g_j_2 * t122 + t177;
-    phi_q_t_lambda_q[72] = -t215;
-    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t183 + A_ijt_h_star_0 * t189 + A_ijt_f_star_0 * t195 + s_j[2] * t215;
-    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t183 + A_ijt_h_star_1 * t189 + A_ijt_f_star_1 * t195 + s_j[2] * t181;
-    phi_q_t_lambda_q[75] = -(t201 + t222 + (t199 + t221 + (t187 + t219 + (t193 + t220))));
-    const jg_real t229 = A_ijt_f_star_1 * t224 - A_ijt_f_star_0 * t207 + (C_j[4] * t223 - C_j[3] * t205);
-    phi_q_t_lambda_q[76] = t229;
-    phi_q_t_lambda_q[83] = t229;
-    const jg_real t230 = C_j[7] * t226 - C_j[6] * t210 + (C_j[1] * t227 - C_j[0] * t212);
-    phi_q_t_lambda_q[77] = t230;
-    phi_q_t_lambda_q[91] = t230;
-    const jg_real t231 = cosine_1 * H_4 + sine_1 * t34;
-    const jg_real t232 = cosine_1 * t21 + sine_1 * H_6;
-    const jg_real t233 = C_i[3] * t231 - C_i[0] * t232;
-    const jg_real t234 = C_i[4] * t231 - C_i[1] * t232;
-    const jg_real t235 = C_i[5] * t231 - C_i[2] * t232;
-    phi_q_t_lambda_q[84] = lambda[4] * (A_ij_f_j_0 * t233 + A_ij_f_j_1 * t234 + A_ij_f_j_2 * t235) * sine_1 -
-        lambda[3] * (A_ij_h_j_0 * t233 + A_ij_h_j_1 * t234 + A_ij_h_j_2 * t235) * cosine_1 - cosine_1 * cosine_1 *
-        lambda[5] * t66 - sine_1 * sine_1 * lambda[5] * t66;
-    const jg_real t236 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
+    const jg_real t77 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t78 = s_j[1] * t61 - s_j[2] * t60;
+    phi_q_t_lambda_q[12] = t71 - A_ij_h_j_0 * t73 - A_ij_f_j_0 * t75 - A_ij_g_j_0 * t77 + t78;
+    const jg_real t79 = A_ij_3 * t70;
+    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
+    const jg_real t81 = lambda[3] * A_ijt_g_star_1;
+    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
+    const jg_real t83 = lambda[4] * A_ijt_h_star_1;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    const jg_real t85 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t86 = s_j[2] * t59 - s_j[0] * t61;
+    phi_q_t_lambda_q[13] = t79 - A_ij_h_j_0 * t81 - A_ij_f_j_0 * t83 - A_ij_g_j_0 * t85 + t86;
+    const jg_real t87 = A_ij_6 * t70;
+    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
+    const jg_real t89 = lambda[3] * A_ijt_g_star_2;
+    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
+    const jg_real t91 = lambda[4] * A_ijt_h_star_2;
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real t93 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t94 = s_j[0] * t60 - s_j[1] * t59;
+    phi_q_t_lambda_q[14] = t87 - A_ij_h_j_0 * t89 - A_ij_f_j_0 * t91 - A_ij_g_j_0 * t93 + t94;
+    const jg_real t95 = cosine_1 * lambda[3];
+    const jg_real t96 = sine_1 * lambda[4];
+    const jg_real t97 = C_j[6] * t95 - C_j[0] * t96;
+    const jg_real t98 = C_j[7] * t95 - C_j[1] * t96;
+    const jg_real t99 = C_j[8] * t95 - C_j[2] * t96;
+    const jg_real t100 = A_ij_1 * t97 + A_ij_4 * t98 + A_ij_7 * t99;
+    const jg_real t101 = A_ij_2 * t97 + A_ij_5 * t98 + A_ij_8 * t99;
+    const jg_real t102 = cosine_1 * lambda[5];
+    const jg_real t103 = sine_1 * lambda[5];
+    const jg_real t104 = t24 * t102 + H_6 * t103;
+    const jg_real t105 = H_4 * t102 + t37 * t103;
+    const jg_real t106 = cosine_1 * t103 - sine_1 * t102;
+    const jg_real t107 = C_i[2] * t104 - C_i[5] * t105 + C_i[8] * t106;
+    const jg_real t108 = C_i[1] * t104 - C_i[4] * t105 + C_i[7] * t106;
+    const jg_real t109 = f_star_2 * t100 - f_star_1 * t101 + (A_ij_g_j_1 * t107 - A_ij_g_j_2 * t108);
+    phi_q_t_lambda_q[15] = t109;
+    phi_q_t_lambda_q[78] = t109;
+    const jg_real t110 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+        h_star_2 - A_ij_h_j_2 * h_star_1);
+    phi_q_t_lambda_q[16] = t110;
+    phi_q_t_lambda_q[86] = t110;
+    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real t112 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t33 + A_ij_f_j_0 * t43 + A_ij_g_j_0 * t51 + lambda[1] * t112;
+    const jg_real t113 = lambda[0] * t112;
+    const jg_real t114 = A_ij_h_j_0 * t54;
+    const jg_real t115 = A_ij_f_j_0 * t56;
+    const jg_real t116 = A_ij_g_j_0 * t58;
+    phi_q_t_lambda_q[18] = -(t11 + t113 + (t48 + t116 + (t27 + t114 + (t40 + t115))));
+    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t33 + A_ij_f_j_2 * t43 + A_ij_g_j_2 * t51 + lambda[1] * t10;
+    const jg_real t117 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[20] = t117;
+    phi_q_t_lambda_q[40] = t117;
+    const jg_real t118 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[21] = t118;
+    phi_q_t_lambda_q[43] = t118;
+    const jg_real t119 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[22] = t119;
+    phi_q_t_lambda_q[46] = t119;
+    const jg_real t120 = A_ij_1 * t70;
+    const jg_real t121 = s_j[1] * t119 - s_j[2] * t118;
+    phi_q_t_lambda_q[23] = t120 - A_ij_h_j_1 * t73 - A_ij_f_j_1 * t75 - A_ij_g_j_1 * t77 + t121;
+    const jg_real t122 = A_ij_4 * t70;
+    const jg_real t123 = s_j[2] * t117 - s_j[0] * t119;
+    phi_q_t_lambda_q[24] = t122 - A_ij_h_j_1 * t81 - A_ij_f_j_1 * t83 - A_ij_g_j_1 * t85 + t123;
+    const jg_real t124 = A_ij_7 * t70;
+    const jg_real t125 = s_j[0] * t118 - s_j[1] * t117;
+    phi_q_t_lambda_q[25] = t124 - A_ij_h_j_1 * t89 - A_ij_f_j_1 * t91 - A_ij_g_j_1 * t93 + t125;
+    const jg_real t126 = A_ij_0 * t97 + A_ij_3 * t98 + A_ij_6 * t99;
+    const jg_real t127 = C_i[0] * t104 - C_i[3] * t105 + C_i[6] * t106;
+    const jg_real t128 = f_star_0 * t101 - f_star_2 * t126 + (A_ij_g_j_2 * t127 - A_ij_g_j_0 * t107);
+    phi_q_t_lambda_q[26] = t128;
+    phi_q_t_lambda_q[79] = t128;
+    const jg_real t129 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+        h_star_0 - A_ij_h_j_0 * h_star_2);
+    phi_q_t_lambda_q[27] = t129;
+    phi_q_t_lambda_q[87] = t129;
+    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t26 + A_ij_f_j_0 * t39 + A_ij_g_j_0 * t47 + lambda[2] * t112;
+    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t26 + A_ij_f_j_1 * t39 + A_ij_g_j_1 * t47 + lambda[2] * t13;
+    phi_q_t_lambda_q[30] = -(t14 + t113 + (t52 + t116 + (t34 + t114 + (t44 + t115))));
+    const jg_real t130 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[31] = t130;
+    phi_q_t_lambda_q[41] = t130;
+    const jg_real t131 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[32] = t131;
+    phi_q_t_lambda_q[44] = t131;
+    const jg_real t132 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[33] = t132;
+    phi_q_t_lambda_q[47] = t132;
+    const jg_real t133 = A_ij_2 * t70;
+    const jg_real t134 = s_j[1] * t132 - s_j[2] * t131;
+    phi_q_t_lambda_q[34] = t133 - A_ij_h_j_2 * t73 - A_ij_f_j_2 * t75 - A_ij_g_j_2 * t77 + t134;
+    const jg_real t135 = A_ij_5 * t70;
+    const jg_real t136 = s_j[2] * t130 - s_j[0] * t132;
+    phi_q_t_lambda_q[35] = t135 - A_ij_h_j_2 * t81 - A_ij_f_j_2 * t83 - A_ij_g_j_2 * t85 + t136;
+    const jg_real t137 = A_ij_8 * t70;
+    const jg_real t138 = s_j[0] * t131 - s_j[1] * t130;
+    phi_q_t_lambda_q[36] = t137 - A_ij_h_j_2 * t89 - A_ij_f_j_2 * t91 - A_ij_g_j_2 * t93 + t138;
+    const jg_real t139 = f_star_1 * t126 - f_star_0 * t100 + (A_ij_g_j_0 * t108 - A_ij_g_j_1 * t127);
+    phi_q_t_lambda_q[37] = t139;
+    phi_q_t_lambda_q[80] = t139;
+    const jg_real t140 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+        h_star_1 - A_ij_h_j_1 * h_star_0);
+    phi_q_t_lambda_q[38] = t140;
+    phi_q_t_lambda_q[88] = t140;
+    const jg_real t141 = A_ij_h_j_0 * lambda[3];
+    const jg_real t142 = A_ij_f_j_0 * lambda[4];
+    const jg_real t143 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[48] = t71 - t141 * A_ijt_g_star_0 - t142 * A_ijt_h_star_0 - t143 * A_ijt_f_star_0 + t78;
+    const jg_real t144 = A_ij_h_j_1 * lambda[3];
+    const jg_real t145 = A_ij_f_j_1 * lambda[4];
+    const jg_real t146 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[49] = t120 - t144 * A_ijt_g_star_0 - t145 * A_ijt_h_star_0 - t146 * A_ijt_f_star_0 + t121;
+    const jg_real t147 = A_ij_h_j_2 * lambda[3];
+    const jg_real t148 = A_ij_f_j_2 * lambda[4];
+    const jg_real t149 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[50] = t133 - t147 * A_ijt_g_star_0 - t148 * A_ijt_h_star_0 - t149 * A_ijt_f_star_0 + t134;
+    const jg_real t150 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[51] = t150;
+    const jg_real t151 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[71] = t151;
+    phi_q_t_lambda_q[52] = -t151;
+    const jg_real t152 = C_j[8] * lambda[3];
+    const jg_real t153 = A_ijt_g_star_2 * t152;
+    const jg_real t154 = C_j[7] * lambda[3];
+    const jg_real t155 = A_ijt_g_star_1 * t154;
+    const jg_real t156 = C_j[2] * lambda[4];
+    const jg_real t157 = A_ijt_h_star_2 * t156;
+    const jg_real t158 = C_j[1] * lambda[4];
+    const jg_real t159 = A_ijt_h_star_1 * t158;
+    const jg_real t160 = C_j[5] * lambda[5];
+    const jg_real t161 = A_ijt_f_star_2 * t160;
+    const jg_real t162 = C_j[4] * lambda[5];
+    const jg_real t163 = A_ijt_f_star_1 * t162;
+    const jg_real t164 = s_j[2] * t150;
+    const jg_real t165 = s_j[1] * t151;
+    phi_q_t_lambda_q[53] = -(t164 + t165 + (t161 + t163 + (t153 + t155 + (t157 + t159))));
+    const jg_real t166 = C_j[6] * lambda[3];
+    const jg_real t167 = C_j[0] * lambda[4];
+    const jg_real t168 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t166 + A_ijt_h_star_1 * t167 + A_ijt_f_star_1 * t168 + s_j[0] * t151;
+    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t166 + A_ijt_h_star_2 * t167 + A_ijt_f_star_2 * t168 + s_j[0] * t150;
+    const jg_real t169 = A_ij_3 * t127 + A_ij_4 * t108 + A_ij_5 * t107;
+    const jg_real t170 = A_ij_6 * t127 + A_ij_7 * t108 + A_ij_8 * t107;
+    const jg_real t171 = A_ijt_f_star_1 * t99 - A_ijt_f_star_2 * t98 + (C_j[5] * t169 - C_j[4] * t170);
+    phi_q_t_lambda_q[56] = t171;
+    phi_q_t_lambda_q[81] = t171;
+    const jg_real t172 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+        A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
+    phi_q_t_lambda_q[57] = t172;
+    phi_q_t_lambda_q[89] = t172;
+    phi_q_t_lambda_q[58] = t79 - t141 * A_ijt_g_star_1 - t142 * A_ijt_h_star_1 - t143 * A_ijt_f_star_1 + t86;
+    phi_q_t_lambda_q[59] = t122 - t144 * A_ijt_g_star_1 - t145 * A_ijt_h_star_1 - t146 * A_ijt_f_star_1 + t123;
+    phi_q_t_lambda_q[60] = t135 - t147 * A_ijt_g_star_1 - t148 * A_ijt_h_star_1 - t149 * A_ijt_f_star_1 + t136;
+    phi_q_t_lambda_q[61] = -t150;
+    const jg_real t173 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[62] = t173;
+    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t154 + A_ijt_h_star_0 * t158 + A_ijt_f_star_0 * t162 + s_j[1] * t173;
+    const jg_real t174 = A_ijt_g_star_0 * t166;
+    const jg_real t175 = A_ijt_h_star_0 * t167;
+    const jg_real t176 = A_ijt_f_star_0 * t168;
+    const jg_real t177 = s_j[0] * t173;
+    phi_q_t_lambda_q[64] = -(t164 + t177 + (t161 + t176 + (t153 + t174 + (t157 + t175))));
+    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t154 + A_ijt_h_star_2 * t158 + A_ijt_f_star_2 * t162 + s_j[1] * t150;
+    const jg_real t178 = A_ij_0 * t127 + A_ij_1 * t108 + A_ij_2 * t107;
+    const jg_real t179 = A_ijt_f_star_2 * t97 - A_ijt_f_star_0 * t99 + (C_j[3] * t170 - C_j[5] * t178);
+    phi_q_t_lambda_q[66] = t179;
+    phi_q_t_lambda_q[82] = t179;
+    const jg_real t180 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+        A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
+    phi_q_t_lambda_q[67] = t180;
+    phi_q_t_lambda_q[90] = t180;
+    phi_q_t_lambda_q[68] = t87 - t141 * A_ijt_g_star_2 - t142 * A_ijt_h_star_2 - t143 * A_ijt_f_star_2 + t94;
+    phi_q_t_lambda_q[69] = t124 - t144 * A_ijt_g_star_2 - t145 * A_ijt_h_star_2 - t146 * A_ijt_f_star_2 + t125;
+    phi_q_t_lambda_q[70] = t137 - t147 * A_ijt_g_star_2 - t148 * A_ijt_h_star_2 - t149 * A_ijt_f_star_2 + t138;
+    phi_q_t_lambda_q[72] = -t173;
+    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t152 + A_ijt_h_star_0 * t156 + A_ijt_f_star_0 * t160 + s_j[2] * t173;
+    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t152 + A_ijt_h_star_1 * t156 + A_ijt_f_star_1 * t160 + s_j[2] * t151;
+    phi_q_t_lambda_q[75] = -(t165 + t177 + (t163 + t176 + (t155 + t174 + (t159 + t175))));
+    const jg_real t181 = A_ijt_f_star_0 * t98 - A_ijt_f_star_1 * t97 + (C_j[4] * t178 - C_j[3] * t169);
+    phi_q_t_lambda_q[76] = t181;
+    phi_q_t_lambda_q[83] = t181;
+    const jg_real t182 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+        A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
+    phi_q_t_lambda_q[77] = t182;
+    phi_q_t_lambda_q[91] = t182;
+    const jg_real t183 = cosine_1 * H_4 + sine_1 * t37;
+    const jg_real t184 = cosine_1 * t24 + sine_1 * H_6;
+    const jg_real t185 = C_i[3] * t183 - C_i[0] * t184;
+    const jg_real t186 = C_i[4] * t183 - C_i[1] * t184;
+    const jg_real t187 = C_i[5] * t183 - C_i[2] * t184;
+    phi_q_t_lambda_q[84] = lambda[4] * (A_ij_f_j_0 * t185 + A_ij_f_j_1 * t186 + A_ij_f_j_2 * t187) * sine_1 -
+        lambda[3] * (A_ij_h_j_0 * t185 + A_ij_h_j_1 * t186 + A_ij_h_j_2 * t187) * cosine_1 - cosine_1 * cosine_1 *
+        lambda[5] * t69 - sine_1 * sine_1 * lambda[5] * t69;
+    const jg_real t188 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
         sine_1 + lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_1;
-    phi_q_t_lambda_q[85] = t236;
-    phi_q_t_lambda_q[92] = t236;
-    phi_q_t_lambda_q[93] = -t64;
+    phi_q_t_lambda_q[85] = t188;
+    phi_q_t_lambda_q[92] = t188;
+    phi_q_t_lambda_q[93] = -t67;
 }
 
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -638,12 +598,16 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
@@ -656,71 +620,72 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_i_cross_dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t13 = s_j[1] * JG_REAL(2.0);
-    const jg_real t14 = s_j[2] * JG_REAL(2.0);
-    const jg_real t15 = omega_j[2] * t13 - omega_j[1] * t14;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t17 = s_j[0] * JG_REAL(2.0);
-    const jg_real t18 = omega_j[0] * t14 - omega_j[2] * t17;
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t20 = omega_j[1] * t17 - omega_j[0] * t13;
-    const jg_real t21 = A_ij_2 * t15 + A_ij_5 * t18 + A_ij_8 * t20;
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t25 = A_ij_1 * t15 + A_ij_4 * t18 + A_ij_7 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t38 = JG_REAL(2.0) * v_j[0];
-    const jg_real t39 = JG_REAL(2.0) * v_j[1];
-    const jg_real t40 = JG_REAL(2.0) * v_j[2];
-    const jg_real t41 = A_ij_1 * t38 + A_ij_4 * t39 + A_ij_7 * t40;
-    const jg_real t42 = A_ij_2 * t38 + A_ij_5 * t39 + A_ij_8 * t40;
-    const jg_real t43 = JG_REAL(2.0) * v_i[2];
-    const jg_real t44 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t43 - omega_i[2] * t44 + (omega_i[2] * t41 - omega_i[1] * t42 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t21 - omega_i[2] * t25 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t47 = A_ij_0 * t15 + A_ij_3 * t18 + A_ij_6 * t20;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t50 = A_ij_0 * t38 + A_ij_3 * t39 + A_ij_6 * t40;
-    const jg_real t51 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t51 - omega_i[0] * t43 + (omega_i[0] * t42 - omega_i[2] * t50 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t47 - omega_i[0] * t21 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t44 - omega_i[1] * t51 + (omega_i[1] * t50 - omega_i[0] * t41 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t25 - omega_i[1] * t47 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -739,13 +704,13 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t64 = cosine_1 * sine_0;
+    const jg_real t61 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t64 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t61 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t64 + C_i[7] * sine_1;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t64 + C_i[8] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t61 + C_i[7] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t61 + C_i[8] * sine_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -761,26 +726,26 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t78 = alphadot[1] * alphadot[1];
+    const jg_real t75 = alphadot[1] * alphadot[1];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t80 = cosine_0 * sine_1;
+    const jg_real t77 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t80 + C_i[6] * cosine_1;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t80 + C_i[7] * cosine_1;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t80 + C_i[8] * cosine_1;
-    const jg_real t84 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t85 = cosine_1 * H_4 + sine_1 * t80;
-    const jg_real t86 = cosine_1 * t64 + sine_1 * H_6;
-    const jg_real t87 = C_i[3] * t85 - C_i[0] * t86;
-    const jg_real t88 = C_i[4] * t85 - C_i[1] * t86;
-    const jg_real t89 = C_i[5] * t85 - C_i[2] * t86;
-    const jg_real t90 = alphadot[0] * alphadot[0];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t77 + C_i[6] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t77 + C_i[7] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t77 + C_i[8] * cosine_1;
+    const jg_real t81 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t82 = cosine_1 * H_4 + sine_1 * t77;
+    const jg_real t83 = cosine_1 * t61 + sine_1 * H_6;
+    const jg_real t84 = C_i[3] * t82 - C_i[0] * t83;
+    const jg_real t85 = C_i[4] * t82 - C_i[1] * t83;
+    const jg_real t86 = C_i[5] * t82 - C_i[2] * t83;
+    const jg_real t87 = alphadot[0] * alphadot[0];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t94 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t95 = alphadot[1] * t94;
+    const jg_real t91 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t92 = alphadot[1] * t91;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -791,15 +756,15 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t78 * (g_star_0 * A_ij_h_j_0 +
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t75 * (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) - (A_ij_omega_j_cross_h_j_0 * h_star_0 +
-        A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t84 + t84 *
+        A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t81 + t81 *
         (omega_i_cross_A_ij_h_j_0 * h_star_0 + omega_i_cross_A_ij_h_j_1 * h_star_1 + omega_i_cross_A_ij_h_j_2 *
-        h_star_2) + t90 * (A_ij_h_j_0 * t87 + A_ij_h_j_1 * t88 + A_ij_h_j_2 * t89) * cosine_1 -
+        h_star_2) + t87 * (A_ij_h_j_0 * t84 + A_ij_h_j_1 * t85 + A_ij_h_j_2 * t86) * cosine_1 -
         (omega_i_cross_A_ij_h_j_0 * f_star_0 + omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 *
-        f_star_2) * t94 * cosine_1 + t94 * (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 *
+        f_star_2) * t91 * cosine_1 + t91 * (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 *
         f_star_1 + A_ij_omega_j_cross_h_j_2 * f_star_2) * cosine_1 - (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1
-        + A_ij_h_j_2 * f_star_2) * t95 * sine_1;
+        + A_ij_h_j_2 * f_star_2) * t92 * sine_1;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -836,14 +801,14 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t78 * (h_star_0 * A_ij_f_j_0 +
-        h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - t84 * (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
-        omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t84 * (g_star_0 * A_ij_omega_j_cross_f_j_0
-        + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t90 * (t87 * A_ij_f_j_0 + t88
-        * A_ij_f_j_1 + t89 * A_ij_f_j_2) * sine_1 - t94 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
-        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t94 * (f_star_0 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t75 * (h_star_0 * A_ij_f_j_0 +
+        h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - t81 * (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
+        omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t81 * (g_star_0 * A_ij_omega_j_cross_f_j_0
+        + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t87 * (t84 * A_ij_f_j_0 + t85
+        * A_ij_f_j_1 + t86 * A_ij_f_j_2) * sine_1 - t91 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
+        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t91 * (f_star_0 *
         omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) *
-        sine_1 - t95 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_1;
+        sine_1 - t92 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_1;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -870,14 +835,14 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t126 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t127 = cosine_1 * cosine_1;
-    const jg_real t128 = sine_1 * sine_1;
-    const jg_real t129 = t64 * sine_1 - cosine_1 * H_6;
-    const jg_real t130 = cosine_1 * t80 - sine_1 * H_4;
-    const jg_real t131 = t127 + t128;
-    const jg_real t132 = (A_ij_g_j_0 * (C_i[0] * t129 + C_i[3] * t130 - C_i[6] * t131) + A_ij_g_j_1 * (C_i[1] * t129
-        + C_i[4] * t130 - C_i[7] * t131) + A_ij_g_j_2 * (C_i[2] * t129 + C_i[5] * t130 - C_i[8] * t131)) *
+    const jg_real t123 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t124 = cosine_1 * cosine_1;
+    const jg_real t125 = sine_1 * sine_1;
+    const jg_real t126 = t61 * sine_1 - cosine_1 * H_6;
+    const jg_real t127 = cosine_1 * t77 - sine_1 * H_4;
+    const jg_real t128 = t124 + t125;
+    const jg_real t129 = (A_ij_g_j_0 * (C_i[0] * t126 + C_i[3] * t127 - C_i[6] * t128) + A_ij_g_j_1 * (C_i[1] * t126
+        + C_i[4] * t127 - C_i[7] * t128) + A_ij_g_j_2 * (C_i[2] * t126 + C_i[5] * t127 - C_i[8] * t128)) *
         (alphadot[1] * alphadot[0]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -889,10 +854,10 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t94 * (t87 * A_ij_omega_j_cross_g_j_0
-        + t88 * A_ij_omega_j_cross_g_j_1 + t89 * A_ij_omega_j_cross_g_j_2) + t94 * (t87 * omega_i_cross_A_ij_g_j_0 +
-        t88 * omega_i_cross_A_ij_g_j_1 + t89 * omega_i_cross_A_ij_g_j_2) + t90 * t127 * t126 + t90 * t128 * t126 -
-        t132 + t132;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t91 * (t84 * A_ij_omega_j_cross_g_j_0
+        + t85 * A_ij_omega_j_cross_g_j_1 + t86 * A_ij_omega_j_cross_g_j_2) + t91 * (t84 * omega_i_cross_A_ij_g_j_0 +
+        t85 * omega_i_cross_A_ij_g_j_1 + t86 * omega_i_cross_A_ij_g_j_2) + t87 * t124 * t123 + t87 * t125 * t123 -
+        t129 + t129;
 }
 
 void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -910,15 +875,21 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
+    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
+    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
+    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -932,25 +903,28 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    phi_q_v[0] = omega_i[2] * s_i[1] - omega_i[1] * s_i[2] + (omega_i[2] * dp_ij_1 - omega_i[1] * dp_ij_2 +
-        (A_ij_v_j_0 - v_i[0]) + A_ij_omega_j_cross_s_j_0);
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
+    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    phi_q_v[1] = omega_i[0] * s_i[2] - omega_i[2] * s_i[0] + (omega_i[0] * dp_ij_2 - omega_i[2] * dp_ij_0 +
-        (A_ij_v_j_1 - v_i[1]) + A_ij_omega_j_cross_s_j_1);
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
+    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    phi_q_v[2] = omega_i[1] * s_i[0] - omega_i[0] * s_i[1] + (omega_i[1] * dp_ij_0 - omega_i[0] * dp_ij_1 +
-        (A_ij_v_j_2 - v_i[2]) + A_ij_omega_j_cross_s_j_2);
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -967,15 +941,15 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t36 = cosine_1 * sine_0;
+    const jg_real t45 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t36 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t45 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t36 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t45 + C_i[7] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t36 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t45 + C_i[8] * sine_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
@@ -985,11 +959,11 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t49 = cosine_0 * sine_1;
+    const jg_real t58 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t49 + C_i[6] * cosine_1;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t49 + C_i[7] * cosine_1;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t49 + C_i[8] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t58 + C_i[6] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t58 + C_i[7] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t58 + C_i[8] * cosine_1;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -1025,8 +999,8 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
         A_ij_f_j_2)));
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t69 = cosine_1 * H_4 + sine_1 * t49;
-    const jg_real t70 = cosine_1 * t36 + sine_1 * H_6;
+    const jg_real t78 = cosine_1 * H_4 + sine_1 * t58;
+    const jg_real t79 = cosine_1 * t45 + sine_1 * H_6;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* omega_i_cross_A_ij_g_j = tilde(omega_i) A_ij g_j */
@@ -1045,8 +1019,8 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     phi_q_v[5] = f_star_0 * A_ij_omega_j_cross_g_j_0 + f_star_1 * A_ij_omega_j_cross_g_j_1 + f_star_2 *
-        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t69 - C_i[0] * t70) + A_ij_g_j_1 * (C_i[4]
-        * t69 - C_i[1] * t70) + A_ij_g_j_2 * (C_i[5] * t69 - C_i[2] * t70)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
+        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t78 - C_i[0] * t79) + A_ij_g_j_1 * (C_i[4]
+        * t78 - C_i[1] * t79) + A_ij_g_j_2 * (C_i[5] * t78 - C_i[2] * t79)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
         f_star_1 * omega_i_cross_A_ij_g_j_1 + f_star_2 * omega_i_cross_A_ij_g_j_2));
 }
 
@@ -1063,17 +1037,21 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t7 = s_i[2] + dp_ij_2;
+    const jg_real t10 = s_i[2] + dp_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t9 = s_i[1] + dp_ij_1;
+    const jg_real t12 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -1082,98 +1060,90 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real t18 = cosine_0 * sine_1;
-    const jg_real t19 = t18 * lambda[3];
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
-    const jg_real H_4 = cosine_1 * cosine_0;
-    const jg_real t21 = H_4 * lambda[3];
-    const jg_real t22 = sine_0 * lambda[3];
-    const jg_real t23 = C_i[2] * t19 - C_i[5] * t21 - C_i[8] * t22;
+    const jg_real H_4 = cosine_0 * cosine_1;
+    const jg_real t22 = cosine_1 * sine_0;
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t22 + C_i[8] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t28 = C_i[1] * t19 - C_i[4] * t21 - C_i[7] * t22;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t22 + C_i[7] * sine_1;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t30 = cosine_1 * sine_0;
-    const jg_real t31 = t30 * lambda[4];
-    const jg_real H_6 = sine_1 * sine_0;
-    const jg_real t33 = H_6 * lambda[4];
-    const jg_real t34 = cosine_0 * lambda[4];
-    const jg_real t35 = C_i[5] * t31 - C_i[2] * t33 - C_i[8] * t34;
+    const jg_real H_6 = sine_0 * sine_1;
+    const jg_real t31 = cosine_0 * sine_1;
+    /* h_star = C_i H [0; 0; 1] */
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t31 + C_i[8] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t37 = C_i[4] * t31 - C_i[1] * t33 - C_i[7] * t34;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t31 + C_i[7] * cosine_1;
     /* A_ij_g_j = A_ij g_j */
-    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t39 = cosine_1 * lambda[5];
-    const jg_real t40 = sine_1 * lambda[5];
-    const jg_real t41 = C_i[1] * t39 + C_i[4] * t40;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t43 = C_i[2] * t39 + C_i[5] * t40;
-    phi_q_t_lambda[3] = A_ij_g_j_2 * t41 - A_ij_g_j_1 * t43 + (A_ij_f_j_1 * t35 - A_ij_f_j_2 * t37 + (lambda[1] * t7
-        - lambda[2] * t9 + (A_ij_h_j_1 * t23 - A_ij_h_j_2 * t28)));
+    /* f_star = C_i H [1; 0; 0] */
+    const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
+    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
+    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
+        g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 * f_star_2
+        - A_ij_g_j_2 * f_star_1);
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t45 = s_i[0] + dp_ij_0;
-    const jg_real t46 = C_i[0] * t19 - C_i[3] * t21 - C_i[6] * t22;
+    const jg_real t40 = s_i[0] + dp_ij_0;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t22 + C_i[6] * sine_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t51 = C_i[3] * t31 - C_i[0] * t33 - C_i[6] * t34;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t31 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
+    const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t54 = C_i[0] * t39 + C_i[3] * t40;
-    phi_q_t_lambda[4] = A_ij_g_j_0 * t43 - A_ij_g_j_2 * t54 + (A_ij_f_j_2 * t51 - A_ij_f_j_0 * t35 + (lambda[2] *
-        t45 - lambda[0] * t7 + (A_ij_h_j_2 * t46 - A_ij_h_j_0 * t23)));
-    phi_q_t_lambda[5] = A_ij_g_j_1 * t54 - A_ij_g_j_0 * t41 + (A_ij_f_j_0 * t37 - A_ij_f_j_1 * t51 + (lambda[0] * t9
-        - lambda[1] * t45 + (A_ij_h_j_0 * t28 - A_ij_h_j_1 * t46)));
-    const jg_real t55 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t55;
-    const jg_real t56 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t56;
-    const jg_real t57 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t57;
-    const jg_real t58 = A_ij_3 * t46 + A_ij_4 * t28 + A_ij_5 * t23;
-    const jg_real t59 = A_ij_6 * t46 + A_ij_7 * t28 + A_ij_8 * t23;
-    const jg_real t60 = A_ij_3 * t51 + A_ij_4 * t37 + A_ij_5 * t35;
-    const jg_real t61 = A_ij_6 * t51 + A_ij_7 * t37 + A_ij_8 * t35;
-    const jg_real t62 = A_ij_6 * t54 + A_ij_7 * t41 + A_ij_8 * t43;
-    const jg_real t63 = A_ij_3 * t54 + A_ij_4 * t41 + A_ij_5 * t43;
-    phi_q_t_lambda[9] = s_j[1] * t57 - s_j[2] * t56 + (C_j[4] * t62 - C_j[5] * t63 + (C_j[8] * t58 - C_j[7] * t59 +
-        (C_j[2] * t60 - C_j[1] * t61)));
-    const jg_real t64 = A_ij_0 * t46 + A_ij_1 * t28 + A_ij_2 * t23;
-    const jg_real t65 = A_ij_0 * t51 + A_ij_1 * t37 + A_ij_2 * t35;
-    const jg_real t66 = A_ij_0 * t54 + A_ij_1 * t41 + A_ij_2 * t43;
-    phi_q_t_lambda[10] = s_j[2] * t55 - s_j[0] * t57 + (C_j[5] * t66 - C_j[3] * t62 + (C_j[6] * t59 - C_j[8] * t64 +
-        (C_j[0] * t61 - C_j[2] * t65)));
-    phi_q_t_lambda[11] = s_j[0] * t56 - s_j[1] * t55 + (C_j[3] * t63 - C_j[4] * t66 + (C_j[7] * t64 - C_j[6] * t58 +
-        (C_j[1] * t65 - C_j[0] * t60)));
-    const jg_real t67 = cosine_0 * H_4 + sine_0 * t30;
-    const jg_real t68 = cosine_0 * t18 + sine_0 * H_6;
-    /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
-    const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
-    const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
-    phi_q_t_lambda[12] = lambda[5] * (A_ij_g_j_0 * (C_i[3] * t67 - C_i[0] * t68) + A_ij_g_j_1 * (C_i[4] * t67 -
-        C_i[1] * t68) + A_ij_g_j_2 * (C_i[5] * t67 - C_i[2] * t68)) + lambda[4] * (A_ij_f_j_0 * f_star_0 +
-        A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * sine_0 - lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 *
-        f_star_1 + A_ij_h_j_2 * f_star_2) * cosine_0;
-    /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t30 + C_i[6] * cosine_0;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t30 + C_i[7] * cosine_0;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t30 + C_i[8] * cosine_0;
-    /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_0;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_0;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_0;
+    phi_q_t_lambda[4] = lambda[2] * t40 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
+        g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 * f_star_0
+        - A_ij_g_j_0 * f_star_2);
+    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t40 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
+        g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 * f_star_1
+        - A_ij_g_j_1 * f_star_0);
+    const jg_real t50 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t50;
+    const jg_real t51 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t51;
+    const jg_real t52 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t52;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    /* A_ijt_h_star = A_ij^T h_star */
+    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
+    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
+    /* A_ijt_f_star = A_ij^T f_star */
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    phi_q_t_lambda[9] = s_j[1] * t52 - s_j[2] * t51 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+        A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
+        A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
+    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
+    phi_q_t_lambda[10] = s_j[2] * t50 - s_j[0] * t52 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+        A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
+        A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
+    phi_q_t_lambda[11] = s_j[0] * t51 - s_j[1] * t50 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+        A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
+        A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
+    const jg_real t62 = cosine_1 * H_4 + sine_1 * t31;
+    const jg_real t63 = cosine_1 * t22 + sine_1 * H_6;
+    phi_q_t_lambda[12] = lambda[5] * (A_ij_g_j_0 * (C_i[3] * t62 - C_i[0] * t63) + A_ij_g_j_1 * (C_i[4] * t62 -
+        C_i[1] * t63) + A_ij_g_j_2 * (C_i[5] * t62 - C_i[2] * t63)) + lambda[4] * (A_ij_f_j_0 * f_star_0 +
+        A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * sine_1 - lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 *
+        f_star_1 + A_ij_h_j_2 * f_star_2) * cosine_1;
     phi_q_t_lambda[13] = lambda[3] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2) -
-        lambda[4] * (A_ij_f_j_0 * g_star_0 + A_ij_f_j_1 * g_star_1 + A_ij_f_j_2 * g_star_2);
+        lambda[4] * (g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
 
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1193,12 +1163,16 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -1224,9 +1198,9 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t18 = cosine_1 * sine_0;
+    const jg_real t21 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -1234,7 +1208,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     phi_q[25] = A_ij_7;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -1242,21 +1216,21 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_1;
-    const jg_real t30 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t30;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
+    const jg_real t33 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t33;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t33 = cosine_0 * sine_1;
+    const jg_real t36 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t33 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t36 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t33 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t36 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t33 + C_i[8] * cosine_1;
-    const jg_real t39 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    phi[4] = t39;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t36 + C_i[8] * cosine_1;
+    const jg_real t42 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    phi[4] = t42;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
@@ -1265,26 +1239,26 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t46 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t46;
+    const jg_real t49 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t49;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t47 = s_i[2] + dp_ij_2;
-    phi_q[3] = t47;
-    const jg_real t48 = s_i[1] + dp_ij_1;
-    phi_q[13] = t48;
-    phi_q[4] = -t48;
+    const jg_real t50 = s_i[2] + dp_ij_2;
+    phi_q[3] = t50;
+    const jg_real t51 = s_i[1] + dp_ij_1;
+    phi_q[13] = t51;
+    phi_q[4] = -t51;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t47;
-    const jg_real t49 = s_i[0] + dp_ij_0;
-    phi_q[9] = t49;
+    phi_q[8] = -t50;
+    const jg_real t52 = s_i[0] + dp_ij_0;
+    phi_q[9] = t52;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t49;
+    phi_q[14] = -t52;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1318,16 +1292,16 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t59 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    phi_q[45] = -(cosine_1 * t59);
-    const jg_real t60 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    phi_q[46] = sine_1 * t60;
-    const jg_real t61 = cosine_1 * H_4 + sine_1 * t33;
-    const jg_real t62 = cosine_1 * t18 + sine_1 * H_6;
-    const jg_real t63 = C_i[3] * t61 - C_i[0] * t62;
-    const jg_real t64 = C_i[4] * t61 - C_i[1] * t62;
-    const jg_real t65 = C_i[5] * t61 - C_i[2] * t62;
-    phi_q[47] = A_ij_g_j_0 * t63 + A_ij_g_j_1 * t64 + A_ij_g_j_2 * t65;
+    const jg_real t62 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    phi_q[45] = -(cosine_1 * t62);
+    const jg_real t63 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    phi_q[46] = sine_1 * t63;
+    const jg_real t64 = cosine_1 * H_4 + sine_1 * t36;
+    const jg_real t65 = cosine_1 * t21 + sine_1 * H_6;
+    const jg_real t66 = C_i[3] * t64 - C_i[0] * t65;
+    const jg_real t67 = C_i[4] * t64 - C_i[1] * t65;
+    const jg_real t68 = C_i[5] * t64 - C_i[2] * t65;
+    phi_q[47] = A_ij_g_j_0 * t66 + A_ij_g_j_1 * t67 + A_ij_g_j_2 * t68;
     phi_q[48] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     phi_q_t_lambda_q[2] = lambda[2];
@@ -1336,346 +1310,293 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t66 = t47 * lambda[2];
-    const jg_real t67 = t48 * lambda[1];
-    const jg_real t68 = g_star_2 * lambda[3];
-    const jg_real t69 = A_ij_h_j_2 * t68;
-    const jg_real t70 = g_star_1 * lambda[3];
-    const jg_real t71 = A_ij_h_j_1 * t70;
-    const jg_real t72 = h_star_2 * lambda[4];
-    const jg_real t73 = A_ij_f_j_2 * t72;
-    const jg_real t74 = h_star_1 * lambda[4];
-    const jg_real t75 = A_ij_f_j_1 * t74;
-    const jg_real t76 = f_star_2 * lambda[5];
-    const jg_real t77 = A_ij_g_j_2 * t76;
-    const jg_real t78 = f_star_1 * lambda[5];
-    const jg_real t79 = A_ij_g_j_1 * t78;
-    phi_q_t_lambda_q[6] = -(t66 + t67 + (t77 + t79 + (t69 + t71 + (t73 + t75))));
-    const jg_real t80 = g_star_0 * lambda[3];
-    const jg_real t81 = h_star_0 * lambda[4];
-    const jg_real t82 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t80 + A_ij_f_j_1 * t81 + A_ij_g_j_1 * t82 + t48 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t80 + A_ij_f_j_2 * t81 + A_ij_g_j_2 * t82 + t47 * lambda[0];
-    const jg_real t83 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t83;
-    phi_q_t_lambda_q[39] = t83;
-    const jg_real t84 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t84;
-    phi_q_t_lambda_q[42] = t84;
-    const jg_real t85 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t85;
-    phi_q_t_lambda_q[45] = t85;
-    const jg_real t86 = t30 * lambda[3] + t39 * lambda[4];
-    const jg_real t87 = t46 * lambda[5] + t86;
-    const jg_real t88 = A_ij_0 * t87;
-    const jg_real t89 = t18 * lambda[3];
-    const jg_real t90 = H_4 * lambda[3];
-    const jg_real t91 = sine_1 * lambda[3];
-    const jg_real t92 = C_i[0] * t89 - C_i[3] * t90 - C_i[6] * t91;
-    const jg_real t93 = C_i[1] * t89 - C_i[4] * t90 - C_i[7] * t91;
-    const jg_real t94 = C_i[2] * t89 - C_i[5] * t90 - C_i[8] * t91;
-    const jg_real t95 = A_ij_0 * t92 + A_ij_1 * t93 + A_ij_2 * t94;
-    const jg_real t96 = C_j[6] * t95;
-    const jg_real t97 = C_j[7] * t95;
-    const jg_real t98 = C_j[8] * t95;
-    const jg_real t99 = t33 * lambda[4];
-    const jg_real t100 = H_6 * lambda[4];
-    const jg_real t101 = cosine_1 * lambda[4];
-    const jg_real t102 = C_i[3] * t99 - C_i[0] * t100 - C_i[6] * t101;
-    const jg_real t103 = C_i[4] * t99 - C_i[1] * t100 - C_i[7] * t101;
-    const jg_real t104 = C_i[5] * t99 - C_i[2] * t100 - C_i[8] * t101;
-    const jg_real t105 = A_ij_0 * t102 + A_ij_1 * t103 + A_ij_2 * t104;
-    const jg_real t106 = C_j[0] * t105;
-    const jg_real t107 = C_j[1] * t105;
-    const jg_real t108 = C_j[2] * t105;
-    const jg_real t109 = cosine_0 * lambda[5];
-    const jg_real t110 = sine_0 * lambda[5];
-    const jg_real t111 = C_i[0] * t109 + C_i[3] * t110;
-    const jg_real t112 = C_i[1] * t109 + C_i[4] * t110;
-    const jg_real t113 = C_i[2] * t109 + C_i[5] * t110;
-    const jg_real t114 = A_ij_0 * t111 + A_ij_1 * t112 + A_ij_2 * t113;
-    const jg_real t115 = C_j[3] * t114;
-    const jg_real t116 = C_j[4] * t114;
-    const jg_real t117 = C_j[5] * t114;
-    const jg_real t118 = s_j[1] * t85 - s_j[2] * t84;
-    phi_q_t_lambda_q[12] = A_ij_0 * t106 + A_ij_3 * t107 + A_ij_6 * t108 + (A_ij_0 * t96 + A_ij_3 * t97 + A_ij_6 *
-        t98 + t88) - (A_ij_0 * t115 + A_ij_3 * t116 + A_ij_6 * t117) + t118;
-    const jg_real t119 = A_ij_3 * t87;
-    const jg_real t120 = A_ij_3 * t92 + A_ij_4 * t93 + A_ij_5 * t94;
-    const jg_real t121 = C_j[6] * t120;
-    const jg_real t122 = C_j[7] * t120;
-    const jg_real t123 = C_j[8] * t120;
-    const jg_real t124 = A_ij_3 * t102 + A_ij_4 * t103 + A_ij_5 * t104;
-    const jg_real t125 = C_j[0] * t124;
-    const jg_real t126 = C_j[1] * t124;
-    const jg_real t127 = C_j[2] * t124;
-    const jg_real t128 = A_ij_3 * t111 + A_ij_4 * t112 + A_ij_5 * t113;
-    const jg_real t129 = C_j[3] * t128;
-    const jg_real t130 = C_j[4] * t128;
-    const jg_real t131 = C_j[5] * t128;
-    const jg_real t132 = s_j[2] * t83 - s_j[0] * t85;
-    phi_q_t_lambda_q[13] = A_ij_0 * t125 + A_ij_3 * t126 + A_ij_6 * t127 + (A_ij_0 * t121 + A_ij_3 * t122 + A_ij_6 *
-        t123 + t119) - (A_ij_0 * t129 + A_ij_3 * t130 + A_ij_6 * t131) + t132;
-    const jg_real t133 = A_ij_6 * t87;
-    const jg_real t134 = A_ij_6 * t92 + A_ij_7 * t93 + A_ij_8 * t94;
-    const jg_real t135 = C_j[6] * t134;
-    const jg_real t136 = C_j[7] * t134;
-    const jg_real t137 = C_j[8] * t134;
-    const jg_real t138 = A_ij_6 * t102 + A_ij_7 * t103 + A_ij_8 * t104;
-    const jg_real t139 = C_j[0] * t138;
-    const jg_real t140 = C_j[1] * t138;
-    const jg_real t141 = C_j[2] * t138;
-    const jg_real t142 = A_ij_6 * t111 + A_ij_7 * t112 + A_ij_8 * t113;
-    const jg_real t143 = C_j[3] * t142;
-    const jg_real t144 = C_j[4] * t142;
-    const jg_real t145 = C_j[5] * t142;
-    const jg_real t146 = s_j[0] * t84 - s_j[1] * t83;
-    phi_q_t_lambda_q[14] = A_ij_0 * t139 + A_ij_3 * t140 + A_ij_6 * t141 + (A_ij_0 * t135 + A_ij_3 * t136 + A_ij_6 *
-        t137 + t133) - (A_ij_0 * t143 + A_ij_3 * t144 + A_ij_6 * t145) + t146;
-    const jg_real t147 = cosine_1 * lambda[3];
-    const jg_real t148 = sine_1 * lambda[4];
-    const jg_real t149 = A_ij_h_j_1 * t147 - A_ij_f_j_1 * t148;
-    const jg_real t150 = A_ij_h_j_2 * t147 - A_ij_f_j_2 * t148;
-    const jg_real t151 = cosine_1 * lambda[5];
-    const jg_real t152 = sine_1 * lambda[5];
-    const jg_real t153 = t18 * t151 + H_6 * t152;
-    const jg_real t154 = H_4 * t151 + t33 * t152;
-    const jg_real t155 = cosine_1 * t152 - sine_1 * t151;
-    const jg_real t156 = C_i[2] * t153 - C_i[5] * t154 + C_i[8] * t155;
-    const jg_real t157 = C_i[1] * t153 - C_i[4] * t154 + C_i[7] * t155;
-    const jg_real t158 = f_star_2 * t149 - f_star_1 * t150 + (A_ij_g_j_1 * t156 - A_ij_g_j_2 * t157);
-    phi_q_t_lambda_q[15] = t158;
-    phi_q_t_lambda_q[78] = t158;
-    const jg_real t159 = t33 * lambda[3];
-    const jg_real t160 = H_6 * lambda[3];
-    const jg_real t161 = C_i[5] * t159 - C_i[2] * t160 - C_i[8] * t147;
-    const jg_real t162 = C_i[4] * t159 - C_i[1] * t160 - C_i[7] * t147;
-    const jg_real t163 = H_4 * lambda[4];
-    const jg_real t164 = t18 * lambda[4];
-    const jg_real t165 = C_i[5] * t163 - C_i[2] * t164 + C_i[8] * t148;
-    const jg_real t166 = C_i[4] * t163 - C_i[1] * t164 + C_i[7] * t148;
-    const jg_real t167 = A_ij_h_j_1 * t161 - A_ij_h_j_2 * t162 + (A_ij_f_j_1 * t165 - A_ij_f_j_2 * t166);
-    phi_q_t_lambda_q[16] = t167;
-    phi_q_t_lambda_q[86] = t167;
-    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t70 + A_ij_f_j_0 * t74 + A_ij_g_j_0 * t78 + t49 * lambda[1];
-    const jg_real t168 = t49 * lambda[0];
-    const jg_real t169 = A_ij_h_j_0 * t80;
-    const jg_real t170 = A_ij_f_j_0 * t81;
-    const jg_real t171 = A_ij_g_j_0 * t82;
-    phi_q_t_lambda_q[18] = -(t66 + t168 + (t77 + t171 + (t69 + t169 + (t73 + t170))));
-    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t70 + A_ij_f_j_2 * t74 + A_ij_g_j_2 * t78 + t47 * lambda[1];
-    const jg_real t172 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[20] = t172;
-    phi_q_t_lambda_q[40] = t172;
-    const jg_real t173 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[21] = t173;
-    phi_q_t_lambda_q[43] = t173;
-    const jg_real t174 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[22] = t174;
-    phi_q_t_lambda_q[46] = t174;
-    const jg_real t175 = A_ij_1 * t87;
-    const jg_real t176 = s_j[1] * t174 - s_j[2] * t173;
-    phi_q_t_lambda_q[23] = A_ij_1 * t106 + A_ij_4 * t107 + A_ij_7 * t108 + (A_ij_1 * t96 + A_ij_4 * t97 + A_ij_7 *
-        t98 + t175) - (A_ij_1 * t115 + A_ij_4 * t116 + A_ij_7 * t117) + t176;
-    const jg_real t177 = A_ij_4 * t87;
-    const jg_real t178 = s_j[2] * t172 - s_j[0] * t174;
-    phi_q_t_lambda_q[24] = A_ij_1 * t125 + A_ij_4 * t126 + A_ij_7 * t127 + (A_ij_1 * t121 + A_ij_4 * t122 + A_ij_7 *
-        t123 + t177) - (A_ij_1 * t129 + A_ij_4 * t130 + A_ij_7 * t131) + t178;
-    const jg_real t179 = A_ij_7 * t87;
-    const jg_real t180 = s_j[0] * t173 - s_j[1] * t172;
-    phi_q_t_lambda_q[25] = A_ij_1 * t139 + A_ij_4 * t140 + A_ij_7 * t141 + (A_ij_1 * t135 + A_ij_4 * t136 + A_ij_7 *
-        t137 + t179) - (A_ij_1 * t143 + A_ij_4 * t144 + A_ij_7 * t145) + t180;
-    const jg_real t181 = A_ij_h_j_0 * t147 - A_ij_f_j_0 * t148;
-    const jg_real t182 = C_i[0] * t153 - C_i[3] * t154 + C_i[6] * t155;
-    const jg_real t183 = f_star_0 * t150 - f_star_2 * t181 + (A_ij_g_j_2 * t182 - A_ij_g_j_0 * t156);
-    phi_q_t_lambda_q[26] = t183;
-    phi_q_t_lambda_q[79] = t183;
-    const jg_real t184 = C_i[3] * t159 - C_i[0] * t160 - C_i[6] * t147;
-    const jg_real t185 = C_i[3] * t163 - C_i[0] * t164 + C_i[6] * t148;
-    const jg_real t186 = A_ij_h_j_2 * t184 - A_ij_h_j_0 * t161 + (A_ij_f_j_2 * t185 - A_ij_f_j_0 * t165);
-    phi_q_t_lambda_q[27] = t186;
-    phi_q_t_lambda_q[87] = t186;
-    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t68 + A_ij_f_j_0 * t72 + A_ij_g_j_0 * t76 + t49 * lambda[2];
-    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t68 + A_ij_f_j_1 * t72 + A_ij_g_j_1 * t76 + t48 * lambda[2];
-    phi_q_t_lambda_q[30] = -(t67 + t168 + (t79 + t171 + (t71 + t169 + (t75 + t170))));
-    const jg_real t187 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[31] = t187;
-    phi_q_t_lambda_q[41] = t187;
-    const jg_real t188 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[32] = t188;
-    phi_q_t_lambda_q[44] = t188;
-    const jg_real t189 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[33] = t189;
-    phi_q_t_lambda_q[47] = t189;
-    const jg_real t190 = A_ij_2 * t87;
-    const jg_real t191 = s_j[1] * t189 - s_j[2] * t188;
-    phi_q_t_lambda_q[34] = A_ij_2 * t106 + A_ij_5 * t107 + A_ij_8 * t108 + (A_ij_2 * t96 + A_ij_5 * t97 + A_ij_8 *
-        t98 + t190) - (A_ij_2 * t115 + A_ij_5 * t116 + A_ij_8 * t117) + t191;
-    const jg_real t192 = A_ij_5 * t87;
-    const jg_real t193 = s_j[2] * t187 - s_j[0] * t189;
-    phi_q_t_lambda_q[35] = A_ij_2 * t125 + A_ij_5 * t126 + A_ij_8 * t127 + (A_ij_2 * t121 + A_ij_5 * t122 + A_ij_8 *
-        t123 + t192) - (A_ij_2 * t129 + A_ij_5 * t130 + A_ij_8 * t131) + t193;
-    const jg_real t194 = A_ij_8 * t87;
-    const jg_real t195 = s_j[0] * t188 - s_j[1] * t187;
-    phi_q_t_lambda_q[36] = A_ij_2 * t139 + A_ij_5 * t140 + A_ij_8 * t141 + (A_ij_2 * t135 + A_ij_5 * t136 + A_ij_8 *
-        t137 + t194) - (A_ij_2 * t143 + A_ij_5 * t144 + A_ij_8 * t145) + t195;
-    const jg_real t196 = f_star_1 * t181 - f_star_0 * t149 + (A_ij_g_j_0 * t157 - A_ij_g_j_1 * t182);
-    phi_q_t_lambda_q[37] = t196;
-    phi_q_t_lambda_q[80] = t196;
-    const jg_real t197 = A_ij_h_j_0 * t162 - A_ij_h_j_1 * t184 + (A_ij_f_j_0 * t166 - A_ij_f_j_1 * t185);
-    phi_q_t_lambda_q[38] = t197;
-    phi_q_t_lambda_q[88] = t197;
-    phi_q_t_lambda_q[48] = A_ij_h_j_0 * t95 + t88 + A_ij_f_j_0 * t105 - A_ij_g_j_0 * t114 + t118;
-    phi_q_t_lambda_q[49] = A_ij_h_j_1 * t95 + t175 + A_ij_f_j_1 * t105 - A_ij_g_j_1 * t114 + t176;
-    phi_q_t_lambda_q[50] = A_ij_h_j_2 * t95 + t190 + A_ij_f_j_2 * t105 - A_ij_g_j_2 * t114 + t191;
-    const jg_real t198 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[51] = t198;
-    const jg_real t199 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[71] = t199;
-    phi_q_t_lambda_q[52] = -t199;
-    const jg_real t200 = C_j[8] * lambda[3];
-    const jg_real t201 = A_ijt_g_star_2 * t200;
-    const jg_real t202 = C_j[7] * lambda[3];
-    const jg_real t203 = A_ijt_g_star_1 * t202;
-    const jg_real t204 = C_j[2] * lambda[4];
-    const jg_real t205 = A_ijt_h_star_2 * t204;
-    const jg_real t206 = C_j[1] * lambda[4];
-    const jg_real t207 = A_ijt_h_star_1 * t206;
-    const jg_real t208 = C_j[5] * lambda[5];
-    const jg_real t209 = A_ijt_f_star_2 * t208;
-    const jg_real t210 = C_j[4] * lambda[5];
-    const jg_real t211 = A_ijt_f_star_1 * t210;
-    const jg_real t212 = s_j[2] * t198;
-    const jg_real t213 = s_j[1] * t199;
-    phi_q_t_lambda_q[53] = -(t212 + t213 + (t209 + t211 + (t201 + t203 + (t205 + t207))));
-    const jg_real t214 = C_j[6] * lambda[3];
-    const jg_real t215 = C_j[0] * lambda[4];
-    const jg_real t216 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t214 + A_ijt_h_star_1 * t215 + A_ijt_f_star_1 * t216 + s_j[0] * t199;
-    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t214 + A_ijt_h_star_2 * t215 + A_ijt_f_star_2 * t216 + s_j[0] * t198;
-    const jg_real t217 = A_ij_3 * t182 + A_ij_4 * t157 + A_ij_5 * t156;
-    const jg_real t218 = A_ij_6 * t182 + A_ij_7 * t157 + A_ij_8 * t156;
-    const jg_real t219 = C_j[1] * t148 - C_j[7] * t147;
-    const jg_real t220 = C_j[2] * t148 - C_j[8] * t147;
-    const jg_real t221 = A_ijt_f_star_2 * t219 - A_ijt_f_star_1 * t220 + (C_j[5] * t217 - C_j[4] * t218);
-    phi_q_t_lambda_q[56] = t221;
-    phi_q_t_lambda_q[81] = t221;
-    const jg_real t222 = A_ij_3 * t184 + A_ij_4 * t162 + A_ij_5 * t161;
-    const jg_real t223 = A_ij_6 * t184 + A_ij_7 * t162 + A_ij_8 * t161;
-    const jg_real t224 = A_ij_3 * t185 + A_ij_4 * t166 + A_ij_5 * t165;
-    const jg_real t225 = A_ij_6 * t185 + A_ij_7 * t166 + A_ij_8 * t165;
-    const jg_real t226 = C_j[8] * t222 - C_j[7] * t223 + (C_j[2] * t224 - C_j[1] * t225);
-    phi_q_t_lambda_q[57] = t226;
-    phi_q_t_lambda_q[89] = t226;
-    phi_q_t_lambda_q[58] = A_ij_h_j_0 * t120 + t119 + A_ij_f_j_0 * t124 - A_ij_g_j_0 * t128 + t132;
-    phi_q_t_lambda_q[59] = A_ij_h_j_1 * t120 + t177 + A_ij_f_j_1 * t124 - A_ij_g_j_1 * t128 + t178;
-    phi_q_t_lambda_q[60] = A_ij_h_j_2 * t120 + t192 + A_ij_f_j_2 * t124 - A_ij_g_j_2 * t128 + t193;
-    phi_q_t_lambda_q[61] = -t198;
-    const jg_real t227 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[62] = t227;
-    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t202 + A_ijt_h_star_0 * t206 + A_ijt_f_star_0 * t210 + s_j[1] * t227;
-    const jg_real t228 = A_ijt_g_star_0 * t214;
-    const jg_real t229 = A_ijt_h_star_0 * t215;
-    const jg_real t230 = A_ijt_f_star_0 * t216;
-    const jg_real t231 = s_j[0] * t227;
-    phi_q_t_lambda_q[64] = -(t212 + t231 + (t209 + t230 + (t201 + t228 + (t205 + t229))));
-    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t202 + A_ijt_h_star_2 * t206 + A_ijt_f_star_2 * t210 + s_j[1] * t198;
-    const jg_real t232 = A_ij_0 * t182 + A_ij_1 * t157 + A_ij_2 * t156;
-    const jg_real t233 = C_j[0] * t148 - C_j[6] * t147;
-    const jg_real t234 = A_ijt_f_star_0 * t220 - A_ijt_f_star_2 * t233 + (C_j[3] * t218 - C_j[5] * t232);
-    phi_q_t_lambda_q[66] = t234;
-    phi_q_t_lambda_q[82] = t234;
-    const jg_real t235 = A_ij_0 * t184 + A_ij_1 * t162 + A_ij_2 * t161;
-    const jg_real t236 = A_ij_0 * t185 + A_ij_1 * t166 + A_ij_2 * t165;
-    const jg_real t237 = C_j[6] * t223 - C_j[8] * t235 + (C_j[0] * t225 - C_j[2] * t236);
-    phi_q_t_lambda_q[67] = t237;
-    phi_q_t_lambda_q[90] = t237;
-    phi_q_t_lambda_q[68] = A_ij_h_j_0 * t134 + t133 + A_ij_f_j_0 * t138 - A_ij_g_j_0 * t142 + t146;
-    phi_q_t_lambda_q[69] = A_ij_h_j_1 * t134 + t179 + A_ij_f_j_1 * t138 - A_ij_g_j_1 * t142 + t180;
-    phi_q_t_lambda_q[70] = A_ij_h_j_2 * t134 + t194 + A_ij_f_j_2 * t138 - A_ij_g_j_2 * t142 + t195;
-    phi_q_t_lambda_q[72] = -t227;
-    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t200 + A_ijt_h_star_0 * t204 + A_ijt_f_star_0 * t208 + s_j[2] * t227;
-    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t200 + A_ijt_h_star_1 * t204 + A_ijt_f_star_1 * t208 + s_j[2] * t199;
-    phi_q_t_lambda_q[75] = -(t213 + t231 + (t211 + t230 + (t203 + t228 + (t207 + t229))));
-    const jg_real t238 = A_ijt_f_star_1 * t233 - A_ijt_f_star_0 * t219 + (C_j[4] * t232 - C_j[3] * t217);
-    phi_q_t_lambda_q[76] = t238;
-    phi_q_t_lambda_q[83] = t238;
-    const jg_real t239 = C_j[7] * t235 - C_j[6] * t222 + (C_j[1] * t236 - C_j[0] * t224);
-    phi_q_t_lambda_q[77] = t239;
-    phi_q_t_lambda_q[91] = t239;
-    const jg_real t240 = A_ij_f_j_0 * t63 + A_ij_f_j_1 * t64 + A_ij_f_j_2 * t65;
-    const jg_real t241 = A_ij_h_j_0 * t63 + A_ij_h_j_1 * t64 + A_ij_h_j_2 * t65;
-    const jg_real t242 = cosine_1 * cosine_1;
-    const jg_real t243 = sine_1 * sine_1;
-    phi_q_t_lambda_q[84] = lambda[4] * t240 * sine_1 - lambda[3] * t241 * cosine_1 - lambda[5] * t242 * t46 -
-        lambda[5] * t243 * t46;
-    const jg_real t244 = t59 * lambda[3] * sine_1 + t60 * lambda[4] * cosine_1;
-    phi_q_t_lambda_q[85] = t244;
-    phi_q_t_lambda_q[92] = t244;
-    phi_q_t_lambda_q[93] = -t86;
+    const jg_real t69 = t50 * lambda[2];
+    const jg_real t70 = t51 * lambda[1];
+    const jg_real t71 = g_star_2 * lambda[3];
+    const jg_real t72 = A_ij_h_j_2 * t71;
+    const jg_real t73 = g_star_1 * lambda[3];
+    const jg_real t74 = A_ij_h_j_1 * t73;
+    const jg_real t75 = h_star_2 * lambda[4];
+    const jg_real t76 = A_ij_f_j_2 * t75;
+    const jg_real t77 = h_star_1 * lambda[4];
+    const jg_real t78 = A_ij_f_j_1 * t77;
+    const jg_real t79 = f_star_2 * lambda[5];
+    const jg_real t80 = A_ij_g_j_2 * t79;
+    const jg_real t81 = f_star_1 * lambda[5];
+    const jg_real t82 = A_ij_g_j_1 * t81;
+    phi_q_t_lambda_q[6] = -(t69 + t70 + (t80 + t82 + (t72 + t74 + (t76 + t78))));
+    const jg_real t83 = g_star_0 * lambda[3];
+    const jg_real t84 = h_star_0 * lambda[4];
+    const jg_real t85 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t83 + A_ij_f_j_1 * t84 + A_ij_g_j_1 * t85 + t51 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t83 + A_ij_f_j_2 * t84 + A_ij_g_j_2 * t85 + t50 * lambda[0];
+    const jg_real t86 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t86;
+    phi_q_t_lambda_q[39] = t86;
+    const jg_real t87 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t87;
+    phi_q_t_lambda_q[42] = t87;
+    const jg_real t88 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t88;
+    phi_q_t_lambda_q[45] = t88;
+    const jg_real t89 = t33 * lambda[3] + t42 * lambda[4];
+    const jg_real t90 = t49 * lambda[5] + t89;
+    const jg_real t91 = A_ij_0 * t90;
+    const jg_real t92 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t93 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t94 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t95 = s_j[1] * t88 - s_j[2] * t87;
+    phi_q_t_lambda_q[12] = t91 - A_ij_h_j_0 * t92 - A_ij_f_j_0 * t93 - A_ij_g_j_0 * t94 + t95;
+    const jg_real t96 = A_ij_3 * t90;
+    const jg_real t97 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t98 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t99 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t100 = s_j[2] * t86 - s_j[0] * t88;
+    phi_q_t_lambda_q[13] = t96 - A_ij_h_j_0 * t97 - A_ij_f_j_0 * t98 - A_ij_g_j_0 * t99 + t100;
+    const jg_real t101 = A_ij_6 * t90;
+    const jg_real t102 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t103 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t104 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t105 = s_j[0] * t87 - s_j[1] * t86;
+    phi_q_t_lambda_q[14] = t101 - A_ij_h_j_0 * t102 - A_ij_f_j_0 * t103 - A_ij_g_j_0 * t104 + t105;
+    const jg_real t106 = cosine_1 * lambda[3];
+    const jg_real t107 = sine_1 * lambda[4];
+    const jg_real t108 = C_j[6] * t106 - C_j[0] * t107;
+    const jg_real t109 = C_j[7] * t106 - C_j[1] * t107;
+    const jg_real t110 = C_j[8] * t106 - C_j[2] * t107;
+    const jg_real t111 = A_ij_1 * t108 + A_ij_4 * t109 + A_ij_7 * t110;
+    const jg_real t112 = A_ij_2 * t108 + A_ij_5 * t109 + A_ij_8 * t110;
+    const jg_real t113 = cosine_1 * lambda[5];
+    const jg_real t114 = sine_1 * lambda[5];
+    const jg_real t115 = t21 * t113 + H_6 * t114;
+    const jg_real t116 = H_4 * t113 + t36 * t114;
+    const jg_real t117 = cosine_1 * t114 - sine_1 * t113;
+    const jg_real t118 = C_i[2] * t115 - C_i[5] * t116 + C_i[8] * t117;
+    const jg_real t119 = C_i[1] * t115 - C_i[4] * t116 + C_i[7] * t117;
+    const jg_real t120 = f_star_2 * t111 - f_star_1 * t112 + (A_ij_g_j_1 * t118 - A_ij_g_j_2 * t119);
+    phi_q_t_lambda_q[15] = t120;
+    phi_q_t_lambda_q[78] = t120;
+    const jg_real t121 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+        h_star_2 - A_ij_h_j_2 * h_star_1);
+    phi_q_t_lambda_q[16] = t121;
+    phi_q_t_lambda_q[86] = t121;
+    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t73 + A_ij_f_j_0 * t77 + A_ij_g_j_0 * t81 + t52 * lambda[1];
+    const jg_real t122 = t52 * lambda[0];
+    const jg_real t123 = A_ij_h_j_0 * t83;
+    const jg_real t124 = A_ij_f_j_0 * t84;
+    const jg_real t125 = A_ij_g_j_0 * t85;
+    phi_q_t_lambda_q[18] = -(t69 + t122 + (t80 + t125 + (t72 + t123 + (t76 + t124))));
+    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t73 + A_ij_f_j_2 * t77 + A_ij_g_j_2 * t81 + t50 * lambda[1];
+    const jg_real t126 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[20] = t126;
+    phi_q_t_lambda_q[40] = t126;
+    const jg_real t127 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[21] = t127;
+    phi_q_t_lambda_q[43] = t127;
+    const jg_real t128 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[22] = t128;
+    phi_q_t_lambda_q[46] = t128;
+    const jg_real t129 = A_ij_1 * t90;
+    const jg_real t130 = s_j[1] * t128 - s_j[2] * t127;
+    phi_q_t_lambda_q[23] = t129 - A_ij_h_j_1 * t92 - A_ij_f_j_1 * t93 - A_ij_g_j_1 * t94 + t130;
+    const jg_real t131 = A_ij_4 * t90;
+    const jg_real t132 = s_j[2] * t126 - s_j[0] * t128;
+    phi_q_t_lambda_q[24] = t131 - A_ij_h_j_1 * t97 - A_ij_f_j_1 * t98 - A_ij_g_j_1 * t99 + t132;
+    const jg_real t133 = A_ij_7 * t90;
+    const jg_real t134 = s_j[0] * t127 - s_j[1] * t126;
+    phi_q_t_lambda_q[25] = t133 - A_ij_h_j_1 * t102 - A_ij_f_j_1 * t103 - A_ij_g_j_1 * t104 + t134;
+    const jg_real t135 = A_ij_0 * t108 + A_ij_3 * t109 + A_ij_6 * t110;
+    const jg_real t136 = C_i[0] * t115 - C_i[3] * t116 + C_i[6] * t117;
+    const jg_real t137 = f_star_0 * t112 - f_star_2 * t135 + (A_ij_g_j_2 * t136 - A_ij_g_j_0 * t118);
+    phi_q_t_lambda_q[26] = t137;
+    phi_q_t_lambda_q[79] = t137;
+    const jg_real t138 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+        h_star_0 - A_ij_h_j_0 * h_star_2);
+    phi_q_t_lambda_q[27] = t138;
+    phi_q_t_lambda_q[87] = t138;
+    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t71 + A_ij_f_j_0 * t75 + A_ij_g_j_0 * t79 + t52 * lambda[2];
+    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t71 + A_ij_f_j_1 * t75 + A_ij_g_j_1 * t79 + t51 * lambda[2];
+    phi_q_t_lambda_q[30] = -(t70 + t122 + (t82 + t125 + (t74 + t123 + (t78 + t124))));
+    const jg_real t139 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[31] = t139;
+    phi_q_t_lambda_q[41] = t139;
+    const jg_real t140 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[32] = t140;
+    phi_q_t_lambda_q[44] = t140;
+    const jg_real t141 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[33] = t141;
+    phi_q_t_lambda_q[47] = t141;
+    const jg_real t142 = A_ij_2 * t90;
+    const jg_real t143 = s_j[1] * t141 - s_j[2] * t140;
+    phi_q_t_lambda_q[34] = t142 - A_ij_h_j_2 * t92 - A_ij_f_j_2 * t93 - A_ij_g_j_2 * t94 + t143;
+    const jg_real t144 = A_ij_5 * t90;
+    const jg_real t145 = s_j[2] * t139 - s_j[0] * t141;
+    phi_q_t_lambda_q[35] = t144 - A_ij_h_j_2 * t97 - A_ij_f_j_2 * t98 - A_ij_g_j_2 * t99 + t145;
+    const jg_real t146 = A_ij_8 * t90;
+    const jg_real t147 = s_j[0] * t140 - s_j[1] * t139;
+    phi_q_t_lambda_q[36] = t146 - A_ij_h_j_2 * t102 - A_ij_f_j_2 * t103 - A_ij_g_j_2 * t104 + t147;
+    const jg_real t148 = f_star_1 * t135 - f_star_0 * t111 + (A_ij_g_j_0 * t119 - A_ij_g_j_1 * t136);
+    phi_q_t_lambda_q[37] = t148;
+    phi_q_t_lambda_q[80] = t148;
+    const jg_real t149 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+        h_star_1 - A_ij_h_j_1 * h_star_0);
+    phi_q_t_lambda_q[38] = t149;
+    phi_q_t_lambda_q[88] = t149;
+    const jg_real t150 = A_ij_h_j_0 * lambda[3];
+    const jg_real t151 = A_ij_f_j_0 * lambda[4];
+    const jg_real t152 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[48] = t91 - A_ijt_g_star_0 * t150 - A_ijt_h_star_0 * t151 - A_ijt_f_star_0 * t152 + t95;
+    const jg_real t153 = A_ij_h_j_1 * lambda[3];
+    const jg_real t154 = A_ij_f_j_1 * lambda[4];
+    const jg_real t155 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[49] = t129 - A_ijt_g_star_0 * t153 - A_ijt_h_star_0 * t154 - A_ijt_f_star_0 * t155 + t130;
+    const jg_real t156 = A_ij_h_j_2 * lambda[3];
+    const jg_real t157 = A_ij_f_j_2 * lambda[4];
+    const jg_real t158 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[50] = t142 - A_ijt_g_star_0 * t156 - A_ijt_h_star_0 * t157 - A_ijt_f_star_0 * t158 + t143;
+    const jg_real t159 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[51] = t159;
+    const jg_real t160 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[71] = t160;
+    phi_q_t_lambda_q[52] = -t160;
+    const jg_real t161 = C_j[8] * lambda[3];
+    const jg_real t162 = A_ijt_g_star_2 * t161;
+    const jg_real t163 = C_j[7] * lambda[3];
+    const jg_real t164 = A_ijt_g_star_1 * t163;
+    const jg_real t165 = C_j[2] * lambda[4];
+    const jg_real t166 = A_ijt_h_star_2 * t165;
+    const jg_real t167 = C_j[1] * lambda[4];
+    const jg_real t168 = A_ijt_h_star_1 * t167;
+    const jg_real t169 = C_j[5] * lambda[5];
+    const jg_real t170 = A_ijt_f_star_2 * t169;
+    const jg_real t171 = C_j[4] * lambda[5];
+    const jg_real t172 = A_ijt_f_star_1 * t171;
+    const jg_real t173 = s_j[2] * t159;
+    const jg_real t174 = s_j[1] * t160;
+    phi_q_t_lambda_q[53] = -(t173 + t174 + (t170 + t172 + (t162 + t164 + (t166 + t168))));
+    const jg_real t175 = C_j[6] * lambda[3];
+    const jg_real t176 = C_j[0] * lambda[4];
+    const jg_real t177 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t175 + A_ijt_h_star_1 * t176 + A_ijt_f_star_1 * t177 + s_j[0] * t160;
+    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t175 + A_ijt_h_star_2 * t176 + A_ijt_f_star_2 * t177 + s_j[0] * t159;
+    const jg_real t178 = A_ij_3 * t136 + A_ij_4 * t119 + A_ij_5 * t118;
+    const jg_real t179 = A_ij_6 * t136 + A_ij_7 * t119 + A_ij_8 * t118;
+    const jg_real t180 = A_ijt_f_star_1 * t110 - A_ijt_f_star_2 * t109 + (C_j[5] * t178 - C_j[4] * t179);
+    phi_q_t_lambda_q[56] = t180;
+    phi_q_t_lambda_q[81] = t180;
+    const jg_real t181 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+        A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
+    phi_q_t_lambda_q[57] = t181;
+    phi_q_t_lambda_q[89] = t181;
+    phi_q_t_lambda_q[58] = t96 - A_ijt_g_star_1 * t150 - A_ijt_h_star_1 * t151 - A_ijt_f_star_1 * t152 + t100;
+    phi_q_t_lambda_q[59] = t131 - A_ijt_g_star_1 * t153 - A_ijt_h_star_1 * t154 - A_ijt_f_star_1 * t155 + t132;
+    phi_q_t_lambda_q[60] = t144 - A_ijt_g_star_1 * t156 - A_ijt_h_star_1 * t157 - A_ijt_f_star_1 * t158 + t145;
+    phi_q_t_lambda_q[61] = -t159;
+    const jg_real t182 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[62] = t182;
+    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t163 + A_ijt_h_star_0 * t167 + A_ijt_f_star_0 * t171 + s_j[1] * t182;
+    const jg_real t183 = A_ijt_g_star_0 * t175;
+    const jg_real t184 = A_ijt_h_star_0 * t176;
+    const jg_real t185 = A_ijt_f_star_0 * t177;
+    const jg_real t186 = s_j[0] * t182;
+    phi_q_t_lambda_q[64] = -(t173 + t186 + (t170 + t185 + (t162 + t183 + (t166 + t184))));
+    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t163 + A_ijt_h_star_2 * t167 + A_ijt_f_star_2 * t171 + s_j[1] * t159;
+    const jg_real t187 = A_ij_0 * t136 + A_ij_1 * t119 + A_ij_2 * t118;
+    const jg_real t188 = A_ijt_f_star_2 * t108 - A_ijt_f_star_0 * t110 + (C_j[3] * t179 - C_j[5] * t187);
+    phi_q_t_lambda_q[66] = t188;
+    phi_q_t_lambda_q[82] = t188;
+    const jg_real t189 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+        A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
+    phi_q_t_lambda_q[67] = t189;
+    phi_q_t_lambda_q[90] = t189;
+    phi_q_t_lambda_q[68] = t101 - A_ijt_g_star_2 * t150 - A_ijt_h_star_2 * t151 - A_ijt_f_star_2 * t152 + t105;
+    phi_q_t_lambda_q[69] = t133 - A_ijt_g_star_2 * t153 - A_ijt_h_star_2 * t154 - A_ijt_f_star_2 * t155 + t134;
+    phi_q_t_lambda_q[70] = t146 - A_ijt_g_star_2 * t156 - A_ijt_h_star_2 * t157 - A_ijt_f_star_2 * t158 + t147;
+    phi_q_t_lambda_q[72] = -t182;
+    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t161 + A_ijt_h_star_0 * t165 + A_ijt_f_star_0 * t169 + s_j[2] * t182;
+    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t161 + A_ijt_h_star_1 * t165 + A_ijt_f_star_1 * t169 + s_j[2] * t160;
+    phi_q_t_lambda_q[75] = -(t174 + t186 + (t172 + t185 + (t164 + t183 + (t168 + t184))));
+    const jg_real t190 = A_ijt_f_star_0 * t109 - A_ijt_f_star_1 * t108 + (C_j[4] * t187 - C_j[3] * t178);
+    phi_q_t_lambda_q[76] = t190;
+    phi_q_t_lambda_q[83] = t190;
+    const jg_real t191 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+        A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
+    phi_q_t_lambda_q[77] = t191;
+    phi_q_t_lambda_q[91] = t191;
+    const jg_real t192 = A_ij_f_j_0 * t66 + A_ij_f_j_1 * t67 + A_ij_f_j_2 * t68;
+    const jg_real t193 = A_ij_h_j_0 * t66 + A_ij_h_j_1 * t67 + A_ij_h_j_2 * t68;
+    const jg_real t194 = cosine_1 * cosine_1;
+    const jg_real t195 = sine_1 * sine_1;
+    phi_q_t_lambda_q[84] = lambda[4] * t192 * sine_1 - lambda[3] * t193 * cosine_1 - lambda[5] * t194 * t49 -
+        lambda[5] * t195 * t49;
+    const jg_real t196 = t62 * lambda[3] * sine_1 + t63 * lambda[4] * cosine_1;
+    phi_q_t_lambda_q[85] = t196;
+    phi_q_t_lambda_q[92] = t196;
+    phi_q_t_lambda_q[93] = -t89;
     /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
     const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
     /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
     const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
         omega_i_cross_dp_ij_1;
-    const jg_real t248 = s_j[1] * JG_REAL(2.0);
-    const jg_real t249 = s_j[2] * JG_REAL(2.0);
-    const jg_real t250 = omega_j[2] * t248 - omega_j[1] * t249;
-    const jg_real t251 = s_j[0] * JG_REAL(2.0);
-    const jg_real t252 = omega_j[0] * t249 - omega_j[2] * t251;
-    const jg_real t253 = omega_j[1] * t251 - omega_j[0] * t248;
-    const jg_real t254 = A_ij_2 * t250 + A_ij_5 * t252 + A_ij_8 * t253;
-    const jg_real t255 = A_ij_1 * t250 + A_ij_4 * t252 + A_ij_7 * t253;
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
     const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
     /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
     const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
         omega_i_cross_s_i_1;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t265 = JG_REAL(2.0) * v_j[0];
-    const jg_real t266 = JG_REAL(2.0) * v_j[1];
-    const jg_real t267 = JG_REAL(2.0) * v_j[2];
-    const jg_real t268 = A_ij_1 * t265 + A_ij_4 * t266 + A_ij_7 * t267;
-    const jg_real t269 = A_ij_2 * t265 + A_ij_5 * t266 + A_ij_8 * t267;
-    const jg_real t270 = JG_REAL(2.0) * v_i[2];
-    const jg_real t271 = JG_REAL(2.0) * v_i[1];
-    gamma[0] = -(omega_i[1] * t270 - omega_i[2] * t271 + (omega_i[2] * t268 - omega_i[1] * t269 + (A_ij_0 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[1] * t254 - omega_i[2] * t255 +
-        omega_i_cross_omega_i_cross_dp_ij_0 + omega_i_cross_omega_i_cross_s_i_0))));
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    /* omega_i_cross_A_ij_v_j = tilde(omega_i) A_ij v_j */
+    const jg_real omega_i_cross_A_ij_v_j_0 = omega_i[1] * A_ij_v_j_2 - omega_i[2] * A_ij_v_j_1;
+    /* omega_i_cross_v_i = tilde(omega_i) v_i */
+    const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
     const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
         omega_i_cross_dp_ij_2;
-    const jg_real t274 = A_ij_0 * t250 + A_ij_3 * t252 + A_ij_6 * t253;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
     const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
         omega_i_cross_s_i_2;
-    const jg_real t277 = A_ij_0 * t265 + A_ij_3 * t266 + A_ij_6 * t267;
-    const jg_real t278 = JG_REAL(2.0) * v_i[0];
-    gamma[1] = -(omega_i[2] * t278 - omega_i[0] * t270 + (omega_i[0] * t269 - omega_i[2] * t277 + (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[2] * t274 - omega_i[0] * t254 +
-        omega_i_cross_omega_i_cross_dp_ij_1 + omega_i_cross_omega_i_cross_s_i_1))));
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
+    const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
     const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
         omega_i_cross_dp_ij_0;
     const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
         omega_i_cross_s_i_0;
-    gamma[2] = -(omega_i[0] * t271 - omega_i[1] * t278 + (omega_i[1] * t277 - omega_i[0] * t268 + (A_ij_2 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i[0] * t255 - omega_i[1] * t274 +
-        omega_i_cross_omega_i_cross_dp_ij_2 + omega_i_cross_omega_i_cross_s_i_2))));
+    const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
+    const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
+        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1698,11 +1619,11 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t293 = alphadot[1] * alphadot[1];
-    const jg_real t294 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t295 = alphadot[0] * alphadot[0];
-    const jg_real t296 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t297 = alphadot[1] * t296;
+    const jg_real t239 = alphadot[1] * alphadot[1];
+    const jg_real t240 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t241 = alphadot[0] * alphadot[0];
+    const jg_real t242 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t243 = alphadot[1] * t242;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1713,13 +1634,13 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t30 * t293 - (h_star_0 *
-        A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 * A_ij_omega_j_cross_h_j_2) * t294
-        + t294 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 *
-        omega_i_cross_A_ij_h_j_2) + t241 * t295 * cosine_1 - (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
-        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t296 * cosine_1 + t296 * (f_star_0 *
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t33 * t239 - (h_star_0 *
+        A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 * A_ij_omega_j_cross_h_j_2) * t240
+        + t240 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 *
+        omega_i_cross_A_ij_h_j_2) + t193 * t241 * cosine_1 - (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
+        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t242 * cosine_1 + t242 * (f_star_0 *
         A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 * A_ij_omega_j_cross_h_j_2) *
-        cosine_1 - t59 * t297 * sine_1;
+        cosine_1 - t62 * t243 * sine_1;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -1752,13 +1673,13 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t39 * t293 - t294 * (g_star_0 *
-        omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t294
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t42 * t239 - t240 * (g_star_0 *
+        omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t240
         * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 *
-        A_ij_omega_j_cross_f_j_2) - t240 * t295 * sine_1 - t296 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
-        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t296 * (f_star_0 *
+        A_ij_omega_j_cross_f_j_2) - t192 * t241 * sine_1 - t242 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
+        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t242 * (f_star_0 *
         omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) *
-        sine_1 - t60 * t297 * cosine_1;
+        sine_1 - t63 * t243 * cosine_1;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real omega_j_cross_g_j_1 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
@@ -1781,11 +1702,11 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t322 = t18 * sine_1 - cosine_1 * H_6;
-    const jg_real t323 = cosine_1 * t33 - sine_1 * H_4;
-    const jg_real t324 = t242 + t243;
-    const jg_real t325 = (A_ij_g_j_0 * (C_i[0] * t322 + C_i[3] * t323 - C_i[6] * t324) + A_ij_g_j_1 * (C_i[1] * t322
-        + C_i[4] * t323 - C_i[7] * t324) + A_ij_g_j_2 * (C_i[2] * t322 + C_i[5] * t323 - C_i[8] * t324)) *
+    const jg_real t268 = t21 * sine_1 - cosine_1 * H_6;
+    const jg_real t269 = cosine_1 * t36 - sine_1 * H_4;
+    const jg_real t270 = t194 + t195;
+    const jg_real t271 = (A_ij_g_j_0 * (C_i[0] * t268 + C_i[3] * t269 - C_i[6] * t270) + A_ij_g_j_1 * (C_i[1] * t268
+        + C_i[4] * t269 - C_i[7] * t270) + A_ij_g_j_2 * (C_i[2] * t268 + C_i[5] * t269 - C_i[8] * t270)) *
         (alphadot[1] * alphadot[0]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -1797,10 +1718,10 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t296 * (t63 * A_ij_omega_j_cross_g_j_0
-        + t64 * A_ij_omega_j_cross_g_j_1 + t65 * A_ij_omega_j_cross_g_j_2) + t296 * (t63 * omega_i_cross_A_ij_g_j_0
-        + t64 * omega_i_cross_A_ij_g_j_1 + t65 * omega_i_cross_A_ij_g_j_2) + t242 * t295 * t46 + t243 * t295 * t46 -
-        t325 + t325;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t242 * (t66 * A_ij_omega_j_cross_g_j_0
+        + t67 * A_ij_omega_j_cross_g_j_1 + t68 * A_ij_omega_j_cross_g_j_2) + t242 * (t66 * omega_i_cross_A_ij_g_j_0
+        + t67 * omega_i_cross_A_ij_g_j_1 + t68 * omega_i_cross_A_ij_g_j_2) + t194 * t241 * t49 + t195 * t241 * t49 -
+        t271 + t271;
 }
 
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

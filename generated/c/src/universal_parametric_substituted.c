@@ -34,12 +34,16 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -62,30 +66,30 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t18 = cosine_1 * sine_0;
+    const jg_real t21 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t32 = cosine_0 * sine_1;
+    const jg_real t35 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t32 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
@@ -276,107 +280,104 @@ void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = alphadot[0] * omega_j[1];
-    const jg_real t1 = alphadot[0] * omega_j[2];
-    const jg_real t2 = s_j[2] * t0 - s_j[1] * t1;
-    const jg_real t3 = alphadot[0] * omega_j[0];
-    const jg_real t4 = s_j[0] * t1 - s_j[2] * t3;
-    const jg_real t5 = s_j[1] * t3 - s_j[0] * t0;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t8 = sine_0 * (C_j[6] * t2 + C_j[7] * t4 + C_j[8] * t5) - cosine_0 * (C_j[3] * t2 + C_j[4] * t4 +
-        C_j[5] * t5);
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t4 = sine_0 * C_jt_v_j_2 - cosine_0 * C_jt_v_j_1;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real t11 = C_j[0] * t2 + C_j[1] * t4 + C_j[2] * t5;
-    const jg_real t12 = cosine_0 * t11;
-    const jg_real t13 = cosine_0 * sine_1;
-    const jg_real t14 = sine_0 * t11;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t8 = cosine_0 * C_jt_v_j_0;
+    const jg_real t9 = cosine_0 * sine_1;
+    const jg_real t10 = sine_0 * C_jt_v_j_0;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_1 * sine_0;
-    const jg_real t16 = cosine_1 * t8 - t13 * t12 - H_6 * t14;
+    const jg_real t12 = cosine_1 * t4 - t9 * t8 - H_6 * t10;
     const jg_real H_4 = cosine_1 * cosine_0;
-    const jg_real t18 = cosine_1 * sine_0;
-    const jg_real t19 = sine_1 * t8 + H_4 * t12 + t18 * t14;
-    const jg_real t20 = sine_0 * t12 - cosine_0 * t14;
-    const jg_real t21 = v_j[0] * alphadot[0];
-    const jg_real t22 = v_j[1] * alphadot[0];
-    const jg_real t23 = v_j[2] * alphadot[0];
-    const jg_real t24 = sine_0 * (C_j[6] * t21 + C_j[7] * t22 + C_j[8] * t23) - cosine_0 * (C_j[3] * t21 + C_j[4] *
-        t22 + C_j[5] * t23);
-    const jg_real t25 = C_j[0] * t21 + C_j[1] * t22 + C_j[2] * t23;
-    const jg_real t26 = cosine_0 * t25;
-    const jg_real t27 = sine_0 * t25;
-    const jg_real t28 = cosine_1 * t24 - t13 * t26 - H_6 * t27;
-    const jg_real t29 = sine_1 * t24 + H_4 * t26 + t18 * t27;
-    const jg_real t30 = sine_0 * t26 - cosine_0 * t27;
-    const jg_real t31 = C_j[6] * alphadot[1];
-    const jg_real t32 = C_j[7] * alphadot[1];
-    const jg_real t33 = C_j[8] * alphadot[1];
-    const jg_real t34 = v_j[0] * t31 + v_j[1] * t32 + v_j[2] * t33;
-    const jg_real t35 = C_j[3] * alphadot[1];
-    const jg_real t36 = C_j[4] * alphadot[1];
-    const jg_real t37 = C_j[5] * alphadot[1];
-    const jg_real t38 = v_j[0] * t35 + v_j[1] * t36 + v_j[2] * t37;
-    const jg_real t39 = t13 * t34 + H_6 * t38;
-    const jg_real t40 = H_4 * t34 + t18 * t38;
-    const jg_real t41 = cosine_0 * t38 - sine_0 * t34;
+    const jg_real t14 = cosine_1 * sine_0;
+    const jg_real t15 = sine_1 * t4 + H_4 * t8 + t14 * t10;
+    const jg_real t16 = sine_0 * t8 - cosine_0 * t10;
+    const jg_real t17 = H_6 * C_jt_v_j_1 + t9 * C_jt_v_j_2;
+    const jg_real t18 = t14 * C_jt_v_j_1 + H_4 * C_jt_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t45 = t31 * s_j_cross_omega_j_0 + t32 * s_j_cross_omega_j_1 + t33 * s_j_cross_omega_j_2;
-    const jg_real t46 = t35 * s_j_cross_omega_j_0 + t36 * s_j_cross_omega_j_1 + t37 * s_j_cross_omega_j_2;
-    const jg_real t47 = H_4 * t45 + t18 * t46;
-    const jg_real t48 = t13 * t45 + H_6 * t46;
-    const jg_real t49 = sine_0 * t45 - cosine_0 * t46;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t24 = sine_0 * C_jt_s_j_cross_omega_j_2 - cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t26 = cosine_0 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t27 = sine_0 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t28 = cosine_1 * t24 - t9 * t26 - H_6 * t27;
+    const jg_real t29 = sine_1 * t24 + H_4 * t26 + t14 * t27;
+    const jg_real t30 = sine_0 * t26 - cosine_0 * t27;
+    const jg_real t31 = H_6 * C_jt_s_j_cross_omega_j_1 + t9 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t32 = t14 * C_jt_s_j_cross_omega_j_1 + H_4 * C_jt_s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t51 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t52 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t53 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t54 = C_j[0] * t51 + C_j[1] * t52 + C_j[2] * t53;
-    const jg_real t55 = C_j[3] * t51 + C_j[4] * t52 + C_j[5] * t53;
-    const jg_real t56 = C_j[6] * t51 + C_j[7] * t52 + C_j[8] * t53;
-    const jg_real t57 = cosine_1 * t54 - t13 * t55 + H_6 * t56;
-    const jg_real t58 = sine_1 * t54 + H_4 * t55 - t18 * t56;
-    const jg_real t59 = sine_0 * t55 + cosine_0 * t56;
-    gamma[0] = -(C_i[0] * t57 + C_i[3] * t58 + C_i[6] * t59 + (C_i[3] * t47 - C_i[0] * t48 + C_i[6] * t49 + (C_i[0]
-        * t16 + C_i[3] * t19 + C_i[6] * t20 + (C_i[0] * t28 + C_i[3] * t29 + C_i[6] * t30 + (C_i[0] * t39 - C_i[3] *
-        t40 + C_i[6] * t41))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    const jg_real t40 = cosine_1 * C_jt_omega_j_cross_v_j_0 - t9 * C_jt_omega_j_cross_v_j_1 + H_6 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t41 = sine_1 * C_jt_omega_j_cross_v_j_0 + H_4 * C_jt_omega_j_cross_v_j_1 - t14 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t42 = sine_0 * C_jt_omega_j_cross_v_j_1 + cosine_0 * C_jt_omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t40 + C_i[3] * t41 + C_i[6] * t42;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16) + alphadot[1]
+        * (C_i[0] * t17 - C_i[3] * t18 - C_i[6] * t4) - alphadot[0] * (C_i[0] * t28 + C_i[3] * t29 + C_i[6] * t30) -
+        alphadot[1] * (C_i[0] * t31 - C_i[3] * t32 - C_i[6] * t24) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t57 + C_i[4] * t58 + C_i[7] * t59 + (C_i[4] * t47 - C_i[1] * t48 + C_i[7] * t49 + (C_i[1]
-        * t16 + C_i[4] * t19 + C_i[7] * t20 + (C_i[1] * t28 + C_i[4] * t29 + C_i[7] * t30 + (C_i[1] * t39 - C_i[4] *
-        t40 + C_i[7] * t41))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t40 + C_i[4] * t41 + C_i[7] * t42;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16) + alphadot[1]
+        * (C_i[1] * t17 - C_i[4] * t18 - C_i[7] * t4) - alphadot[0] * (C_i[1] * t28 + C_i[4] * t29 + C_i[7] * t30) -
+        alphadot[1] * (C_i[1] * t31 - C_i[4] * t32 - C_i[7] * t24) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t57 + C_i[5] * t58 + C_i[8] * t59 + (C_i[5] * t47 - C_i[2] * t48 + C_i[8] * t49 + (C_i[2]
-        * t16 + C_i[5] * t19 + C_i[8] * t20 + (C_i[2] * t28 + C_i[5] * t29 + C_i[8] * t30 + (C_i[2] * t39 - C_i[5] *
-        t40 + C_i[8] * t41))) + omega_i_cross_v_i_2));
-    const jg_real t62 = cosine_0 * H_4 + sine_0 * t18;
-    const jg_real t63 = cosine_0 * t13 + sine_0 * H_6;
-    gamma[3] = -(alphadot[0] * (omega_i[0] * (C_i[3] * t62 - C_i[0] * t63) + omega_i[1] * (C_i[4] * t62 - C_i[1] *
-        t63) + omega_i[2] * (C_i[5] * t62 - C_i[2] * t63)));
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t40 + C_i[5] * t41 + C_i[8] * t42;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16) + alphadot[1]
+        * (C_i[2] * t17 - C_i[5] * t18 - C_i[8] * t4) - alphadot[0] * (C_i[2] * t28 + C_i[5] * t29 + C_i[8] * t30) -
+        alphadot[1] * (C_i[2] * t31 - C_i[5] * t32 - C_i[8] * t24) + omega_i_cross_v_i_2);
+    const jg_real t48 = cosine_0 * H_4 + sine_0 * t14;
+    const jg_real t49 = cosine_0 * t9 + sine_0 * H_6;
+    gamma[3] = -(alphadot[0] * (omega_i[0] * (C_i[3] * t48 - C_i[0] * t49) + omega_i[1] * (C_i[4] * t48 - C_i[1] *
+        t49) + omega_i[2] * (C_i[5] * t48 - C_i[2] * t49)));
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real f_star_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
     const jg_real f_star_2 = C_i[2] * cosine_1 + C_i[5] * sine_1;
-    const jg_real t67 = alphadot[0] * (omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2);
+    const jg_real t53 = alphadot[0] * (omega_i[0] * f_star_0 + omega_i[1] * f_star_1 + omega_i[2] * f_star_2);
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t18 + C_i[6] * cosine_0;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t18 + C_i[7] * cosine_0;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t18 + C_i[8] * cosine_0;
-    const jg_real t71 = alphadot[0] * alphadot[1];
-    gamma[4] = cosine_0 * t67 - alphadot[1] * (omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] *
-        h_star_2) - cosine_0 * t71;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t14 + C_i[6] * cosine_0;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t14 + C_i[7] * cosine_0;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t14 + C_i[8] * cosine_0;
+    const jg_real t57 = alphadot[0] * alphadot[1];
+    gamma[4] = cosine_0 * t53 - alphadot[1] * (omega_i[0] * h_star_0 + omega_i[1] * h_star_1 + omega_i[2] *
+        h_star_2) - cosine_0 * t57;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t13 + C_i[6] * sine_0;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t13 + C_i[7] * sine_0;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t13 + C_i[8] * sine_0;
-    gamma[5] = alphadot[1] * (omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2) + sine_0 * t71
-        - sine_0 * t67;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t9 + C_i[6] * sine_0;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t9 + C_i[7] * sine_0;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t9 + C_i[8] * sine_0;
+    gamma[5] = alphadot[1] * (omega_i[0] * g_star_0 + omega_i[1] * g_star_1 + omega_i[2] * g_star_2) + sine_0 * t57
+        - sine_0 * t53;
 }
 
 void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -391,27 +392,36 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     const jg_real t9 = cosine_1 * sine_0;
-    const jg_real t10 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t12 = cosine_0 * t3 - t9 * t6 + H_6 * t10;
+    const jg_real t12 = cosine_0 * C_jt_s_j_cross_omega_j_0 - t9 * C_jt_s_j_cross_omega_j_1 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t14 = cosine_0 * sine_1;
-    const jg_real t15 = sine_0 * t3 + H_4 * t6 - t14 * t10;
-    const jg_real t16 = sine_1 * t6 + cosine_1 * t10;
+    const jg_real t15 = sine_0 * C_jt_s_j_cross_omega_j_0 + H_4 * C_jt_s_j_cross_omega_j_1 - t14 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t16 = sine_1 * C_jt_s_j_cross_omega_j_1 + cosine_1 * C_jt_s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -424,13 +434,15 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * H_C_jt_v_j_2;
     /* s_i_cross_omega_i = tilde(s_i) omega_i */
     const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16 + (A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16 + (A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - A_ij_s_j_cross_omega_j_2;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -521,12 +533,16 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -550,36 +566,36 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t18 = cosine_1 * sine_0;
+    const jg_real t21 = cosine_1 * sine_0;
     phi_q[45] = sine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t18 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
     phi_q[6] = g_star_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t18 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
     phi_q[11] = g_star_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t18 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
     phi_q[16] = g_star_2;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t32 = cosine_0 * sine_1;
+    const jg_real t35 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
     phi_q[7] = h_star_0;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
     phi_q[12] = h_star_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t32 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
     phi_q[17] = h_star_2;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
@@ -637,100 +653,99 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
     phi_q[47] = JG_REAL(1.0);
-    const jg_real t53 = sine_1 * lambda[5] - cosine_1 * lambda[4];
-    const jg_real t54 = cosine_1 * lambda[3];
-    const jg_real t55 = sine_1 * lambda[3];
-    phi_q_t_lambda_q[0] = f_star_0 * t53 + g_star_0 * t54 - h_star_0 * t55;
-    phi_q_t_lambda_q[1] = f_star_1 * t53 + g_star_1 * t54 - h_star_1 * t55;
-    phi_q_t_lambda_q[2] = f_star_2 * t53 + g_star_2 * t54 - h_star_2 * t55;
-    const jg_real t56 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t57 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t58 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t59 = H_4 * t56 - t18 * t57 + sine_1 * t58;
-    const jg_real t60 = H_6 * t57 - t32 * t56 + cosine_1 * t58;
-    const jg_real t61 = cosine_1 * t59 - sine_1 * t60;
-    const jg_real t62 = cosine_0 * t57 + sine_0 * t56;
-    const jg_real t63 = cosine_1 * t62;
-    const jg_real t64 = sine_1 * t62;
-    const jg_real t65 = C_j[0] * t61 - C_j[3] * t63 + C_j[6] * t64;
-    phi_q_t_lambda_q[3] = t65;
-    const jg_real t66 = C_j[1] * t61 - C_j[4] * t63 + C_j[7] * t64;
-    phi_q_t_lambda_q[4] = t66;
-    const jg_real t67 = C_j[2] * t61 - C_j[5] * t63 + C_j[8] * t64;
-    phi_q_t_lambda_q[5] = t67;
-    phi_q_t_lambda_q[6] = s_j[1] * t67 - s_j[2] * t66;
-    phi_q_t_lambda_q[7] = s_j[2] * t65 - s_j[0] * t67;
-    phi_q_t_lambda_q[8] = s_j[0] * t66 - s_j[1] * t65;
+    const jg_real t56 = sine_1 * lambda[5] - cosine_1 * lambda[4];
+    const jg_real t57 = cosine_1 * lambda[3];
+    const jg_real t58 = sine_1 * lambda[3];
+    phi_q_t_lambda_q[0] = f_star_0 * t56 + g_star_0 * t57 - h_star_0 * t58;
+    phi_q_t_lambda_q[1] = f_star_1 * t56 + g_star_1 * t57 - h_star_1 * t58;
+    phi_q_t_lambda_q[2] = f_star_2 * t56 + g_star_2 * t57 - h_star_2 * t58;
+    const jg_real t59 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t60 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t61 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t62 = H_4 * t59 - t21 * t60 + sine_1 * t61;
+    const jg_real t63 = H_6 * t60 - t35 * t59 + cosine_1 * t61;
+    const jg_real t64 = cosine_1 * t62 - sine_1 * t63;
+    const jg_real t65 = cosine_0 * t60 + sine_0 * t59;
+    const jg_real t66 = cosine_1 * t65;
+    const jg_real t67 = sine_1 * t65;
+    const jg_real t68 = C_j[0] * t64 - C_j[3] * t66 + C_j[6] * t67;
+    phi_q_t_lambda_q[3] = t68;
+    const jg_real t69 = C_j[1] * t64 - C_j[4] * t66 + C_j[7] * t67;
+    phi_q_t_lambda_q[4] = t69;
+    const jg_real t70 = C_j[2] * t64 - C_j[5] * t66 + C_j[8] * t67;
+    phi_q_t_lambda_q[5] = t70;
+    phi_q_t_lambda_q[6] = s_j[1] * t70 - s_j[2] * t69;
+    phi_q_t_lambda_q[7] = s_j[2] * t68 - s_j[0] * t70;
+    phi_q_t_lambda_q[8] = s_j[0] * t69 - s_j[1] * t68;
     phi_q_t_lambda_q[9] = h_star_0 * lambda[4] - g_star_0 * lambda[5];
     phi_q_t_lambda_q[10] = h_star_1 * lambda[4] - g_star_1 * lambda[5];
     phi_q_t_lambda_q[11] = h_star_2 * lambda[4] - g_star_2 * lambda[5];
-    const jg_real t68 = C_j[3] * t60 - C_j[6] * t59;
-    phi_q_t_lambda_q[12] = t68;
-    const jg_real t69 = C_j[4] * t60 - C_j[7] * t59;
-    phi_q_t_lambda_q[13] = t69;
-    const jg_real t70 = C_j[5] * t60 - C_j[8] * t59;
-    phi_q_t_lambda_q[14] = t70;
-    phi_q_t_lambda_q[15] = s_j[1] * t70 - s_j[2] * t69;
-    phi_q_t_lambda_q[16] = s_j[2] * t68 - s_j[0] * t70;
-    phi_q_t_lambda_q[17] = s_j[0] * t69 - s_j[1] * t68;
-    phi_q_t_lambda_q[18] = -t53;
-    const jg_real t71 = v_j[0] * alphadot[0];
-    const jg_real t72 = v_j[1] * alphadot[0];
-    const jg_real t73 = v_j[2] * alphadot[0];
-    const jg_real t74 = sine_1 * (C_j[6] * t71 + C_j[7] * t72 + C_j[8] * t73) - cosine_1 * (C_j[3] * t71 + C_j[4] *
-        t72 + C_j[5] * t73);
-    const jg_real t75 = C_j[0] * t71 + C_j[1] * t72 + C_j[2] * t73;
-    const jg_real t76 = cosine_1 * t75;
-    const jg_real t77 = sine_1 * t75;
-    const jg_real t78 = C_j[3] * alphadot[1];
-    const jg_real t79 = C_j[4] * alphadot[1];
-    const jg_real t80 = C_j[5] * alphadot[1];
-    const jg_real t81 = v_j[0] * t78 + v_j[1] * t79 + v_j[2] * t80;
-    const jg_real t82 = C_j[6] * alphadot[1];
-    const jg_real t83 = C_j[7] * alphadot[1];
-    const jg_real t84 = C_j[8] * alphadot[1];
-    const jg_real t85 = v_j[0] * t82 + v_j[1] * t83 + v_j[2] * t84;
-    const jg_real t86 = alphadot[0] * omega_j[1];
-    const jg_real t87 = alphadot[0] * omega_j[2];
-    const jg_real t88 = s_j[2] * t86 - s_j[1] * t87;
-    const jg_real t89 = alphadot[0] * omega_j[0];
-    const jg_real t90 = s_j[0] * t87 - s_j[2] * t89;
-    const jg_real t91 = s_j[1] * t89 - s_j[0] * t86;
-    const jg_real t92 = sine_1 * (C_j[6] * t88 + C_j[7] * t90 + C_j[8] * t91) - cosine_1 * (C_j[3] * t88 + C_j[4] *
-        t90 + C_j[5] * t91);
-    const jg_real t93 = C_j[0] * t88 + C_j[1] * t90 + C_j[2] * t91;
-    const jg_real t94 = cosine_1 * t93;
-    const jg_real t95 = sine_1 * t93;
+    const jg_real t71 = C_j[3] * t63 - C_j[6] * t62;
+    phi_q_t_lambda_q[12] = t71;
+    const jg_real t72 = C_j[4] * t63 - C_j[7] * t62;
+    phi_q_t_lambda_q[13] = t72;
+    const jg_real t73 = C_j[5] * t63 - C_j[8] * t62;
+    phi_q_t_lambda_q[14] = t73;
+    phi_q_t_lambda_q[15] = s_j[1] * t73 - s_j[2] * t72;
+    phi_q_t_lambda_q[16] = s_j[2] * t71 - s_j[0] * t73;
+    phi_q_t_lambda_q[17] = s_j[0] * t72 - s_j[1] * t71;
+    phi_q_t_lambda_q[18] = -t56;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t76 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t78 = cosine_1 * C_jt_v_j_0;
+    const jg_real t79 = sine_1 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t99 = t82 * s_j_cross_omega_j_0 + t83 * s_j_cross_omega_j_1 + t84 * s_j_cross_omega_j_2;
-    const jg_real t100 = t78 * s_j_cross_omega_j_0 + t79 * s_j_cross_omega_j_1 + t80 * s_j_cross_omega_j_2;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t85 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t87 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t88 = sine_1 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t102 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t103 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t104 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t102 + A_ij_3_ * t103 + A_ij_6_ * t104 + (g_star_0 * t99 - h_star_0 * t100 + (f_star_0 *
-        t92 + g_star_0 * t94 - h_star_0 * t95 + (f_star_0 * t74 + g_star_0 * t76 - h_star_0 * t77 + (h_star_0 * t81
-        - g_star_0 * t85))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t76 + g_star_0 * t78 - h_star_0 * t79) +
+        alphadot[1] * (h_star_0 * C_jt_v_j_1 - g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t85 + g_star_0 *
+        t87 - h_star_0 * t88) - alphadot[1] * (h_star_0 * C_jt_s_j_cross_omega_j_1 - g_star_0 *
+        C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t102 + A_ij_4_ * t103 + A_ij_7_ * t104 + (g_star_1 * t99 - h_star_1 * t100 + (f_star_1 *
-        t92 + g_star_1 * t94 - h_star_1 * t95 + (f_star_1 * t74 + g_star_1 * t76 - h_star_1 * t77 + (h_star_1 * t81
-        - g_star_1 * t85))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t76 + g_star_1 * t78 - h_star_1 * t79) +
+        alphadot[1] * (h_star_1 * C_jt_v_j_1 - g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t85 + g_star_1 *
+        t87 - h_star_1 * t88) - alphadot[1] * (h_star_1 * C_jt_s_j_cross_omega_j_1 - g_star_1 *
+        C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t102 + A_ij_5_ * t103 + A_ij_8_ * t104 + (g_star_2 * t99 - h_star_2 * t100 + (f_star_2 *
-        t92 + g_star_2 * t94 - h_star_2 * t95 + (f_star_2 * t74 + g_star_2 * t76 - h_star_2 * t77 + (h_star_2 * t81
-        - g_star_2 * t85))) + omega_i_cross_v_i_2));
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t76 + g_star_2 * t78 - h_star_2 * t79) +
+        alphadot[1] * (h_star_2 * C_jt_v_j_1 - g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t85 + g_star_2 *
+        t87 - h_star_2 * t88) - alphadot[1] * (h_star_2 * C_jt_s_j_cross_omega_j_1 - g_star_2 *
+        C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[0] * (omega_i[0] * (cosine_1 * g_star_0 - sine_1 * h_star_0) + omega_i[1] * (cosine_1 *
         g_star_1 - sine_1 * h_star_1) + omega_i[2] * (cosine_1 * g_star_2 - sine_1 * h_star_2)));
-    const jg_real t107 = alphadot[0] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
-    const jg_real t108 = alphadot[0] * alphadot[1];
-    gamma[4] = cosine_1 * t107 - alphadot[1] * (h_star_0 * omega_i[0] + h_star_1 * omega_i[1] + h_star_2 *
-        omega_i[2]) - cosine_1 * t108;
-    gamma[5] = alphadot[1] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) + sine_1 * t108
-        - sine_1 * t107;
+    const jg_real t98 = alphadot[0] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
+    const jg_real t99 = alphadot[0] * alphadot[1];
+    gamma[4] = cosine_1 * t98 - alphadot[1] * (h_star_0 * omega_i[0] + h_star_1 * omega_i[1] + h_star_2 *
+        omega_i[2]) - cosine_1 * t99;
+    gamma[5] = alphadot[1] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) + sine_1 * t99
+        - sine_1 * t98;
 }
 
 void jg_universal_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

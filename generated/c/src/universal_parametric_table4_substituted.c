@@ -34,12 +34,16 @@ void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -189,51 +193,48 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
     const jg_real t10 = (cosine_1 * t8 + sine_1 * H_6) * lambda[3];
     const jg_real t11 = t6 * lambda[4];
     const jg_real t12 = sine_1 * lambda[5];
-    const jg_real t13 = cosine_0 * t12;
-    const jg_real t14 = sine_0 * t12;
-    phi_q_t_lambda_q[0] = C_i[6] * t11 - (C_i[0] * t7 + C_i[3] * t10) + (C_i[3] * t13 - C_i[0] * t14);
-    phi_q_t_lambda_q[1] = C_i[7] * t11 - (C_i[1] * t7 + C_i[4] * t10) + (C_i[4] * t13 - C_i[1] * t14);
-    phi_q_t_lambda_q[2] = C_i[8] * t11 - (C_i[2] * t7 + C_i[5] * t10) + (C_i[5] * t13 - C_i[2] * t14);
-    const jg_real t15 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t16 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t17 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t18 = H_4 * t15 - t8 * t16 + sine_1 * t17;
-    const jg_real t19 = H_6 * t16 - t5 * t15 + cosine_1 * t17;
-    const jg_real t20 = cosine_1 * t18 - sine_1 * t19;
-    const jg_real t21 = cosine_0 * t16 + sine_0 * t15;
-    const jg_real t22 = cosine_1 * t21;
-    const jg_real t23 = sine_1 * t21;
-    const jg_real t24 = C_j[0] * t20 - C_j[3] * t22 + C_j[6] * t23;
-    phi_q_t_lambda_q[3] = t24;
-    const jg_real t25 = C_j[1] * t20 - C_j[4] * t22 + C_j[7] * t23;
-    phi_q_t_lambda_q[4] = t25;
-    const jg_real t26 = C_j[2] * t20 - C_j[5] * t22 + C_j[8] * t23;
-    phi_q_t_lambda_q[5] = t26;
-    const jg_real t27 = cosine_1 * lambda[5];
-    phi_q_t_lambda_q[19] = t27;
-    const jg_real t28 = cosine_1 * t12 - sine_1 * t27;
-    const jg_real t29 = t5 * lambda[4];
-    const jg_real t30 = H_4 * lambda[4];
-    phi_q_t_lambda_q[6] = t26 * s_j[1] - t25 * s_j[2] + (C_j[3] * t28 - (C_j[3] * t29 + C_j[6] * t30));
-    phi_q_t_lambda_q[7] = t24 * s_j[2] - t26 * s_j[0] + (C_j[4] * t28 - (C_j[4] * t29 + C_j[7] * t30));
-    phi_q_t_lambda_q[8] = t25 * s_j[0] - t24 * s_j[1] + (C_j[5] * t28 - (C_j[5] * t29 + C_j[8] * t30));
+    phi_q_t_lambda_q[0] = C_i[6] * t11 - (C_i[0] * t7 + C_i[3] * t10) - t12 * (C_i[0] * sine_0 - C_i[3] * cosine_0);
+    phi_q_t_lambda_q[1] = C_i[7] * t11 - (C_i[1] * t7 + C_i[4] * t10) - t12 * (C_i[1] * sine_0 - C_i[4] * cosine_0);
+    phi_q_t_lambda_q[2] = C_i[8] * t11 - (C_i[2] * t7 + C_i[5] * t10) - t12 * (C_i[2] * sine_0 - C_i[5] * cosine_0);
+    const jg_real t13 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t14 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t15 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t16 = H_4 * t13 - t8 * t14 + sine_1 * t15;
+    const jg_real t17 = H_6 * t14 - t5 * t13 + cosine_1 * t15;
+    const jg_real t18 = cosine_1 * t16 - sine_1 * t17;
+    const jg_real t19 = cosine_0 * t14 + sine_0 * t13;
+    const jg_real t20 = cosine_1 * t19;
+    const jg_real t21 = sine_1 * t19;
+    const jg_real t22 = C_j[0] * t18 - C_j[3] * t20 + C_j[6] * t21;
+    phi_q_t_lambda_q[3] = t22;
+    const jg_real t23 = C_j[1] * t18 - C_j[4] * t20 + C_j[7] * t21;
+    phi_q_t_lambda_q[4] = t23;
+    const jg_real t24 = C_j[2] * t18 - C_j[5] * t20 + C_j[8] * t21;
+    phi_q_t_lambda_q[5] = t24;
+    const jg_real t25 = t5 * lambda[4];
+    const jg_real t26 = H_4 * lambda[4];
+    phi_q_t_lambda_q[6] = t24 * s_j[1] - t23 * s_j[2] - (C_j[3] * t25 + C_j[6] * t26);
+    phi_q_t_lambda_q[7] = t22 * s_j[2] - t24 * s_j[0] - (C_j[4] * t25 + C_j[7] * t26);
+    phi_q_t_lambda_q[8] = t23 * s_j[0] - t22 * s_j[1] - (C_j[5] * t25 + C_j[8] * t26);
     phi_q_t_lambda_q[9] = cosine_0 * lambda[4];
-    const jg_real t31 = H_4 * lambda[5];
-    const jg_real t32 = t8 * lambda[5];
-    phi_q_t_lambda_q[10] = C_i[0] * t31 + C_i[3] * t32;
-    phi_q_t_lambda_q[11] = C_i[1] * t31 + C_i[4] * t32;
-    phi_q_t_lambda_q[12] = C_i[2] * t31 + C_i[5] * t32;
-    const jg_real t33 = C_j[3] * t19 - C_j[6] * t18;
-    phi_q_t_lambda_q[13] = t33;
-    const jg_real t34 = C_j[4] * t19 - C_j[7] * t18;
-    phi_q_t_lambda_q[14] = t34;
-    const jg_real t35 = C_j[5] * t19 - C_j[8] * t18;
-    phi_q_t_lambda_q[15] = t35;
-    const jg_real t36 = sine_1 * lambda[3] - t8 * lambda[4];
-    const jg_real t37 = H_6 * lambda[4] + cosine_1 * lambda[3];
-    phi_q_t_lambda_q[16] = t35 * s_j[1] - t34 * s_j[2] + (C_j[3] * t36 + C_j[6] * t37 - C_j[0] * t27);
-    phi_q_t_lambda_q[17] = t33 * s_j[2] - t35 * s_j[0] + (C_j[4] * t36 + C_j[7] * t37 - C_j[1] * t27);
-    phi_q_t_lambda_q[18] = t34 * s_j[0] - t33 * s_j[1] + (C_j[5] * t36 + C_j[8] * t37 - C_j[2] * t27);
+    phi_q_t_lambda_q[10] = lambda[5] * (C_i[0] * H_4 + C_i[3] * t8);
+    phi_q_t_lambda_q[11] = lambda[5] * (C_i[1] * H_4 + C_i[4] * t8);
+    phi_q_t_lambda_q[12] = lambda[5] * (C_i[2] * H_4 + C_i[5] * t8);
+    const jg_real t27 = C_j[3] * t17 - C_j[6] * t16;
+    phi_q_t_lambda_q[13] = t27;
+    const jg_real t28 = C_j[4] * t17 - C_j[7] * t16;
+    phi_q_t_lambda_q[14] = t28;
+    const jg_real t29 = C_j[5] * t17 - C_j[8] * t16;
+    phi_q_t_lambda_q[15] = t29;
+    const jg_real t30 = sine_1 * lambda[3] - t8 * lambda[4];
+    const jg_real t31 = H_6 * lambda[4] + cosine_1 * lambda[3];
+    phi_q_t_lambda_q[16] = t29 * s_j[1] - t28 * s_j[2] + (C_j[3] * t30 + C_j[6] * t31 - cosine_1 * C_j[0] *
+        lambda[5]);
+    phi_q_t_lambda_q[17] = t27 * s_j[2] - t29 * s_j[0] + (C_j[4] * t30 + C_j[7] * t31 - cosine_1 * C_j[1] *
+        lambda[5]);
+    phi_q_t_lambda_q[18] = t28 * s_j[0] - t27 * s_j[1] + (C_j[5] * t30 + C_j[8] * t31 - cosine_1 * C_j[2] *
+        lambda[5]);
+    phi_q_t_lambda_q[19] = cosine_1 * lambda[5];
 }
 
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -255,101 +256,98 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = alphadot[0] * omega_j[1];
-    const jg_real t1 = alphadot[0] * omega_j[2];
-    const jg_real t2 = s_j[2] * t0 - s_j[1] * t1;
-    const jg_real t3 = alphadot[0] * omega_j[0];
-    const jg_real t4 = s_j[0] * t1 - s_j[2] * t3;
-    const jg_real t5 = s_j[1] * t3 - s_j[0] * t0;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real t8 = sine_0 * (C_j[6] * t2 + C_j[7] * t4 + C_j[8] * t5) - cosine_0 * (C_j[3] * t2 + C_j[4] * t4 +
-        C_j[5] * t5);
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t4 = sine_0 * C_jt_v_j_2 - cosine_0 * C_jt_v_j_1;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real t11 = C_j[0] * t2 + C_j[1] * t4 + C_j[2] * t5;
-    const jg_real t12 = cosine_0 * t11;
-    const jg_real t13 = cosine_0 * sine_1;
-    const jg_real t14 = sine_0 * t11;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t8 = cosine_0 * C_jt_v_j_0;
+    const jg_real t9 = cosine_0 * sine_1;
+    const jg_real t10 = sine_0 * C_jt_v_j_0;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_1 * sine_0;
-    const jg_real t16 = cosine_1 * t8 - t13 * t12 - H_6 * t14;
+    const jg_real t12 = cosine_1 * t4 - t9 * t8 - H_6 * t10;
     const jg_real H_4 = cosine_1 * cosine_0;
-    const jg_real t18 = cosine_1 * sine_0;
-    const jg_real t19 = sine_1 * t8 + H_4 * t12 + t18 * t14;
-    const jg_real t20 = sine_0 * t12 - cosine_0 * t14;
-    const jg_real t21 = v_j[0] * alphadot[0];
-    const jg_real t22 = v_j[1] * alphadot[0];
-    const jg_real t23 = v_j[2] * alphadot[0];
-    const jg_real t24 = sine_0 * (C_j[6] * t21 + C_j[7] * t22 + C_j[8] * t23) - cosine_0 * (C_j[3] * t21 + C_j[4] *
-        t22 + C_j[5] * t23);
-    const jg_real t25 = C_j[0] * t21 + C_j[1] * t22 + C_j[2] * t23;
-    const jg_real t26 = cosine_0 * t25;
-    const jg_real t27 = sine_0 * t25;
-    const jg_real t28 = cosine_1 * t24 - t13 * t26 - H_6 * t27;
-    const jg_real t29 = sine_1 * t24 + H_4 * t26 + t18 * t27;
-    const jg_real t30 = sine_0 * t26 - cosine_0 * t27;
-    const jg_real t31 = C_j[6] * alphadot[1];
-    const jg_real t32 = C_j[7] * alphadot[1];
-    const jg_real t33 = C_j[8] * alphadot[1];
-    const jg_real t34 = v_j[0] * t31 + v_j[1] * t32 + v_j[2] * t33;
-    const jg_real t35 = C_j[3] * alphadot[1];
-    const jg_real t36 = C_j[4] * alphadot[1];
-    const jg_real t37 = C_j[5] * alphadot[1];
-    const jg_real t38 = v_j[0] * t35 + v_j[1] * t36 + v_j[2] * t37;
-    const jg_real t39 = t13 * t34 + H_6 * t38;
-    const jg_real t40 = H_4 * t34 + t18 * t38;
-    const jg_real t41 = cosine_0 * t38 - sine_0 * t34;
+    const jg_real t14 = cosine_1 * sine_0;
+    const jg_real t15 = sine_1 * t4 + H_4 * t8 + t14 * t10;
+    const jg_real t16 = sine_0 * t8 - cosine_0 * t10;
+    const jg_real t17 = H_6 * C_jt_v_j_1 + t9 * C_jt_v_j_2;
+    const jg_real t18 = t14 * C_jt_v_j_1 + H_4 * C_jt_v_j_2;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t45 = t31 * s_j_cross_omega_j_0 + t32 * s_j_cross_omega_j_1 + t33 * s_j_cross_omega_j_2;
-    const jg_real t46 = t35 * s_j_cross_omega_j_0 + t36 * s_j_cross_omega_j_1 + t37 * s_j_cross_omega_j_2;
-    const jg_real t47 = H_4 * t45 + t18 * t46;
-    const jg_real t48 = t13 * t45 + H_6 * t46;
-    const jg_real t49 = sine_0 * t45 - cosine_0 * t46;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t24 = sine_0 * C_jt_s_j_cross_omega_j_2 - cosine_0 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t26 = cosine_0 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t27 = sine_0 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t28 = cosine_1 * t24 - t9 * t26 - H_6 * t27;
+    const jg_real t29 = sine_1 * t24 + H_4 * t26 + t14 * t27;
+    const jg_real t30 = sine_0 * t26 - cosine_0 * t27;
+    const jg_real t31 = H_6 * C_jt_s_j_cross_omega_j_1 + t9 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t32 = t14 * C_jt_s_j_cross_omega_j_1 + H_4 * C_jt_s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t51 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t52 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t53 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    const jg_real t54 = C_j[0] * t51 + C_j[1] * t52 + C_j[2] * t53;
-    const jg_real t55 = C_j[3] * t51 + C_j[4] * t52 + C_j[5] * t53;
-    const jg_real t56 = C_j[6] * t51 + C_j[7] * t52 + C_j[8] * t53;
-    const jg_real t57 = cosine_1 * t54 - t13 * t55 + H_6 * t56;
-    const jg_real t58 = sine_1 * t54 + H_4 * t55 - t18 * t56;
-    const jg_real t59 = sine_0 * t55 + cosine_0 * t56;
-    gamma[0] = -(C_i[0] * t57 + C_i[3] * t58 + C_i[6] * t59 + (C_i[3] * t47 - C_i[0] * t48 + C_i[6] * t49 + (C_i[0]
-        * t16 + C_i[3] * t19 + C_i[6] * t20 + (C_i[0] * t28 + C_i[3] * t29 + C_i[6] * t30 + (C_i[0] * t39 - C_i[3] *
-        t40 + C_i[6] * t41))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* C_jt_omega_j_cross_v_j = C_j^T tilde(omega_j) v_j */
+    const jg_real C_jt_omega_j_cross_v_j_0 = C_j[0] * omega_j_cross_v_j_0 + C_j[1] * omega_j_cross_v_j_1 + C_j[2] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_1 = C_j[3] * omega_j_cross_v_j_0 + C_j[4] * omega_j_cross_v_j_1 + C_j[5] *
+        omega_j_cross_v_j_2;
+    const jg_real C_jt_omega_j_cross_v_j_2 = C_j[6] * omega_j_cross_v_j_0 + C_j[7] * omega_j_cross_v_j_1 + C_j[8] *
+        omega_j_cross_v_j_2;
+    const jg_real t40 = cosine_1 * C_jt_omega_j_cross_v_j_0 - t9 * C_jt_omega_j_cross_v_j_1 + H_6 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t41 = sine_1 * C_jt_omega_j_cross_v_j_0 + H_4 * C_jt_omega_j_cross_v_j_1 - t14 *
+        C_jt_omega_j_cross_v_j_2;
+    const jg_real t42 = sine_0 * C_jt_omega_j_cross_v_j_1 + cosine_0 * C_jt_omega_j_cross_v_j_2;
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = C_i[0] * t40 + C_i[3] * t41 + C_i[6] * t42;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16) + alphadot[1]
+        * (C_i[0] * t17 - C_i[3] * t18 - C_i[6] * t4) - alphadot[0] * (C_i[0] * t28 + C_i[3] * t29 + C_i[6] * t30) -
+        alphadot[1] * (C_i[0] * t31 - C_i[3] * t32 - C_i[6] * t24) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(C_i[1] * t57 + C_i[4] * t58 + C_i[7] * t59 + (C_i[4] * t47 - C_i[1] * t48 + C_i[7] * t49 + (C_i[1]
-        * t16 + C_i[4] * t19 + C_i[7] * t20 + (C_i[1] * t28 + C_i[4] * t29 + C_i[7] * t30 + (C_i[1] * t39 - C_i[4] *
-        t40 + C_i[7] * t41))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = C_i[1] * t40 + C_i[4] * t41 + C_i[7] * t42;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16) + alphadot[1]
+        * (C_i[1] * t17 - C_i[4] * t18 - C_i[7] * t4) - alphadot[0] * (C_i[1] * t28 + C_i[4] * t29 + C_i[7] * t30) -
+        alphadot[1] * (C_i[1] * t31 - C_i[4] * t32 - C_i[7] * t24) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(C_i[2] * t57 + C_i[5] * t58 + C_i[8] * t59 + (C_i[5] * t47 - C_i[2] * t48 + C_i[8] * t49 + (C_i[2]
-        * t16 + C_i[5] * t19 + C_i[8] * t20 + (C_i[2] * t28 + C_i[5] * t29 + C_i[8] * t30 + (C_i[2] * t39 - C_i[5] *
-        t40 + C_i[8] * t41))) + omega_i_cross_v_i_2));
-    const jg_real t62 = cosine_0 * H_4 + sine_0 * t18;
-    const jg_real t63 = cosine_0 * t13 + sine_0 * H_6;
-    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t62 + C_i[3] * t63) + omega_i[1] * (C_i[1] * t62 + C_i[4] *
-        t63) + omega_i[2] * (C_i[2] * t62 + C_i[5] * t63)) - alphadot[1] * (omega_j[0] * (sine_0 * C_j[3] + cosine_0
+    const jg_real A_ij_omega_j_cross_v_j_2 = C_i[2] * t40 + C_i[5] * t41 + C_i[8] * t42;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16) + alphadot[1]
+        * (C_i[2] * t17 - C_i[5] * t18 - C_i[8] * t4) - alphadot[0] * (C_i[2] * t28 + C_i[5] * t29 + C_i[8] * t30) -
+        alphadot[1] * (C_i[2] * t31 - C_i[5] * t32 - C_i[8] * t24) + omega_i_cross_v_i_2);
+    const jg_real t48 = cosine_0 * H_4 + sine_0 * t14;
+    const jg_real t49 = cosine_0 * t9 + sine_0 * H_6;
+    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t48 + C_i[3] * t49) + omega_i[1] * (C_i[1] * t48 + C_i[4] *
+        t49) + omega_i[2] * (C_i[2] * t48 + C_i[5] * t49)) - alphadot[1] * (omega_j[0] * (sine_0 * C_j[3] + cosine_0
         * C_j[6]) + omega_j[1] * (sine_0 * C_j[4] + cosine_0 * C_j[7]) + omega_j[2] * (sine_0 * C_j[5] + cosine_0 *
         C_j[8]));
-    gamma[4] = alphadot[0] * (omega_j[0] * (t18 * C_j[3] + H_4 * C_j[6]) + omega_j[1] * (t18 * C_j[4] + H_4 *
-        C_j[7]) + omega_j[2] * (t18 * C_j[5] + H_4 * C_j[8])) - alphadot[0] * (C_i[6] * t62 * omega_i[0] + C_i[7] *
-        t62 * omega_i[1] + C_i[8] * t62 * omega_i[2]) - alphadot[1] * (omega_j[0] * (H_6 * C_j[6] - t13 * C_j[3]) +
-        omega_j[1] * (H_6 * C_j[7] - t13 * C_j[4]) + omega_j[2] * (H_6 * C_j[8] - t13 * C_j[5])) - alphadot[0] *
+    gamma[4] = alphadot[0] * (omega_j[0] * (t14 * C_j[3] + H_4 * C_j[6]) + omega_j[1] * (t14 * C_j[4] + H_4 *
+        C_j[7]) + omega_j[2] * (t14 * C_j[5] + H_4 * C_j[8])) - alphadot[0] * (C_i[6] * t48 * omega_i[0] + C_i[7] *
+        t48 * omega_i[1] + C_i[8] * t48 * omega_i[2]) - alphadot[1] * (omega_j[0] * (H_6 * C_j[6] - t9 * C_j[3]) +
+        omega_j[1] * (H_6 * C_j[7] - t9 * C_j[4]) + omega_j[2] * (H_6 * C_j[8] - t9 * C_j[5])) - alphadot[0] *
         alphadot[0] * cosine_1;
     gamma[5] = alphadot[1] * (cosine_0 * C_j[0] * omega_j[0] + cosine_0 * C_j[1] * omega_j[1] + cosine_0 * C_j[2] *
-        omega_j[2]) - alphadot[1] * (omega_i[0] * (C_i[0] * H_4 + C_i[3] * t13) + omega_i[1] * (C_i[1] * H_4 +
-        C_i[4] * t13) + omega_i[2] * (C_i[2] * H_4 + C_i[5] * t13)) - alphadot[1] * alphadot[1] * cosine_0 +
-        alphadot[0] * (omega_i[0] * (C_i[0] * sine_1 - C_i[3] * cosine_1) + omega_i[1] * (C_i[1] * sine_1 - C_i[4] *
-        cosine_1) + omega_i[2] * (C_i[2] * sine_1 - C_i[5] * cosine_1)) * sine_0;
+        omega_j[2]) - alphadot[1] * (omega_i[0] * (C_i[0] * H_4 + C_i[3] * t9) + omega_i[1] * (C_i[1] * H_4 + C_i[4]
+        * t9) + omega_i[2] * (C_i[2] * H_4 + C_i[5] * t9)) - alphadot[1] * alphadot[1] * cosine_0 + alphadot[0] *
+        (omega_i[0] * (C_i[0] * sine_1 - C_i[3] * cosine_1) + omega_i[1] * (C_i[1] * sine_1 - C_i[4] * cosine_1) +
+        omega_i[2] * (C_i[2] * sine_1 - C_i[5] * cosine_1)) * sine_0;
 }
 
 void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -364,27 +362,36 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t3 = C_j[0] * t0 + C_j[1] * t1 + C_j[2] * t2;
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = C_j[3] * t0 + C_j[4] * t1 + C_j[5] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     const jg_real t9 = cosine_1 * sine_0;
-    const jg_real t10 = C_j[6] * t0 + C_j[7] * t1 + C_j[8] * t2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t12 = cosine_0 * t3 - t9 * t6 + H_6 * t10;
+    const jg_real t12 = cosine_0 * C_jt_s_j_cross_omega_j_0 - t9 * C_jt_s_j_cross_omega_j_1 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
     const jg_real H_4 = cosine_0 * cosine_1;
     const jg_real t14 = cosine_0 * sine_1;
-    const jg_real t15 = sine_0 * t3 + H_4 * t6 - t14 * t10;
-    const jg_real t16 = sine_1 * t6 + cosine_1 * t10;
+    const jg_real t15 = sine_0 * C_jt_s_j_cross_omega_j_0 + H_4 * C_jt_s_j_cross_omega_j_1 - t14 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t16 = sine_1 * C_jt_s_j_cross_omega_j_1 + cosine_1 * C_jt_s_j_cross_omega_j_2;
+    /* A_ij_s_j_cross_omega_j = A_ij tilde(s_j) omega_j */
+    const jg_real A_ij_s_j_cross_omega_j_0 = C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -397,13 +404,15 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
     const jg_real A_ij_v_j_0 = C_i[0] * H_C_jt_v_j_0 + C_i[3] * H_C_jt_v_j_1 + C_i[6] * H_C_jt_v_j_2;
     /* s_i_cross_omega_i = tilde(s_i) omega_i */
     const jg_real s_i_cross_omega_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    phi_q_v[0] = C_i[0] * t12 + C_i[3] * t15 + C_i[6] * t16 + (A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0);
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] + s_i_cross_omega_i_0 - A_ij_s_j_cross_omega_j_0;
+    const jg_real A_ij_s_j_cross_omega_j_1 = C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16;
     const jg_real A_ij_v_j_1 = C_i[1] * H_C_jt_v_j_0 + C_i[4] * H_C_jt_v_j_1 + C_i[7] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    phi_q_v[1] = C_i[1] * t12 + C_i[4] * t15 + C_i[7] * t16 + (A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1);
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] + s_i_cross_omega_i_1 - A_ij_s_j_cross_omega_j_1;
+    const jg_real A_ij_s_j_cross_omega_j_2 = C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16;
     const jg_real A_ij_v_j_2 = C_i[2] * H_C_jt_v_j_0 + C_i[5] * H_C_jt_v_j_1 + C_i[8] * H_C_jt_v_j_2;
     const jg_real s_i_cross_omega_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    phi_q_v[2] = C_i[2] * t12 + C_i[5] * t15 + C_i[8] * t16 + (A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2);
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] + s_i_cross_omega_i_2 - A_ij_s_j_cross_omega_j_2;
     phi_q_v[3] = omega_j[0] * (sine_1 * C_j[6] - cosine_1 * C_j[3]) + omega_j[1] * (sine_1 * C_j[7] - cosine_1 *
         C_j[4]) + omega_j[2] * (sine_1 * C_j[8] - cosine_1 * C_j[5]) - (omega_i[0] * (C_i[0] * sine_0 - C_i[3] *
         cosine_0) + omega_i[1] * (C_i[1] * sine_0 - C_i[4] * cosine_0) + omega_i[2] * (C_i[2] * sine_0 - C_i[5] *
@@ -437,38 +446,35 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     const jg_real t7 = cosine_0 * sine_1;
-    const jg_real t8 = t7 * lambda[5];
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t10 = H_6 * lambda[5];
-    phi_q_t_lambda[3] = C_i[0] * t8 + C_i[3] * t10 + (lambda[1] * s_i[2] - lambda[2] * s_i[1] + (C_i[3] * t2 -
-        C_i[0] * t3 + C_i[6] * t4));
-    phi_q_t_lambda[4] = C_i[1] * t8 + C_i[4] * t10 + (lambda[2] * s_i[0] - lambda[0] * s_i[2] + (C_i[4] * t2 -
-        C_i[1] * t3 + C_i[7] * t4));
-    phi_q_t_lambda[5] = C_i[2] * t8 + C_i[5] * t10 + (lambda[0] * s_i[1] - lambda[1] * s_i[0] + (C_i[5] * t2 -
-        C_i[2] * t3 + C_i[8] * t4));
-    const jg_real t11 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
-    const jg_real t12 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
-    const jg_real t13 = cosine_0 * t11 + sine_0 * t12;
+    phi_q_t_lambda[3] = lambda[1] * s_i[2] - lambda[2] * s_i[1] + (C_i[3] * t2 - C_i[0] * t3 + C_i[6] * t4) +
+        lambda[5] * (C_i[0] * t7 + C_i[3] * H_6);
+    phi_q_t_lambda[4] = lambda[2] * s_i[0] - lambda[0] * s_i[2] + (C_i[4] * t2 - C_i[1] * t3 + C_i[7] * t4) +
+        lambda[5] * (C_i[1] * t7 + C_i[4] * H_6);
+    phi_q_t_lambda[5] = lambda[0] * s_i[1] - lambda[1] * s_i[0] + (C_i[5] * t2 - C_i[2] * t3 + C_i[8] * t4) +
+        lambda[5] * (C_i[2] * t7 + C_i[5] * H_6);
+    const jg_real t9 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
+    const jg_real t10 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
+    const jg_real t11 = cosine_0 * t9 + sine_0 * t10;
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t15 = cosine_1 * sine_0;
-    const jg_real t16 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
-    const jg_real t17 = H_4 * t12 - t15 * t11 + sine_1 * t16;
-    const jg_real t18 = H_6 * t11 - t7 * t12 + cosine_1 * t16;
-    const jg_real t19 = C_j[0] * t13 + C_j[3] * t17 + C_j[6] * t18;
-    phi_q_t_lambda[6] = t19;
-    const jg_real t20 = C_j[1] * t13 + C_j[4] * t17 + C_j[7] * t18;
-    phi_q_t_lambda[7] = t20;
-    const jg_real t21 = C_j[2] * t13 + C_j[5] * t17 + C_j[8] * t18;
-    phi_q_t_lambda[8] = t21;
-    const jg_real t22 = sine_1 * lambda[3] - t15 * lambda[4];
-    const jg_real t23 = H_6 * lambda[4] + cosine_1 * lambda[3];
-    const jg_real t24 = sine_1 * lambda[5];
-    phi_q_t_lambda[13] = t24;
-    phi_q_t_lambda[9] = t21 * s_j[1] - t20 * s_j[2] + (C_j[6] * t22 - C_j[3] * t23 - C_j[0] * t24);
-    phi_q_t_lambda[10] = t19 * s_j[2] - t21 * s_j[0] + (C_j[7] * t22 - C_j[4] * t23 - C_j[1] * t24);
-    phi_q_t_lambda[11] = t20 * s_j[0] - t19 * s_j[1] + (C_j[8] * t22 - C_j[5] * t23 - C_j[2] * t24);
+    const jg_real t13 = cosine_1 * sine_0;
+    const jg_real t14 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
+    const jg_real t15 = H_4 * t10 - t13 * t9 + sine_1 * t14;
+    const jg_real t16 = H_6 * t9 - t7 * t10 + cosine_1 * t14;
+    const jg_real t17 = C_j[0] * t11 + C_j[3] * t15 + C_j[6] * t16;
+    phi_q_t_lambda[6] = t17;
+    const jg_real t18 = C_j[1] * t11 + C_j[4] * t15 + C_j[7] * t16;
+    phi_q_t_lambda[7] = t18;
+    const jg_real t19 = C_j[2] * t11 + C_j[5] * t15 + C_j[8] * t16;
+    phi_q_t_lambda[8] = t19;
+    const jg_real t20 = sine_1 * lambda[3] - t13 * lambda[4];
+    const jg_real t21 = H_6 * lambda[4] + cosine_1 * lambda[3];
+    phi_q_t_lambda[9] = t19 * s_j[1] - t18 * s_j[2] + (C_j[6] * t20 - C_j[3] * t21 - sine_1 * C_j[0] * lambda[5]);
+    phi_q_t_lambda[10] = t17 * s_j[2] - t19 * s_j[0] + (C_j[7] * t20 - C_j[4] * t21 - sine_1 * C_j[1] * lambda[5]);
+    phi_q_t_lambda[11] = t18 * s_j[0] - t17 * s_j[1] + (C_j[8] * t20 - C_j[5] * t21 - sine_1 * C_j[2] * lambda[5]);
+    phi_q_t_lambda[13] = sine_1 * lambda[5];
 }
 
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -491,12 +497,16 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - (A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2]);
+    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - (A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2]);
+    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - (A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2]);
+    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -536,41 +546,41 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i[1];
     phi_q[45] = sine_0;
-    const jg_real t28 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    phi_q[5] = t28;
+    const jg_real t31 = C_i[0] * sine_0 - C_i[3] * cosine_0;
+    phi_q[5] = -t31;
     phi_q[6] = C_i[6] * sine_0;
     phi_q[46] = sine_1;
-    const jg_real t29 = cosine_0 * sine_1;
+    const jg_real t32 = cosine_0 * sine_1;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_0 * sine_1;
-    phi_q[7] = C_i[0] * t29 + C_i[3] * H_6;
+    phi_q[7] = C_i[0] * t32 + C_i[3] * H_6;
     phi_q[8] = -s_i[2];
-    const jg_real t31 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    phi_q[10] = t31;
+    const jg_real t34 = C_i[1] * sine_0 - C_i[4] * cosine_0;
+    phi_q[10] = -t34;
     phi_q[11] = C_i[7] * sine_0;
-    phi_q[12] = C_i[1] * t29 + C_i[4] * H_6;
+    phi_q[12] = C_i[1] * t32 + C_i[4] * H_6;
     phi_q[14] = -s_i[0];
-    const jg_real t32 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    phi_q[15] = t32;
+    const jg_real t35 = C_i[2] * sine_0 - C_i[5] * cosine_0;
+    phi_q[15] = -t35;
     phi_q[16] = C_i[8] * sine_0;
-    phi_q[17] = C_i[2] * t29 + C_i[5] * H_6;
+    phi_q[17] = C_i[2] * t32 + C_i[5] * H_6;
     /* C_i_H = C_i H */
     const jg_real C_i_H_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t35 = cosine_1 * sine_0;
-    const jg_real C_i_H_3 = C_i[3] * H_4 - C_i[0] * t35 + C_i[6] * sine_1;
-    const jg_real C_i_H_6 = C_i[0] * H_6 - C_i[3] * t29 + C_i[6] * cosine_1;
+    const jg_real t38 = cosine_1 * sine_0;
+    const jg_real C_i_H_3 = C_i[3] * H_4 - C_i[0] * t38 + C_i[6] * sine_1;
+    const jg_real C_i_H_6 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
     const jg_real A_ij_0_ = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_j[6] * C_i_H_6;
     phi_q[18] = A_ij_0_;
     const jg_real C_i_H_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real C_i_H_4 = C_i[4] * H_4 - C_i[1] * t35 + C_i[7] * sine_1;
-    const jg_real C_i_H_7 = C_i[1] * H_6 - C_i[4] * t29 + C_i[7] * cosine_1;
+    const jg_real C_i_H_4 = C_i[4] * H_4 - C_i[1] * t38 + C_i[7] * sine_1;
+    const jg_real C_i_H_7 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
     const jg_real A_ij_1_ = C_j[0] * C_i_H_1 + C_j[3] * C_i_H_4 + C_j[6] * C_i_H_7;
     phi_q[19] = A_ij_1_;
     const jg_real C_i_H_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real C_i_H_5 = C_i[5] * H_4 - C_i[2] * t35 + C_i[8] * sine_1;
-    const jg_real C_i_H_8 = C_i[2] * H_6 - C_i[5] * t29 + C_i[8] * cosine_1;
+    const jg_real C_i_H_5 = C_i[5] * H_4 - C_i[2] * t38 + C_i[8] * sine_1;
+    const jg_real C_i_H_8 = C_i[2] * H_6 - C_i[5] * t32 + C_i[8] * cosine_1;
     const jg_real A_ij_2_ = C_j[0] * C_i_H_2 + C_j[3] * C_i_H_5 + C_j[6] * C_i_H_8;
     phi_q[20] = A_ij_2_;
     const jg_real A_ij_3_ = C_j[1] * C_i_H_0 + C_j[4] * C_i_H_3 + C_j[7] * C_i_H_6;
@@ -589,133 +599,131 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
     phi_q[30] = C_j[6] * sine_1 - C_j[3] * cosine_1;
-    phi_q[31] = -(C_j[6] * t35 + C_j[3] * H_6);
+    phi_q[31] = -(C_j[6] * t38 + C_j[3] * H_6);
     phi_q[32] = -(C_j[0] * sine_1);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
     phi_q[36] = C_j[7] * sine_1 - C_j[4] * cosine_1;
-    phi_q[37] = -(C_j[7] * t35 + C_j[4] * H_6);
+    phi_q[37] = -(C_j[7] * t38 + C_j[4] * H_6);
     phi_q[38] = -(C_j[1] * sine_1);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
     phi_q[42] = C_j[8] * sine_1 - C_j[5] * cosine_1;
-    phi_q[43] = -(C_j[8] * t35 + C_j[5] * H_6);
+    phi_q[43] = -(C_j[8] * t38 + C_j[5] * H_6);
     phi_q[44] = -(C_j[2] * sine_1);
-    const jg_real t53 = cosine_1 * H_4 + sine_1 * t29;
-    const jg_real t54 = t53 * lambda[3];
-    const jg_real t55 = cosine_1 * t35 + sine_1 * H_6;
-    const jg_real t56 = t55 * lambda[3];
-    const jg_real t57 = t53 * lambda[4];
-    const jg_real t58 = sine_1 * lambda[5];
-    const jg_real t59 = cosine_0 * t58;
-    const jg_real t60 = sine_0 * t58;
-    phi_q_t_lambda_q[0] = C_i[6] * t57 - (C_i[0] * t54 + C_i[3] * t56) + (C_i[3] * t59 - C_i[0] * t60);
-    phi_q_t_lambda_q[1] = C_i[7] * t57 - (C_i[1] * t54 + C_i[4] * t56) + (C_i[4] * t59 - C_i[1] * t60);
-    phi_q_t_lambda_q[2] = C_i[8] * t57 - (C_i[2] * t54 + C_i[5] * t56) + (C_i[5] * t59 - C_i[2] * t60);
-    const jg_real t61 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t62 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t63 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t64 = H_4 * t61 - t35 * t62 + sine_1 * t63;
-    const jg_real t65 = H_6 * t62 - t29 * t61 + cosine_1 * t63;
-    const jg_real t66 = cosine_1 * t64 - sine_1 * t65;
-    const jg_real t67 = cosine_0 * t62 + sine_0 * t61;
-    const jg_real t68 = cosine_1 * t67;
-    const jg_real t69 = sine_1 * t67;
-    const jg_real t70 = C_j[0] * t66 - C_j[3] * t68 + C_j[6] * t69;
-    phi_q_t_lambda_q[3] = t70;
-    const jg_real t71 = C_j[1] * t66 - C_j[4] * t68 + C_j[7] * t69;
-    phi_q_t_lambda_q[4] = t71;
-    const jg_real t72 = C_j[2] * t66 - C_j[5] * t68 + C_j[8] * t69;
-    phi_q_t_lambda_q[5] = t72;
-    const jg_real t73 = cosine_1 * lambda[5];
-    phi_q_t_lambda_q[19] = t73;
-    const jg_real t74 = cosine_1 * t58 - sine_1 * t73;
-    const jg_real t75 = t29 * lambda[4];
-    const jg_real t76 = H_4 * lambda[4];
-    phi_q_t_lambda_q[6] = s_j[1] * t72 - s_j[2] * t71 + (C_j[3] * t74 - (C_j[3] * t75 + C_j[6] * t76));
-    phi_q_t_lambda_q[7] = s_j[2] * t70 - s_j[0] * t72 + (C_j[4] * t74 - (C_j[4] * t75 + C_j[7] * t76));
-    phi_q_t_lambda_q[8] = s_j[0] * t71 - s_j[1] * t70 + (C_j[5] * t74 - (C_j[5] * t75 + C_j[8] * t76));
+    const jg_real t56 = cosine_1 * H_4 + sine_1 * t32;
+    const jg_real t57 = t56 * lambda[3];
+    const jg_real t58 = cosine_1 * t38 + sine_1 * H_6;
+    const jg_real t59 = t58 * lambda[3];
+    const jg_real t60 = t56 * lambda[4];
+    const jg_real t61 = sine_1 * lambda[5];
+    phi_q_t_lambda_q[0] = C_i[6] * t60 - (C_i[0] * t57 + C_i[3] * t59) - t31 * t61;
+    phi_q_t_lambda_q[1] = C_i[7] * t60 - (C_i[1] * t57 + C_i[4] * t59) - t34 * t61;
+    phi_q_t_lambda_q[2] = C_i[8] * t60 - (C_i[2] * t57 + C_i[5] * t59) - t35 * t61;
+    const jg_real t62 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t63 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t64 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t65 = H_4 * t62 - t38 * t63 + sine_1 * t64;
+    const jg_real t66 = H_6 * t63 - t32 * t62 + cosine_1 * t64;
+    const jg_real t67 = cosine_1 * t65 - sine_1 * t66;
+    const jg_real t68 = cosine_0 * t63 + sine_0 * t62;
+    const jg_real t69 = cosine_1 * t68;
+    const jg_real t70 = sine_1 * t68;
+    const jg_real t71 = C_j[0] * t67 - C_j[3] * t69 + C_j[6] * t70;
+    phi_q_t_lambda_q[3] = t71;
+    const jg_real t72 = C_j[1] * t67 - C_j[4] * t69 + C_j[7] * t70;
+    phi_q_t_lambda_q[4] = t72;
+    const jg_real t73 = C_j[2] * t67 - C_j[5] * t69 + C_j[8] * t70;
+    phi_q_t_lambda_q[5] = t73;
+    const jg_real t74 = t32 * lambda[4];
+    const jg_real t75 = H_4 * lambda[4];
+    phi_q_t_lambda_q[6] = s_j[1] * t73 - s_j[2] * t72 - (C_j[3] * t74 + C_j[6] * t75);
+    phi_q_t_lambda_q[7] = s_j[2] * t71 - s_j[0] * t73 - (C_j[4] * t74 + C_j[7] * t75);
+    phi_q_t_lambda_q[8] = s_j[0] * t72 - s_j[1] * t71 - (C_j[5] * t74 + C_j[8] * t75);
     phi_q_t_lambda_q[9] = cosine_0 * lambda[4];
-    const jg_real t77 = H_4 * lambda[5];
-    const jg_real t78 = t35 * lambda[5];
-    phi_q_t_lambda_q[10] = C_i[0] * t77 + C_i[3] * t78;
-    phi_q_t_lambda_q[11] = C_i[1] * t77 + C_i[4] * t78;
-    phi_q_t_lambda_q[12] = C_i[2] * t77 + C_i[5] * t78;
-    const jg_real t79 = C_j[3] * t65 - C_j[6] * t64;
+    const jg_real t76 = C_i[0] * H_4 + C_i[3] * t38;
+    phi_q_t_lambda_q[10] = lambda[5] * t76;
+    const jg_real t77 = C_i[1] * H_4 + C_i[4] * t38;
+    phi_q_t_lambda_q[11] = lambda[5] * t77;
+    const jg_real t78 = C_i[2] * H_4 + C_i[5] * t38;
+    phi_q_t_lambda_q[12] = lambda[5] * t78;
+    const jg_real t79 = C_j[3] * t66 - C_j[6] * t65;
     phi_q_t_lambda_q[13] = t79;
-    const jg_real t80 = C_j[4] * t65 - C_j[7] * t64;
+    const jg_real t80 = C_j[4] * t66 - C_j[7] * t65;
     phi_q_t_lambda_q[14] = t80;
-    const jg_real t81 = C_j[5] * t65 - C_j[8] * t64;
+    const jg_real t81 = C_j[5] * t66 - C_j[8] * t65;
     phi_q_t_lambda_q[15] = t81;
-    const jg_real t82 = sine_1 * lambda[3] - t35 * lambda[4];
+    const jg_real t82 = sine_1 * lambda[3] - t38 * lambda[4];
     const jg_real t83 = H_6 * lambda[4] + cosine_1 * lambda[3];
-    phi_q_t_lambda_q[16] = s_j[1] * t81 - s_j[2] * t80 + (C_j[3] * t82 + C_j[6] * t83 - C_j[0] * t73);
-    phi_q_t_lambda_q[17] = s_j[2] * t79 - s_j[0] * t81 + (C_j[4] * t82 + C_j[7] * t83 - C_j[1] * t73);
-    phi_q_t_lambda_q[18] = s_j[0] * t80 - s_j[1] * t79 + (C_j[5] * t82 + C_j[8] * t83 - C_j[2] * t73);
-    const jg_real t84 = v_j[0] * alphadot[0];
-    const jg_real t85 = v_j[1] * alphadot[0];
-    const jg_real t86 = v_j[2] * alphadot[0];
-    const jg_real t87 = sine_1 * (C_j[6] * t84 + C_j[7] * t85 + C_j[8] * t86) - cosine_1 * (C_j[3] * t84 + C_j[4] *
-        t85 + C_j[5] * t86);
-    const jg_real t88 = C_j[0] * t84 + C_j[1] * t85 + C_j[2] * t86;
-    const jg_real t89 = cosine_1 * t88;
-    const jg_real t90 = sine_1 * t88;
-    const jg_real t91 = C_j[3] * alphadot[1];
-    const jg_real t92 = C_j[4] * alphadot[1];
-    const jg_real t93 = C_j[5] * alphadot[1];
-    const jg_real t94 = v_j[0] * t91 + v_j[1] * t92 + v_j[2] * t93;
-    const jg_real t95 = C_j[6] * alphadot[1];
-    const jg_real t96 = C_j[7] * alphadot[1];
-    const jg_real t97 = C_j[8] * alphadot[1];
-    const jg_real t98 = v_j[0] * t95 + v_j[1] * t96 + v_j[2] * t97;
-    const jg_real t99 = alphadot[0] * omega_j[1];
-    const jg_real t100 = alphadot[0] * omega_j[2];
-    const jg_real t101 = s_j[2] * t99 - s_j[1] * t100;
-    const jg_real t102 = alphadot[0] * omega_j[0];
-    const jg_real t103 = s_j[0] * t100 - s_j[2] * t102;
-    const jg_real t104 = s_j[1] * t102 - s_j[0] * t99;
-    const jg_real t105 = sine_1 * (C_j[6] * t101 + C_j[7] * t103 + C_j[8] * t104) - cosine_1 * (C_j[3] * t101 +
-        C_j[4] * t103 + C_j[5] * t104);
-    const jg_real t106 = C_j[0] * t101 + C_j[1] * t103 + C_j[2] * t104;
-    const jg_real t107 = cosine_1 * t106;
-    const jg_real t108 = sine_1 * t106;
+    const jg_real t84 = C_j[0] * cosine_1;
+    phi_q_t_lambda_q[16] = s_j[1] * t81 - s_j[2] * t80 + (C_j[3] * t82 + C_j[6] * t83 - lambda[5] * t84);
+    const jg_real t85 = C_j[1] * cosine_1;
+    phi_q_t_lambda_q[17] = s_j[2] * t79 - s_j[0] * t81 + (C_j[4] * t82 + C_j[7] * t83 - lambda[5] * t85);
+    const jg_real t86 = C_j[2] * cosine_1;
+    phi_q_t_lambda_q[18] = s_j[0] * t80 - s_j[1] * t79 + (C_j[5] * t82 + C_j[8] * t83 - lambda[5] * t86);
+    phi_q_t_lambda_q[19] = cosine_1 * lambda[5];
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t89 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
+    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t91 = cosine_1 * C_jt_v_j_0;
+    const jg_real t92 = sine_1 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t112 = t95 * s_j_cross_omega_j_0 + t96 * s_j_cross_omega_j_1 + t97 * s_j_cross_omega_j_2;
-    const jg_real t113 = t91 * s_j_cross_omega_j_0 + t92 * s_j_cross_omega_j_1 + t93 * s_j_cross_omega_j_2;
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real t98 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real t100 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t101 = sine_1 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real t115 = v_j[1] * omega_j[2] - v_j[2] * omega_j[1];
-    const jg_real t116 = v_j[2] * omega_j[0] - v_j[0] * omega_j[2];
-    const jg_real t117 = v_j[0] * omega_j[1] - v_j[1] * omega_j[0];
-    gamma[0] = -(A_ij_0_ * t115 + A_ij_3_ * t116 + A_ij_6_ * t117 + (C_i_H_3 * t112 - C_i_H_6 * t113 + (C_i_H_0 *
-        t105 + C_i_H_3 * t107 - C_i_H_6 * t108 + (C_i_H_0 * t87 + C_i_H_3 * t89 - C_i_H_6 * t90 + (C_i_H_6 * t94 -
-        C_i_H_3 * t98))) + omega_i_cross_v_i_0));
+    /* omega_j_cross_v_j = tilde(omega_j) v_j */
+    const jg_real omega_j_cross_v_j_0 = v_j[2] * omega_j[1] - v_j[1] * omega_j[2];
+    const jg_real omega_j_cross_v_j_1 = v_j[0] * omega_j[2] - v_j[2] * omega_j[0];
+    const jg_real omega_j_cross_v_j_2 = v_j[1] * omega_j[0] - v_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
+    const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
+        * omega_j_cross_v_j_2;
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t89 + C_i_H_3 * t91 - C_i_H_6 * t92) +
+        alphadot[1] * (C_i_H_6 * C_jt_v_j_1 - C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t98 + C_i_H_3 * t100
+        - C_i_H_6 * t101) - alphadot[1] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 - C_i_H_3 * C_jt_s_j_cross_omega_j_2)
+        + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    gamma[1] = -(A_ij_1_ * t115 + A_ij_4_ * t116 + A_ij_7_ * t117 + (C_i_H_4 * t112 - C_i_H_7 * t113 + (C_i_H_1 *
-        t105 + C_i_H_4 * t107 - C_i_H_7 * t108 + (C_i_H_1 * t87 + C_i_H_4 * t89 - C_i_H_7 * t90 + (C_i_H_7 * t94 -
-        C_i_H_4 * t98))) + omega_i_cross_v_i_1));
+    const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
+        * omega_j_cross_v_j_2;
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t89 + C_i_H_4 * t91 - C_i_H_7 * t92) +
+        alphadot[1] * (C_i_H_7 * C_jt_v_j_1 - C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t98 + C_i_H_4 * t100
+        - C_i_H_7 * t101) - alphadot[1] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 - C_i_H_4 * C_jt_s_j_cross_omega_j_2)
+        + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    gamma[2] = -(A_ij_2_ * t115 + A_ij_5_ * t116 + A_ij_8_ * t117 + (C_i_H_5 * t112 - C_i_H_8 * t113 + (C_i_H_2 *
-        t105 + C_i_H_5 * t107 - C_i_H_8 * t108 + (C_i_H_2 * t87 + C_i_H_5 * t89 - C_i_H_8 * t90 + (C_i_H_8 * t94 -
-        C_i_H_5 * t98))) + omega_i_cross_v_i_2));
-    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t53 + C_i[3] * t55) + omega_i[1] * (C_i[1] * t53 + C_i[4] *
-        t55) + omega_i[2] * (C_i[2] * t53 + C_i[5] * t55)) - alphadot[1] * (omega_j[0] * (C_j[3] * sine_1 + C_j[6] *
+    const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
+        * omega_j_cross_v_j_2;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t89 + C_i_H_5 * t91 - C_i_H_8 * t92) +
+        alphadot[1] * (C_i_H_8 * C_jt_v_j_1 - C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t98 + C_i_H_5 * t100
+        - C_i_H_8 * t101) - alphadot[1] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 - C_i_H_5 * C_jt_s_j_cross_omega_j_2)
+        + omega_i_cross_v_i_2);
+    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t56 + C_i[3] * t58) + omega_i[1] * (C_i[1] * t56 + C_i[4] *
+        t58) + omega_i[2] * (C_i[2] * t56 + C_i[5] * t58)) - alphadot[1] * (omega_j[0] * (C_j[3] * sine_1 + C_j[6] *
         cosine_1) + omega_j[1] * (C_j[4] * sine_1 + C_j[7] * cosine_1) + omega_j[2] * (C_j[5] * sine_1 + C_j[8] *
         cosine_1));
-    gamma[4] = alphadot[0] * (omega_j[0] * (C_j[3] * t29 + C_j[6] * H_4) + omega_j[1] * (C_j[4] * t29 + C_j[7] *
-        H_4) + omega_j[2] * (C_j[5] * t29 + C_j[8] * H_4)) - alphadot[0] * (C_i[6] * t53 * omega_i[0] + C_i[7] * t53
-        * omega_i[1] + C_i[8] * t53 * omega_i[2]) - alphadot[1] * (omega_j[0] * (C_j[6] * H_6 - C_j[3] * t35) +
-        omega_j[1] * (C_j[7] * H_6 - C_j[4] * t35) + omega_j[2] * (C_j[8] * H_6 - C_j[5] * t35)) - alphadot[0] *
+    gamma[4] = alphadot[0] * (omega_j[0] * (C_j[3] * t32 + C_j[6] * H_4) + omega_j[1] * (C_j[4] * t32 + C_j[7] *
+        H_4) + omega_j[2] * (C_j[5] * t32 + C_j[8] * H_4)) - alphadot[0] * (C_i[6] * t56 * omega_i[0] + C_i[7] * t56
+        * omega_i[1] + C_i[8] * t56 * omega_i[2]) - alphadot[1] * (omega_j[0] * (C_j[6] * H_6 - C_j[3] * t38) +
+        omega_j[1] * (C_j[7] * H_6 - C_j[4] * t38) + omega_j[2] * (C_j[8] * H_6 - C_j[5] * t38)) - alphadot[0] *
         alphadot[0] * cosine_0;
-    gamma[5] = alphadot[1] * (C_j[0] * cosine_1 * omega_j[0] + C_j[1] * cosine_1 * omega_j[1] + C_j[2] * cosine_1 *
-        omega_j[2]) - alphadot[1] * (omega_i[0] * (C_i[0] * H_4 + C_i[3] * t35) + omega_i[1] * (C_i[1] * H_4 +
-        C_i[4] * t35) + omega_i[2] * (C_i[2] * H_4 + C_i[5] * t35)) - alphadot[1] * alphadot[1] * cosine_1 -
-        alphadot[0] * (t28 * omega_i[0] + t31 * omega_i[1] + t32 * omega_i[2]) * sine_1;
+    gamma[5] = alphadot[1] * (t84 * omega_j[0] + t85 * omega_j[1] + t86 * omega_j[2]) - alphadot[1] * (t76 *
+        omega_i[0] + t77 * omega_i[1] + t78 * omega_i[2]) - alphadot[1] * alphadot[1] * cosine_1 + alphadot[0] *
+        (t31 * omega_i[0] + t34 * omega_i[1] + t35 * omega_i[2]) * sine_1;
 }
 
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -159,9 +159,9 @@ static void jg_ball_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
     /* s_i_world = A_i s_i */
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     jac_phi_q_v_velocity[3] = s_i_world_2;
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
+    const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     jac_phi_q_v_velocity[7] = s_i_world_1;
     jac_phi_q_v_velocity[4] = -s_i_world_1;
     jac_phi_q_v_velocity[5] = -s_i_world_2;

@@ -54,8 +54,10 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t1 = A_i[0] * s_i[0];
     const jg_real t2 = A_i[3] * s_i[1];
     const jg_real t3 = A_i[6] * s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = t1 + t2 + t3;
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - (t1 + t2 + t3);
+    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
     jac_phi_A_i[0] = d_ij_0 - t1;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
@@ -65,115 +67,117 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real t9 = cosine_0 * sine_1;
+    const jg_real t10 = cosine_0 * sine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t12 = sine_0 * cosine_2;
+    const jg_real t13 = sine_0 * cosine_2;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = t9 * sine_2 - t12;
-    const jg_real t14 = sine_0 * sine_1;
-    const jg_real t15 = cosine_0 * cosine_2;
-    const jg_real H_4 = t14 * sine_2 + t15;
+    const jg_real H_3 = t10 * sine_2 - t13;
+    const jg_real t15 = sine_0 * sine_1;
+    const jg_real t16 = cosine_0 * cosine_2;
+    const jg_real H_4 = t15 * sine_2 + t16;
     const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real t18 = H_5 * C_i[6];
+    const jg_real t19 = H_5 * C_i[6];
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t18;
-    const jg_real t20 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[3] = g_star_0 * t20;
-    const jg_real t21 = sine_0 * sine_2;
-    const jg_real H_6 = t21 + sine_1 * t15;
-    const jg_real t23 = cosine_0 * sine_2;
-    const jg_real t24 = t23 - sine_1 * t12;
+    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t19;
+    const jg_real t21 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[3] = g_star_0 * t21;
+    const jg_real t22 = sine_0 * sine_2;
+    const jg_real H_6 = t22 + sine_1 * t16;
+    const jg_real t24 = cosine_0 * sine_2;
+    const jg_real t25 = t24 - sine_1 * t13;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t26 = H_8 * C_i[6];
+    const jg_real t27 = H_8 * C_i[6];
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t24 + t26;
-    const jg_real t28 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = h_star_0 * t28;
-    const jg_real t29 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t25 + t27;
+    const jg_real t29 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = h_star_0 * t29;
+    const jg_real t30 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = sine_0 * cosine_1;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
-    jac_phi_A_i[5] = t29 * f_star_0;
+    jac_phi_A_i[5] = t30 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t34 = s_i[0] * A_i[1];
-    const jg_real t35 = s_i[1] * A_i[4];
-    const jg_real t36 = s_i[2] * A_i[7];
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - (t34 + t35 + t36);
-    jac_phi_A_i[6] = d_ij_1 - t34;
+    const jg_real t35 = s_i[0] * A_i[1];
+    const jg_real t36 = s_i[1] * A_i[4];
+    const jg_real t37 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t35 + t36 + t37;
+    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t35;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t38 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = g_star_0 * t38;
-    const jg_real t39 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = h_star_0 * t39;
-    const jg_real t40 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t40 * f_star_0;
+    const jg_real t40 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = g_star_0 * t40;
+    const jg_real t41 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = h_star_0 * t41;
+    const jg_real t42 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t42 * f_star_0;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t42 = s_i[0] * A_i[2];
-    const jg_real t43 = s_i[1] * A_i[5];
-    const jg_real t44 = s_i[2] * A_i[8];
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - (t42 + t43 + t44);
-    jac_phi_A_i[12] = d_ij_2 - t42;
+    const jg_real t44 = s_i[0] * A_i[2];
+    const jg_real t45 = s_i[1] * A_i[5];
+    const jg_real t46 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t44 + t45 + t46;
+    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t44;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t46 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = g_star_0 * t46;
-    const jg_real t47 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = h_star_0 * t47;
-    const jg_real t48 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t48 * f_star_0;
+    const jg_real t49 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = g_star_0 * t49;
+    const jg_real t50 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = h_star_0 * t50;
+    const jg_real t51 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t51 * f_star_0;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
     jac_phi_A_i[19] = d_ij_0 - t2;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    const jg_real t49 = H_5 * C_i[7];
-    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t49;
-    jac_phi_A_i[21] = t20 * g_star_1;
-    const jg_real t51 = H_8 * C_i[7];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t24 + t51;
-    jac_phi_A_i[22] = t28 * h_star_1;
+    const jg_real t52 = H_5 * C_i[7];
+    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t52;
+    jac_phi_A_i[21] = t21 * g_star_1;
+    const jg_real t54 = H_8 * C_i[7];
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t25 + t54;
+    jac_phi_A_i[22] = t29 * h_star_1;
     const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_1 * C_i[7];
-    jac_phi_A_i[23] = t29 * f_star_1;
+    jac_phi_A_i[23] = t30 * f_star_1;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t35;
+    jac_phi_A_i[25] = d_ij_1 - t36;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t38 * g_star_1;
-    jac_phi_A_i[28] = t39 * h_star_1;
-    jac_phi_A_i[29] = t40 * f_star_1;
+    jac_phi_A_i[27] = t40 * g_star_1;
+    jac_phi_A_i[28] = t41 * h_star_1;
+    jac_phi_A_i[29] = t42 * f_star_1;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t43;
+    jac_phi_A_i[31] = d_ij_2 - t45;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t46 * g_star_1;
-    jac_phi_A_i[34] = t47 * h_star_1;
-    jac_phi_A_i[35] = t48 * f_star_1;
+    jac_phi_A_i[33] = t49 * g_star_1;
+    jac_phi_A_i[34] = t50 * h_star_1;
+    jac_phi_A_i[35] = t51 * f_star_1;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
     jac_phi_A_i[38] = d_ij_0 - t3;
-    const jg_real t54 = H_5 * C_i[8];
-    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t54;
-    jac_phi_A_i[39] = t20 * g_star_2;
-    const jg_real t56 = H_8 * C_i[8];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t24 + t56;
-    jac_phi_A_i[40] = t28 * h_star_2;
+    const jg_real t57 = H_5 * C_i[8];
+    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t57;
+    jac_phi_A_i[39] = t21 * g_star_2;
+    const jg_real t59 = H_8 * C_i[8];
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t25 + t59;
+    jac_phi_A_i[40] = t29 * h_star_2;
     const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_1 * C_i[8];
-    jac_phi_A_i[41] = t29 * f_star_2;
+    jac_phi_A_i[41] = t30 * f_star_2;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t36;
-    jac_phi_A_i[45] = t38 * g_star_2;
-    jac_phi_A_i[46] = t39 * h_star_2;
-    jac_phi_A_i[47] = t40 * f_star_2;
+    jac_phi_A_i[44] = d_ij_1 - t37;
+    jac_phi_A_i[45] = t40 * g_star_2;
+    jac_phi_A_i[46] = t41 * h_star_2;
+    jac_phi_A_i[47] = t42 * f_star_2;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t44;
-    jac_phi_A_i[51] = t46 * g_star_2;
-    jac_phi_A_i[52] = t47 * h_star_2;
-    jac_phi_A_i[53] = t48 * f_star_2;
+    jac_phi_A_i[50] = d_ij_2 - t46;
+    jac_phi_A_i[51] = t49 * g_star_2;
+    jac_phi_A_i[52] = t50 * h_star_2;
+    jac_phi_A_i[53] = t51 * f_star_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -257,45 +261,45 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    jac_phi_alpha[1] = (C_i[0] * t24 + C_i[3] * H_6) * A_ij_f_j_0 + (C_i[1] * t24 + C_i[4] * H_6) * A_ij_f_j_1 +
-        (C_i[2] * t24 + C_i[5] * H_6) * A_ij_f_j_2;
+    jac_phi_alpha[1] = (C_i[0] * t25 + C_i[3] * H_6) * A_ij_f_j_0 + (C_i[1] * t25 + C_i[4] * H_6) * A_ij_f_j_1 +
+        (C_i[2] * t25 + C_i[5] * H_6) * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     jac_phi_alpha[2] = A_ij_g_j_0 * (H_0 * C_i[3] - C_i[0] * H_1) + A_ij_g_j_1 * (H_0 * C_i[4] - H_1 * C_i[1]) +
         A_ij_g_j_2 * (H_0 * C_i[5] - H_1 * C_i[2]);
-    const jg_real t77 = H_0 * sine_2;
-    const jg_real t78 = sine_2 * H_1;
-    const jg_real t79 = sine_1 * sine_2;
-    jac_phi_alpha[3] = (t77 * C_i[0] + t78 * C_i[3] - t79 * C_i[6]) * A_ij_h_j_0 + (t77 * C_i[1] + t78 * C_i[4] -
-        t79 * C_i[7]) * A_ij_h_j_1 + (t77 * C_i[2] + t78 * C_i[5] - t79 * C_i[8]) * A_ij_h_j_2;
-    const jg_real t80 = cosine_1 * t15;
-    const jg_real t81 = cosine_1 * t12;
-    const jg_real t82 = sine_1 * cosine_2;
-    jac_phi_alpha[4] = (C_i[0] * t80 + C_i[3] * t81 - C_i[6] * t82) * A_ij_f_j_0 + (C_i[1] * t80 + C_i[4] * t81 -
-        C_i[7] * t82) * A_ij_f_j_1 + (C_i[2] * t80 + C_i[5] * t81 - C_i[8] * t82) * A_ij_f_j_2;
-    jac_phi_alpha[5] = -(A_ij_g_j_0 * (t9 * C_i[0] + t14 * C_i[3] + cosine_1 * C_i[6]) + A_ij_g_j_1 * (t9 * C_i[1] +
-        t14 * C_i[4] + cosine_1 * C_i[7]) + A_ij_g_j_2 * (t9 * C_i[2] + t14 * C_i[5] + cosine_1 * C_i[8]));
-    const jg_real t83 = t9 * cosine_2 + t21;
-    const jg_real t84 = t14 * cosine_2 - t23;
-    jac_phi_alpha[6] = (t83 * C_i[0] + t84 * C_i[3] + t26) * A_ij_h_j_0 + (t83 * C_i[1] + t84 * C_i[4] + t51) *
-        A_ij_h_j_1 + (t83 * C_i[2] + t84 * C_i[5] + t56) * A_ij_h_j_2;
-    const jg_real t85 = t12 - sine_1 * t23;
-    const jg_real t86 = t15 + sine_1 * t21;
-    jac_phi_alpha[7] = (C_i[0] * t85 - C_i[3] * t86 - t18) * A_ij_f_j_0 + (C_i[1] * t85 - C_i[4] * t86 - t49) *
-        A_ij_f_j_1 + (C_i[2] * t85 - C_i[5] * t86 - t54) * A_ij_f_j_2;
+    const jg_real t80 = H_0 * sine_2;
+    const jg_real t81 = sine_2 * H_1;
+    const jg_real t82 = sine_1 * sine_2;
+    jac_phi_alpha[3] = (t80 * C_i[0] + t81 * C_i[3] - t82 * C_i[6]) * A_ij_h_j_0 + (t80 * C_i[1] + t81 * C_i[4] -
+        t82 * C_i[7]) * A_ij_h_j_1 + (t80 * C_i[2] + t81 * C_i[5] - t82 * C_i[8]) * A_ij_h_j_2;
+    const jg_real t83 = cosine_1 * t16;
+    const jg_real t84 = cosine_1 * t13;
+    const jg_real t85 = sine_1 * cosine_2;
+    jac_phi_alpha[4] = (C_i[0] * t83 + C_i[3] * t84 - C_i[6] * t85) * A_ij_f_j_0 + (C_i[1] * t83 + C_i[4] * t84 -
+        C_i[7] * t85) * A_ij_f_j_1 + (C_i[2] * t83 + C_i[5] * t84 - C_i[8] * t85) * A_ij_f_j_2;
+    jac_phi_alpha[5] = -(A_ij_g_j_0 * (t10 * C_i[0] + t15 * C_i[3] + cosine_1 * C_i[6]) + A_ij_g_j_1 * (t10 * C_i[1]
+        + t15 * C_i[4] + cosine_1 * C_i[7]) + A_ij_g_j_2 * (t10 * C_i[2] + t15 * C_i[5] + cosine_1 * C_i[8]));
+    const jg_real t86 = t10 * cosine_2 + t22;
+    const jg_real t87 = t15 * cosine_2 - t24;
+    jac_phi_alpha[6] = (t86 * C_i[0] + t87 * C_i[3] + t27) * A_ij_h_j_0 + (t86 * C_i[1] + t87 * C_i[4] + t54) *
+        A_ij_h_j_1 + (t86 * C_i[2] + t87 * C_i[5] + t59) * A_ij_h_j_2;
+    const jg_real t88 = t13 - sine_1 * t24;
+    const jg_real t89 = t16 + sine_1 * t22;
+    jac_phi_alpha[7] = (C_i[0] * t88 - C_i[3] * t89 - t19) * A_ij_f_j_0 + (C_i[1] * t88 - C_i[4] * t89 - t52) *
+        A_ij_f_j_1 + (C_i[2] * t88 - C_i[5] * t89 - t57) * A_ij_f_j_2;
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t87 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t87;
-    jac_phi_geometry[3] = t87;
-    const jg_real t88 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t88;
-    jac_phi_geometry[6] = t88;
+    const jg_real t90 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t90;
+    jac_phi_geometry[3] = t90;
+    const jg_real t91 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t91;
+    jac_phi_geometry[6] = t91;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t89 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t89;
-    jac_phi_geometry[7] = t89;
+    const jg_real t92 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t92;
+    jac_phi_geometry[7] = t92;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
     jac_phi_geometry[9] = H_3 * A_ij_h_j_0;
     jac_phi_geometry[10] = H_6 * A_ij_f_j_0;
@@ -307,13 +311,13 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[16] = H_6 * A_ij_f_j_2;
     jac_phi_geometry[17] = H_0 * A_ij_g_j_2;
     jac_phi_geometry[18] = H_4 * A_ij_h_j_0;
-    jac_phi_geometry[19] = -(t24 * A_ij_f_j_0);
+    jac_phi_geometry[19] = -(t25 * A_ij_f_j_0);
     jac_phi_geometry[20] = H_1 * A_ij_g_j_0;
     jac_phi_geometry[21] = H_4 * A_ij_h_j_1;
-    jac_phi_geometry[22] = -(t24 * A_ij_f_j_1);
+    jac_phi_geometry[22] = -(t25 * A_ij_f_j_1);
     jac_phi_geometry[23] = H_1 * A_ij_g_j_1;
     jac_phi_geometry[24] = H_4 * A_ij_h_j_2;
-    jac_phi_geometry[25] = -(t24 * A_ij_f_j_2);
+    jac_phi_geometry[25] = -(t25 * A_ij_f_j_2);
     jac_phi_geometry[26] = H_1 * A_ij_g_j_2;
     jac_phi_geometry[27] = H_5 * A_ij_h_j_0;
     jac_phi_geometry[28] = H_8 * A_ij_f_j_0;
@@ -348,50 +352,57 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
-    const jg_real t3 = t0 * C_j[0] + t1 * C_j[1] + t2 * C_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
+    const jg_real t4 = cosine_0 * sine_1;
+    jac_phi_q_v_velocity[48] = cosine_1;
+    const jg_real t5 = sine_0 * cosine_1;
+    jg_real sine_2;
+    jg_real cosine_2;
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
+    const jg_real t8 = t4 - t5 * sine_2;
+    /* C_jt_v_j = C_j^T v_j */
+    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real t10 = cosine_0 * cosine_1;
+    const jg_real t11 = sine_0 * sine_2;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_1 = sine_0 * cosine_1;
-    const jg_real t9 = t0 * C_j[3] + t1 * C_j[4] + t2 * C_j[5];
-    const jg_real t10 = sine_0 * sine_1;
-    jg_real sine_2;
-    jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
-    jac_phi_q_v_velocity[48] = cosine_2;
-    const jg_real t13 = cosine_0 * cosine_2;
-    const jg_real H_4 = t10 * sine_2 + t13;
-    const jg_real t15 = t0 * C_j[6] + t1 * C_j[7] + t2 * C_j[8];
-    const jg_real t16 = cosine_0 * sine_2;
-    const jg_real t17 = sine_0 * cosine_2;
-    const jg_real t18 = t16 - sine_1 * t17;
-    const jg_real t19 = t15 * t18 - (t3 * H_1 + t9 * H_4);
-    const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_0 * sine_1;
-    const jg_real H_3 = t21 * sine_2 - t17;
-    const jg_real t23 = sine_0 * sine_2;
-    const jg_real H_6 = t23 + sine_1 * t13;
-    const jg_real t25 = t3 * H_0 + t9 * H_3 + t15 * H_6;
-    /* C_jt_v_j = C_j^T v_j */
-    const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t29 = t18 * C_jt_v_j_2 - (H_4 * C_jt_v_j_1 + H_1 * C_jt_v_j_0);
+    const jg_real H_4 = t10 + sine_1 * t11;
+    const jg_real C_jt_v_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    const jg_real C_jt_v_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
+    const jg_real H_1 = sine_0 * cosine_2;
+    const jg_real t16 = t8 * C_jt_v_j_2 - (H_4 * C_jt_v_j_1 + C_jt_v_j_0 * H_1);
+    const jg_real t17 = sine_0 * sine_1;
+    const jg_real H_6 = t17 + t10 * sine_2;
+    const jg_real t19 = cosine_0 * sine_2;
+    const jg_real H_3 = sine_1 * t19 - t5;
+    const jg_real H_0 = cosine_0 * cosine_2;
     /* H_C_jt_v_j = H C_j^T v_j */
     const jg_real H_C_jt_v_j_0 = H_3 * C_jt_v_j_1 + H_0 * C_jt_v_j_0 + H_6 * C_jt_v_j_2;
-    jac_phi_q_v_alpha[0] = t19 * C_i[0] + t25 * C_i[3] + (C_i[0] * t29 + C_i[3] * H_C_jt_v_j_0);
-    jac_phi_q_v_alpha[1] = t19 * C_i[1] + t25 * C_i[4] + (t29 * C_i[1] + H_C_jt_v_j_0 * C_i[4]);
-    jac_phi_q_v_alpha[2] = t19 * C_i[2] + t25 * C_i[5] + (t29 * C_i[2] + H_C_jt_v_j_0 * C_i[5]);
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
+    const jg_real s_j_cross_omega_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
+        s_j_cross_omega_j_2;
+    const jg_real C_jt_s_j_cross_omega_j_2 = C_j[6] * s_j_cross_omega_j_0 + C_j[7] * s_j_cross_omega_j_1 + C_j[8] *
+        s_j_cross_omega_j_2;
+    const jg_real t29 = t8 * C_jt_s_j_cross_omega_j_2 - (H_1 * C_jt_s_j_cross_omega_j_0 + H_4 *
+        C_jt_s_j_cross_omega_j_1);
+    const jg_real t30 = H_0 * C_jt_s_j_cross_omega_j_0 + H_3 * C_jt_s_j_cross_omega_j_1 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
+    jac_phi_q_v_alpha[0] = t16 * C_i[0] + H_C_jt_v_j_0 * C_i[3] - (C_i[0] * t29 + C_i[3] * t30);
+    jac_phi_q_v_alpha[1] = t16 * C_i[1] + H_C_jt_v_j_0 * C_i[4] - (t29 * C_i[1] + t30 * C_i[4]);
+    jac_phi_q_v_alpha[2] = t16 * C_i[2] + H_C_jt_v_j_0 * C_i[5] - (t29 * C_i[2] + t30 * C_i[5]);
     jac_phi_q_v_geometry[5] = omega_i[0];
     jac_phi_q_v_geometry[1] = omega_i[1];
     jac_phi_q_v_geometry[2] = omega_i[2];
@@ -399,69 +410,72 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
         omega_i[2] * (H_0 * C_i[5] - H_1 * C_i[2]);
     jac_phi_q_v_alpha[4] = omega_i[0] * (H_3 * C_i[3] - H_4 * C_i[0]) + omega_i[1] * (H_3 * C_i[4] - H_4 * C_i[1]) +
         omega_i[2] * (H_3 * C_i[5] - H_4 * C_i[2]);
-    jac_phi_q_v_alpha[5] = omega_i[0] * (t18 * C_i[0] + H_6 * C_i[3]) + omega_i[1] * (t18 * C_i[1] + H_6 * C_i[4]) +
-        omega_i[2] * (t18 * C_i[2] + H_6 * C_i[5]);
-    const jg_real t31 = H_0 * sine_2;
-    const jg_real t32 = cosine_1 * t13;
-    const jg_real t33 = t9 * t31 - t3 * t21 + t15 * t32;
-    const jg_real t34 = H_1 * sine_2;
-    const jg_real t35 = cosine_1 * t17;
-    const jg_real t36 = t9 * t34 - t3 * t10 + t15 * t35;
+    jac_phi_q_v_alpha[5] = omega_i[0] * (t8 * C_i[0] + H_6 * C_i[3]) + omega_i[1] * (t8 * C_i[1] + H_6 * C_i[4]) +
+        omega_i[2] * (t8 * C_i[2] + H_6 * C_i[5]);
+    const jg_real t31 = sine_1 * H_0;
+    const jg_real t32 = t10 * cosine_2;
+    const jg_real t33 = t31 * C_jt_s_j_cross_omega_j_1 - t19 * C_jt_s_j_cross_omega_j_0 + t32 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t34 = sine_1 * H_1;
+    const jg_real t35 = t5 * cosine_2;
+    const jg_real t36 = t34 * C_jt_s_j_cross_omega_j_1 - t11 * C_jt_s_j_cross_omega_j_0 + t35 *
+        C_jt_s_j_cross_omega_j_2;
     const jg_real t37 = sine_1 * sine_2;
-    const jg_real t38 = sine_1 * cosine_2;
-    const jg_real t39 = t9 * t37 + t3 * cosine_1 + t15 * t38;
-    const jg_real t40 = t31 * C_jt_v_j_1 - t21 * C_jt_v_j_0 + t32 * C_jt_v_j_2;
-    const jg_real t41 = t34 * C_jt_v_j_1 - t10 * C_jt_v_j_0 + t35 * C_jt_v_j_2;
-    const jg_real t42 = t37 * C_jt_v_j_1 + cosine_1 * C_jt_v_j_0 + t38 * C_jt_v_j_2;
-    jac_phi_q_v_alpha[6] = t33 * C_i[0] + t36 * C_i[3] - t39 * C_i[6] + (C_i[0] * t40 + C_i[3] * t41 - C_i[6] *
-        t42);
-    jac_phi_q_v_alpha[7] = t33 * C_i[1] + t36 * C_i[4] - t39 * C_i[7] + (t40 * C_i[1] + t41 * C_i[4] - t42 *
+    const jg_real t38 = cosine_1 * sine_2;
+    const jg_real t39 = t37 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_0 + t38 *
+        C_jt_s_j_cross_omega_j_2;
+    const jg_real t40 = t31 * C_jt_v_j_1 - t19 * C_jt_v_j_0 + t32 * C_jt_v_j_2;
+    const jg_real t41 = C_jt_v_j_1 * t34 - t11 * C_jt_v_j_0 + C_jt_v_j_2 * t35;
+    const jg_real t42 = C_jt_v_j_1 * t37 + cosine_2 * C_jt_v_j_0 + C_jt_v_j_2 * t38;
+    jac_phi_q_v_alpha[6] = t40 * C_i[0] + t41 * C_i[3] - t42 * C_i[6] - (C_i[0] * t33 + C_i[3] * t36 - C_i[6] *
+        t39);
+    jac_phi_q_v_alpha[7] = t40 * C_i[1] + t41 * C_i[4] - t42 * C_i[7] - (t33 * C_i[1] + t36 * C_i[4] - t39 *
         C_i[7]);
-    jac_phi_q_v_alpha[8] = t33 * C_i[2] + t36 * C_i[5] - t39 * C_i[8] + (t40 * C_i[2] + t41 * C_i[5] - t42 *
+    jac_phi_q_v_alpha[8] = t40 * C_i[2] + t41 * C_i[5] - t42 * C_i[8] - (t33 * C_i[2] + t36 * C_i[5] - t39 *
         C_i[8]);
-    const jg_real t43 = cosine_1 * alphadot[0];
-    jac_phi_q_v_alpha[9] = -(omega_i[0] * (t21 * C_i[0] + t10 * C_i[3] + cosine_1 * C_i[6]) + omega_i[1] * (t21 *
-        C_i[1] + t10 * C_i[4] + cosine_1 * C_i[7]) + omega_i[2] * (t21 * C_i[2] + t10 * C_i[5] + cosine_1 * C_i[8])
+    const jg_real t43 = cosine_2 * alphadot[0];
+    jac_phi_q_v_alpha[9] = -(omega_i[0] * (t19 * C_i[0] + t11 * C_i[3] + cosine_2 * C_i[6]) + omega_i[1] * (t19 *
+        C_i[1] + t11 * C_i[4] + cosine_2 * C_i[7]) + omega_i[2] * (t19 * C_i[2] + t11 * C_i[5] + cosine_2 * C_i[8])
         + t43);
-    const jg_real t44 = sine_1 * alphadot[0];
+    const jg_real t44 = sine_2 * alphadot[0];
     jac_phi_q_v_alpha[10] = omega_i[0] * (t31 * C_i[0] + t34 * C_i[3] - t37 * C_i[6]) + omega_i[1] * (t31 * C_i[1] +
-        t34 * C_i[4] - t37 * C_i[7]) + omega_i[2] * (t31 * C_i[2] + t34 * C_i[5] - t37 * C_i[8]) - sine_2 * t44;
+        t34 * C_i[4] - t37 * C_i[7]) + omega_i[2] * (t31 * C_i[2] + t34 * C_i[5] - t37 * C_i[8]) - sine_1 * t44;
     jac_phi_q_v_alpha[11] = omega_i[0] * (t32 * C_i[0] + t35 * C_i[3] - t38 * C_i[6]) + omega_i[1] * (t32 * C_i[1] +
-        t35 * C_i[4] - t38 * C_i[7]) + omega_i[2] * (t32 * C_i[2] + t35 * C_i[5] - t38 * C_i[8]) - cosine_2 * t44;
-    const jg_real t45 = t21 * cosine_2 + t23;
-    const jg_real t46 = t17 - sine_1 * t16;
-    const jg_real t47 = t9 * t45 + t15 * t46;
-    const jg_real t48 = t10 * cosine_2 - t16;
-    const jg_real t49 = t13 + sine_1 * t23;
-    const jg_real t50 = t9 * t48 - t15 * t49;
+        t35 * C_i[4] - t38 * C_i[7]) + omega_i[2] * (t32 * C_i[2] + t35 * C_i[5] - t38 * C_i[8]) - cosine_1 * t44;
+    const jg_real t45 = t5 - t4 * sine_2;
+    const jg_real t46 = t17 + cosine_1 * t19;
+    const jg_real t47 = t45 * C_jt_v_j_2 + t46 * C_jt_v_j_1;
+    const jg_real t48 = cosine_1 * t11 - t4;
+    const jg_real t49 = t10 + t17 * sine_2;
+    const jg_real t50 = C_jt_v_j_1 * t48 - C_jt_v_j_2 * t49;
     const jg_real H_8 = cosine_1 * cosine_2;
     jac_phi_q_v_velocity[47] = H_8;
-    const jg_real H_5 = cosine_1 * sine_2;
+    const jg_real H_5 = sine_1 * cosine_2;
     jac_phi_q_v_velocity[46] = H_5;
-    const jg_real t53 = t9 * H_8 - t15 * H_5;
-    const jg_real t54 = t46 * C_jt_v_j_2 + t45 * C_jt_v_j_1;
-    const jg_real t55 = t48 * C_jt_v_j_1 - t49 * C_jt_v_j_2;
-    const jg_real t56 = H_8 * C_jt_v_j_1 - H_5 * C_jt_v_j_2;
-    jac_phi_q_v_alpha[12] = t47 * C_i[0] + t50 * C_i[3] + t53 * C_i[6] + (C_i[0] * t54 + C_i[3] * t55 + C_i[6] *
+    const jg_real t53 = C_jt_v_j_1 * H_8 - C_jt_v_j_2 * H_5;
+    const jg_real t54 = t46 * C_jt_s_j_cross_omega_j_1 + t45 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t55 = t48 * C_jt_s_j_cross_omega_j_1 - t49 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t56 = H_8 * C_jt_s_j_cross_omega_j_1 - H_5 * C_jt_s_j_cross_omega_j_2;
+    jac_phi_q_v_alpha[12] = t47 * C_i[0] + t50 * C_i[3] + t53 * C_i[6] - (C_i[0] * t54 + C_i[3] * t55 + C_i[6] *
         t56);
-    jac_phi_q_v_alpha[13] = t47 * C_i[1] + t50 * C_i[4] + t53 * C_i[7] + (t54 * C_i[1] + t55 * C_i[4] + t56 *
+    jac_phi_q_v_alpha[13] = t47 * C_i[1] + t50 * C_i[4] + t53 * C_i[7] - (t54 * C_i[1] + t55 * C_i[4] + t56 *
         C_i[7]);
-    jac_phi_q_v_alpha[14] = t47 * C_i[2] + t50 * C_i[5] + t53 * C_i[8] + (t54 * C_i[2] + t55 * C_i[5] + t56 *
+    jac_phi_q_v_alpha[14] = t47 * C_i[2] + t50 * C_i[5] + t53 * C_i[8] - (t54 * C_i[2] + t55 * C_i[5] + t56 *
         C_i[8]);
     const jg_real t57 = H_8 * C_i[6];
     const jg_real t58 = H_8 * C_i[7];
     const jg_real t59 = H_8 * C_i[8];
-    jac_phi_q_v_alpha[15] = omega_i[0] * (t45 * C_i[0] + t48 * C_i[3] + t57) + omega_i[1] * (t45 * C_i[1] + t48 *
-        C_i[4] + t58) + omega_i[2] * (t45 * C_i[2] + t48 * C_i[5] + t59) + (cosine_2 * t43 - sine_2 * alphadot[1]);
+    jac_phi_q_v_alpha[15] = omega_i[0] * (t46 * C_i[0] + t48 * C_i[3] + t57) + omega_i[1] * (t46 * C_i[1] + t48 *
+        C_i[4] + t58) + omega_i[2] * (t46 * C_i[2] + t48 * C_i[5] + t59) + (cosine_1 * t43 - sine_1 * alphadot[1]);
     const jg_real t60 = H_5 * C_i[6];
     const jg_real t61 = H_5 * C_i[7];
     const jg_real t62 = H_5 * C_i[8];
-    jac_phi_q_v_alpha[16] = omega_i[0] * (t46 * C_i[0] - t49 * C_i[3] - t60) + omega_i[1] * (t46 * C_i[1] - t49 *
-        C_i[4] - t61) + omega_i[2] * (t46 * C_i[2] - t49 * C_i[5] - t62) - (cosine_2 * alphadot[1] + sine_2 * t43);
+    jac_phi_q_v_alpha[16] = omega_i[0] * (t45 * C_i[0] - t49 * C_i[3] - t60) + omega_i[1] * (t45 * C_i[1] - t49 *
+        C_i[4] - t61) + omega_i[2] * (t45 * C_i[2] - t49 * C_i[5] - t62) - (cosine_1 * alphadot[1] + sine_1 * t43);
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
-    const jg_real t63 = t25 + H_C_jt_v_j_0;
+    const jg_real t63 = H_C_jt_v_j_0 - t30;
     jac_phi_q_v_geometry[6] = t63;
     jac_phi_q_v_geometry[10] = t63;
     jac_phi_q_v_geometry[14] = t63;
@@ -474,179 +488,180 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_geometry[15] = H_0 * omega_i[2];
     jac_phi_q_v_geometry[16] = H_3 * omega_i[2];
     jac_phi_q_v_geometry[17] = H_6 * omega_i[2];
-    const jg_real t64 = -(t19 + t29);
+    const jg_real t64 = t29 - t16;
     jac_phi_q_v_geometry[18] = t64;
     jac_phi_q_v_geometry[22] = t64;
     jac_phi_q_v_geometry[26] = t64;
     jac_phi_q_v_geometry[19] = H_1 * omega_i[0];
     jac_phi_q_v_geometry[20] = H_4 * omega_i[0];
-    jac_phi_q_v_geometry[21] = -(t18 * omega_i[0]);
+    jac_phi_q_v_geometry[21] = -(t8 * omega_i[0]);
     jac_phi_q_v_geometry[23] = H_1 * omega_i[1];
     jac_phi_q_v_geometry[24] = H_4 * omega_i[1];
-    jac_phi_q_v_geometry[25] = -(t18 * omega_i[1]);
+    jac_phi_q_v_geometry[25] = -(t8 * omega_i[1]);
     jac_phi_q_v_geometry[27] = H_1 * omega_i[2];
     jac_phi_q_v_geometry[28] = H_4 * omega_i[2];
-    jac_phi_q_v_geometry[29] = -(t18 * omega_i[2]);
-    const jg_real H_C_jt_v_j_2 = H_5 * C_jt_v_j_1 - sine_1 * C_jt_v_j_0 + H_8 * C_jt_v_j_2;
-    const jg_real t66 = t9 * H_5 - t3 * sine_1 + t15 * H_8 + H_C_jt_v_j_2;
+    jac_phi_q_v_geometry[29] = -(t8 * omega_i[2]);
+    const jg_real H_C_jt_v_j_2 = C_jt_v_j_1 * H_5 - sine_2 * C_jt_v_j_0 + C_jt_v_j_2 * H_8;
+    const jg_real t66 = H_C_jt_v_j_2 - (H_5 * C_jt_s_j_cross_omega_j_1 - sine_2 * C_jt_s_j_cross_omega_j_0 + H_8 *
+        C_jt_s_j_cross_omega_j_2);
     jac_phi_q_v_geometry[30] = t66;
     jac_phi_q_v_geometry[34] = t66;
     jac_phi_q_v_geometry[38] = t66;
-    jac_phi_q_v_geometry[31] = -(sine_1 * omega_i[0]);
+    jac_phi_q_v_geometry[31] = -(sine_2 * omega_i[0]);
     jac_phi_q_v_geometry[32] = H_5 * omega_i[0];
     jac_phi_q_v_geometry[33] = H_8 * omega_i[0];
-    jac_phi_q_v_geometry[35] = -(sine_1 * omega_i[1]);
+    jac_phi_q_v_geometry[35] = -(sine_2 * omega_i[1]);
     jac_phi_q_v_geometry[36] = H_5 * omega_i[1];
     jac_phi_q_v_geometry[37] = H_8 * omega_i[1];
-    jac_phi_q_v_geometry[39] = -(sine_1 * omega_i[2]);
+    jac_phi_q_v_geometry[39] = -(sine_2 * omega_i[2]);
     jac_phi_q_v_geometry[40] = H_5 * omega_i[2];
     jac_phi_q_v_geometry[41] = H_8 * omega_i[2];
-    const jg_real t67 = omega_j[2] * C_j[4] - omega_j[1] * C_j[5];
-    const jg_real t68 = omega_j[2] * C_j[1] - omega_j[1] * C_j[2];
-    const jg_real t69 = omega_j[2] * C_j[7] - omega_j[1] * C_j[8];
-    const jg_real t70 = t68 * H_0 + t67 * H_3 + t69 * H_6;
-    const jg_real t71 = t68 * H_1 + t67 * H_4 - t69 * t18;
-    const jg_real t72 = t67 * H_5 - t68 * sine_1 + t69 * H_8;
-    jac_phi_q_v_geometry[42] = t70 * C_i[0] + t71 * C_i[3] + t72 * C_i[6];
-    jac_phi_q_v_geometry[43] = t70 * C_i[1] + t71 * C_i[4] + t72 * C_i[7];
-    jac_phi_q_v_geometry[44] = t70 * C_i[2] + t71 * C_i[5] + t72 * C_i[8];
-    const jg_real t73 = omega_j[0] * C_j[5] - omega_j[2] * C_j[3];
-    const jg_real t74 = omega_j[0] * C_j[2] - omega_j[2] * C_j[0];
-    const jg_real t75 = omega_j[0] * C_j[8] - omega_j[2] * C_j[6];
-    const jg_real t76 = t74 * H_0 + t73 * H_3 + t75 * H_6;
-    const jg_real t77 = t74 * H_1 + t73 * H_4 - t75 * t18;
-    const jg_real t78 = t73 * H_5 - t74 * sine_1 + t75 * H_8;
-    jac_phi_q_v_geometry[45] = t76 * C_i[0] + t77 * C_i[3] + t78 * C_i[6];
-    jac_phi_q_v_geometry[46] = t76 * C_i[1] + t77 * C_i[4] + t78 * C_i[7];
-    jac_phi_q_v_geometry[47] = t76 * C_i[2] + t77 * C_i[5] + t78 * C_i[8];
-    const jg_real t79 = omega_j[1] * C_j[3] - omega_j[0] * C_j[4];
-    const jg_real t80 = omega_j[1] * C_j[0] - omega_j[0] * C_j[1];
-    const jg_real t81 = omega_j[1] * C_j[6] - omega_j[0] * C_j[7];
-    const jg_real t82 = t80 * H_0 + t79 * H_3 + t81 * H_6;
-    const jg_real t83 = t80 * H_1 + t79 * H_4 - t81 * t18;
-    const jg_real t84 = t79 * H_5 - t80 * sine_1 + t81 * H_8;
-    jac_phi_q_v_geometry[48] = t82 * C_i[0] + t83 * C_i[3] + t84 * C_i[6];
-    jac_phi_q_v_geometry[49] = t82 * C_i[1] + t83 * C_i[4] + t84 * C_i[7];
-    jac_phi_q_v_geometry[50] = t82 * C_i[2] + t83 * C_i[5] + t84 * C_i[8];
-    const jg_real t85 = t0 * H_0;
-    const jg_real t86 = t0 * H_1;
-    const jg_real t87 = t0 * sine_1;
-    const jg_real t88 = H_0 * v_j[0];
-    const jg_real t89 = H_1 * v_j[0];
-    const jg_real t90 = sine_1 * v_j[0];
-    jac_phi_q_v_geometry[51] = t85 * C_i[0] + t86 * C_i[3] - t87 * C_i[6] + (C_i[0] * t88 + C_i[3] * t89 - C_i[6] *
-        t90);
-    jac_phi_q_v_geometry[52] = t85 * C_i[1] + t86 * C_i[4] - t87 * C_i[7] + (t88 * C_i[1] + t89 * C_i[4] - t90 *
+    const jg_real t67 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
+    const jg_real t68 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
+    const jg_real t69 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
+    const jg_real t70 = H_0 * t68 + H_3 * t67 + H_6 * t69;
+    const jg_real t71 = H_1 * t68 + H_4 * t67 - t8 * t69;
+    const jg_real t72 = H_5 * t67 - sine_2 * t68 + H_8 * t69;
+    jac_phi_q_v_geometry[42] = -(C_i[0] * t70 + C_i[3] * t71 + C_i[6] * t72);
+    jac_phi_q_v_geometry[43] = -(t70 * C_i[1] + t71 * C_i[4] + t72 * C_i[7]);
+    jac_phi_q_v_geometry[44] = -(t70 * C_i[2] + t71 * C_i[5] + t72 * C_i[8]);
+    const jg_real t73 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
+    const jg_real t74 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
+    const jg_real t75 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
+    const jg_real t76 = H_0 * t74 + H_3 * t73 + H_6 * t75;
+    const jg_real t77 = H_1 * t74 + H_4 * t73 - t8 * t75;
+    const jg_real t78 = H_5 * t73 - sine_2 * t74 + H_8 * t75;
+    jac_phi_q_v_geometry[45] = -(C_i[0] * t76 + C_i[3] * t77 + C_i[6] * t78);
+    jac_phi_q_v_geometry[46] = -(t76 * C_i[1] + t77 * C_i[4] + t78 * C_i[7]);
+    jac_phi_q_v_geometry[47] = -(t76 * C_i[2] + t77 * C_i[5] + t78 * C_i[8]);
+    const jg_real t79 = C_j[4] * omega_j[0] - C_j[3] * omega_j[1];
+    const jg_real t80 = C_j[1] * omega_j[0] - C_j[0] * omega_j[1];
+    const jg_real t81 = C_j[7] * omega_j[0] - C_j[6] * omega_j[1];
+    const jg_real t82 = H_0 * t80 + H_3 * t79 + H_6 * t81;
+    const jg_real t83 = H_1 * t80 + H_4 * t79 - t8 * t81;
+    const jg_real t84 = H_5 * t79 - sine_2 * t80 + H_8 * t81;
+    jac_phi_q_v_geometry[48] = -(C_i[0] * t82 + C_i[3] * t83 + C_i[6] * t84);
+    jac_phi_q_v_geometry[49] = -(t82 * C_i[1] + t83 * C_i[4] + t84 * C_i[7]);
+    jac_phi_q_v_geometry[50] = -(t82 * C_i[2] + t83 * C_i[5] + t84 * C_i[8]);
+    const jg_real t85 = H_0 * s_j_cross_omega_j_0;
+    const jg_real t86 = H_1 * s_j_cross_omega_j_0;
+    const jg_real t87 = sine_2 * s_j_cross_omega_j_0;
+    const jg_real t88 = v_j[0] * H_0;
+    const jg_real t89 = v_j[0] * H_1;
+    const jg_real t90 = sine_2 * v_j[0];
+    jac_phi_q_v_geometry[51] = t88 * C_i[0] + t89 * C_i[3] - t90 * C_i[6] - (C_i[0] * t85 + C_i[3] * t86 - C_i[6] *
+        t87);
+    jac_phi_q_v_geometry[52] = t88 * C_i[1] + t89 * C_i[4] - t90 * C_i[7] - (t85 * C_i[1] + t86 * C_i[4] - t87 *
         C_i[7]);
-    jac_phi_q_v_geometry[53] = t85 * C_i[2] + t86 * C_i[5] - t87 * C_i[8] + (t88 * C_i[2] + t89 * C_i[5] - t90 *
+    jac_phi_q_v_geometry[53] = t88 * C_i[2] + t89 * C_i[5] - t90 * C_i[8] - (t85 * C_i[2] + t86 * C_i[5] - t87 *
         C_i[8]);
     const jg_real t91 = -omega_j[0];
     jac_phi_q_v_geometry[54] = t91;
     jac_phi_q_v_geometry[66] = t91;
     jac_phi_q_v_geometry[78] = t91;
-    const jg_real t92 = t1 * H_0;
-    const jg_real t93 = t1 * H_1;
-    const jg_real t94 = t1 * sine_1;
-    const jg_real t95 = H_0 * v_j[1];
-    const jg_real t96 = H_1 * v_j[1];
-    const jg_real t97 = sine_1 * v_j[1];
-    jac_phi_q_v_geometry[55] = t92 * C_i[0] + t93 * C_i[3] - t94 * C_i[6] + (C_i[0] * t95 + C_i[3] * t96 - C_i[6] *
-        t97);
-    jac_phi_q_v_geometry[56] = t92 * C_i[1] + t93 * C_i[4] - t94 * C_i[7] + (t95 * C_i[1] + t96 * C_i[4] - t97 *
+    const jg_real t92 = H_0 * s_j_cross_omega_j_1;
+    const jg_real t93 = H_1 * s_j_cross_omega_j_1;
+    const jg_real t94 = sine_2 * s_j_cross_omega_j_1;
+    const jg_real t95 = v_j[1] * H_0;
+    const jg_real t96 = v_j[1] * H_1;
+    const jg_real t97 = sine_2 * v_j[1];
+    jac_phi_q_v_geometry[55] = t95 * C_i[0] + t96 * C_i[3] - t97 * C_i[6] - (C_i[0] * t92 + C_i[3] * t93 - C_i[6] *
+        t94);
+    jac_phi_q_v_geometry[56] = t95 * C_i[1] + t96 * C_i[4] - t97 * C_i[7] - (t92 * C_i[1] + t93 * C_i[4] - t94 *
         C_i[7]);
-    jac_phi_q_v_geometry[57] = t92 * C_i[2] + t93 * C_i[5] - t94 * C_i[8] + (t95 * C_i[2] + t96 * C_i[5] - t97 *
+    jac_phi_q_v_geometry[57] = t95 * C_i[2] + t96 * C_i[5] - t97 * C_i[8] - (t92 * C_i[2] + t93 * C_i[5] - t94 *
         C_i[8]);
     const jg_real t98 = -omega_j[1];
     jac_phi_q_v_geometry[58] = t98;
     jac_phi_q_v_geometry[70] = t98;
     jac_phi_q_v_geometry[82] = t98;
-    const jg_real t99 = t2 * H_0;
-    const jg_real t100 = t2 * H_1;
-    const jg_real t101 = t2 * sine_1;
-    const jg_real t102 = H_0 * v_j[2];
-    const jg_real t103 = H_1 * v_j[2];
-    const jg_real t104 = sine_1 * v_j[2];
-    jac_phi_q_v_geometry[59] = t99 * C_i[0] + t100 * C_i[3] - t101 * C_i[6] + (C_i[0] * t102 + C_i[3] * t103 -
-        C_i[6] * t104);
-    jac_phi_q_v_geometry[60] = t99 * C_i[1] + t100 * C_i[4] - t101 * C_i[7] + (t102 * C_i[1] + t103 * C_i[4] - t104
+    const jg_real t99 = H_0 * s_j_cross_omega_j_2;
+    const jg_real t100 = H_1 * s_j_cross_omega_j_2;
+    const jg_real t101 = sine_2 * s_j_cross_omega_j_2;
+    const jg_real t102 = v_j[2] * H_0;
+    const jg_real t103 = v_j[2] * H_1;
+    const jg_real t104 = sine_2 * v_j[2];
+    jac_phi_q_v_geometry[59] = t102 * C_i[0] + t103 * C_i[3] - t104 * C_i[6] - (C_i[0] * t99 + C_i[3] * t100 -
+        C_i[6] * t101);
+    jac_phi_q_v_geometry[60] = t102 * C_i[1] + t103 * C_i[4] - t104 * C_i[7] - (t99 * C_i[1] + t100 * C_i[4] - t101
         * C_i[7]);
-    jac_phi_q_v_geometry[61] = t99 * C_i[2] + t100 * C_i[5] - t101 * C_i[8] + (t102 * C_i[2] + t103 * C_i[5] - t104
+    jac_phi_q_v_geometry[61] = t102 * C_i[2] + t103 * C_i[5] - t104 * C_i[8] - (t99 * C_i[2] + t100 * C_i[5] - t101
         * C_i[8]);
     const jg_real t105 = -omega_j[2];
     jac_phi_q_v_geometry[62] = t105;
     jac_phi_q_v_geometry[74] = t105;
     jac_phi_q_v_geometry[86] = t105;
-    const jg_real t106 = t0 * H_3;
-    const jg_real t107 = t0 * H_4;
-    const jg_real t108 = t0 * H_5;
-    const jg_real t109 = H_3 * v_j[0];
-    const jg_real t110 = H_4 * v_j[0];
-    const jg_real t111 = H_5 * v_j[0];
-    jac_phi_q_v_geometry[63] = t106 * C_i[0] + t107 * C_i[3] + t108 * C_i[6] + (C_i[0] * t109 + C_i[3] * t110 +
-        C_i[6] * t111);
-    jac_phi_q_v_geometry[64] = t106 * C_i[1] + t107 * C_i[4] + t108 * C_i[7] + (t109 * C_i[1] + t110 * C_i[4] + t111
+    const jg_real t106 = H_3 * s_j_cross_omega_j_0;
+    const jg_real t107 = H_4 * s_j_cross_omega_j_0;
+    const jg_real t108 = H_5 * s_j_cross_omega_j_0;
+    const jg_real t109 = v_j[0] * H_3;
+    const jg_real t110 = v_j[0] * H_4;
+    const jg_real t111 = v_j[0] * H_5;
+    jac_phi_q_v_geometry[63] = t109 * C_i[0] + t110 * C_i[3] + t111 * C_i[6] - (C_i[0] * t106 + C_i[3] * t107 +
+        C_i[6] * t108);
+    jac_phi_q_v_geometry[64] = t109 * C_i[1] + t110 * C_i[4] + t111 * C_i[7] - (t106 * C_i[1] + t107 * C_i[4] + t108
         * C_i[7]);
-    jac_phi_q_v_geometry[65] = t106 * C_i[2] + t107 * C_i[5] + t108 * C_i[8] + (t109 * C_i[2] + t110 * C_i[5] + t111
+    jac_phi_q_v_geometry[65] = t109 * C_i[2] + t110 * C_i[5] + t111 * C_i[8] - (t106 * C_i[2] + t107 * C_i[5] + t108
         * C_i[8]);
-    const jg_real t112 = t1 * H_3;
-    const jg_real t113 = t1 * H_4;
-    const jg_real t114 = t1 * H_5;
-    const jg_real t115 = H_3 * v_j[1];
-    const jg_real t116 = H_4 * v_j[1];
-    const jg_real t117 = H_5 * v_j[1];
-    jac_phi_q_v_geometry[67] = t112 * C_i[0] + t113 * C_i[3] + t114 * C_i[6] + (C_i[0] * t115 + C_i[3] * t116 +
-        C_i[6] * t117);
-    jac_phi_q_v_geometry[68] = t112 * C_i[1] + t113 * C_i[4] + t114 * C_i[7] + (t115 * C_i[1] + t116 * C_i[4] + t117
+    const jg_real t112 = H_3 * s_j_cross_omega_j_1;
+    const jg_real t113 = H_4 * s_j_cross_omega_j_1;
+    const jg_real t114 = H_5 * s_j_cross_omega_j_1;
+    const jg_real t115 = v_j[1] * H_3;
+    const jg_real t116 = v_j[1] * H_4;
+    const jg_real t117 = v_j[1] * H_5;
+    jac_phi_q_v_geometry[67] = t115 * C_i[0] + t116 * C_i[3] + t117 * C_i[6] - (C_i[0] * t112 + C_i[3] * t113 +
+        C_i[6] * t114);
+    jac_phi_q_v_geometry[68] = t115 * C_i[1] + t116 * C_i[4] + t117 * C_i[7] - (t112 * C_i[1] + t113 * C_i[4] + t114
         * C_i[7]);
-    jac_phi_q_v_geometry[69] = t112 * C_i[2] + t113 * C_i[5] + t114 * C_i[8] + (t115 * C_i[2] + t116 * C_i[5] + t117
+    jac_phi_q_v_geometry[69] = t115 * C_i[2] + t116 * C_i[5] + t117 * C_i[8] - (t112 * C_i[2] + t113 * C_i[5] + t114
         * C_i[8]);
-    const jg_real t118 = t2 * H_3;
-    const jg_real t119 = t2 * H_4;
-    const jg_real t120 = t2 * H_5;
-    const jg_real t121 = H_3 * v_j[2];
-    const jg_real t122 = H_4 * v_j[2];
-    const jg_real t123 = H_5 * v_j[2];
-    jac_phi_q_v_geometry[71] = t118 * C_i[0] + t119 * C_i[3] + t120 * C_i[6] + (C_i[0] * t121 + C_i[3] * t122 +
-        C_i[6] * t123);
-    jac_phi_q_v_geometry[72] = t118 * C_i[1] + t119 * C_i[4] + t120 * C_i[7] + (t121 * C_i[1] + t122 * C_i[4] + t123
+    const jg_real t118 = H_3 * s_j_cross_omega_j_2;
+    const jg_real t119 = H_4 * s_j_cross_omega_j_2;
+    const jg_real t120 = H_5 * s_j_cross_omega_j_2;
+    const jg_real t121 = v_j[2] * H_3;
+    const jg_real t122 = v_j[2] * H_4;
+    const jg_real t123 = v_j[2] * H_5;
+    jac_phi_q_v_geometry[71] = t121 * C_i[0] + t122 * C_i[3] + t123 * C_i[6] - (C_i[0] * t118 + C_i[3] * t119 +
+        C_i[6] * t120);
+    jac_phi_q_v_geometry[72] = t121 * C_i[1] + t122 * C_i[4] + t123 * C_i[7] - (t118 * C_i[1] + t119 * C_i[4] + t120
         * C_i[7]);
-    jac_phi_q_v_geometry[73] = t118 * C_i[2] + t119 * C_i[5] + t120 * C_i[8] + (t121 * C_i[2] + t122 * C_i[5] + t123
+    jac_phi_q_v_geometry[73] = t121 * C_i[2] + t122 * C_i[5] + t123 * C_i[8] - (t118 * C_i[2] + t119 * C_i[5] + t120
         * C_i[8]);
-    const jg_real t124 = t0 * H_6;
-    const jg_real t125 = t0 * t18;
-    const jg_real t126 = t0 * H_8;
+    const jg_real t124 = H_6 * s_j_cross_omega_j_0;
+    const jg_real t125 = t8 * s_j_cross_omega_j_0;
+    const jg_real t126 = H_8 * s_j_cross_omega_j_0;
     const jg_real t127 = H_6 * v_j[0];
-    const jg_real t128 = t18 * v_j[0];
-    const jg_real t129 = H_8 * v_j[0];
-    jac_phi_q_v_geometry[75] = t124 * C_i[0] - t125 * C_i[3] + t126 * C_i[6] + (C_i[0] * t127 - C_i[3] * t128 +
-        C_i[6] * t129);
-    jac_phi_q_v_geometry[76] = t124 * C_i[1] - t125 * C_i[4] + t126 * C_i[7] + (t127 * C_i[1] - t128 * C_i[4] + t129
+    const jg_real t128 = t8 * v_j[0];
+    const jg_real t129 = v_j[0] * H_8;
+    jac_phi_q_v_geometry[75] = t127 * C_i[0] - t128 * C_i[3] + t129 * C_i[6] - (C_i[0] * t124 - C_i[3] * t125 +
+        C_i[6] * t126);
+    jac_phi_q_v_geometry[76] = t127 * C_i[1] - t128 * C_i[4] + t129 * C_i[7] - (t124 * C_i[1] - t125 * C_i[4] + t126
         * C_i[7]);
-    jac_phi_q_v_geometry[77] = t124 * C_i[2] - t125 * C_i[5] + t126 * C_i[8] + (t127 * C_i[2] - t128 * C_i[5] + t129
+    jac_phi_q_v_geometry[77] = t127 * C_i[2] - t128 * C_i[5] + t129 * C_i[8] - (t124 * C_i[2] - t125 * C_i[5] + t126
         * C_i[8]);
-    const jg_real t130 = t1 * H_6;
-    const jg_real t131 = t1 * t18;
-    const jg_real t132 = t1 * H_8;
+    const jg_real t130 = H_6 * s_j_cross_omega_j_1;
+    const jg_real t131 = t8 * s_j_cross_omega_j_1;
+    const jg_real t132 = H_8 * s_j_cross_omega_j_1;
     const jg_real t133 = H_6 * v_j[1];
-    const jg_real t134 = t18 * v_j[1];
-    const jg_real t135 = H_8 * v_j[1];
-    jac_phi_q_v_geometry[79] = t130 * C_i[0] - t131 * C_i[3] + t132 * C_i[6] + (C_i[0] * t133 - C_i[3] * t134 +
-        C_i[6] * t135);
-    jac_phi_q_v_geometry[80] = t130 * C_i[1] - t131 * C_i[4] + t132 * C_i[7] + (t133 * C_i[1] - t134 * C_i[4] + t135
+    const jg_real t134 = t8 * v_j[1];
+    const jg_real t135 = v_j[1] * H_8;
+    jac_phi_q_v_geometry[79] = t133 * C_i[0] - t134 * C_i[3] + t135 * C_i[6] - (C_i[0] * t130 - C_i[3] * t131 +
+        C_i[6] * t132);
+    jac_phi_q_v_geometry[80] = t133 * C_i[1] - t134 * C_i[4] + t135 * C_i[7] - (t130 * C_i[1] - t131 * C_i[4] + t132
         * C_i[7]);
-    jac_phi_q_v_geometry[81] = t130 * C_i[2] - t131 * C_i[5] + t132 * C_i[8] + (t133 * C_i[2] - t134 * C_i[5] + t135
+    jac_phi_q_v_geometry[81] = t133 * C_i[2] - t134 * C_i[5] + t135 * C_i[8] - (t130 * C_i[2] - t131 * C_i[5] + t132
         * C_i[8]);
-    const jg_real t136 = t2 * H_6;
-    const jg_real t137 = t2 * t18;
-    const jg_real t138 = t2 * H_8;
+    const jg_real t136 = H_6 * s_j_cross_omega_j_2;
+    const jg_real t137 = t8 * s_j_cross_omega_j_2;
+    const jg_real t138 = H_8 * s_j_cross_omega_j_2;
     const jg_real t139 = H_6 * v_j[2];
-    const jg_real t140 = t18 * v_j[2];
-    const jg_real t141 = H_8 * v_j[2];
-    jac_phi_q_v_geometry[83] = t136 * C_i[0] - t137 * C_i[3] + t138 * C_i[6] + (C_i[0] * t139 - C_i[3] * t140 +
-        C_i[6] * t141);
-    jac_phi_q_v_geometry[84] = t136 * C_i[1] - t137 * C_i[4] + t138 * C_i[7] + (t139 * C_i[1] - t140 * C_i[4] + t141
+    const jg_real t140 = t8 * v_j[2];
+    const jg_real t141 = v_j[2] * H_8;
+    jac_phi_q_v_geometry[83] = t139 * C_i[0] - t140 * C_i[3] + t141 * C_i[6] - (C_i[0] * t136 - C_i[3] * t137 +
+        C_i[6] * t138);
+    jac_phi_q_v_geometry[84] = t139 * C_i[1] - t140 * C_i[4] + t141 * C_i[7] - (t136 * C_i[1] - t137 * C_i[4] + t138
         * C_i[7]);
-    jac_phi_q_v_geometry[85] = t136 * C_i[2] - t137 * C_i[5] + t138 * C_i[8] + (t139 * C_i[2] - t140 * C_i[5] + t141
+    jac_phi_q_v_geometry[85] = t139 * C_i[2] - t140 * C_i[5] + t141 * C_i[8] - (t136 * C_i[2] - t137 * C_i[5] + t138
         * C_i[8]);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -655,85 +670,85 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_velocity[13] = s_i[1];
     jac_phi_q_v_velocity[4] = -s_i[1];
     /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
+    const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_2 * C_i[6];
     jac_phi_q_v_velocity[5] = f_star_0;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t60;
     jac_phi_q_v_velocity[6] = g_star_0;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t18 * C_i[3] + t57;
+    const jg_real h_star_0 = H_6 * C_i[0] - t8 * C_i[3] + t57;
     jac_phi_q_v_velocity[7] = h_star_0;
     jac_phi_q_v_velocity[8] = -s_i[2];
     jac_phi_q_v_velocity[9] = s_i[0];
-    const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_1 * C_i[7];
+    const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_2 * C_i[7];
     jac_phi_q_v_velocity[10] = f_star_1;
     const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t61;
     jac_phi_q_v_velocity[11] = g_star_1;
-    const jg_real h_star_1 = H_6 * C_i[1] - t18 * C_i[4] + t58;
+    const jg_real h_star_1 = H_6 * C_i[1] - t8 * C_i[4] + t58;
     jac_phi_q_v_velocity[12] = h_star_1;
     jac_phi_q_v_velocity[14] = -s_i[0];
-    const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_1 * C_i[8];
+    const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_2 * C_i[8];
     jac_phi_q_v_velocity[15] = f_star_2;
     const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t62;
     jac_phi_q_v_velocity[16] = g_star_2;
-    const jg_real h_star_2 = H_6 * C_i[2] - t18 * C_i[5] + t59;
+    const jg_real h_star_2 = H_6 * C_i[2] - t8 * C_i[5] + t59;
     jac_phi_q_v_velocity[17] = h_star_2;
-    const jg_real t151 = C_j[3] * H_3 + C_j[0] * H_0 + C_j[6] * H_6;
-    const jg_real t152 = C_j[3] * H_4 + C_j[0] * H_1 - C_j[6] * t18;
-    const jg_real t153 = C_j[3] * H_5 - C_j[0] * sine_1 + C_j[6] * H_8;
-    jac_phi_q_v_velocity[18] = C_i[0] * t151 + C_i[3] * t152 + C_i[6] * t153;
+    const jg_real t151 = H_3 * C_j[3] + H_0 * C_j[0] + H_6 * C_j[6];
+    const jg_real t152 = H_4 * C_j[3] + C_j[0] * H_1 - t8 * C_j[6];
+    const jg_real t153 = C_j[3] * H_5 - sine_2 * C_j[0] + C_j[6] * H_8;
+    jac_phi_q_v_velocity[18] = t151 * C_i[0] + t152 * C_i[3] + t153 * C_i[6];
     jac_phi_q_v_velocity[19] = t151 * C_i[1] + t152 * C_i[4] + t153 * C_i[7];
     jac_phi_q_v_velocity[20] = t151 * C_i[2] + t152 * C_i[5] + t153 * C_i[8];
-    const jg_real t154 = C_j[4] * H_3 + C_j[1] * H_0 + C_j[7] * H_6;
-    const jg_real t155 = C_j[4] * H_4 + C_j[1] * H_1 - C_j[7] * t18;
-    const jg_real t156 = C_j[4] * H_5 - C_j[1] * sine_1 + C_j[7] * H_8;
-    jac_phi_q_v_velocity[21] = C_i[0] * t154 + C_i[3] * t155 + C_i[6] * t156;
+    const jg_real t154 = H_3 * C_j[4] + H_0 * C_j[1] + H_6 * C_j[7];
+    const jg_real t155 = H_4 * C_j[4] + C_j[1] * H_1 - t8 * C_j[7];
+    const jg_real t156 = C_j[4] * H_5 - sine_2 * C_j[1] + C_j[7] * H_8;
+    jac_phi_q_v_velocity[21] = t154 * C_i[0] + t155 * C_i[3] + t156 * C_i[6];
     jac_phi_q_v_velocity[22] = t154 * C_i[1] + t155 * C_i[4] + t156 * C_i[7];
     jac_phi_q_v_velocity[23] = t154 * C_i[2] + t155 * C_i[5] + t156 * C_i[8];
-    const jg_real t157 = C_j[5] * H_3 + C_j[2] * H_0 + C_j[8] * H_6;
-    const jg_real t158 = C_j[5] * H_4 + C_j[2] * H_1 - C_j[8] * t18;
-    const jg_real t159 = C_j[5] * H_5 - C_j[2] * sine_1 + C_j[8] * H_8;
-    jac_phi_q_v_velocity[24] = C_i[0] * t157 + C_i[3] * t158 + C_i[6] * t159;
+    const jg_real t157 = H_3 * C_j[5] + H_0 * C_j[2] + H_6 * C_j[8];
+    const jg_real t158 = H_4 * C_j[5] + C_j[2] * H_1 - t8 * C_j[8];
+    const jg_real t159 = C_j[5] * H_5 - sine_2 * C_j[2] + C_j[8] * H_8;
+    jac_phi_q_v_velocity[24] = t157 * C_i[0] + t158 * C_i[3] + t159 * C_i[6];
     jac_phi_q_v_velocity[25] = t157 * C_i[1] + t158 * C_i[4] + t159 * C_i[7];
     jac_phi_q_v_velocity[26] = t157 * C_i[2] + t158 * C_i[5] + t159 * C_i[8];
-    const jg_real t160 = s_j[1] * C_j[5] - s_j[2] * C_j[4];
-    const jg_real t161 = s_j[1] * C_j[2] - s_j[2] * C_j[1];
-    const jg_real t162 = s_j[1] * C_j[8] - s_j[2] * C_j[7];
-    const jg_real t163 = t161 * H_0 + t160 * H_3 + t162 * H_6;
-    const jg_real t164 = t161 * H_1 + t160 * H_4 - t162 * t18;
-    const jg_real t165 = t160 * H_5 - t161 * sine_1 + t162 * H_8;
-    jac_phi_q_v_velocity[27] = t163 * C_i[0] + t164 * C_i[3] + t165 * C_i[6];
-    jac_phi_q_v_velocity[28] = t163 * C_i[1] + t164 * C_i[4] + t165 * C_i[7];
-    jac_phi_q_v_velocity[29] = t163 * C_i[2] + t164 * C_i[5] + t165 * C_i[8];
+    const jg_real t160 = C_j[4] * s_j[2] - C_j[5] * s_j[1];
+    const jg_real t161 = C_j[1] * s_j[2] - C_j[2] * s_j[1];
+    const jg_real t162 = C_j[7] * s_j[2] - C_j[8] * s_j[1];
+    const jg_real t163 = H_0 * t161 + H_3 * t160 + H_6 * t162;
+    const jg_real t164 = H_1 * t161 + H_4 * t160 - t8 * t162;
+    const jg_real t165 = H_5 * t160 - sine_2 * t161 + H_8 * t162;
+    jac_phi_q_v_velocity[27] = -(C_i[0] * t163 + C_i[3] * t164 + C_i[6] * t165);
+    jac_phi_q_v_velocity[28] = -(t163 * C_i[1] + t164 * C_i[4] + t165 * C_i[7]);
+    jac_phi_q_v_velocity[29] = -(t163 * C_i[2] + t164 * C_i[5] + t165 * C_i[8]);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
-    const jg_real t166 = s_j[2] * C_j[3] - s_j[0] * C_j[5];
-    const jg_real t167 = s_j[2] * C_j[0] - s_j[0] * C_j[2];
-    const jg_real t168 = s_j[2] * C_j[6] - s_j[0] * C_j[8];
-    const jg_real t169 = t167 * H_0 + t166 * H_3 + t168 * H_6;
-    const jg_real t170 = t167 * H_1 + t166 * H_4 - t168 * t18;
-    const jg_real t171 = t166 * H_5 - t167 * sine_1 + t168 * H_8;
-    jac_phi_q_v_velocity[33] = t169 * C_i[0] + t170 * C_i[3] + t171 * C_i[6];
-    jac_phi_q_v_velocity[34] = t169 * C_i[1] + t170 * C_i[4] + t171 * C_i[7];
-    jac_phi_q_v_velocity[35] = t169 * C_i[2] + t170 * C_i[5] + t171 * C_i[8];
+    const jg_real t166 = C_j[5] * s_j[0] - C_j[3] * s_j[2];
+    const jg_real t167 = C_j[2] * s_j[0] - C_j[0] * s_j[2];
+    const jg_real t168 = C_j[8] * s_j[0] - C_j[6] * s_j[2];
+    const jg_real t169 = H_0 * t167 + H_3 * t166 + H_6 * t168;
+    const jg_real t170 = H_1 * t167 + H_4 * t166 - t8 * t168;
+    const jg_real t171 = H_5 * t166 - sine_2 * t167 + H_8 * t168;
+    jac_phi_q_v_velocity[33] = -(C_i[0] * t169 + C_i[3] * t170 + C_i[6] * t171);
+    jac_phi_q_v_velocity[34] = -(t169 * C_i[1] + t170 * C_i[4] + t171 * C_i[7]);
+    jac_phi_q_v_velocity[35] = -(t169 * C_i[2] + t170 * C_i[5] + t171 * C_i[8]);
     jac_phi_q_v_velocity[36] = -C_j[1];
     jac_phi_q_v_velocity[37] = -C_j[4];
     jac_phi_q_v_velocity[38] = -C_j[7];
-    const jg_real t172 = s_j[0] * C_j[4] - s_j[1] * C_j[3];
-    const jg_real t173 = s_j[0] * C_j[1] - s_j[1] * C_j[0];
-    const jg_real t174 = s_j[0] * C_j[7] - s_j[1] * C_j[6];
-    const jg_real t175 = t173 * H_0 + t172 * H_3 + t174 * H_6;
-    const jg_real t176 = t173 * H_1 + t172 * H_4 - t174 * t18;
-    const jg_real t177 = t172 * H_5 - t173 * sine_1 + t174 * H_8;
-    jac_phi_q_v_velocity[39] = t175 * C_i[0] + t176 * C_i[3] + t177 * C_i[6];
-    jac_phi_q_v_velocity[40] = t175 * C_i[1] + t176 * C_i[4] + t177 * C_i[7];
-    jac_phi_q_v_velocity[41] = t175 * C_i[2] + t176 * C_i[5] + t177 * C_i[8];
+    const jg_real t172 = C_j[3] * s_j[1] - C_j[4] * s_j[0];
+    const jg_real t173 = C_j[0] * s_j[1] - C_j[1] * s_j[0];
+    const jg_real t174 = C_j[6] * s_j[1] - C_j[7] * s_j[0];
+    const jg_real t175 = H_0 * t173 + H_3 * t172 + H_6 * t174;
+    const jg_real t176 = H_1 * t173 + H_4 * t172 - t8 * t174;
+    const jg_real t177 = H_5 * t172 - sine_2 * t173 + H_8 * t174;
+    jac_phi_q_v_velocity[39] = -(C_i[0] * t175 + C_i[3] * t176 + C_i[6] * t177);
+    jac_phi_q_v_velocity[40] = -(t175 * C_i[1] + t176 * C_i[4] + t177 * C_i[7]);
+    jac_phi_q_v_velocity[41] = -(t175 * C_i[2] + t176 * C_i[5] + t177 * C_i[8]);
     jac_phi_q_v_velocity[42] = -C_j[2];
     jac_phi_q_v_velocity[43] = -C_j[5];
     jac_phi_q_v_velocity[44] = -C_j[8];
-    jac_phi_q_v_velocity[45] = -sine_1;
-    jac_phi_q_v_velocity[49] = -sine_2;
+    jac_phi_q_v_velocity[45] = -sine_2;
+    jac_phi_q_v_velocity[49] = -sine_1;
     jac_phi_q_v_velocity[50] = JG_REAL(1.0);
 }
 

@@ -54,12 +54,14 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t1 = A_i[0] * s_i[0];
     const jg_real t2 = A_i[3] * s_i[1];
     const jg_real t3 = A_i[6] * s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = t1 + t2 + t3;
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - (t1 + t2 + t3);
+    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
     jac_phi_A_i[0] = d_ij_0 - t1;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t5 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -69,90 +71,92 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t11 = sine_0 * cosine_1;
+    const jg_real t12 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = H_4 * C_i[3] - t11 * C_i[0] + sine_1 * C_i[6];
-    jac_phi_A_i[3] = t5 * g_star_0;
+    const jg_real g_star_0 = H_4 * C_i[3] - t12 * C_i[0] + sine_1 * C_i[6];
+    jac_phi_A_i[3] = t6 * g_star_0;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t14 = cosine_0 * sine_1;
+    const jg_real t15 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t14 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real t16 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = h_star_0 * t16;
-    const jg_real t17 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_0 = H_6 * C_i[0] - t15 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t17 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = h_star_0 * t17;
+    const jg_real t18 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    jac_phi_A_i[5] = t17 * f_star_0;
+    jac_phi_A_i[5] = t18 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t20 = s_i[0] * A_i[1];
-    const jg_real t21 = s_i[1] * A_i[4];
-    const jg_real t22 = s_i[2] * A_i[7];
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - (t20 + t21 + t22);
-    jac_phi_A_i[6] = d_ij_1 - t20;
+    const jg_real t21 = s_i[0] * A_i[1];
+    const jg_real t22 = s_i[1] * A_i[4];
+    const jg_real t23 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t21 + t22 + t23;
+    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t21;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t24 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t24 * g_star_0;
-    const jg_real t25 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = h_star_0 * t25;
-    const jg_real t26 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t26 * f_star_0;
+    const jg_real t26 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t26 * g_star_0;
+    const jg_real t27 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = h_star_0 * t27;
+    const jg_real t28 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t28 * f_star_0;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t28 = s_i[0] * A_i[2];
-    const jg_real t29 = s_i[1] * A_i[5];
-    const jg_real t30 = s_i[2] * A_i[8];
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - (t28 + t29 + t30);
-    jac_phi_A_i[12] = d_ij_2 - t28;
+    const jg_real t30 = s_i[0] * A_i[2];
+    const jg_real t31 = s_i[1] * A_i[5];
+    const jg_real t32 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t30 + t31 + t32;
+    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t30;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t32 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t32 * g_star_0;
-    const jg_real t33 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = h_star_0 * t33;
-    const jg_real t34 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t34 * f_star_0;
+    const jg_real t35 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t35 * g_star_0;
+    const jg_real t36 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = h_star_0 * t36;
+    const jg_real t37 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t37 * f_star_0;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
     jac_phi_A_i[19] = d_ij_0 - t2;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    const jg_real g_star_1 = H_4 * C_i[4] - t11 * C_i[1] + sine_1 * C_i[7];
-    jac_phi_A_i[21] = t5 * g_star_1;
-    const jg_real h_star_1 = H_6 * C_i[1] - t14 * C_i[4] + cosine_1 * C_i[7];
-    jac_phi_A_i[22] = h_star_1 * t16;
+    const jg_real g_star_1 = H_4 * C_i[4] - t12 * C_i[1] + sine_1 * C_i[7];
+    jac_phi_A_i[21] = t6 * g_star_1;
+    const jg_real h_star_1 = H_6 * C_i[1] - t15 * C_i[4] + cosine_1 * C_i[7];
+    jac_phi_A_i[22] = h_star_1 * t17;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    jac_phi_A_i[23] = t17 * f_star_1;
+    jac_phi_A_i[23] = t18 * f_star_1;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t21;
+    jac_phi_A_i[25] = d_ij_1 - t22;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t24 * g_star_1;
-    jac_phi_A_i[28] = h_star_1 * t25;
-    jac_phi_A_i[29] = t26 * f_star_1;
+    jac_phi_A_i[27] = t26 * g_star_1;
+    jac_phi_A_i[28] = h_star_1 * t27;
+    jac_phi_A_i[29] = t28 * f_star_1;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t29;
+    jac_phi_A_i[31] = d_ij_2 - t31;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t32 * g_star_1;
-    jac_phi_A_i[34] = h_star_1 * t33;
-    jac_phi_A_i[35] = t34 * f_star_1;
+    jac_phi_A_i[33] = t35 * g_star_1;
+    jac_phi_A_i[34] = h_star_1 * t36;
+    jac_phi_A_i[35] = t37 * f_star_1;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
     jac_phi_A_i[38] = d_ij_0 - t3;
-    const jg_real g_star_2 = H_4 * C_i[5] - t11 * C_i[2] + sine_1 * C_i[8];
-    jac_phi_A_i[39] = t5 * g_star_2;
-    const jg_real h_star_2 = H_6 * C_i[2] - t14 * C_i[5] + cosine_1 * C_i[8];
-    jac_phi_A_i[40] = h_star_2 * t16;
+    const jg_real g_star_2 = H_4 * C_i[5] - t12 * C_i[2] + sine_1 * C_i[8];
+    jac_phi_A_i[39] = t6 * g_star_2;
+    const jg_real h_star_2 = H_6 * C_i[2] - t15 * C_i[5] + cosine_1 * C_i[8];
+    jac_phi_A_i[40] = h_star_2 * t17;
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    jac_phi_A_i[41] = t17 * f_star_2;
+    jac_phi_A_i[41] = t18 * f_star_2;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t22;
-    jac_phi_A_i[45] = t24 * g_star_2;
-    jac_phi_A_i[46] = h_star_2 * t25;
-    jac_phi_A_i[47] = t26 * f_star_2;
+    jac_phi_A_i[44] = d_ij_1 - t23;
+    jac_phi_A_i[45] = t26 * g_star_2;
+    jac_phi_A_i[46] = h_star_2 * t27;
+    jac_phi_A_i[47] = t28 * f_star_2;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t30;
-    jac_phi_A_i[51] = t32 * g_star_2;
-    jac_phi_A_i[52] = h_star_2 * t33;
-    jac_phi_A_i[53] = t34 * f_star_2;
+    jac_phi_A_i[50] = d_ij_2 - t32;
+    jac_phi_A_i[51] = t35 * g_star_2;
+    jac_phi_A_i[52] = h_star_2 * t36;
+    jac_phi_A_i[53] = t37 * f_star_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -230,14 +234,14 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[41] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t11 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t11 * C_i[4] + H_4 * C_i[1]) +
-        A_ij_h_j_2 * (t11 * C_i[5] + H_4 * C_i[2]));
+    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t12 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t12 * C_i[4] + H_4 * C_i[1]) +
+        A_ij_h_j_2 * (t12 * C_i[5] + H_4 * C_i[2]));
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    jac_phi_alpha[1] = A_ij_f_j_0 * (t14 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t14 * C_i[1] + H_6 * C_i[4]) +
-        A_ij_f_j_2 * (t14 * C_i[2] + H_6 * C_i[5]);
+    jac_phi_alpha[1] = A_ij_f_j_0 * (t15 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t15 * C_i[1] + H_6 * C_i[4]) +
+        A_ij_f_j_2 * (t15 * C_i[2] + H_6 * C_i[5]);
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -247,34 +251,34 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_alpha[3] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     jac_phi_alpha[4] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t59 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t59;
-    jac_phi_geometry[3] = t59;
-    const jg_real t60 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t60;
-    jac_phi_geometry[6] = t60;
+    const jg_real t62 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t62;
+    jac_phi_geometry[3] = t62;
+    const jg_real t63 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t63;
+    jac_phi_geometry[6] = t63;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t61 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t61;
-    jac_phi_geometry[7] = t61;
+    const jg_real t64 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t64;
+    jac_phi_geometry[7] = t64;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_geometry[9] = -(A_ij_h_j_0 * t11);
+    jac_phi_geometry[9] = -(A_ij_h_j_0 * t12);
     jac_phi_geometry[10] = H_6 * A_ij_f_j_0;
     jac_phi_geometry[11] = cosine_0 * A_ij_g_j_0;
-    jac_phi_geometry[12] = -(t11 * A_ij_h_j_1);
+    jac_phi_geometry[12] = -(t12 * A_ij_h_j_1);
     jac_phi_geometry[13] = H_6 * A_ij_f_j_1;
     jac_phi_geometry[14] = cosine_0 * A_ij_g_j_1;
-    jac_phi_geometry[15] = -(t11 * A_ij_h_j_2);
+    jac_phi_geometry[15] = -(t12 * A_ij_h_j_2);
     jac_phi_geometry[16] = H_6 * A_ij_f_j_2;
     jac_phi_geometry[17] = cosine_0 * A_ij_g_j_2;
     jac_phi_geometry[18] = A_ij_h_j_0 * H_4;
-    jac_phi_geometry[19] = -(t14 * A_ij_f_j_0);
+    jac_phi_geometry[19] = -(t15 * A_ij_f_j_0);
     jac_phi_geometry[20] = sine_0 * A_ij_g_j_0;
     jac_phi_geometry[21] = H_4 * A_ij_h_j_1;
-    jac_phi_geometry[22] = -(t14 * A_ij_f_j_1);
+    jac_phi_geometry[22] = -(t15 * A_ij_f_j_1);
     jac_phi_geometry[23] = sine_0 * A_ij_g_j_1;
     jac_phi_geometry[24] = H_4 * A_ij_h_j_2;
-    jac_phi_geometry[25] = -(t14 * A_ij_f_j_2);
+    jac_phi_geometry[25] = -(t15 * A_ij_f_j_2);
     jac_phi_geometry[26] = sine_0 * A_ij_g_j_2;
     jac_phi_geometry[27] = A_ij_h_j_0 * sine_1;
     jac_phi_geometry[28] = cosine_1 * A_ij_f_j_0;
@@ -308,52 +312,45 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
-    jac_phi_q_v_r_j[0] = t0;
-    jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
-    jac_phi_q_v_r_j[1] = t1;
-    jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
-    jac_phi_q_v_r_j[2] = t2;
-    jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
-    jac_phi_q_v_r_j[3] = t3;
-    jac_phi_q_v_r_i[3] = -t3;
-    const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
-    jac_phi_q_v_r_j[4] = t4;
-    jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
-    jac_phi_q_v_r_j[5] = t5;
-    jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
-    jac_phi_q_v_r_j[6] = t6;
-    jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
-    jac_phi_q_v_r_j[7] = t7;
-    jac_phi_q_v_r_i[7] = -t7;
-    const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[6];
+    const jg_real t0 = A_i[6] * omega_i[1] - A_i[3] * omega_i[2];
+    jac_phi_q_v_r_i[0] = t0;
+    const jg_real t1 = A_i[0] * omega_i[2] - A_i[6] * omega_i[0];
+    jac_phi_q_v_r_i[1] = t1;
+    const jg_real t2 = A_i[3] * omega_i[0] - A_i[0] * omega_i[1];
+    jac_phi_q_v_r_i[2] = t2;
+    const jg_real t3 = A_i[7] * omega_i[1] - A_i[4] * omega_i[2];
+    jac_phi_q_v_r_i[3] = t3;
+    const jg_real t4 = A_i[1] * omega_i[2] - A_i[7] * omega_i[0];
+    jac_phi_q_v_r_i[4] = t4;
+    const jg_real t5 = A_i[4] * omega_i[0] - A_i[1] * omega_i[1];
+    jac_phi_q_v_r_i[5] = t5;
+    const jg_real t6 = A_i[8] * omega_i[1] - A_i[5] * omega_i[2];
+    jac_phi_q_v_r_i[6] = t6;
+    const jg_real t7 = A_i[2] * omega_i[2] - A_i[8] * omega_i[0];
+    jac_phi_q_v_r_i[7] = t7;
+    const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
+    jac_phi_q_v_r_i[8] = t8;
+    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
     const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
+    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 * omega_i[1] - t10 * omega_i[2] + t11 + t15;
+    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real t17 = A_i[0] * s_i[0];
     const jg_real t18 = A_i[3] * s_i[1];
     const jg_real t19 = A_i[6] * s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = t17 + t18 + t19;
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - (t17 + t18 + t19);
-    const jg_real t21 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(t9 * omega_i[0] + omega_i[2] * t21);
-    jac_phi_q_v_A_i[2] = omega_i[1] * t21 + t10 * omega_i[0];
+    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
+    const jg_real t22 = d_ij_0 - t17;
+    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
+    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -363,450 +360,461 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t27 = sine_0 * cosine_1;
+    const jg_real t28 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_1 = H_4 * C_i[4] - t27 * C_i[1] + sine_1 * C_i[7];
-    const jg_real t29 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t30 = omega_i[2] * t29;
-    const jg_real g_star_2 = H_4 * C_i[5] - t27 * C_i[2] + sine_1 * C_i[8];
-    const jg_real t32 = omega_i[1] * t29;
+    const jg_real g_star_1 = H_4 * C_i[4] - t28 * C_i[1] + sine_1 * C_i[7];
+    const jg_real t30 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t31 = omega_i[2] * t30;
+    const jg_real g_star_2 = H_4 * C_i[5] - t28 * C_i[2] + sine_1 * C_i[8];
+    const jg_real t33 = omega_i[1] * t30;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t34 = cosine_0 * sine_1;
+    const jg_real t35 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t34 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real h_star_0 = H_6 * C_i[0] - t35 * C_i[3] + cosine_1 * C_i[6];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t40 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    const jg_real g_star_0 = H_4 * C_i[3] - t27 * C_i[0] + sine_1 * C_i[6];
-    jac_phi_q_v_A_i[3] = h_star_0 * t29 * alphadot[1] - (g_star_1 * t30 - g_star_2 * t32) - t29 * f_star_0 *
-        alphadot[0] * cosine_1 + t40 * g_star_0;
-    const jg_real h_star_1 = H_6 * C_i[1] - t34 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real t43 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t44 = omega_i[2] * t43;
-    const jg_real h_star_2 = H_6 * C_i[2] - t34 * C_i[5] + cosine_1 * C_i[8];
-    const jg_real t46 = omega_i[1] * t43;
+    const jg_real t41 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    const jg_real g_star_0 = H_4 * C_i[3] - t28 * C_i[0] + sine_1 * C_i[6];
+    jac_phi_q_v_A_i[3] = h_star_0 * t30 * alphadot[1] - (g_star_1 * t31 - g_star_2 * t33) - t30 * f_star_0 *
+        alphadot[0] * cosine_1 + t41 * g_star_0;
+    const jg_real h_star_1 = H_6 * C_i[1] - t35 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real t44 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t45 = omega_i[2] * t44;
+    const jg_real h_star_2 = H_6 * C_i[2] - t35 * C_i[5] + cosine_1 * C_i[8];
+    const jg_real t47 = omega_i[1] * t44;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t50 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[4] = f_star_0 * t43 * alphadot[0] * sine_1 - (h_star_1 * t44 - h_star_2 * t46 + g_star_0 * t43 *
-        alphadot[1]) + h_star_0 * t50;
+    const jg_real t51 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[4] = f_star_0 * t44 * alphadot[0] * sine_1 - (h_star_1 * t45 - h_star_2 * t47 + g_star_0 * t44 *
+        alphadot[1]) + h_star_0 * t51;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    const jg_real t52 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t53 = omega_i[2] * t52;
+    const jg_real t53 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t54 = omega_i[2] * t53;
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    const jg_real t55 = omega_i[1] * t52;
-    const jg_real t56 = cosine_1 * H_4 + sine_1 * t34;
-    const jg_real t57 = cosine_1 * t27 + sine_1 * H_6;
-    const jg_real t58 = C_i[3] * t56 - C_i[0] * t57;
+    const jg_real t56 = omega_i[1] * t53;
+    const jg_real t57 = cosine_1 * H_4 + sine_1 * t35;
+    const jg_real t58 = cosine_1 * t28 + sine_1 * H_6;
+    const jg_real t59 = C_i[3] * t57 - C_i[0] * t58;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t62 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[5] = t52 * t58 * alphadot[0] - (f_star_1 * t53 - f_star_2 * t55) + f_star_0 * t62;
-    const jg_real t63 = s_i[0] * A_i[7];
-    const jg_real t64 = s_i[0] * A_i[4];
-    const jg_real t65 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t66 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t63 * omega_i[1] - t64 * omega_i[2] + t65 + t66;
+    const jg_real t63 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[5] = t53 * t59 * alphadot[0] - (f_star_1 * t54 - f_star_2 * t56) + f_star_0 * t63;
+    const jg_real t64 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
+    const jg_real t65 = s_i[0] * A_i[4];
+    const jg_real t66 = s_i[0] * A_i[7];
+    const jg_real t67 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
+    jac_phi_q_v_A_i[6] = t64 - (t65 * omega_i[2] - t66 * omega_i[1]) + t67;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t68 = s_i[0] * A_i[1];
-    const jg_real t69 = s_i[1] * A_i[4];
-    const jg_real t70 = s_i[2] * A_i[7];
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - (t68 + t69 + t70);
-    const jg_real t72 = d_ij_1 - t68;
-    jac_phi_q_v_A_i[7] = -(t63 * omega_i[0] + omega_i[2] * t72);
-    jac_phi_q_v_A_i[8] = omega_i[1] * t72 + t64 * omega_i[0];
-    const jg_real t73 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t74 = omega_i[2] * t73;
-    const jg_real t75 = omega_i[1] * t73;
-    const jg_real t76 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[9] = h_star_0 * t73 * alphadot[1] - (g_star_1 * t74 - g_star_2 * t75) - t73 * f_star_0 *
-        alphadot[0] * cosine_1 + t76 * g_star_0;
-    const jg_real t77 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t78 = omega_i[2] * t77;
-    const jg_real t79 = omega_i[1] * t77;
-    const jg_real t80 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[10] = f_star_0 * t77 * alphadot[0] * sine_1 - (h_star_1 * t78 - h_star_2 * t79 + g_star_0 * t77
-        * alphadot[1]) + h_star_0 * t80;
-    const jg_real t81 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t82 = omega_i[2] * t81;
-    const jg_real t83 = omega_i[1] * t81;
-    const jg_real t84 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[11] = t81 * t58 * alphadot[0] - (f_star_1 * t82 - f_star_2 * t83) + f_star_0 * t84;
-    const jg_real t85 = s_i[0] * A_i[8];
-    const jg_real t86 = s_i[0] * A_i[5];
+    const jg_real t69 = s_i[0] * A_i[1];
+    const jg_real t70 = s_i[1] * A_i[4];
+    const jg_real t71 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t69 + t70 + t71;
+    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
+    const jg_real t74 = d_ij_1 - t69;
+    jac_phi_q_v_A_i[7] = -(omega_i[2] * t74 + t66 * omega_i[0]);
+    jac_phi_q_v_A_i[8] = t65 * omega_i[0] + omega_i[1] * t74;
+    const jg_real t75 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t76 = omega_i[2] * t75;
+    const jg_real t77 = omega_i[1] * t75;
+    const jg_real t78 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[9] = h_star_0 * t75 * alphadot[1] - (g_star_1 * t76 - g_star_2 * t77) - t75 * f_star_0 *
+        alphadot[0] * cosine_1 + t78 * g_star_0;
+    const jg_real t79 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t80 = omega_i[2] * t79;
+    const jg_real t81 = omega_i[1] * t79;
+    const jg_real t82 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[10] = f_star_0 * t79 * alphadot[0] * sine_1 - (h_star_1 * t80 - h_star_2 * t81 + g_star_0 * t79
+        * alphadot[1]) + h_star_0 * t82;
+    const jg_real t83 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t84 = omega_i[2] * t83;
+    const jg_real t85 = omega_i[1] * t83;
+    const jg_real t86 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[11] = t83 * t59 * alphadot[0] - (f_star_1 * t84 - f_star_2 * t85) + f_star_0 * t86;
     const jg_real t87 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t88 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t85 * omega_i[1] - t86 * omega_i[2] + t87 + t88;
+    const jg_real t88 = s_i[0] * A_i[5];
+    const jg_real t89 = s_i[0] * A_i[8];
+    const jg_real t90 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
+    jac_phi_q_v_A_i[12] = t87 - (t88 * omega_i[2] - t89 * omega_i[1]) + t90;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t90 = s_i[0] * A_i[2];
-    const jg_real t91 = s_i[1] * A_i[5];
-    const jg_real t92 = s_i[2] * A_i[8];
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - (t90 + t91 + t92);
-    const jg_real t94 = d_ij_2 - t90;
-    jac_phi_q_v_A_i[13] = -(t85 * omega_i[0] + omega_i[2] * t94);
-    jac_phi_q_v_A_i[14] = omega_i[1] * t94 + t86 * omega_i[0];
-    const jg_real t95 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t96 = omega_i[2] * t95;
-    const jg_real t97 = omega_i[1] * t95;
-    const jg_real t98 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[15] = h_star_0 * t95 * alphadot[1] - (g_star_1 * t96 - g_star_2 * t97) - t95 * f_star_0 *
-        alphadot[0] * cosine_1 + t98 * g_star_0;
-    const jg_real t99 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t100 = omega_i[2] * t99;
-    const jg_real t101 = omega_i[1] * t99;
-    const jg_real t102 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[16] = f_star_0 * t99 * alphadot[0] * sine_1 - (h_star_1 * t100 - h_star_2 * t101 + g_star_0 *
-        t99 * alphadot[1]) + h_star_0 * t102;
-    const jg_real t103 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t104 = omega_i[2] * t103;
-    const jg_real t105 = omega_i[1] * t103;
-    const jg_real t106 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[17] = t103 * t58 * alphadot[0] - (f_star_1 * t104 - f_star_2 * t105) + f_star_0 * t106;
-    const jg_real t107 = d_ij_0 - t18;
-    const jg_real t108 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t107 * omega_i[2] + t108 * omega_i[1];
-    const jg_real t109 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = omega_i[2] * t109 - t108 * omega_i[0] + t11 + t15;
-    jac_phi_q_v_A_i[20] = -(omega_i[1] * t109 + t107 * omega_i[0]);
-    const jg_real t110 = omega_i[0] * t29;
-    jac_phi_q_v_A_i[21] = h_star_1 * t29 * alphadot[1] - (g_star_2 * t110 - g_star_0 * t30) - t29 * f_star_1 *
-        alphadot[0] * cosine_1 + t40 * g_star_1;
-    const jg_real t111 = omega_i[0] * t43;
-    jac_phi_q_v_A_i[22] = f_star_1 * t43 * alphadot[0] * sine_1 - (h_star_2 * t111 - h_star_0 * t44 + g_star_1 * t43
-        * alphadot[1]) + h_star_1 * t50;
-    const jg_real t112 = omega_i[0] * t52;
-    const jg_real t113 = C_i[4] * t56 - C_i[1] * t57;
-    jac_phi_q_v_A_i[23] = t52 * t113 * alphadot[0] - (f_star_2 * t112 - f_star_0 * t53) + f_star_1 * t62;
-    const jg_real t114 = d_ij_1 - t69;
-    const jg_real t115 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t114 * omega_i[2] + t115 * omega_i[1];
-    const jg_real t116 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = omega_i[2] * t116 - t115 * omega_i[0] + t65 + t66;
-    jac_phi_q_v_A_i[26] = -(omega_i[1] * t116 + t114 * omega_i[0]);
-    const jg_real t117 = omega_i[0] * t73;
-    jac_phi_q_v_A_i[27] = h_star_1 * t73 * alphadot[1] - (g_star_2 * t117 - g_star_0 * t74) - t73 * f_star_1 *
-        alphadot[0] * cosine_1 + t76 * g_star_1;
-    const jg_real t118 = omega_i[0] * t77;
-    jac_phi_q_v_A_i[28] = f_star_1 * t77 * alphadot[0] * sine_1 - (h_star_2 * t118 - h_star_0 * t78 + g_star_1 * t77
-        * alphadot[1]) + h_star_1 * t80;
-    const jg_real t119 = omega_i[0] * t81;
-    jac_phi_q_v_A_i[29] = t81 * t113 * alphadot[0] - (f_star_2 * t119 - f_star_0 * t82) + f_star_1 * t84;
-    const jg_real t120 = d_ij_2 - t91;
-    const jg_real t121 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t120 * omega_i[2] + t121 * omega_i[1];
-    const jg_real t122 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = omega_i[2] * t122 - t121 * omega_i[0] + t87 + t88;
-    jac_phi_q_v_A_i[32] = -(omega_i[1] * t122 + t120 * omega_i[0]);
-    const jg_real t123 = omega_i[0] * t95;
-    jac_phi_q_v_A_i[33] = h_star_1 * t95 * alphadot[1] - (g_star_2 * t123 - g_star_0 * t96) - t95 * f_star_1 *
-        alphadot[0] * cosine_1 + t98 * g_star_1;
-    const jg_real t124 = omega_i[0] * t99;
-    jac_phi_q_v_A_i[34] = f_star_1 * t99 * alphadot[0] * sine_1 - (h_star_2 * t124 - h_star_0 * t100 + g_star_1 *
-        t99 * alphadot[1]) + h_star_1 * t102;
-    const jg_real t125 = omega_i[0] * t103;
-    jac_phi_q_v_A_i[35] = t103 * t113 * alphadot[0] - (f_star_2 * t125 - f_star_0 * t104) + f_star_1 * t106;
-    const jg_real t126 = d_ij_0 - t19;
-    const jg_real t127 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t127 * omega_i[2] + t126 * omega_i[1]);
-    const jg_real t128 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = t126 * omega_i[0] + omega_i[2] * t128;
-    jac_phi_q_v_A_i[38] = t127 * omega_i[0] - omega_i[1] * t128 + t11 + t15;
-    jac_phi_q_v_A_i[39] = h_star_2 * t29 * alphadot[1] - (g_star_0 * t32 - g_star_1 * t110) - t29 * f_star_2 *
-        alphadot[0] * cosine_1 + t40 * g_star_2;
-    jac_phi_q_v_A_i[40] = f_star_2 * t43 * alphadot[0] * sine_1 - (h_star_0 * t46 - h_star_1 * t111 + g_star_2 * t43
-        * alphadot[1]) + h_star_2 * t50;
-    const jg_real t129 = C_i[5] * t56 - C_i[2] * t57;
-    jac_phi_q_v_A_i[41] = t52 * t129 * alphadot[0] - (f_star_0 * t55 - f_star_1 * t112) + f_star_2 * t62;
-    const jg_real t130 = d_ij_1 - t70;
-    const jg_real t131 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t131 * omega_i[2] + t130 * omega_i[1]);
-    const jg_real t132 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = t130 * omega_i[0] + omega_i[2] * t132;
-    jac_phi_q_v_A_i[44] = t131 * omega_i[0] - omega_i[1] * t132 + t65 + t66;
-    jac_phi_q_v_A_i[45] = h_star_2 * t73 * alphadot[1] - (g_star_0 * t75 - g_star_1 * t117) - t73 * f_star_2 *
-        alphadot[0] * cosine_1 + t76 * g_star_2;
-    jac_phi_q_v_A_i[46] = f_star_2 * t77 * alphadot[0] * sine_1 - (h_star_0 * t79 - h_star_1 * t118 + g_star_2 * t77
-        * alphadot[1]) + h_star_2 * t80;
-    jac_phi_q_v_A_i[47] = t81 * t129 * alphadot[0] - (f_star_0 * t83 - f_star_1 * t119) + f_star_2 * t84;
-    const jg_real t133 = d_ij_2 - t92;
-    const jg_real t134 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t134 * omega_i[2] + t133 * omega_i[1]);
-    const jg_real t135 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = t133 * omega_i[0] + omega_i[2] * t135;
-    jac_phi_q_v_A_i[50] = t134 * omega_i[0] - omega_i[1] * t135 + t87 + t88;
-    jac_phi_q_v_A_i[51] = h_star_2 * t95 * alphadot[1] - (g_star_0 * t97 - g_star_1 * t123) - t95 * f_star_2 *
-        alphadot[0] * cosine_1 + t98 * g_star_2;
-    jac_phi_q_v_A_i[52] = f_star_2 * t99 * alphadot[0] * sine_1 - (h_star_0 * t101 - h_star_1 * t124 + g_star_2 *
-        t99 * alphadot[1]) + h_star_2 * t102;
-    jac_phi_q_v_A_i[53] = t103 * t129 * alphadot[0] - (f_star_0 * t105 - f_star_1 * t125) + f_star_2 * t106;
-    const jg_real t136 = s_j[0] * A_i[3];
-    const jg_real t137 = s_j[0] * A_i[6];
-    jac_phi_q_v_A_j[0] = t136 * omega_i[2] - t137 * omega_i[1] + A_i[0] * v_j[0] + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t138 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = t137 * omega_i[0] - omega_i[2] * t138 + A_i[3] * v_j[0] + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = omega_i[1] * t138 - t136 * omega_i[0] + A_i[6] * v_j[0] + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t139 = A_i[6] * C_j[6];
-    const jg_real t140 = A_i[3] * C_j[6];
-    const jg_real t141 = A_i[0] * C_j[6];
+    const jg_real t92 = s_i[0] * A_i[2];
+    const jg_real t93 = s_i[1] * A_i[5];
+    const jg_real t94 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t92 + t93 + t94;
+    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
+    const jg_real t97 = d_ij_2 - t92;
+    jac_phi_q_v_A_i[13] = -(omega_i[2] * t97 + t89 * omega_i[0]);
+    jac_phi_q_v_A_i[14] = t88 * omega_i[0] + omega_i[1] * t97;
+    const jg_real t98 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t99 = omega_i[2] * t98;
+    const jg_real t100 = omega_i[1] * t98;
+    const jg_real t101 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[15] = h_star_0 * t98 * alphadot[1] - (g_star_1 * t99 - g_star_2 * t100) - t98 * f_star_0 *
+        alphadot[0] * cosine_1 + t101 * g_star_0;
+    const jg_real t102 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t103 = omega_i[2] * t102;
+    const jg_real t104 = omega_i[1] * t102;
+    const jg_real t105 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[16] = f_star_0 * t102 * alphadot[0] * sine_1 - (h_star_1 * t103 - h_star_2 * t104 + g_star_0 *
+        t102 * alphadot[1]) + h_star_0 * t105;
+    const jg_real t106 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t107 = omega_i[2] * t106;
+    const jg_real t108 = omega_i[1] * t106;
+    const jg_real t109 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[17] = t106 * t59 * alphadot[0] - (f_star_1 * t107 - f_star_2 * t108) + f_star_0 * t109;
+    const jg_real t110 = d_ij_0 - t18;
+    const jg_real t111 = s_i[1] * A_i[6];
+    jac_phi_q_v_A_i[18] = t111 * omega_i[1] + t110 * omega_i[2];
+    const jg_real t112 = A_i[0] * s_i[1];
+    jac_phi_q_v_A_i[19] = t9 - (t111 * omega_i[0] - omega_i[2] * t112) + t15;
+    jac_phi_q_v_A_i[20] = -(t110 * omega_i[0] + omega_i[1] * t112);
+    const jg_real t113 = omega_i[0] * t30;
+    jac_phi_q_v_A_i[21] = h_star_1 * t30 * alphadot[1] - (g_star_2 * t113 - g_star_0 * t31) - t30 * f_star_1 *
+        alphadot[0] * cosine_1 + t41 * g_star_1;
+    const jg_real t114 = omega_i[0] * t44;
+    jac_phi_q_v_A_i[22] = f_star_1 * t44 * alphadot[0] * sine_1 - (h_star_2 * t114 - h_star_0 * t45 + g_star_1 * t44
+        * alphadot[1]) + h_star_1 * t51;
+    const jg_real t115 = omega_i[0] * t53;
+    const jg_real t116 = C_i[4] * t57 - C_i[1] * t58;
+    jac_phi_q_v_A_i[23] = t53 * t116 * alphadot[0] - (f_star_2 * t115 - f_star_0 * t54) + f_star_1 * t63;
+    const jg_real t117 = d_ij_1 - t70;
+    const jg_real t118 = s_i[1] * A_i[7];
+    jac_phi_q_v_A_i[24] = t118 * omega_i[1] + t117 * omega_i[2];
+    const jg_real t119 = s_i[1] * A_i[1];
+    jac_phi_q_v_A_i[25] = t64 - (t118 * omega_i[0] - omega_i[2] * t119) + t67;
+    jac_phi_q_v_A_i[26] = -(t117 * omega_i[0] + omega_i[1] * t119);
+    const jg_real t120 = omega_i[0] * t75;
+    jac_phi_q_v_A_i[27] = h_star_1 * t75 * alphadot[1] - (g_star_2 * t120 - g_star_0 * t76) - t75 * f_star_1 *
+        alphadot[0] * cosine_1 + t78 * g_star_1;
+    const jg_real t121 = omega_i[0] * t79;
+    jac_phi_q_v_A_i[28] = f_star_1 * t79 * alphadot[0] * sine_1 - (h_star_2 * t121 - h_star_0 * t80 + g_star_1 * t79
+        * alphadot[1]) + h_star_1 * t82;
+    const jg_real t122 = omega_i[0] * t83;
+    jac_phi_q_v_A_i[29] = t83 * t116 * alphadot[0] - (f_star_2 * t122 - f_star_0 * t84) + f_star_1 * t86;
+    const jg_real t123 = d_ij_2 - t93;
+    const jg_real t124 = s_i[1] * A_i[8];
+    jac_phi_q_v_A_i[30] = t124 * omega_i[1] + t123 * omega_i[2];
+    const jg_real t125 = s_i[1] * A_i[2];
+    jac_phi_q_v_A_i[31] = t87 - (t124 * omega_i[0] - omega_i[2] * t125) + t90;
+    jac_phi_q_v_A_i[32] = -(t123 * omega_i[0] + omega_i[1] * t125);
+    const jg_real t126 = omega_i[0] * t98;
+    jac_phi_q_v_A_i[33] = h_star_1 * t98 * alphadot[1] - (g_star_2 * t126 - g_star_0 * t99) - t98 * f_star_1 *
+        alphadot[0] * cosine_1 + t101 * g_star_1;
+    const jg_real t127 = omega_i[0] * t102;
+    jac_phi_q_v_A_i[34] = f_star_1 * t102 * alphadot[0] * sine_1 - (h_star_2 * t127 - h_star_0 * t103 + g_star_1 *
+        t102 * alphadot[1]) + h_star_1 * t105;
+    const jg_real t128 = omega_i[0] * t106;
+    jac_phi_q_v_A_i[35] = t106 * t116 * alphadot[0] - (f_star_2 * t128 - f_star_0 * t107) + f_star_1 * t109;
+    const jg_real t129 = d_ij_0 - t19;
+    const jg_real t130 = A_i[3] * s_i[2];
+    jac_phi_q_v_A_i[36] = -(t129 * omega_i[1] + t130 * omega_i[2]);
+    const jg_real t131 = A_i[0] * s_i[2];
+    jac_phi_q_v_A_i[37] = omega_i[2] * t131 + t129 * omega_i[0];
+    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t131 - t130 * omega_i[0]) + t15;
+    jac_phi_q_v_A_i[39] = h_star_2 * t30 * alphadot[1] - (g_star_0 * t33 - g_star_1 * t113) - t30 * f_star_2 *
+        alphadot[0] * cosine_1 + t41 * g_star_2;
+    jac_phi_q_v_A_i[40] = f_star_2 * t44 * alphadot[0] * sine_1 - (h_star_0 * t47 - h_star_1 * t114 + g_star_2 * t44
+        * alphadot[1]) + h_star_2 * t51;
+    const jg_real t132 = C_i[5] * t57 - C_i[2] * t58;
+    jac_phi_q_v_A_i[41] = t53 * t132 * alphadot[0] - (f_star_0 * t56 - f_star_1 * t115) + f_star_2 * t63;
+    const jg_real t133 = d_ij_1 - t71;
+    const jg_real t134 = s_i[2] * A_i[4];
+    jac_phi_q_v_A_i[42] = -(t133 * omega_i[1] + t134 * omega_i[2]);
+    const jg_real t135 = s_i[2] * A_i[1];
+    jac_phi_q_v_A_i[43] = omega_i[2] * t135 + t133 * omega_i[0];
+    jac_phi_q_v_A_i[44] = t64 - (omega_i[1] * t135 - t134 * omega_i[0]) + t67;
+    jac_phi_q_v_A_i[45] = h_star_2 * t75 * alphadot[1] - (g_star_0 * t77 - g_star_1 * t120) - t75 * f_star_2 *
+        alphadot[0] * cosine_1 + t78 * g_star_2;
+    jac_phi_q_v_A_i[46] = f_star_2 * t79 * alphadot[0] * sine_1 - (h_star_0 * t81 - h_star_1 * t121 + g_star_2 * t79
+        * alphadot[1]) + h_star_2 * t82;
+    jac_phi_q_v_A_i[47] = t83 * t132 * alphadot[0] - (f_star_0 * t85 - f_star_1 * t122) + f_star_2 * t86;
+    const jg_real t136 = d_ij_2 - t94;
+    const jg_real t137 = s_i[2] * A_i[5];
+    jac_phi_q_v_A_i[48] = -(t136 * omega_i[1] + t137 * omega_i[2]);
+    const jg_real t138 = s_i[2] * A_i[2];
+    jac_phi_q_v_A_i[49] = omega_i[2] * t138 + t136 * omega_i[0];
+    jac_phi_q_v_A_i[50] = t87 - (omega_i[1] * t138 - t137 * omega_i[0]) + t90;
+    jac_phi_q_v_A_i[51] = h_star_2 * t98 * alphadot[1] - (g_star_0 * t100 - g_star_1 * t126) - t98 * f_star_2 *
+        alphadot[0] * cosine_1 + t101 * g_star_2;
+    jac_phi_q_v_A_i[52] = f_star_2 * t102 * alphadot[0] * sine_1 - (h_star_0 * t104 - h_star_1 * t127 + g_star_2 *
+        t102 * alphadot[1]) + h_star_2 * t105;
+    jac_phi_q_v_A_i[53] = t106 * t132 * alphadot[0] - (f_star_0 * t108 - f_star_1 * t128) + f_star_2 * t109;
+    jac_phi_q_v_r_j[0] = -t0;
+    jac_phi_q_v_r_j[1] = -t1;
+    jac_phi_q_v_r_j[2] = -t2;
+    jac_phi_q_v_r_j[3] = -t3;
+    jac_phi_q_v_r_j[4] = -t4;
+    jac_phi_q_v_r_j[5] = -t5;
+    jac_phi_q_v_r_j[6] = -t6;
+    jac_phi_q_v_r_j[7] = -t7;
+    jac_phi_q_v_r_j[8] = -t8;
+    const jg_real t139 = s_j[0] * A_i[6];
+    const jg_real t140 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t139 * omega_i[1] - t140 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t141 = s_j[0] * A_i[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t141 - t139 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t140 * omega_i[0] - omega_i[1] * t141) + A_i[6] * omega_j_cross_s_j_0;
+    const jg_real t142 = A_i[6] * C_j[6];
+    const jg_real t143 = A_i[3] * C_j[6];
+    const jg_real t144 = A_i[0] * C_j[6];
     jac_phi_q_v_A_j[3] = A_i[0] * omega_j_cross_h_j_0 * g_star_0 + A_i[3] * omega_j_cross_h_j_0 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t141 + h_star_1 * t140 + h_star_2 * t139) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t139 - omega_i[2] * t140) + g_star_1 * (omega_i[2] * t141 - omega_i[0] * t139) +
-        g_star_2 * (omega_i[0] * t140 - omega_i[1] * t141)) - (t141 * f_star_0 + t140 * f_star_1 + t139 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t144 + h_star_1 * t143 + h_star_2 * t142) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t142 - omega_i[2] * t143) + g_star_1 * (omega_i[2] * t144 - omega_i[0] * t142) +
+        g_star_2 * (omega_i[0] * t143 - omega_i[1] * t144)) - (t144 * f_star_0 + t143 * f_star_1 + t142 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t142 = A_i[6] * C_j[0];
-    const jg_real t143 = A_i[3] * C_j[0];
-    const jg_real t144 = A_i[0] * C_j[0];
+    const jg_real t145 = A_i[6] * C_j[0];
+    const jg_real t146 = A_i[3] * C_j[0];
+    const jg_real t147 = A_i[0] * C_j[0];
     jac_phi_q_v_A_j[4] = A_i[0] * omega_j_cross_f_j_0 * h_star_0 + A_i[3] * omega_j_cross_f_j_0 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t144 + f_star_1 * t143 + f_star_2 * t142) *
-        sine_1 - (h_star_0 * (omega_i[1] * t142 - omega_i[2] * t143) + h_star_1 * (omega_i[2] * t144 - omega_i[0] *
-        t142) + h_star_2 * (omega_i[0] * t143 - omega_i[1] * t144) + alphadot[1] * (g_star_0 * t144 + g_star_1 *
-        t143 + g_star_2 * t142)));
-    const jg_real t145 = A_i[0] * C_j[3];
-    const jg_real t146 = A_i[3] * C_j[3];
-    const jg_real t147 = A_i[6] * C_j[3];
-    jac_phi_q_v_A_j[5] = alphadot[0] * (t145 * t58 + t146 * t113 + t147 * t129) - (f_star_0 * (omega_i[1] * t147 -
-        omega_i[2] * t146) + f_star_1 * (omega_i[2] * t145 - omega_i[0] * t147) + f_star_2 * (omega_i[0] * t146 -
-        omega_i[1] * t145)) + (A_i[0] * omega_j_cross_g_j_0 * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t147 + f_star_1 * t146 + f_star_2 * t145) *
+        sine_1 - (h_star_0 * (omega_i[1] * t145 - omega_i[2] * t146) + h_star_1 * (omega_i[2] * t147 - omega_i[0] *
+        t145) + h_star_2 * (omega_i[0] * t146 - omega_i[1] * t147) + alphadot[1] * (g_star_0 * t147 + g_star_1 *
+        t146 + g_star_2 * t145)));
+    const jg_real t148 = A_i[0] * C_j[3];
+    const jg_real t149 = A_i[3] * C_j[3];
+    const jg_real t150 = A_i[6] * C_j[3];
+    jac_phi_q_v_A_j[5] = alphadot[0] * (t148 * t59 + t149 * t116 + t150 * t132) - (f_star_0 * (omega_i[1] * t150 -
+        omega_i[2] * t149) + f_star_1 * (omega_i[2] * t148 - omega_i[0] * t150) + f_star_2 * (omega_i[0] * t149 -
+        omega_i[1] * t148)) + (A_i[0] * omega_j_cross_g_j_0 * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t148 = s_j[0] * A_i[4];
-    const jg_real t149 = s_j[0] * A_i[7];
-    jac_phi_q_v_A_j[6] = t148 * omega_i[2] - t149 * omega_i[1] + A_i[1] * v_j[0] + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t150 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = t149 * omega_i[0] - omega_i[2] * t150 + A_i[4] * v_j[0] + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = omega_i[1] * t150 - t148 * omega_i[0] + A_i[7] * v_j[0] + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t151 = A_i[7] * C_j[6];
-    const jg_real t152 = A_i[4] * C_j[6];
-    const jg_real t153 = A_i[1] * C_j[6];
+    const jg_real t151 = s_j[0] * A_i[7];
+    const jg_real t152 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t151 * omega_i[1] - t152 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t153 = s_j[0] * A_i[1];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t153 - t151 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t152 * omega_i[0] - omega_i[1] * t153) + A_i[7] * omega_j_cross_s_j_0;
+    const jg_real t154 = A_i[7] * C_j[6];
+    const jg_real t155 = A_i[4] * C_j[6];
+    const jg_real t156 = A_i[1] * C_j[6];
     jac_phi_q_v_A_j[9] = A_i[1] * omega_j_cross_h_j_0 * g_star_0 + A_i[4] * omega_j_cross_h_j_0 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t153 + h_star_1 * t152 + h_star_2 * t151) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t151 - omega_i[2] * t152) + g_star_1 * (omega_i[2] * t153 - omega_i[0] * t151) +
-        g_star_2 * (omega_i[0] * t152 - omega_i[1] * t153)) - (t153 * f_star_0 + t152 * f_star_1 + t151 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t156 + h_star_1 * t155 + h_star_2 * t154) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t154 - omega_i[2] * t155) + g_star_1 * (omega_i[2] * t156 - omega_i[0] * t154) +
+        g_star_2 * (omega_i[0] * t155 - omega_i[1] * t156)) - (t156 * f_star_0 + t155 * f_star_1 + t154 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t154 = A_i[7] * C_j[0];
-    const jg_real t155 = A_i[4] * C_j[0];
-    const jg_real t156 = A_i[1] * C_j[0];
+    const jg_real t157 = A_i[7] * C_j[0];
+    const jg_real t158 = A_i[4] * C_j[0];
+    const jg_real t159 = A_i[1] * C_j[0];
     jac_phi_q_v_A_j[10] = A_i[1] * omega_j_cross_f_j_0 * h_star_0 + A_i[4] * omega_j_cross_f_j_0 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t156 + f_star_1 * t155 + f_star_2 * t154) *
-        sine_1 - (h_star_0 * (omega_i[1] * t154 - omega_i[2] * t155) + h_star_1 * (omega_i[2] * t156 - omega_i[0] *
-        t154) + h_star_2 * (omega_i[0] * t155 - omega_i[1] * t156) + alphadot[1] * (g_star_0 * t156 + g_star_1 *
-        t155 + g_star_2 * t154)));
-    const jg_real t157 = A_i[1] * C_j[3];
-    const jg_real t158 = A_i[4] * C_j[3];
-    const jg_real t159 = A_i[7] * C_j[3];
-    jac_phi_q_v_A_j[11] = alphadot[0] * (t157 * t58 + t158 * t113 + t159 * t129) - (f_star_0 * (omega_i[1] * t159 -
-        omega_i[2] * t158) + f_star_1 * (omega_i[2] * t157 - omega_i[0] * t159) + f_star_2 * (omega_i[0] * t158 -
-        omega_i[1] * t157)) + (A_i[1] * omega_j_cross_g_j_0 * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t159 + f_star_1 * t158 + f_star_2 * t157) *
+        sine_1 - (h_star_0 * (omega_i[1] * t157 - omega_i[2] * t158) + h_star_1 * (omega_i[2] * t159 - omega_i[0] *
+        t157) + h_star_2 * (omega_i[0] * t158 - omega_i[1] * t159) + alphadot[1] * (g_star_0 * t159 + g_star_1 *
+        t158 + g_star_2 * t157)));
+    const jg_real t160 = A_i[1] * C_j[3];
+    const jg_real t161 = A_i[4] * C_j[3];
+    const jg_real t162 = A_i[7] * C_j[3];
+    jac_phi_q_v_A_j[11] = alphadot[0] * (t160 * t59 + t161 * t116 + t162 * t132) - (f_star_0 * (omega_i[1] * t162 -
+        omega_i[2] * t161) + f_star_1 * (omega_i[2] * t160 - omega_i[0] * t162) + f_star_2 * (omega_i[0] * t161 -
+        omega_i[1] * t160)) + (A_i[1] * omega_j_cross_g_j_0 * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t160 = s_j[0] * A_i[5];
-    const jg_real t161 = s_j[0] * A_i[8];
-    jac_phi_q_v_A_j[12] = t160 * omega_i[2] - t161 * omega_i[1] + A_i[2] * v_j[0] + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t162 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = t161 * omega_i[0] - omega_i[2] * t162 + A_i[5] * v_j[0] + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = omega_i[1] * t162 - t160 * omega_i[0] + A_i[8] * v_j[0] + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t163 = A_i[8] * C_j[6];
-    const jg_real t164 = A_i[5] * C_j[6];
-    const jg_real t165 = A_i[2] * C_j[6];
+    const jg_real t163 = s_j[0] * A_i[8];
+    const jg_real t164 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t163 * omega_i[1] - t164 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t165 = s_j[0] * A_i[2];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t165 - t163 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t164 * omega_i[0] - omega_i[1] * t165) + A_i[8] * omega_j_cross_s_j_0;
+    const jg_real t166 = A_i[8] * C_j[6];
+    const jg_real t167 = A_i[5] * C_j[6];
+    const jg_real t168 = A_i[2] * C_j[6];
     jac_phi_q_v_A_j[15] = A_i[2] * omega_j_cross_h_j_0 * g_star_0 + A_i[5] * omega_j_cross_h_j_0 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t165 + h_star_1 * t164 + h_star_2 * t163) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t163 - omega_i[2] * t164) + g_star_1 * (omega_i[2] * t165 - omega_i[0] * t163) +
-        g_star_2 * (omega_i[0] * t164 - omega_i[1] * t165)) - (t165 * f_star_0 + t164 * f_star_1 + t163 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t168 + h_star_1 * t167 + h_star_2 * t166) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t166 - omega_i[2] * t167) + g_star_1 * (omega_i[2] * t168 - omega_i[0] * t166) +
+        g_star_2 * (omega_i[0] * t167 - omega_i[1] * t168)) - (t168 * f_star_0 + t167 * f_star_1 + t166 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t166 = A_i[8] * C_j[0];
-    const jg_real t167 = A_i[5] * C_j[0];
-    const jg_real t168 = A_i[2] * C_j[0];
+    const jg_real t169 = A_i[8] * C_j[0];
+    const jg_real t170 = A_i[5] * C_j[0];
+    const jg_real t171 = A_i[2] * C_j[0];
     jac_phi_q_v_A_j[16] = A_i[2] * omega_j_cross_f_j_0 * h_star_0 + A_i[5] * omega_j_cross_f_j_0 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t168 + f_star_1 * t167 + f_star_2 * t166) *
-        sine_1 - (h_star_0 * (omega_i[1] * t166 - omega_i[2] * t167) + h_star_1 * (omega_i[2] * t168 - omega_i[0] *
-        t166) + h_star_2 * (omega_i[0] * t167 - omega_i[1] * t168) + alphadot[1] * (g_star_0 * t168 + g_star_1 *
-        t167 + g_star_2 * t166)));
-    const jg_real t169 = A_i[2] * C_j[3];
-    const jg_real t170 = A_i[5] * C_j[3];
-    const jg_real t171 = A_i[8] * C_j[3];
-    jac_phi_q_v_A_j[17] = alphadot[0] * (t169 * t58 + t170 * t113 + t171 * t129) - (f_star_0 * (omega_i[1] * t171 -
-        omega_i[2] * t170) + f_star_1 * (omega_i[2] * t169 - omega_i[0] * t171) + f_star_2 * (omega_i[0] * t170 -
-        omega_i[1] * t169)) + (A_i[2] * omega_j_cross_g_j_0 * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t171 + f_star_1 * t170 + f_star_2 * t169) *
+        sine_1 - (h_star_0 * (omega_i[1] * t169 - omega_i[2] * t170) + h_star_1 * (omega_i[2] * t171 - omega_i[0] *
+        t169) + h_star_2 * (omega_i[0] * t170 - omega_i[1] * t171) + alphadot[1] * (g_star_0 * t171 + g_star_1 *
+        t170 + g_star_2 * t169)));
+    const jg_real t172 = A_i[2] * C_j[3];
+    const jg_real t173 = A_i[5] * C_j[3];
+    const jg_real t174 = A_i[8] * C_j[3];
+    jac_phi_q_v_A_j[17] = alphadot[0] * (t172 * t59 + t173 * t116 + t174 * t132) - (f_star_0 * (omega_i[1] * t174 -
+        omega_i[2] * t173) + f_star_1 * (omega_i[2] * t172 - omega_i[0] * t174) + f_star_2 * (omega_i[0] * t173 -
+        omega_i[1] * t172)) + (A_i[2] * omega_j_cross_g_j_0 * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t172 = s_j[1] * A_i[3];
-    const jg_real t173 = s_j[1] * A_i[6];
-    jac_phi_q_v_A_j[18] = t172 * omega_i[2] - t173 * omega_i[1] + A_i[0] * v_j[1] + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t174 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = t173 * omega_i[0] - omega_i[2] * t174 + A_i[3] * v_j[1] + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = omega_i[1] * t174 - t172 * omega_i[0] + A_i[6] * v_j[1] + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t175 = A_i[6] * C_j[7];
-    const jg_real t176 = A_i[3] * C_j[7];
-    const jg_real t177 = A_i[0] * C_j[7];
+    const jg_real t175 = s_j[1] * A_i[6];
+    const jg_real t176 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t175 * omega_i[1] - t176 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t177 = s_j[1] * A_i[0];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t177 - t175 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t176 * omega_i[0] - omega_i[1] * t177) + A_i[6] * omega_j_cross_s_j_1;
+    const jg_real t178 = A_i[6] * C_j[7];
+    const jg_real t179 = A_i[3] * C_j[7];
+    const jg_real t180 = A_i[0] * C_j[7];
     jac_phi_q_v_A_j[21] = A_i[0] * omega_j_cross_h_j_1 * g_star_0 + A_i[3] * omega_j_cross_h_j_1 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t177 + h_star_1 * t176 + h_star_2 * t175) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t175 - omega_i[2] * t176) + g_star_1 * (omega_i[2] * t177 - omega_i[0] * t175) +
-        g_star_2 * (omega_i[0] * t176 - omega_i[1] * t177)) - (t177 * f_star_0 + t176 * f_star_1 + t175 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t180 + h_star_1 * t179 + h_star_2 * t178) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t178 - omega_i[2] * t179) + g_star_1 * (omega_i[2] * t180 - omega_i[0] * t178) +
+        g_star_2 * (omega_i[0] * t179 - omega_i[1] * t180)) - (t180 * f_star_0 + t179 * f_star_1 + t178 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t178 = A_i[6] * C_j[1];
-    const jg_real t179 = A_i[3] * C_j[1];
-    const jg_real t180 = A_i[0] * C_j[1];
+    const jg_real t181 = A_i[6] * C_j[1];
+    const jg_real t182 = A_i[3] * C_j[1];
+    const jg_real t183 = A_i[0] * C_j[1];
     jac_phi_q_v_A_j[22] = A_i[0] * omega_j_cross_f_j_1 * h_star_0 + A_i[3] * omega_j_cross_f_j_1 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t180 + f_star_1 * t179 + f_star_2 * t178) *
-        sine_1 - (h_star_0 * (omega_i[1] * t178 - omega_i[2] * t179) + h_star_1 * (omega_i[2] * t180 - omega_i[0] *
-        t178) + h_star_2 * (omega_i[0] * t179 - omega_i[1] * t180) + alphadot[1] * (g_star_0 * t180 + g_star_1 *
-        t179 + g_star_2 * t178)));
-    const jg_real t181 = A_i[0] * C_j[4];
-    const jg_real t182 = A_i[3] * C_j[4];
-    const jg_real t183 = A_i[6] * C_j[4];
-    jac_phi_q_v_A_j[23] = alphadot[0] * (t181 * t58 + t182 * t113 + t183 * t129) - (f_star_0 * (omega_i[1] * t183 -
-        omega_i[2] * t182) + f_star_1 * (omega_i[2] * t181 - omega_i[0] * t183) + f_star_2 * (omega_i[0] * t182 -
-        omega_i[1] * t181)) + (A_i[0] * omega_j_cross_g_j_1 * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t183 + f_star_1 * t182 + f_star_2 * t181) *
+        sine_1 - (h_star_0 * (omega_i[1] * t181 - omega_i[2] * t182) + h_star_1 * (omega_i[2] * t183 - omega_i[0] *
+        t181) + h_star_2 * (omega_i[0] * t182 - omega_i[1] * t183) + alphadot[1] * (g_star_0 * t183 + g_star_1 *
+        t182 + g_star_2 * t181)));
+    const jg_real t184 = A_i[0] * C_j[4];
+    const jg_real t185 = A_i[3] * C_j[4];
+    const jg_real t186 = A_i[6] * C_j[4];
+    jac_phi_q_v_A_j[23] = alphadot[0] * (t184 * t59 + t185 * t116 + t186 * t132) - (f_star_0 * (omega_i[1] * t186 -
+        omega_i[2] * t185) + f_star_1 * (omega_i[2] * t184 - omega_i[0] * t186) + f_star_2 * (omega_i[0] * t185 -
+        omega_i[1] * t184)) + (A_i[0] * omega_j_cross_g_j_1 * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t184 = s_j[1] * A_i[4];
-    const jg_real t185 = s_j[1] * A_i[7];
-    jac_phi_q_v_A_j[24] = t184 * omega_i[2] - t185 * omega_i[1] + A_i[1] * v_j[1] + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t186 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = t185 * omega_i[0] - omega_i[2] * t186 + A_i[4] * v_j[1] + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = omega_i[1] * t186 - t184 * omega_i[0] + A_i[7] * v_j[1] + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t187 = A_i[7] * C_j[7];
-    const jg_real t188 = A_i[4] * C_j[7];
-    const jg_real t189 = A_i[1] * C_j[7];
+    const jg_real t187 = s_j[1] * A_i[7];
+    const jg_real t188 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t187 * omega_i[1] - t188 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t189 = s_j[1] * A_i[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t189 - t187 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t188 * omega_i[0] - omega_i[1] * t189) + A_i[7] * omega_j_cross_s_j_1;
+    const jg_real t190 = A_i[7] * C_j[7];
+    const jg_real t191 = A_i[4] * C_j[7];
+    const jg_real t192 = A_i[1] * C_j[7];
     jac_phi_q_v_A_j[27] = A_i[1] * omega_j_cross_h_j_1 * g_star_0 + A_i[4] * omega_j_cross_h_j_1 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t189 + h_star_1 * t188 + h_star_2 * t187) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t187 - omega_i[2] * t188) + g_star_1 * (omega_i[2] * t189 - omega_i[0] * t187) +
-        g_star_2 * (omega_i[0] * t188 - omega_i[1] * t189)) - (t189 * f_star_0 + t188 * f_star_1 + t187 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t192 + h_star_1 * t191 + h_star_2 * t190) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t190 - omega_i[2] * t191) + g_star_1 * (omega_i[2] * t192 - omega_i[0] * t190) +
+        g_star_2 * (omega_i[0] * t191 - omega_i[1] * t192)) - (t192 * f_star_0 + t191 * f_star_1 + t190 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t190 = A_i[7] * C_j[1];
-    const jg_real t191 = A_i[4] * C_j[1];
-    const jg_real t192 = A_i[1] * C_j[1];
+    const jg_real t193 = A_i[7] * C_j[1];
+    const jg_real t194 = A_i[4] * C_j[1];
+    const jg_real t195 = A_i[1] * C_j[1];
     jac_phi_q_v_A_j[28] = A_i[1] * omega_j_cross_f_j_1 * h_star_0 + A_i[4] * omega_j_cross_f_j_1 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t192 + f_star_1 * t191 + f_star_2 * t190) *
-        sine_1 - (h_star_0 * (omega_i[1] * t190 - omega_i[2] * t191) + h_star_1 * (omega_i[2] * t192 - omega_i[0] *
-        t190) + h_star_2 * (omega_i[0] * t191 - omega_i[1] * t192) + alphadot[1] * (g_star_0 * t192 + g_star_1 *
-        t191 + g_star_2 * t190)));
-    const jg_real t193 = A_i[1] * C_j[4];
-    const jg_real t194 = A_i[4] * C_j[4];
-    const jg_real t195 = A_i[7] * C_j[4];
-    jac_phi_q_v_A_j[29] = alphadot[0] * (t193 * t58 + t194 * t113 + t195 * t129) - (f_star_0 * (omega_i[1] * t195 -
-        omega_i[2] * t194) + f_star_1 * (omega_i[2] * t193 - omega_i[0] * t195) + f_star_2 * (omega_i[0] * t194 -
-        omega_i[1] * t193)) + (A_i[1] * omega_j_cross_g_j_1 * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t195 + f_star_1 * t194 + f_star_2 * t193) *
+        sine_1 - (h_star_0 * (omega_i[1] * t193 - omega_i[2] * t194) + h_star_1 * (omega_i[2] * t195 - omega_i[0] *
+        t193) + h_star_2 * (omega_i[0] * t194 - omega_i[1] * t195) + alphadot[1] * (g_star_0 * t195 + g_star_1 *
+        t194 + g_star_2 * t193)));
+    const jg_real t196 = A_i[1] * C_j[4];
+    const jg_real t197 = A_i[4] * C_j[4];
+    const jg_real t198 = A_i[7] * C_j[4];
+    jac_phi_q_v_A_j[29] = alphadot[0] * (t196 * t59 + t197 * t116 + t198 * t132) - (f_star_0 * (omega_i[1] * t198 -
+        omega_i[2] * t197) + f_star_1 * (omega_i[2] * t196 - omega_i[0] * t198) + f_star_2 * (omega_i[0] * t197 -
+        omega_i[1] * t196)) + (A_i[1] * omega_j_cross_g_j_1 * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t196 = s_j[1] * A_i[5];
-    const jg_real t197 = s_j[1] * A_i[8];
-    jac_phi_q_v_A_j[30] = t196 * omega_i[2] - t197 * omega_i[1] + A_i[2] * v_j[1] + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t198 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = t197 * omega_i[0] - omega_i[2] * t198 + A_i[5] * v_j[1] + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = omega_i[1] * t198 - t196 * omega_i[0] + A_i[8] * v_j[1] + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t199 = A_i[8] * C_j[7];
-    const jg_real t200 = A_i[5] * C_j[7];
-    const jg_real t201 = A_i[2] * C_j[7];
+    const jg_real t199 = s_j[1] * A_i[8];
+    const jg_real t200 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t199 * omega_i[1] - t200 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t201 = s_j[1] * A_i[2];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t201 - t199 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t200 * omega_i[0] - omega_i[1] * t201) + A_i[8] * omega_j_cross_s_j_1;
+    const jg_real t202 = A_i[8] * C_j[7];
+    const jg_real t203 = A_i[5] * C_j[7];
+    const jg_real t204 = A_i[2] * C_j[7];
     jac_phi_q_v_A_j[33] = A_i[2] * omega_j_cross_h_j_1 * g_star_0 + A_i[5] * omega_j_cross_h_j_1 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t201 + h_star_1 * t200 + h_star_2 * t199) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t199 - omega_i[2] * t200) + g_star_1 * (omega_i[2] * t201 - omega_i[0] * t199) +
-        g_star_2 * (omega_i[0] * t200 - omega_i[1] * t201)) - (t201 * f_star_0 + t200 * f_star_1 + t199 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t204 + h_star_1 * t203 + h_star_2 * t202) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t202 - omega_i[2] * t203) + g_star_1 * (omega_i[2] * t204 - omega_i[0] * t202) +
+        g_star_2 * (omega_i[0] * t203 - omega_i[1] * t204)) - (t204 * f_star_0 + t203 * f_star_1 + t202 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t202 = A_i[8] * C_j[1];
-    const jg_real t203 = A_i[5] * C_j[1];
-    const jg_real t204 = A_i[2] * C_j[1];
+    const jg_real t205 = A_i[8] * C_j[1];
+    const jg_real t206 = A_i[5] * C_j[1];
+    const jg_real t207 = A_i[2] * C_j[1];
     jac_phi_q_v_A_j[34] = A_i[2] * omega_j_cross_f_j_1 * h_star_0 + A_i[5] * omega_j_cross_f_j_1 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t204 + f_star_1 * t203 + f_star_2 * t202) *
-        sine_1 - (h_star_0 * (omega_i[1] * t202 - omega_i[2] * t203) + h_star_1 * (omega_i[2] * t204 - omega_i[0] *
-        t202) + h_star_2 * (omega_i[0] * t203 - omega_i[1] * t204) + alphadot[1] * (g_star_0 * t204 + g_star_1 *
-        t203 + g_star_2 * t202)));
-    const jg_real t205 = A_i[2] * C_j[4];
-    const jg_real t206 = A_i[5] * C_j[4];
-    const jg_real t207 = A_i[8] * C_j[4];
-    jac_phi_q_v_A_j[35] = alphadot[0] * (t205 * t58 + t206 * t113 + t207 * t129) - (f_star_0 * (omega_i[1] * t207 -
-        omega_i[2] * t206) + f_star_1 * (omega_i[2] * t205 - omega_i[0] * t207) + f_star_2 * (omega_i[0] * t206 -
-        omega_i[1] * t205)) + (A_i[2] * omega_j_cross_g_j_1 * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t207 + f_star_1 * t206 + f_star_2 * t205) *
+        sine_1 - (h_star_0 * (omega_i[1] * t205 - omega_i[2] * t206) + h_star_1 * (omega_i[2] * t207 - omega_i[0] *
+        t205) + h_star_2 * (omega_i[0] * t206 - omega_i[1] * t207) + alphadot[1] * (g_star_0 * t207 + g_star_1 *
+        t206 + g_star_2 * t205)));
+    const jg_real t208 = A_i[2] * C_j[4];
+    const jg_real t209 = A_i[5] * C_j[4];
+    const jg_real t210 = A_i[8] * C_j[4];
+    jac_phi_q_v_A_j[35] = alphadot[0] * (t208 * t59 + t209 * t116 + t210 * t132) - (f_star_0 * (omega_i[1] * t210 -
+        omega_i[2] * t209) + f_star_1 * (omega_i[2] * t208 - omega_i[0] * t210) + f_star_2 * (omega_i[0] * t209 -
+        omega_i[1] * t208)) + (A_i[2] * omega_j_cross_g_j_1 * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t208 = s_j[2] * A_i[3];
-    const jg_real t209 = s_j[2] * A_i[6];
-    jac_phi_q_v_A_j[36] = t208 * omega_i[2] - t209 * omega_i[1] + A_i[0] * v_j[2] + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t210 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = t209 * omega_i[0] - omega_i[2] * t210 + A_i[3] * v_j[2] + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = omega_i[1] * t210 - t208 * omega_i[0] + A_i[6] * v_j[2] + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t211 = A_i[6] * C_j[8];
-    const jg_real t212 = A_i[3] * C_j[8];
-    const jg_real t213 = A_i[0] * C_j[8];
+    const jg_real t211 = s_j[2] * A_i[6];
+    const jg_real t212 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t211 * omega_i[1] - t212 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t213 = s_j[2] * A_i[0];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t213 - t211 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t212 * omega_i[0] - omega_i[1] * t213) + A_i[6] * omega_j_cross_s_j_2;
+    const jg_real t214 = A_i[6] * C_j[8];
+    const jg_real t215 = A_i[3] * C_j[8];
+    const jg_real t216 = A_i[0] * C_j[8];
     jac_phi_q_v_A_j[39] = A_i[0] * omega_j_cross_h_j_2 * g_star_0 + A_i[3] * omega_j_cross_h_j_2 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t213 + h_star_1 * t212 + h_star_2 * t211) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t211 - omega_i[2] * t212) + g_star_1 * (omega_i[2] * t213 - omega_i[0] * t211) +
-        g_star_2 * (omega_i[0] * t212 - omega_i[1] * t213)) - (t213 * f_star_0 + t212 * f_star_1 + t211 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t216 + h_star_1 * t215 + h_star_2 * t214) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t214 - omega_i[2] * t215) + g_star_1 * (omega_i[2] * t216 - omega_i[0] * t214) +
+        g_star_2 * (omega_i[0] * t215 - omega_i[1] * t216)) - (t216 * f_star_0 + t215 * f_star_1 + t214 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t214 = A_i[6] * C_j[2];
-    const jg_real t215 = A_i[3] * C_j[2];
-    const jg_real t216 = A_i[0] * C_j[2];
+    const jg_real t217 = A_i[6] * C_j[2];
+    const jg_real t218 = A_i[3] * C_j[2];
+    const jg_real t219 = A_i[0] * C_j[2];
     jac_phi_q_v_A_j[40] = A_i[0] * omega_j_cross_f_j_2 * h_star_0 + A_i[3] * omega_j_cross_f_j_2 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t216 + f_star_1 * t215 + f_star_2 * t214) *
-        sine_1 - (h_star_0 * (omega_i[1] * t214 - omega_i[2] * t215) + h_star_1 * (omega_i[2] * t216 - omega_i[0] *
-        t214) + h_star_2 * (omega_i[0] * t215 - omega_i[1] * t216) + alphadot[1] * (g_star_0 * t216 + g_star_1 *
-        t215 + g_star_2 * t214)));
-    const jg_real t217 = A_i[0] * C_j[5];
-    const jg_real t218 = A_i[3] * C_j[5];
-    const jg_real t219 = A_i[6] * C_j[5];
-    jac_phi_q_v_A_j[41] = alphadot[0] * (t217 * t58 + t218 * t113 + t219 * t129) - (f_star_0 * (omega_i[1] * t219 -
-        omega_i[2] * t218) + f_star_1 * (omega_i[2] * t217 - omega_i[0] * t219) + f_star_2 * (omega_i[0] * t218 -
-        omega_i[1] * t217)) + (A_i[0] * omega_j_cross_g_j_2 * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t219 + f_star_1 * t218 + f_star_2 * t217) *
+        sine_1 - (h_star_0 * (omega_i[1] * t217 - omega_i[2] * t218) + h_star_1 * (omega_i[2] * t219 - omega_i[0] *
+        t217) + h_star_2 * (omega_i[0] * t218 - omega_i[1] * t219) + alphadot[1] * (g_star_0 * t219 + g_star_1 *
+        t218 + g_star_2 * t217)));
+    const jg_real t220 = A_i[0] * C_j[5];
+    const jg_real t221 = A_i[3] * C_j[5];
+    const jg_real t222 = A_i[6] * C_j[5];
+    jac_phi_q_v_A_j[41] = alphadot[0] * (t220 * t59 + t221 * t116 + t222 * t132) - (f_star_0 * (omega_i[1] * t222 -
+        omega_i[2] * t221) + f_star_1 * (omega_i[2] * t220 - omega_i[0] * t222) + f_star_2 * (omega_i[0] * t221 -
+        omega_i[1] * t220)) + (A_i[0] * omega_j_cross_g_j_2 * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t220 = s_j[2] * A_i[4];
-    const jg_real t221 = s_j[2] * A_i[7];
-    jac_phi_q_v_A_j[42] = t220 * omega_i[2] - t221 * omega_i[1] + A_i[1] * v_j[2] + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t222 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = t221 * omega_i[0] - omega_i[2] * t222 + A_i[4] * v_j[2] + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = omega_i[1] * t222 - t220 * omega_i[0] + A_i[7] * v_j[2] + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t223 = A_i[7] * C_j[8];
-    const jg_real t224 = A_i[4] * C_j[8];
-    const jg_real t225 = A_i[1] * C_j[8];
+    const jg_real t223 = s_j[2] * A_i[7];
+    const jg_real t224 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t223 * omega_i[1] - t224 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t225 = s_j[2] * A_i[1];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t225 - t223 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t224 * omega_i[0] - omega_i[1] * t225) + A_i[7] * omega_j_cross_s_j_2;
+    const jg_real t226 = A_i[7] * C_j[8];
+    const jg_real t227 = A_i[4] * C_j[8];
+    const jg_real t228 = A_i[1] * C_j[8];
     jac_phi_q_v_A_j[45] = A_i[1] * omega_j_cross_h_j_2 * g_star_0 + A_i[4] * omega_j_cross_h_j_2 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t225 + h_star_1 * t224 + h_star_2 * t223) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t223 - omega_i[2] * t224) + g_star_1 * (omega_i[2] * t225 - omega_i[0] * t223) +
-        g_star_2 * (omega_i[0] * t224 - omega_i[1] * t225)) - (t225 * f_star_0 + t224 * f_star_1 + t223 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t228 + h_star_1 * t227 + h_star_2 * t226) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t226 - omega_i[2] * t227) + g_star_1 * (omega_i[2] * t228 - omega_i[0] * t226) +
+        g_star_2 * (omega_i[0] * t227 - omega_i[1] * t228)) - (t228 * f_star_0 + t227 * f_star_1 + t226 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t226 = A_i[7] * C_j[2];
-    const jg_real t227 = A_i[4] * C_j[2];
-    const jg_real t228 = A_i[1] * C_j[2];
+    const jg_real t229 = A_i[7] * C_j[2];
+    const jg_real t230 = A_i[4] * C_j[2];
+    const jg_real t231 = A_i[1] * C_j[2];
     jac_phi_q_v_A_j[46] = A_i[1] * omega_j_cross_f_j_2 * h_star_0 + A_i[4] * omega_j_cross_f_j_2 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t228 + f_star_1 * t227 + f_star_2 * t226) *
-        sine_1 - (h_star_0 * (omega_i[1] * t226 - omega_i[2] * t227) + h_star_1 * (omega_i[2] * t228 - omega_i[0] *
-        t226) + h_star_2 * (omega_i[0] * t227 - omega_i[1] * t228) + alphadot[1] * (g_star_0 * t228 + g_star_1 *
-        t227 + g_star_2 * t226)));
-    const jg_real t229 = A_i[1] * C_j[5];
-    const jg_real t230 = A_i[4] * C_j[5];
-    const jg_real t231 = A_i[7] * C_j[5];
-    jac_phi_q_v_A_j[47] = alphadot[0] * (t229 * t58 + t230 * t113 + t231 * t129) - (f_star_0 * (omega_i[1] * t231 -
-        omega_i[2] * t230) + f_star_1 * (omega_i[2] * t229 - omega_i[0] * t231) + f_star_2 * (omega_i[0] * t230 -
-        omega_i[1] * t229)) + (A_i[1] * omega_j_cross_g_j_2 * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t231 + f_star_1 * t230 + f_star_2 * t229) *
+        sine_1 - (h_star_0 * (omega_i[1] * t229 - omega_i[2] * t230) + h_star_1 * (omega_i[2] * t231 - omega_i[0] *
+        t229) + h_star_2 * (omega_i[0] * t230 - omega_i[1] * t231) + alphadot[1] * (g_star_0 * t231 + g_star_1 *
+        t230 + g_star_2 * t229)));
+    const jg_real t232 = A_i[1] * C_j[5];
+    const jg_real t233 = A_i[4] * C_j[5];
+    const jg_real t234 = A_i[7] * C_j[5];
+    jac_phi_q_v_A_j[47] = alphadot[0] * (t232 * t59 + t233 * t116 + t234 * t132) - (f_star_0 * (omega_i[1] * t234 -
+        omega_i[2] * t233) + f_star_1 * (omega_i[2] * t232 - omega_i[0] * t234) + f_star_2 * (omega_i[0] * t233 -
+        omega_i[1] * t232)) + (A_i[1] * omega_j_cross_g_j_2 * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t232 = s_j[2] * A_i[5];
-    const jg_real t233 = s_j[2] * A_i[8];
-    jac_phi_q_v_A_j[48] = t232 * omega_i[2] - t233 * omega_i[1] + A_i[2] * v_j[2] + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t234 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = t233 * omega_i[0] - omega_i[2] * t234 + A_i[5] * v_j[2] + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = omega_i[1] * t234 - t232 * omega_i[0] + A_i[8] * v_j[2] + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t235 = A_i[8] * C_j[8];
-    const jg_real t236 = A_i[5] * C_j[8];
-    const jg_real t237 = A_i[2] * C_j[8];
+    const jg_real t235 = s_j[2] * A_i[8];
+    const jg_real t236 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t235 * omega_i[1] - t236 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t237 = s_j[2] * A_i[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t237 - t235 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t236 * omega_i[0] - omega_i[1] * t237) + A_i[8] * omega_j_cross_s_j_2;
+    const jg_real t238 = A_i[8] * C_j[8];
+    const jg_real t239 = A_i[5] * C_j[8];
+    const jg_real t240 = A_i[2] * C_j[8];
     jac_phi_q_v_A_j[51] = A_i[2] * omega_j_cross_h_j_2 * g_star_0 + A_i[5] * omega_j_cross_h_j_2 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t237 + h_star_1 * t236 + h_star_2 * t235) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t235 - omega_i[2] * t236) + g_star_1 * (omega_i[2] * t237 - omega_i[0] * t235) +
-        g_star_2 * (omega_i[0] * t236 - omega_i[1] * t237)) - (t237 * f_star_0 + t236 * f_star_1 + t235 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t240 + h_star_1 * t239 + h_star_2 * t238) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t238 - omega_i[2] * t239) + g_star_1 * (omega_i[2] * t240 - omega_i[0] * t238) +
+        g_star_2 * (omega_i[0] * t239 - omega_i[1] * t240)) - (t240 * f_star_0 + t239 * f_star_1 + t238 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t238 = A_i[8] * C_j[2];
-    const jg_real t239 = A_i[5] * C_j[2];
-    const jg_real t240 = A_i[2] * C_j[2];
+    const jg_real t241 = A_i[8] * C_j[2];
+    const jg_real t242 = A_i[5] * C_j[2];
+    const jg_real t243 = A_i[2] * C_j[2];
     jac_phi_q_v_A_j[52] = A_i[2] * omega_j_cross_f_j_2 * h_star_0 + A_i[5] * omega_j_cross_f_j_2 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t240 + f_star_1 * t239 + f_star_2 * t238) *
-        sine_1 - (h_star_0 * (omega_i[1] * t238 - omega_i[2] * t239) + h_star_1 * (omega_i[2] * t240 - omega_i[0] *
-        t238) + h_star_2 * (omega_i[0] * t239 - omega_i[1] * t240) + alphadot[1] * (g_star_0 * t240 + g_star_1 *
-        t239 + g_star_2 * t238)));
-    const jg_real t241 = A_i[2] * C_j[5];
-    const jg_real t242 = A_i[5] * C_j[5];
-    const jg_real t243 = A_i[8] * C_j[5];
-    jac_phi_q_v_A_j[53] = alphadot[0] * (t241 * t58 + t242 * t113 + t243 * t129) - (f_star_0 * (omega_i[1] * t243 -
-        omega_i[2] * t242) + f_star_1 * (omega_i[2] * t241 - omega_i[0] * t243) + f_star_2 * (omega_i[0] * t242 -
-        omega_i[1] * t241)) + (A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t243 + f_star_1 * t242 + f_star_2 * t241) *
+        sine_1 - (h_star_0 * (omega_i[1] * t241 - omega_i[2] * t242) + h_star_1 * (omega_i[2] * t243 - omega_i[0] *
+        t241) + h_star_2 * (omega_i[0] * t242 - omega_i[1] * t243) + alphadot[1] * (g_star_0 * t243 + g_star_1 *
+        t242 + g_star_2 * t241)));
+    const jg_real t244 = A_i[2] * C_j[5];
+    const jg_real t245 = A_i[5] * C_j[5];
+    const jg_real t246 = A_i[8] * C_j[5];
+    jac_phi_q_v_A_j[53] = alphadot[0] * (t244 * t59 + t245 * t116 + t246 * t132) - (f_star_0 * (omega_i[1] * t246 -
+        omega_i[2] * t245) + f_star_1 * (omega_i[2] * t244 - omega_i[0] * t246) + f_star_2 * (omega_i[0] * t245 -
+        omega_i[1] * t244)) + (A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_2 * f_star_2);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
@@ -826,7 +834,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t253 = t27 * C_i[3] + H_4 * C_i[0];
+    const jg_real t256 = t28 * C_i[3] + H_4 * C_i[0];
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -835,15 +843,15 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_velocity[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t259 = t27 * C_i[4] + H_4 * C_i[1];
+    const jg_real t262 = t28 * C_i[4] + H_4 * C_i[1];
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    const jg_real t261 = t27 * C_i[5] + H_4 * C_i[2];
-    const jg_real t262 = t34 * C_i[0] + C_i[3] * H_6;
-    const jg_real t263 = t34 * C_i[1] + H_6 * C_i[4];
-    const jg_real t264 = t34 * C_i[2] + H_6 * C_i[5];
-    const jg_real t265 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    const jg_real t266 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real t267 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t264 = t28 * C_i[5] + H_4 * C_i[2];
+    const jg_real t265 = t35 * C_i[0] + C_i[3] * H_6;
+    const jg_real t266 = t35 * C_i[1] + H_6 * C_i[4];
+    const jg_real t267 = t35 * C_i[2] + H_6 * C_i[5];
+    const jg_real t268 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t269 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real t270 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -851,10 +859,10 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
-    jac_phi_q_v_alpha[0] = t253 * omega_i_cross_A_ij_h_j_0 + t259 * omega_i_cross_A_ij_h_j_1 + t261 *
-        omega_i_cross_A_ij_h_j_2 + (A_ij_h_j_0 * t262 + A_ij_h_j_1 * t263 + A_ij_h_j_2 * t264) * alphadot[1] -
-        (A_ij_h_j_0 * t265 + A_ij_h_j_1 * t266 + A_ij_h_j_2 * t267) * alphadot[0] * cosine_1 -
-        (A_ij_omega_j_cross_h_j_0 * t253 + A_ij_omega_j_cross_h_j_1 * t259 + A_ij_omega_j_cross_h_j_2 * t261);
+    jac_phi_q_v_alpha[0] = t256 * omega_i_cross_A_ij_h_j_0 + t262 * omega_i_cross_A_ij_h_j_1 + t264 *
+        omega_i_cross_A_ij_h_j_2 + (A_ij_h_j_0 * t265 + A_ij_h_j_1 * t266 + A_ij_h_j_2 * t267) * alphadot[1] -
+        (A_ij_h_j_0 * t268 + A_ij_h_j_1 * t269 + A_ij_h_j_2 * t270) * alphadot[0] * cosine_1 -
+        (A_ij_omega_j_cross_h_j_0 * t256 + A_ij_omega_j_cross_h_j_1 * t262 + A_ij_omega_j_cross_h_j_2 * t264);
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
@@ -870,10 +878,10 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    jac_phi_q_v_alpha[1] = t262 * A_ij_omega_j_cross_f_j_0 + t263 * A_ij_omega_j_cross_f_j_1 + t264 *
-        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (t265 * A_ij_f_j_0 + t266 * A_ij_f_j_1 + t267 * A_ij_f_j_2) *
-        sine_1 - (t262 * omega_i_cross_A_ij_f_j_0 + t263 * omega_i_cross_A_ij_f_j_1 + t264 *
-        omega_i_cross_A_ij_f_j_2 - alphadot[1] * (t253 * A_ij_f_j_0 + t259 * A_ij_f_j_1 + t261 * A_ij_f_j_2)));
+    jac_phi_q_v_alpha[1] = t265 * A_ij_omega_j_cross_f_j_0 + t266 * A_ij_omega_j_cross_f_j_1 + t267 *
+        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (t268 * A_ij_f_j_0 + t269 * A_ij_f_j_1 + t270 * A_ij_f_j_2) *
+        sine_1 - (t265 * omega_i_cross_A_ij_f_j_0 + t266 * omega_i_cross_A_ij_f_j_1 + t267 *
+        omega_i_cross_A_ij_f_j_2 - alphadot[1] * (t256 * A_ij_f_j_0 + t262 * A_ij_f_j_1 + t264 * A_ij_f_j_2)));
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -889,73 +897,73 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_j_cross_g_j_2;
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
-    jac_phi_q_v_alpha[2] = t265 * A_ij_omega_j_cross_g_j_0 + t266 * A_ij_omega_j_cross_g_j_1 + t267 *
-        A_ij_omega_j_cross_g_j_2 - (t265 * omega_i_cross_A_ij_g_j_0 + t266 * omega_i_cross_A_ij_g_j_1 + t267 *
-        omega_i_cross_A_ij_g_j_2 + alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t57 + C_i[0] * t56) + A_ij_g_j_1 * (C_i[4]
-        * t57 + C_i[1] * t56) + A_ij_g_j_2 * (C_i[5] * t57 + C_i[2] * t56)));
-    const jg_real t289 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    jac_phi_q_v_alpha[2] = t268 * A_ij_omega_j_cross_g_j_0 + t269 * A_ij_omega_j_cross_g_j_1 + t270 *
+        A_ij_omega_j_cross_g_j_2 - (t268 * omega_i_cross_A_ij_g_j_0 + t269 * omega_i_cross_A_ij_g_j_1 + t270 *
+        omega_i_cross_A_ij_g_j_2 + alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t58 + C_i[0] * t57) + A_ij_g_j_1 * (C_i[4]
+        * t58 + C_i[1] * t57) + A_ij_g_j_2 * (C_i[5] * t58 + C_i[2] * t57)));
+    const jg_real t292 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
     jac_phi_q_v_alpha[3] = A_ij_omega_j_cross_h_j_0 * h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 +
-        A_ij_omega_j_cross_h_j_2 * h_star_2 + (t289 * alphadot[0] * sine_1 - (h_star_0 * omega_i_cross_A_ij_h_j_0 +
+        A_ij_omega_j_cross_h_j_2 * h_star_2 + (t292 * alphadot[0] * sine_1 - (h_star_0 * omega_i_cross_A_ij_h_j_0 +
         h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2 + (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) * alphadot[1]));
-    const jg_real t290 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
-    jac_phi_q_v_alpha[4] = alphadot[0] * t290 * cosine_1 - (alphadot[1] * (h_star_0 * A_ij_f_j_0 + h_star_1 *
+    const jg_real t293 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
+    jac_phi_q_v_alpha[4] = alphadot[0] * t293 * cosine_1 - (alphadot[1] * (h_star_0 * A_ij_f_j_0 + h_star_1 *
         A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
         omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2)) - (g_star_0 * A_ij_omega_j_cross_f_j_0 +
         g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2);
-    const jg_real t291 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t292 = t291 * omega_i[1];
-    const jg_real t293 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t294 = t293 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t292 - t294;
-    const jg_real t295 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = omega_i[2] * t295 - t291 * omega_i[0] - omega_i[2];
-    jac_phi_q_v_geometry[2] = t293 * omega_i[0] - omega_i[1] * t295 + omega_i[1];
-    const jg_real t296 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t297 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    jac_phi_q_v_geometry[3] = t296 * omega_i[1] - t297 * omega_i[2] + omega_i[2];
-    const jg_real t298 = t296 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t294 - t298;
-    jac_phi_q_v_geometry[5] = t297 * omega_i[0] - t293 * omega_i[1] - omega_i[0];
-    const jg_real t299 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = t299 * omega_i[1] - t296 * omega_i[2] - omega_i[1];
-    jac_phi_q_v_geometry[7] = omega_i[2] * t291 - t299 * omega_i[0] + omega_i[0];
-    jac_phi_q_v_geometry[8] = t298 - t292;
-    jac_phi_q_v_geometry[9] = t27 * omega_i_cross_A_ij_h_j_0 + H_6 * A_ij_h_j_0 * alphadot[1] - cosine_0 *
-        A_ij_h_j_0 * alphadot[0] * cosine_1 - A_ij_omega_j_cross_h_j_0 * t27;
-    jac_phi_q_v_geometry[10] = cosine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_0 - t27
+    const jg_real t294 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
+    const jg_real t295 = t294 * omega_i[1];
+    const jg_real t296 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
+    const jg_real t297 = t296 * omega_i[2];
+    jac_phi_q_v_geometry[0] = t295 - t297;
+    const jg_real t298 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
+    jac_phi_q_v_geometry[1] = -(t294 * omega_i[0] - omega_i[2] * t298 + omega_i[2]);
+    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t298 - t296 * omega_i[0]);
+    const jg_real t299 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
+    const jg_real t300 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
+    jac_phi_q_v_geometry[3] = omega_i[2] - (t299 * omega_i[2] - t300 * omega_i[1]);
+    const jg_real t301 = t300 * omega_i[0];
+    jac_phi_q_v_geometry[4] = t297 - t301;
+    jac_phi_q_v_geometry[5] = -(omega_i[1] * t296 - t299 * omega_i[0] + omega_i[0]);
+    const jg_real t302 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
+    jac_phi_q_v_geometry[6] = -(t300 * omega_i[2] - t302 * omega_i[1] + omega_i[1]);
+    jac_phi_q_v_geometry[7] = omega_i[0] - (t302 * omega_i[0] - t294 * omega_i[2]);
+    jac_phi_q_v_geometry[8] = t301 - t295;
+    jac_phi_q_v_geometry[9] = t28 * omega_i_cross_A_ij_h_j_0 + H_6 * A_ij_h_j_0 * alphadot[1] - cosine_0 *
+        A_ij_h_j_0 * alphadot[0] * cosine_1 - A_ij_omega_j_cross_h_j_0 * t28;
+    jac_phi_q_v_geometry[10] = cosine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_0 - t28
         * A_ij_f_j_0 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[11] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (A_ij_g_j_0 * t57 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[11] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (A_ij_g_j_0 * t58 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_0);
-    jac_phi_q_v_geometry[12] = t27 * omega_i_cross_A_ij_h_j_1 + H_6 * A_ij_h_j_1 * alphadot[1] - cosine_0 *
-        A_ij_h_j_1 * alphadot[0] * cosine_1 - t27 * A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[13] = cosine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_1 - t27
+    jac_phi_q_v_geometry[12] = t28 * omega_i_cross_A_ij_h_j_1 + H_6 * A_ij_h_j_1 * alphadot[1] - cosine_0 *
+        A_ij_h_j_1 * alphadot[0] * cosine_1 - t28 * A_ij_omega_j_cross_h_j_1;
+    jac_phi_q_v_geometry[13] = cosine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_1 - t28
         * A_ij_f_j_1 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[14] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (t57 * A_ij_g_j_1 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[14] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (t58 * A_ij_g_j_1 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_1);
-    jac_phi_q_v_geometry[15] = t27 * omega_i_cross_A_ij_h_j_2 + H_6 * A_ij_h_j_2 * alphadot[1] - cosine_0 *
-        A_ij_h_j_2 * alphadot[0] * cosine_1 - t27 * A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[16] = cosine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_2 - t27
+    jac_phi_q_v_geometry[15] = t28 * omega_i_cross_A_ij_h_j_2 + H_6 * A_ij_h_j_2 * alphadot[1] - cosine_0 *
+        A_ij_h_j_2 * alphadot[0] * cosine_1 - t28 * A_ij_omega_j_cross_h_j_2;
+    jac_phi_q_v_geometry[16] = cosine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_2 - t28
         * A_ij_f_j_2 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[17] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (t57 * A_ij_g_j_2 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[17] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (t58 * A_ij_g_j_2 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_2);
-    jac_phi_q_v_geometry[18] = A_ij_omega_j_cross_h_j_0 * H_4 - (H_4 * omega_i_cross_A_ij_h_j_0 + t34 * A_ij_h_j_0 *
+    jac_phi_q_v_geometry[18] = A_ij_omega_j_cross_h_j_0 * H_4 - (H_4 * omega_i_cross_A_ij_h_j_0 + t35 * A_ij_h_j_0 *
         alphadot[1] + sine_0 * A_ij_h_j_0 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[19] = sine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_0 * alphadot[1] - t34 *
-        omega_i_cross_A_ij_f_j_0) - t34 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[20] = A_ij_g_j_0 * t56 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
+    jac_phi_q_v_geometry[19] = sine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_0 * alphadot[1] - t35 *
+        omega_i_cross_A_ij_f_j_0) - t35 * A_ij_omega_j_cross_f_j_0;
+    jac_phi_q_v_geometry[20] = A_ij_g_j_0 * t57 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
         A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[21] = H_4 * A_ij_omega_j_cross_h_j_1 - (H_4 * omega_i_cross_A_ij_h_j_1 + t34 * A_ij_h_j_1 *
+    jac_phi_q_v_geometry[21] = H_4 * A_ij_omega_j_cross_h_j_1 - (H_4 * omega_i_cross_A_ij_h_j_1 + t35 * A_ij_h_j_1 *
         alphadot[1] + sine_0 * A_ij_h_j_1 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[22] = sine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_1 * alphadot[1] - t34 *
-        omega_i_cross_A_ij_f_j_1) - t34 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[23] = t56 * A_ij_g_j_1 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
+    jac_phi_q_v_geometry[22] = sine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_1 * alphadot[1] - t35 *
+        omega_i_cross_A_ij_f_j_1) - t35 * A_ij_omega_j_cross_f_j_1;
+    jac_phi_q_v_geometry[23] = t57 * A_ij_g_j_1 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
         A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[24] = H_4 * A_ij_omega_j_cross_h_j_2 - (H_4 * omega_i_cross_A_ij_h_j_2 + t34 * A_ij_h_j_2 *
+    jac_phi_q_v_geometry[24] = H_4 * A_ij_omega_j_cross_h_j_2 - (H_4 * omega_i_cross_A_ij_h_j_2 + t35 * A_ij_h_j_2 *
         alphadot[1] + sine_0 * A_ij_h_j_2 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[25] = sine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_2 * alphadot[1] - t34 *
-        omega_i_cross_A_ij_f_j_2) - t34 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[26] = t56 * A_ij_g_j_2 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
+    jac_phi_q_v_geometry[25] = sine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_2 * alphadot[1] - t35 *
+        omega_i_cross_A_ij_f_j_2) - t35 * A_ij_omega_j_cross_f_j_2;
+    jac_phi_q_v_geometry[26] = t57 * A_ij_g_j_2 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
         A_ij_omega_j_cross_g_j_2;
     jac_phi_q_v_geometry[27] = cosine_1 * A_ij_h_j_0 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_0 +
         A_ij_omega_j_cross_h_j_0 * sine_1;
@@ -969,82 +977,82 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         A_ij_omega_j_cross_h_j_2;
     jac_phi_q_v_geometry[32] = cosine_1 * A_ij_omega_j_cross_f_j_2 - (cosine_1 * omega_i_cross_A_ij_f_j_2 + sine_1 *
         A_ij_f_j_2 * alphadot[1]);
-    const jg_real t300 = A_ij_1 * omega_i[2] - A_ij_2 * omega_i[1];
-    const jg_real t301 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    jac_phi_q_v_geometry[33] = t300 + t301;
-    const jg_real t302 = A_ij_2 * omega_i[0] - omega_i[2] * A_ij_0;
-    const jg_real t303 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    jac_phi_q_v_geometry[34] = t302 + t303;
-    const jg_real t304 = omega_i[1] * A_ij_0 - A_ij_1 * omega_i[0];
-    const jg_real t305 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    jac_phi_q_v_geometry[35] = t304 + t305;
-    const jg_real t306 = A_ij_4 * omega_i[2] - A_ij_5 * omega_i[1];
-    const jg_real t307 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    jac_phi_q_v_geometry[36] = t306 + t307;
-    const jg_real t308 = A_ij_5 * omega_i[0] - omega_i[2] * A_ij_3;
-    const jg_real t309 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    jac_phi_q_v_geometry[37] = t308 + t309;
-    const jg_real t310 = omega_i[1] * A_ij_3 - A_ij_4 * omega_i[0];
-    const jg_real t311 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    jac_phi_q_v_geometry[38] = t310 + t311;
-    const jg_real t312 = A_ij_7 * omega_i[2] - A_ij_8 * omega_i[1];
-    const jg_real t313 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    jac_phi_q_v_geometry[39] = t312 + t313;
-    const jg_real t314 = A_ij_8 * omega_i[0] - omega_i[2] * A_ij_6;
-    const jg_real t315 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    jac_phi_q_v_geometry[40] = t314 + t315;
-    const jg_real t316 = omega_i[1] * A_ij_6 - A_ij_7 * omega_i[0];
-    const jg_real t317 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    jac_phi_q_v_geometry[41] = t316 + t317;
-    const jg_real t318 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[42] = t301 * h_star_0 + t303 * h_star_1 + t305 * h_star_2 + (sine_1 * t318 - (alphadot[1] *
-        (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2) - (t300 * h_star_0 + t302 * h_star_1 + t304 *
-        h_star_2)));
-    const jg_real t319 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[43] = t307 * h_star_0 + t309 * h_star_1 + t311 * h_star_2 + (sine_1 * t319 - (alphadot[1] *
-        (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2) - (t306 * h_star_0 + t308 * h_star_1 + t310 *
-        h_star_2)));
-    const jg_real t320 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[44] = t313 * h_star_0 + t315 * h_star_1 + t317 * h_star_2 + (sine_1 * t320 - (alphadot[1] *
-        (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2) - (t312 * h_star_0 + t314 * h_star_1 + t316 *
-        h_star_2)));
-    jac_phi_q_v_geometry[45] = t300 * f_star_0 + t302 * f_star_1 + t304 * f_star_2 + alphadot[0] * (A_ij_0 * t58 +
-        A_ij_1 * t113 + A_ij_2 * t129) + (t301 * f_star_0 + t303 * f_star_1 + t305 * f_star_2);
-    jac_phi_q_v_geometry[46] = t306 * f_star_0 + t308 * f_star_1 + t310 * f_star_2 + alphadot[0] * (A_ij_3 * t58 +
-        A_ij_4 * t113 + A_ij_5 * t129) + (t307 * f_star_0 + t309 * f_star_1 + t311 * f_star_2);
-    jac_phi_q_v_geometry[47] = t312 * f_star_0 + t314 * f_star_1 + t316 * f_star_2 + alphadot[0] * (A_ij_6 * t58 +
-        A_ij_7 * t113 + A_ij_8 * t129) + (t313 * f_star_0 + t315 * f_star_1 + t317 * f_star_2);
-    jac_phi_q_v_geometry[48] = t301 * g_star_0 + t303 * g_star_1 + t305 * g_star_2 + (t300 * g_star_0 + t302 *
-        g_star_1 + t304 * g_star_2 + (A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2) * alphadot[1] -
-        cosine_1 * t318);
-    jac_phi_q_v_geometry[49] = t307 * g_star_0 + t309 * g_star_1 + t311 * g_star_2 + (t306 * g_star_0 + t308 *
-        g_star_1 + t310 * g_star_2 + (A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2) * alphadot[1] -
-        cosine_1 * t319);
-    jac_phi_q_v_geometry[50] = t313 * g_star_0 + t315 * g_star_1 + t317 * g_star_2 + (t312 * g_star_0 + t314 *
-        g_star_1 + t316 * g_star_2 + (A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2) * alphadot[1] -
-        cosine_1 * t320);
+    const jg_real t303 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
+    const jg_real t304 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[33] = t303 - t304;
+    const jg_real t305 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
+    const jg_real t306 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[34] = t305 - t306;
+    const jg_real t307 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
+    const jg_real t308 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
+    jac_phi_q_v_geometry[35] = t307 - t308;
+    const jg_real t309 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
+    const jg_real t310 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[36] = t309 - t310;
+    const jg_real t311 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
+    const jg_real t312 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[37] = t311 - t312;
+    const jg_real t313 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
+    const jg_real t314 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
+    jac_phi_q_v_geometry[38] = t313 - t314;
+    const jg_real t315 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t316 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[39] = t315 - t316;
+    const jg_real t317 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
+    const jg_real t318 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[40] = t317 - t318;
+    const jg_real t319 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
+    const jg_real t320 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
+    jac_phi_q_v_geometry[41] = t319 - t320;
+    const jg_real t321 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[42] = t303 * h_star_0 + t305 * h_star_1 + t307 * h_star_2 + (sine_1 * t321 - (t304 *
+        h_star_0 + t306 * h_star_1 + t308 * h_star_2 + alphadot[1] * (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2
+        * g_star_2)));
+    const jg_real t322 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[43] = t309 * h_star_0 + t311 * h_star_1 + t313 * h_star_2 + (sine_1 * t322 - (t310 *
+        h_star_0 + t312 * h_star_1 + t314 * h_star_2 + alphadot[1] * (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5
+        * g_star_2)));
+    const jg_real t323 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[44] = t315 * h_star_0 + t317 * h_star_1 + t319 * h_star_2 + (sine_1 * t323 - (t316 *
+        h_star_0 + t318 * h_star_1 + t320 * h_star_2 + alphadot[1] * (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8
+        * g_star_2)));
+    jac_phi_q_v_geometry[45] = alphadot[0] * (A_ij_0 * t59 + A_ij_1 * t116 + A_ij_2 * t132) - (t304 * f_star_0 +
+        t306 * f_star_1 + t308 * f_star_2) + (t303 * f_star_0 + t305 * f_star_1 + t307 * f_star_2);
+    jac_phi_q_v_geometry[46] = alphadot[0] * (A_ij_3 * t59 + A_ij_4 * t116 + A_ij_5 * t132) - (t310 * f_star_0 +
+        t312 * f_star_1 + t314 * f_star_2) + (t309 * f_star_0 + t311 * f_star_1 + t313 * f_star_2);
+    jac_phi_q_v_geometry[47] = alphadot[0] * (A_ij_6 * t59 + A_ij_7 * t116 + A_ij_8 * t132) - (t316 * f_star_0 +
+        t318 * f_star_1 + t320 * f_star_2) + (t315 * f_star_0 + t317 * f_star_1 + t319 * f_star_2);
+    jac_phi_q_v_geometry[48] = t303 * g_star_0 + t305 * g_star_1 + t307 * g_star_2 + ((A_ij_0 * h_star_0 + A_ij_1 *
+        h_star_1 + A_ij_2 * h_star_2) * alphadot[1] - (t304 * g_star_0 + t306 * g_star_1 + t308 * g_star_2) -
+        cosine_1 * t321);
+    jac_phi_q_v_geometry[49] = t309 * g_star_0 + t311 * g_star_1 + t313 * g_star_2 + ((A_ij_3 * h_star_0 + A_ij_4 *
+        h_star_1 + A_ij_5 * h_star_2) * alphadot[1] - (t310 * g_star_0 + t312 * g_star_1 + t314 * g_star_2) -
+        cosine_1 * t322);
+    jac_phi_q_v_geometry[50] = t315 * g_star_0 + t317 * g_star_1 + t319 * g_star_2 + ((A_ij_6 * h_star_0 + A_ij_7 *
+        h_star_1 + A_ij_8 * h_star_2) * alphadot[1] - (t316 * g_star_0 + t318 * g_star_1 + t320 * g_star_2) -
+        cosine_1 * t323);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t322 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t322;
+    const jg_real t325 = s_i[2] + dp_ij_2;
+    jac_phi_q_v_velocity[3] = t325;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t324 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t324;
-    jac_phi_q_v_velocity[4] = -t324;
+    const jg_real t327 = s_i[1] + dp_ij_1;
+    jac_phi_q_v_velocity[13] = t327;
+    jac_phi_q_v_velocity[4] = -t327;
     jac_phi_q_v_velocity[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     jac_phi_q_v_velocity[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     jac_phi_q_v_velocity[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    jac_phi_q_v_velocity[8] = -t322;
+    jac_phi_q_v_velocity[8] = -t325;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t326 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t326;
+    const jg_real t329 = s_i[0] + dp_ij_0;
+    jac_phi_q_v_velocity[9] = t329;
     jac_phi_q_v_velocity[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     jac_phi_q_v_velocity[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     jac_phi_q_v_velocity[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -t326;
+    jac_phi_q_v_velocity[14] = -t329;
     jac_phi_q_v_velocity[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     jac_phi_q_v_velocity[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     jac_phi_q_v_velocity[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1075,9 +1083,9 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         * C_j[1]) + h_star_2 * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
     jac_phi_q_v_velocity[44] = f_star_0 * (A_ij_3 * C_j[3] - A_ij_0 * C_j[4]) + f_star_1 * (A_ij_4 * C_j[3] - A_ij_1
         * C_j[4]) + f_star_2 * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
-    jac_phi_q_v_velocity[45] = -(cosine_1 * t289);
-    jac_phi_q_v_velocity[46] = sine_1 * t290;
-    jac_phi_q_v_velocity[47] = A_ij_g_j_0 * t58 + A_ij_g_j_1 * t113 + A_ij_g_j_2 * t129;
+    jac_phi_q_v_velocity[45] = -(cosine_1 * t292);
+    jac_phi_q_v_velocity[46] = sine_1 * t293;
+    jac_phi_q_v_velocity[47] = A_ij_g_j_0 * t59 + A_ij_g_j_1 * t116 + A_ij_g_j_2 * t132;
     jac_phi_q_v_velocity[48] = h_star_0 * A_ij_h_j_0 + h_star_1 * A_ij_h_j_1 + h_star_2 * A_ij_h_j_2;
     jac_phi_q_v_velocity[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -1124,656 +1132,671 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t9 = s_i[0] * A_i[3];
     const jg_real t10 = s_i[0] * A_i[6];
     jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t12 = A_i[0] * s_i[0];
-    const jg_real t13 = A_i[3] * s_i[1];
-    const jg_real t14 = A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - (t12 + t13 + t14);
-    const jg_real t16 = d_ij_0 - t12;
-    const jg_real t17 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t11 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real t22 = cosine_0 * sine_1;
-    const jg_real t23 = t22 * lambda[3];
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t25 = H_4 * lambda[3];
-    const jg_real t26 = sine_0 * lambda[3];
-    const jg_real t27 = t23 * C_i[2] - t25 * C_i[5] - t26 * C_i[8];
-    const jg_real t28 = t17 * t27;
-    const jg_real t29 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t30 = sine_0 * cosine_1;
-    const jg_real t31 = t30 * lambda[4];
+    const jg_real t17 = sine_0 * cosine_1;
+    /* g_star = C_i H [0; 1; 0] */
+    const jg_real g_star_2 = H_4 * C_i[5] - t17 * C_i[2] + sine_1 * C_i[8];
+    const jg_real t19 = t11 * g_star_2 * lambda[3];
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real t21 = A_i[0] * s_i[0];
+    const jg_real t22 = A_i[3] * s_i[1];
+    const jg_real t23 = A_i[6] * s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = t21 + t22 + t23;
+    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
+    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
+    const jg_real t26 = d_ij_0 - t21;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t33 = H_6 * lambda[4];
-    const jg_real t34 = cosine_0 * lambda[4];
-    const jg_real t35 = C_i[5] * t31 - C_i[2] * t33 - C_i[8] * t34;
-    const jg_real t36 = t29 * t35;
-    const jg_real t37 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t38 = cosine_1 * lambda[5];
-    const jg_real t39 = sine_1 * lambda[5];
-    const jg_real t40 = C_i[2] * t38 + C_i[5] * t39;
-    const jg_real t41 = t37 * t40;
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t16 + lambda[0] * t10 - t28 - t36 + t41;
-    const jg_real t42 = t23 * C_i[1] - t25 * C_i[4] - t26 * C_i[7];
-    const jg_real t43 = t17 * t42;
-    const jg_real t44 = C_i[4] * t31 - C_i[1] * t33 - C_i[7] * t34;
-    const jg_real t45 = t29 * t44;
-    const jg_real t46 = C_i[1] * t38 + C_i[4] * t39;
-    const jg_real t47 = t37 * t46;
-    jac_phi_q_t_lambda_A_i[2] = t43 - (lambda[0] * t9 + lambda[1] * t16) + t45 - t47;
-    const jg_real t48 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t48;
-    const jg_real t49 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t49;
-    const jg_real t50 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t50;
-    const jg_real t51 = t23 * C_i[0] - t25 * C_i[3] - t26 * C_i[6];
-    const jg_real t52 = A_j[3] * t51;
-    const jg_real t53 = A_j[6] * t51;
-    const jg_real t54 = t31 * C_i[3] - t33 * C_i[0] - t34 * C_i[6];
-    const jg_real t55 = A_j[3] * t54;
-    const jg_real t56 = A_j[6] * t54;
-    const jg_real t57 = t38 * C_i[0] + t39 * C_i[3];
-    const jg_real t58 = A_j[6] * t57;
-    const jg_real t59 = A_j[3] * t57;
-    jac_phi_q_t_lambda_A_i[6] = C_j[8] * t52 - C_j[7] * t53 + (C_j[2] * t55 - C_j[1] * t56) + (C_j[4] * t58 - C_j[5]
-        * t59) + (s_j[1] * t50 - s_j[2] * t49);
-    const jg_real t60 = A_j[0] * t51;
-    const jg_real t61 = A_j[0] * t54;
-    const jg_real t62 = A_j[0] * t57;
-    jac_phi_q_t_lambda_A_i[7] = C_j[6] * t53 - C_j[8] * t60 + (C_j[0] * t56 - C_j[2] * t61) + (C_j[5] * t62 - C_j[3]
-        * t58) + (s_j[2] * t48 - s_j[0] * t50);
-    jac_phi_q_t_lambda_A_i[8] = C_j[7] * t60 - C_j[6] * t52 + (C_j[1] * t61 - C_j[0] * t55) + (C_j[3] * t59 - C_j[4]
-        * t62) + (s_j[0] * t49 - s_j[1] * t48);
-    const jg_real t63 = cosine_0 * H_4 + sine_0 * t30;
-    const jg_real t64 = cosine_0 * t22 + sine_0 * H_6;
-    const jg_real t65 = C_i[3] * t63 - C_i[0] * t64;
+    const jg_real t28 = cosine_0 * sine_1;
+    /* h_star = C_i H [0; 0; 1] */
+    const jg_real h_star_2 = H_6 * C_i[2] - t28 * C_i[5] + cosine_1 * C_i[8];
+    const jg_real t30 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t31 = h_star_2 * t30 * lambda[4];
+    const jg_real t32 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
-    const jg_real f_star_0 = cosine_1 * C_i[0] + sine_1 * C_i[3];
-    jac_phi_q_t_lambda_A_i[9] = t37 * t65 * lambda[5] + t29 * f_star_0 * lambda[4] * sine_0 - t17 * f_star_0 *
-        lambda[3] * cosine_0;
-    const jg_real t67 = t22 * C_i[0] - H_4 * C_i[3] - sine_0 * C_i[6];
-    const jg_real t68 = t30 * C_i[3] - H_6 * C_i[0] - cosine_0 * C_i[6];
-    jac_phi_q_t_lambda_A_i[10] = t29 * t67 * lambda[4] - t17 * t68 * lambda[3];
-    const jg_real t69 = s_i[0] * A_i[4];
-    const jg_real t70 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[11] = lambda[2] * t69 - lambda[1] * t70;
+    const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real t34 = t32 * f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t26 + lambda[0] * t10 + t19 + t31 + t34;
+    const jg_real g_star_1 = H_4 * C_i[4] - t17 * C_i[1] + sine_1 * C_i[7];
+    const jg_real t36 = t11 * g_star_1 * lambda[3];
+    const jg_real h_star_1 = H_6 * C_i[1] - t28 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real t38 = h_star_1 * t30 * lambda[4];
+    const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real t40 = t32 * f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t26 + t36 + t38 + t40);
+    const jg_real t41 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[3] = t41;
+    const jg_real t42 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[4] = t42;
+    const jg_real t43 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[5] = t43;
+    const jg_real g_star_0 = H_4 * C_i[3] - t17 * C_i[0] + sine_1 * C_i[6];
+    const jg_real t45 = A_j[6] * g_star_0;
+    const jg_real t46 = A_j[3] * g_star_0;
+    const jg_real h_star_0 = H_6 * C_i[0] - t28 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t48 = A_j[6] * h_star_0;
+    const jg_real t49 = A_j[3] * h_star_0;
+    const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real t51 = A_j[6] * f_star_0;
+    const jg_real t52 = A_j[3] * f_star_0;
+    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[7] * t45 - C_j[8] * t46) + lambda[4] * (C_j[1] * t48 - C_j[2] *
+        t49) + lambda[5] * (C_j[4] * t51 - C_j[5] * t52) + (s_j[1] * t43 - s_j[2] * t42);
+    const jg_real t53 = A_j[0] * g_star_0;
+    const jg_real t54 = A_j[0] * h_star_0;
+    const jg_real t55 = A_j[0] * f_star_0;
+    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[8] * t53 - C_j[6] * t45) + lambda[4] * (C_j[2] * t54 - C_j[0] *
+        t48) + lambda[5] * (C_j[5] * t55 - C_j[3] * t51) + (s_j[2] * t41 - s_j[0] * t43);
+    jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[6] * t46 - C_j[7] * t53) + lambda[4] * (C_j[0] * t49 - C_j[1] *
+        t54) + lambda[5] * (C_j[3] * t52 - C_j[4] * t55) + (s_j[0] * t42 - s_j[1] * t41);
+    const jg_real t56 = cosine_1 * H_4 + sine_1 * t28;
+    const jg_real t57 = cosine_1 * t17 + sine_1 * H_6;
+    const jg_real t58 = C_i[3] * t56 - C_i[0] * t57;
+    jac_phi_q_t_lambda_A_i[9] = t32 * t58 * lambda[5] + t30 * f_star_0 * lambda[4] * sine_1 - t11 * f_star_0 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[10] = t11 * h_star_0 * lambda[3] - t30 * g_star_0 * lambda[4];
+    const jg_real t59 = s_i[0] * A_i[4];
+    const jg_real t60 = s_i[0] * A_i[7];
+    jac_phi_q_t_lambda_A_i[11] = lambda[2] * t59 - lambda[1] * t60;
+    const jg_real t61 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t62 = t61 * g_star_2 * lambda[3];
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t72 = s_i[0] * A_i[1];
-    const jg_real t73 = s_i[1] * A_i[4];
-    const jg_real t74 = s_i[2] * A_i[7];
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - (t72 + t73 + t74);
-    const jg_real t76 = d_ij_1 - t72;
-    const jg_real t77 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t78 = t77 * t27;
-    const jg_real t79 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t80 = t79 * t35;
-    const jg_real t81 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t82 = t81 * t40;
-    jac_phi_q_t_lambda_A_i[12] = lambda[2] * t76 + lambda[0] * t70 - t78 - t80 + t82;
-    const jg_real t83 = t77 * t42;
-    const jg_real t84 = t79 * t44;
-    const jg_real t85 = t81 * t46;
-    jac_phi_q_t_lambda_A_i[13] = t83 - (lambda[0] * t69 + lambda[1] * t76) + t84 - t85;
-    const jg_real t86 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[14] = t86;
-    const jg_real t87 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[15] = t87;
-    const jg_real t88 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[16] = t88;
-    const jg_real t89 = A_j[4] * t51;
-    const jg_real t90 = A_j[7] * t51;
-    const jg_real t91 = A_j[4] * t54;
-    const jg_real t92 = A_j[7] * t54;
-    const jg_real t93 = A_j[7] * t57;
-    const jg_real t94 = A_j[4] * t57;
-    jac_phi_q_t_lambda_A_i[17] = C_j[8] * t89 - C_j[7] * t90 + (C_j[2] * t91 - C_j[1] * t92) + (C_j[4] * t93 -
-        C_j[5] * t94) + (s_j[1] * t88 - s_j[2] * t87);
-    const jg_real t95 = A_j[1] * t51;
-    const jg_real t96 = A_j[1] * t54;
-    const jg_real t97 = A_j[1] * t57;
-    jac_phi_q_t_lambda_A_i[18] = C_j[6] * t90 - C_j[8] * t95 + (C_j[0] * t92 - C_j[2] * t96) + (C_j[5] * t97 -
-        C_j[3] * t93) + (s_j[2] * t86 - s_j[0] * t88);
-    jac_phi_q_t_lambda_A_i[19] = C_j[7] * t95 - C_j[6] * t89 + (C_j[1] * t96 - C_j[0] * t91) + (C_j[3] * t94 -
-        C_j[4] * t97) + (s_j[0] * t87 - s_j[1] * t86);
-    jac_phi_q_t_lambda_A_i[20] = t81 * t65 * lambda[5] + t79 * f_star_0 * lambda[4] * sine_0 - t77 * f_star_0 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[21] = t79 * t67 * lambda[4] - t77 * t68 * lambda[3];
-    const jg_real t98 = s_i[0] * A_i[5];
-    const jg_real t99 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[22] = lambda[2] * t98 - lambda[1] * t99;
+    const jg_real t64 = s_i[0] * A_i[1];
+    const jg_real t65 = s_i[1] * A_i[4];
+    const jg_real t66 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t64 + t65 + t66;
+    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
+    const jg_real t69 = d_ij_1 - t64;
+    const jg_real t70 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t71 = h_star_2 * t70 * lambda[4];
+    const jg_real t72 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t73 = t72 * f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[12] = lambda[2] * t69 + lambda[0] * t60 + t62 + t71 + t73;
+    const jg_real t74 = t61 * g_star_1 * lambda[3];
+    const jg_real t75 = h_star_1 * t70 * lambda[4];
+    const jg_real t76 = t72 * f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[13] = -(lambda[0] * t59 + lambda[1] * t69 + t74 + t75 + t76);
+    const jg_real t77 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[14] = t77;
+    const jg_real t78 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[15] = t78;
+    const jg_real t79 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[16] = t79;
+    const jg_real t80 = A_j[7] * g_star_0;
+    const jg_real t81 = A_j[4] * g_star_0;
+    const jg_real t82 = A_j[7] * h_star_0;
+    const jg_real t83 = A_j[4] * h_star_0;
+    const jg_real t84 = A_j[7] * f_star_0;
+    const jg_real t85 = A_j[4] * f_star_0;
+    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[7] * t80 - C_j[8] * t81) + lambda[4] * (C_j[1] * t82 - C_j[2] *
+        t83) + lambda[5] * (C_j[4] * t84 - C_j[5] * t85) + (s_j[1] * t79 - s_j[2] * t78);
+    const jg_real t86 = A_j[1] * g_star_0;
+    const jg_real t87 = A_j[1] * h_star_0;
+    const jg_real t88 = A_j[1] * f_star_0;
+    jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[8] * t86 - C_j[6] * t80) + lambda[4] * (C_j[2] * t87 - C_j[0] *
+        t82) + lambda[5] * (C_j[5] * t88 - C_j[3] * t84) + (s_j[2] * t77 - s_j[0] * t79);
+    jac_phi_q_t_lambda_A_i[19] = lambda[3] * (C_j[6] * t81 - C_j[7] * t86) + lambda[4] * (C_j[0] * t83 - C_j[1] *
+        t87) + lambda[5] * (C_j[3] * t85 - C_j[4] * t88) + (s_j[0] * t78 - s_j[1] * t77);
+    jac_phi_q_t_lambda_A_i[20] = t72 * t58 * lambda[5] + t70 * f_star_0 * lambda[4] * sine_1 - t61 * f_star_0 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[21] = t61 * h_star_0 * lambda[3] - t70 * g_star_0 * lambda[4];
+    const jg_real t89 = s_i[0] * A_i[5];
+    const jg_real t90 = s_i[0] * A_i[8];
+    jac_phi_q_t_lambda_A_i[22] = lambda[2] * t89 - lambda[1] * t90;
+    const jg_real t91 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t92 = t91 * g_star_2 * lambda[3];
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t101 = s_i[0] * A_i[2];
-    const jg_real t102 = s_i[1] * A_i[5];
-    const jg_real t103 = s_i[2] * A_i[8];
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - (t101 + t102 + t103);
-    const jg_real t105 = d_ij_2 - t101;
-    const jg_real t106 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t107 = t106 * t27;
-    const jg_real t108 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t109 = t108 * t35;
-    const jg_real t110 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t111 = t110 * t40;
-    jac_phi_q_t_lambda_A_i[23] = lambda[2] * t105 + lambda[0] * t99 - t107 - t109 + t111;
-    const jg_real t112 = t106 * t42;
-    const jg_real t113 = t108 * t44;
-    const jg_real t114 = t110 * t46;
-    jac_phi_q_t_lambda_A_i[24] = t112 - (lambda[0] * t98 + lambda[1] * t105) + t113 - t114;
-    const jg_real t115 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[25] = t115;
-    const jg_real t116 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[26] = t116;
-    const jg_real t117 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[27] = t117;
-    const jg_real t118 = A_j[5] * t51;
-    const jg_real t119 = A_j[8] * t51;
-    const jg_real t120 = A_j[5] * t54;
-    const jg_real t121 = A_j[8] * t54;
-    const jg_real t122 = A_j[8] * t57;
-    const jg_real t123 = A_j[5] * t57;
-    jac_phi_q_t_lambda_A_i[28] = C_j[8] * t118 - C_j[7] * t119 + (C_j[2] * t120 - C_j[1] * t121) + (C_j[4] * t122 -
-        C_j[5] * t123) + (s_j[1] * t117 - s_j[2] * t116);
-    const jg_real t124 = A_j[2] * t51;
-    const jg_real t125 = A_j[2] * t54;
-    const jg_real t126 = A_j[2] * t57;
-    jac_phi_q_t_lambda_A_i[29] = C_j[6] * t119 - C_j[8] * t124 + (C_j[0] * t121 - C_j[2] * t125) + (C_j[5] * t126 -
-        C_j[3] * t122) + (s_j[2] * t115 - s_j[0] * t117);
-    jac_phi_q_t_lambda_A_i[30] = C_j[7] * t124 - C_j[6] * t118 + (C_j[1] * t125 - C_j[0] * t120) + (C_j[3] * t123 -
-        C_j[4] * t126) + (s_j[0] * t116 - s_j[1] * t115);
-    jac_phi_q_t_lambda_A_i[31] = t110 * t65 * lambda[5] + t108 * f_star_0 * lambda[4] * sine_0 - t106 * f_star_0 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[32] = t108 * t67 * lambda[4] - t106 * t68 * lambda[3];
-    const jg_real t127 = d_ij_0 - t13;
-    const jg_real t128 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[33] = t28 - (lambda[1] * t128 + lambda[2] * t127) + t36 - t41;
-    const jg_real t129 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[34] = lambda[0] * t128 - lambda[2] * t129;
-    const jg_real t130 = t17 * t51;
-    const jg_real t131 = t29 * t54;
-    const jg_real t132 = t37 * t57;
-    jac_phi_q_t_lambda_A_i[35] = lambda[0] * t127 + lambda[1] * t129 - t130 - t131 + t132;
-    const jg_real t133 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[36] = t133;
-    const jg_real t134 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[37] = t134;
-    const jg_real t135 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[38] = t135;
-    const jg_real t136 = A_j[3] * t42;
-    const jg_real t137 = A_j[6] * t42;
-    const jg_real t138 = A_j[3] * t44;
-    const jg_real t139 = A_j[6] * t44;
-    const jg_real t140 = A_j[6] * t46;
-    const jg_real t141 = A_j[3] * t46;
-    jac_phi_q_t_lambda_A_i[39] = C_j[8] * t136 - C_j[7] * t137 + (C_j[2] * t138 - C_j[1] * t139) + (C_j[4] * t140 -
-        C_j[5] * t141) + (s_j[1] * t135 - s_j[2] * t134);
-    const jg_real t142 = A_j[0] * t42;
-    const jg_real t143 = A_j[0] * t44;
-    const jg_real t144 = A_j[0] * t46;
-    jac_phi_q_t_lambda_A_i[40] = C_j[6] * t137 - C_j[8] * t142 + (C_j[0] * t139 - C_j[2] * t143) + (C_j[5] * t144 -
-        C_j[3] * t140) + (s_j[2] * t133 - s_j[0] * t135);
-    jac_phi_q_t_lambda_A_i[41] = C_j[7] * t142 - C_j[6] * t136 + (C_j[1] * t143 - C_j[0] * t138) + (C_j[3] * t141 -
-        C_j[4] * t144) + (s_j[0] * t134 - s_j[1] * t133);
-    const jg_real t145 = C_i[4] * t63 - C_i[1] * t64;
-    const jg_real f_star_1 = cosine_1 * C_i[1] + sine_1 * C_i[4];
-    jac_phi_q_t_lambda_A_i[42] = t37 * t145 * lambda[5] + t29 * f_star_1 * lambda[4] * sine_0 - t17 * f_star_1 *
-        lambda[3] * cosine_0;
-    const jg_real t147 = t22 * C_i[1] - H_4 * C_i[4] - sine_0 * C_i[7];
-    const jg_real t148 = t30 * C_i[4] - H_6 * C_i[1] - cosine_0 * C_i[7];
-    jac_phi_q_t_lambda_A_i[43] = t147 * t29 * lambda[4] - t17 * t148 * lambda[3];
-    const jg_real t149 = d_ij_1 - t73;
-    const jg_real t150 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[44] = t78 - (lambda[1] * t150 + lambda[2] * t149) + t80 - t82;
-    const jg_real t151 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[45] = lambda[0] * t150 - lambda[2] * t151;
-    const jg_real t152 = t77 * t51;
-    const jg_real t153 = t79 * t54;
-    const jg_real t154 = t81 * t57;
-    jac_phi_q_t_lambda_A_i[46] = lambda[0] * t149 + lambda[1] * t151 - t152 - t153 + t154;
-    const jg_real t155 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[47] = t155;
-    const jg_real t156 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[48] = t156;
-    const jg_real t157 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[49] = t157;
-    const jg_real t158 = A_j[4] * t42;
-    const jg_real t159 = A_j[7] * t42;
-    const jg_real t160 = A_j[4] * t44;
-    const jg_real t161 = A_j[7] * t44;
-    const jg_real t162 = A_j[7] * t46;
-    const jg_real t163 = A_j[4] * t46;
-    jac_phi_q_t_lambda_A_i[50] = C_j[8] * t158 - C_j[7] * t159 + (C_j[2] * t160 - C_j[1] * t161) + (C_j[4] * t162 -
-        C_j[5] * t163) + (s_j[1] * t157 - s_j[2] * t156);
-    const jg_real t164 = A_j[1] * t42;
-    const jg_real t165 = A_j[1] * t44;
-    const jg_real t166 = A_j[1] * t46;
-    jac_phi_q_t_lambda_A_i[51] = C_j[6] * t159 - C_j[8] * t164 + (C_j[0] * t161 - C_j[2] * t165) + (C_j[5] * t166 -
-        C_j[3] * t162) + (s_j[2] * t155 - s_j[0] * t157);
-    jac_phi_q_t_lambda_A_i[52] = C_j[7] * t164 - C_j[6] * t158 + (C_j[1] * t165 - C_j[0] * t160) + (C_j[3] * t163 -
-        C_j[4] * t166) + (s_j[0] * t156 - s_j[1] * t155);
-    jac_phi_q_t_lambda_A_i[53] = t81 * t145 * lambda[5] + t79 * f_star_1 * lambda[4] * sine_0 - t77 * f_star_1 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[54] = t147 * t79 * lambda[4] - t77 * t148 * lambda[3];
-    const jg_real t167 = d_ij_2 - t102;
-    const jg_real t168 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[55] = t107 - (lambda[1] * t168 + lambda[2] * t167) + t109 - t111;
-    const jg_real t169 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[56] = lambda[0] * t168 - lambda[2] * t169;
-    const jg_real t170 = t106 * t51;
-    const jg_real t171 = t108 * t54;
-    const jg_real t172 = t110 * t57;
-    jac_phi_q_t_lambda_A_i[57] = lambda[0] * t167 + lambda[1] * t169 - t170 - t171 + t172;
-    const jg_real t173 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[58] = t173;
-    const jg_real t174 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[59] = t174;
-    const jg_real t175 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[60] = t175;
-    const jg_real t176 = A_j[5] * t42;
-    const jg_real t177 = A_j[8] * t42;
-    const jg_real t178 = A_j[5] * t44;
-    const jg_real t179 = A_j[8] * t44;
-    const jg_real t180 = A_j[8] * t46;
-    const jg_real t181 = A_j[5] * t46;
-    jac_phi_q_t_lambda_A_i[61] = C_j[8] * t176 - C_j[7] * t177 + (C_j[2] * t178 - C_j[1] * t179) + (C_j[4] * t180 -
-        C_j[5] * t181) + (s_j[1] * t175 - s_j[2] * t174);
-    const jg_real t182 = A_j[2] * t42;
-    const jg_real t183 = A_j[2] * t44;
-    const jg_real t184 = A_j[2] * t46;
-    jac_phi_q_t_lambda_A_i[62] = C_j[6] * t177 - C_j[8] * t182 + (C_j[0] * t179 - C_j[2] * t183) + (C_j[5] * t184 -
-        C_j[3] * t180) + (s_j[2] * t173 - s_j[0] * t175);
-    jac_phi_q_t_lambda_A_i[63] = C_j[7] * t182 - C_j[6] * t176 + (C_j[1] * t183 - C_j[0] * t178) + (C_j[3] * t181 -
-        C_j[4] * t184) + (s_j[0] * t174 - s_j[1] * t173);
-    jac_phi_q_t_lambda_A_i[64] = t110 * t145 * lambda[5] + t108 * f_star_1 * lambda[4] * sine_0 - t106 * f_star_1 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[65] = t147 * t108 * lambda[4] - t106 * t148 * lambda[3];
-    const jg_real t185 = d_ij_0 - t14;
-    const jg_real t186 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[66] = lambda[1] * t185 + lambda[2] * t186 - t43 - t45 + t47;
-    const jg_real t187 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[67] = t130 - (lambda[2] * t187 + lambda[0] * t185) + t131 - t132;
-    jac_phi_q_t_lambda_A_i[68] = lambda[1] * t187 - lambda[0] * t186;
-    const jg_real t188 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[69] = t188;
-    const jg_real t189 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[70] = t189;
-    const jg_real t190 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[71] = t190;
-    const jg_real t191 = A_j[3] * t27;
-    const jg_real t192 = A_j[6] * t27;
-    const jg_real t193 = A_j[3] * t35;
-    const jg_real t194 = A_j[6] * t35;
-    const jg_real t195 = A_j[6] * t40;
-    const jg_real t196 = A_j[3] * t40;
-    jac_phi_q_t_lambda_A_i[72] = C_j[8] * t191 - C_j[7] * t192 + (C_j[2] * t193 - C_j[1] * t194) + (C_j[4] * t195 -
-        C_j[5] * t196) + (s_j[1] * t190 - s_j[2] * t189);
-    const jg_real t197 = A_j[0] * t27;
-    const jg_real t198 = A_j[0] * t35;
-    const jg_real t199 = A_j[0] * t40;
-    jac_phi_q_t_lambda_A_i[73] = C_j[6] * t192 - C_j[8] * t197 + (C_j[0] * t194 - C_j[2] * t198) + (C_j[5] * t199 -
-        C_j[3] * t195) + (s_j[2] * t188 - s_j[0] * t190);
-    jac_phi_q_t_lambda_A_i[74] = C_j[7] * t197 - C_j[6] * t191 + (C_j[1] * t198 - C_j[0] * t193) + (C_j[3] * t196 -
-        C_j[4] * t199) + (s_j[0] * t189 - s_j[1] * t188);
-    const jg_real t200 = C_i[5] * t63 - C_i[2] * t64;
-    const jg_real f_star_2 = cosine_1 * C_i[2] + sine_1 * C_i[5];
-    jac_phi_q_t_lambda_A_i[75] = t37 * t200 * lambda[5] + t29 * f_star_2 * lambda[4] * sine_0 - t17 * f_star_2 *
-        lambda[3] * cosine_0;
-    const jg_real t202 = t22 * C_i[2] - H_4 * C_i[5] - sine_0 * C_i[8];
-    const jg_real t203 = t30 * C_i[5] - H_6 * C_i[2] - cosine_0 * C_i[8];
-    jac_phi_q_t_lambda_A_i[76] = t202 * t29 * lambda[4] - t17 * t203 * lambda[3];
-    const jg_real t204 = d_ij_1 - t74;
-    const jg_real t205 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[77] = lambda[1] * t204 + lambda[2] * t205 - t83 - t84 + t85;
-    const jg_real t206 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[78] = t152 - (lambda[2] * t206 + lambda[0] * t204) + t153 - t154;
-    jac_phi_q_t_lambda_A_i[79] = lambda[1] * t206 - lambda[0] * t205;
-    const jg_real t207 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[80] = t207;
-    const jg_real t208 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[81] = t208;
-    const jg_real t209 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[82] = t209;
-    const jg_real t210 = A_j[4] * t27;
-    const jg_real t211 = A_j[7] * t27;
-    const jg_real t212 = A_j[4] * t35;
-    const jg_real t213 = A_j[7] * t35;
-    const jg_real t214 = A_j[7] * t40;
-    const jg_real t215 = A_j[4] * t40;
-    jac_phi_q_t_lambda_A_i[83] = C_j[8] * t210 - C_j[7] * t211 + (C_j[2] * t212 - C_j[1] * t213) + (C_j[4] * t214 -
-        C_j[5] * t215) + (s_j[1] * t209 - s_j[2] * t208);
-    const jg_real t216 = A_j[1] * t27;
-    const jg_real t217 = A_j[1] * t35;
-    const jg_real t218 = A_j[1] * t40;
-    jac_phi_q_t_lambda_A_i[84] = C_j[6] * t211 - C_j[8] * t216 + (C_j[0] * t213 - C_j[2] * t217) + (C_j[5] * t218 -
-        C_j[3] * t214) + (s_j[2] * t207 - s_j[0] * t209);
-    jac_phi_q_t_lambda_A_i[85] = C_j[7] * t216 - C_j[6] * t210 + (C_j[1] * t217 - C_j[0] * t212) + (C_j[3] * t215 -
-        C_j[4] * t218) + (s_j[0] * t208 - s_j[1] * t207);
-    jac_phi_q_t_lambda_A_i[86] = t81 * t200 * lambda[5] + t79 * f_star_2 * lambda[4] * sine_0 - t77 * f_star_2 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[87] = t202 * t79 * lambda[4] - t77 * t203 * lambda[3];
-    const jg_real t219 = d_ij_2 - t103;
-    const jg_real t220 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[88] = lambda[1] * t219 + lambda[2] * t220 - t112 - t113 + t114;
-    const jg_real t221 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[89] = t170 - (lambda[2] * t221 + lambda[0] * t219) + t171 - t172;
-    jac_phi_q_t_lambda_A_i[90] = lambda[1] * t221 - lambda[0] * t220;
-    const jg_real t222 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[91] = t222;
-    const jg_real t223 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[92] = t223;
-    const jg_real t224 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[93] = t224;
-    const jg_real t225 = A_j[5] * t27;
-    const jg_real t226 = A_j[8] * t27;
-    const jg_real t227 = A_j[5] * t35;
-    const jg_real t228 = A_j[8] * t35;
-    const jg_real t229 = A_j[8] * t40;
-    const jg_real t230 = A_j[5] * t40;
-    jac_phi_q_t_lambda_A_i[94] = C_j[8] * t225 - C_j[7] * t226 + (C_j[2] * t227 - C_j[1] * t228) + (C_j[4] * t229 -
-        C_j[5] * t230) + (s_j[1] * t224 - s_j[2] * t223);
-    const jg_real t231 = A_j[2] * t27;
-    const jg_real t232 = A_j[2] * t35;
-    const jg_real t233 = A_j[2] * t40;
-    jac_phi_q_t_lambda_A_i[95] = C_j[6] * t226 - C_j[8] * t231 + (C_j[0] * t228 - C_j[2] * t232) + (C_j[5] * t233 -
-        C_j[3] * t229) + (s_j[2] * t222 - s_j[0] * t224);
-    jac_phi_q_t_lambda_A_i[96] = C_j[7] * t231 - C_j[6] * t225 + (C_j[1] * t232 - C_j[0] * t227) + (C_j[3] * t230 -
-        C_j[4] * t233) + (s_j[0] * t223 - s_j[1] * t222);
-    jac_phi_q_t_lambda_A_i[97] = t110 * t200 * lambda[5] + t108 * f_star_2 * lambda[4] * sine_0 - t106 * f_star_2 *
-        lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_A_i[98] = t202 * t108 * lambda[4] - t106 * t203 * lambda[3];
-    const jg_real t234 = A_i[3] * C_j[6];
-    const jg_real t235 = A_i[6] * C_j[6];
-    const jg_real t236 = s_j[0] * A_i[6];
-    const jg_real t237 = s_j[0] * A_i[3];
-    const jg_real t238 = A_i[3] * C_j[0];
-    const jg_real t239 = A_i[6] * C_j[0];
-    const jg_real t240 = A_i[6] * C_j[3];
-    const jg_real t241 = A_i[3] * C_j[3];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t236 - lambda[2] * t237 + (t234 * t27 - t235 * t42) + (t238 * t35 - t239
-        * t44) + (t240 * t46 - t241 * t40);
-    const jg_real t242 = A_i[0] * C_j[6];
-    const jg_real t243 = s_j[0] * A_i[0];
-    const jg_real t244 = A_i[0] * C_j[0];
-    const jg_real t245 = A_i[0] * C_j[3];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t243 - lambda[0] * t236 + (t235 * t51 - t27 * t242) + (t239 * t54 - t35
-        * t244) + (t40 * t245 - t240 * t57);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t237 - lambda[1] * t243 + (t42 * t242 - t234 * t51) + (t44 * t244 - t238
-        * t54) + (t241 * t57 - t46 * t245);
-    const jg_real t246 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t246;
-    jac_phi_q_t_lambda_A_j[27] = t246;
-    jac_phi_q_t_lambda_A_j[51] = t246;
-    const jg_real t247 = A_i[0] * t51 + A_i[3] * t42 + A_i[6] * t27;
-    const jg_real t248 = A_i[0] * t54 + A_i[3] * t44 + A_i[6] * t35;
-    const jg_real t249 = A_i[0] * t57 + A_i[3] * t46 + A_i[6] * t40;
-    const jg_real t250 = C_j[8] * t247 + C_j[2] * t248 - C_j[5] * t249 - s_j[2] * t246;
-    jac_phi_q_t_lambda_A_j[28] = t250;
-    jac_phi_q_t_lambda_A_j[4] = -t250;
-    const jg_real t251 = C_j[4] * t249 - (C_j[7] * t247 + C_j[1] * t248) + s_j[1] * t246;
-    jac_phi_q_t_lambda_A_j[52] = t251;
-    jac_phi_q_t_lambda_A_j[5] = -t251;
-    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (t245 * t65 + t241 * t145 + t240 * t200) + lambda[4] * (t244 * f_star_0
-        + t238 * f_star_1 + t239 * f_star_2) * sine_0 - lambda[3] * (t242 * f_star_0 + t234 * f_star_1 + t235 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[7] = lambda[4] * (t67 * t244 + t147 * t238 + t202 * t239) - lambda[3] * (t242 * t68 +
-        t234 * t148 + t235 * t203);
-    const jg_real t252 = A_i[4] * C_j[6];
-    const jg_real t253 = A_i[7] * C_j[6];
-    const jg_real t254 = s_j[0] * A_i[7];
-    const jg_real t255 = s_j[0] * A_i[4];
-    const jg_real t256 = A_i[4] * C_j[0];
-    const jg_real t257 = A_i[7] * C_j[0];
-    const jg_real t258 = A_i[7] * C_j[3];
-    const jg_real t259 = A_i[4] * C_j[3];
-    jac_phi_q_t_lambda_A_j[8] = lambda[1] * t254 - lambda[2] * t255 + (t252 * t27 - t253 * t42) + (t256 * t35 - t257
-        * t44) + (t258 * t46 - t259 * t40);
-    const jg_real t260 = A_i[1] * C_j[6];
-    const jg_real t261 = s_j[0] * A_i[1];
-    const jg_real t262 = A_i[1] * C_j[0];
-    const jg_real t263 = A_i[1] * C_j[3];
-    jac_phi_q_t_lambda_A_j[9] = lambda[2] * t261 - lambda[0] * t254 + (t253 * t51 - t27 * t260) + (t257 * t54 - t35
-        * t262) + (t40 * t263 - t258 * t57);
-    jac_phi_q_t_lambda_A_j[10] = lambda[0] * t255 - lambda[1] * t261 + (t42 * t260 - t252 * t51) + (t44 * t262 -
-        t256 * t54) + (t259 * t57 - t46 * t263);
-    const jg_real t264 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[11] = t264;
-    jac_phi_q_t_lambda_A_j[35] = t264;
-    jac_phi_q_t_lambda_A_j[59] = t264;
-    const jg_real t265 = A_i[1] * t51 + A_i[4] * t42 + A_i[7] * t27;
-    const jg_real t266 = A_i[1] * t54 + A_i[4] * t44 + A_i[7] * t35;
-    const jg_real t267 = A_i[1] * t57 + A_i[4] * t46 + A_i[7] * t40;
-    const jg_real t268 = C_j[8] * t265 + C_j[2] * t266 - C_j[5] * t267 - s_j[2] * t264;
-    jac_phi_q_t_lambda_A_j[36] = t268;
-    jac_phi_q_t_lambda_A_j[12] = -t268;
-    const jg_real t269 = C_j[4] * t267 - (C_j[7] * t265 + C_j[1] * t266) + s_j[1] * t264;
-    jac_phi_q_t_lambda_A_j[60] = t269;
-    jac_phi_q_t_lambda_A_j[13] = -t269;
-    jac_phi_q_t_lambda_A_j[14] = lambda[5] * (t263 * t65 + t259 * t145 + t258 * t200) + lambda[4] * (t262 * f_star_0
-        + t256 * f_star_1 + t257 * f_star_2) * sine_0 - lambda[3] * (t260 * f_star_0 + t252 * f_star_1 + t253 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[15] = lambda[4] * (t67 * t262 + t147 * t256 + t202 * t257) - lambda[3] * (t260 * t68 +
-        t252 * t148 + t253 * t203);
-    const jg_real t270 = A_i[5] * C_j[6];
-    const jg_real t271 = A_i[8] * C_j[6];
-    const jg_real t272 = s_j[0] * A_i[8];
-    const jg_real t273 = s_j[0] * A_i[5];
-    const jg_real t274 = A_i[5] * C_j[0];
-    const jg_real t275 = A_i[8] * C_j[0];
-    const jg_real t276 = A_i[8] * C_j[3];
-    const jg_real t277 = A_i[5] * C_j[3];
-    jac_phi_q_t_lambda_A_j[16] = lambda[1] * t272 - lambda[2] * t273 + (t270 * t27 - t271 * t42) + (t274 * t35 -
-        t275 * t44) + (t276 * t46 - t277 * t40);
-    const jg_real t278 = A_i[2] * C_j[6];
-    const jg_real t279 = s_j[0] * A_i[2];
-    const jg_real t280 = A_i[2] * C_j[0];
-    const jg_real t281 = A_i[2] * C_j[3];
-    jac_phi_q_t_lambda_A_j[17] = lambda[2] * t279 - lambda[0] * t272 + (t271 * t51 - t27 * t278) + (t275 * t54 - t35
-        * t280) + (t40 * t281 - t276 * t57);
-    jac_phi_q_t_lambda_A_j[18] = lambda[0] * t273 - lambda[1] * t279 + (t42 * t278 - t270 * t51) + (t44 * t280 -
-        t274 * t54) + (t277 * t57 - t46 * t281);
-    const jg_real t282 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[19] = t282;
-    jac_phi_q_t_lambda_A_j[43] = t282;
-    jac_phi_q_t_lambda_A_j[67] = t282;
-    const jg_real t283 = A_i[2] * t51 + A_i[5] * t42 + A_i[8] * t27;
-    const jg_real t284 = A_i[2] * t54 + A_i[5] * t44 + A_i[8] * t35;
-    const jg_real t285 = A_i[2] * t57 + A_i[5] * t46 + A_i[8] * t40;
-    const jg_real t286 = C_j[8] * t283 + C_j[2] * t284 - C_j[5] * t285 - s_j[2] * t282;
-    jac_phi_q_t_lambda_A_j[44] = t286;
-    jac_phi_q_t_lambda_A_j[20] = -t286;
-    const jg_real t287 = C_j[4] * t285 - (C_j[7] * t283 + C_j[1] * t284) + s_j[1] * t282;
-    jac_phi_q_t_lambda_A_j[68] = t287;
-    jac_phi_q_t_lambda_A_j[21] = -t287;
-    jac_phi_q_t_lambda_A_j[22] = lambda[5] * (t281 * t65 + t277 * t145 + t276 * t200) + lambda[4] * (t280 * f_star_0
-        + t274 * f_star_1 + t275 * f_star_2) * sine_0 - lambda[3] * (t278 * f_star_0 + t270 * f_star_1 + t271 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[23] = lambda[4] * (t67 * t280 + t147 * t274 + t202 * t275) - lambda[3] * (t278 * t68 +
-        t270 * t148 + t271 * t203);
-    const jg_real t288 = A_i[3] * C_j[7];
-    const jg_real t289 = A_i[6] * C_j[7];
-    const jg_real t290 = s_j[1] * A_i[6];
-    const jg_real t291 = s_j[1] * A_i[3];
-    const jg_real t292 = A_i[3] * C_j[1];
-    const jg_real t293 = A_i[6] * C_j[1];
-    const jg_real t294 = A_i[6] * C_j[4];
-    const jg_real t295 = A_i[3] * C_j[4];
-    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t290 - lambda[2] * t291 + (t288 * t27 - t289 * t42) + (t292 * t35 -
-        t293 * t44) + (t294 * t46 - t295 * t40);
-    const jg_real t296 = A_i[0] * C_j[7];
-    const jg_real t297 = s_j[1] * A_i[0];
-    const jg_real t298 = A_i[0] * C_j[1];
-    const jg_real t299 = A_i[0] * C_j[4];
-    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t297 - lambda[0] * t290 + (t289 * t51 - t27 * t296) + (t293 * t54 - t35
-        * t298) + (t40 * t299 - t294 * t57);
-    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t291 - lambda[1] * t297 + (t42 * t296 - t288 * t51) + (t44 * t298 -
-        t292 * t54) + (t295 * t57 - t46 * t299);
-    const jg_real t300 = C_j[6] * t247 + C_j[0] * t248 - C_j[3] * t249 - s_j[0] * t246;
-    jac_phi_q_t_lambda_A_j[53] = t300;
-    jac_phi_q_t_lambda_A_j[29] = -t300;
-    jac_phi_q_t_lambda_A_j[30] = lambda[5] * (t299 * t65 + t295 * t145 + t294 * t200) + lambda[4] * (t298 * f_star_0
-        + t292 * f_star_1 + t293 * f_star_2) * sine_0 - lambda[3] * (t296 * f_star_0 + t288 * f_star_1 + t289 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[31] = lambda[4] * (t67 * t298 + t147 * t292 + t202 * t293) - lambda[3] * (t296 * t68 +
-        t288 * t148 + t289 * t203);
-    const jg_real t301 = A_i[4] * C_j[7];
-    const jg_real t302 = A_i[7] * C_j[7];
-    const jg_real t303 = s_j[1] * A_i[7];
-    const jg_real t304 = s_j[1] * A_i[4];
-    const jg_real t305 = A_i[4] * C_j[1];
-    const jg_real t306 = A_i[7] * C_j[1];
-    const jg_real t307 = A_i[7] * C_j[4];
-    const jg_real t308 = A_i[4] * C_j[4];
-    jac_phi_q_t_lambda_A_j[32] = lambda[1] * t303 - lambda[2] * t304 + (t301 * t27 - t302 * t42) + (t305 * t35 -
-        t306 * t44) + (t307 * t46 - t308 * t40);
-    const jg_real t309 = A_i[1] * C_j[7];
-    const jg_real t310 = s_j[1] * A_i[1];
-    const jg_real t311 = A_i[1] * C_j[1];
-    const jg_real t312 = A_i[1] * C_j[4];
-    jac_phi_q_t_lambda_A_j[33] = lambda[2] * t310 - lambda[0] * t303 + (t302 * t51 - t27 * t309) + (t306 * t54 - t35
-        * t311) + (t40 * t312 - t307 * t57);
-    jac_phi_q_t_lambda_A_j[34] = lambda[0] * t304 - lambda[1] * t310 + (t42 * t309 - t301 * t51) + (t44 * t311 -
-        t305 * t54) + (t308 * t57 - t46 * t312);
-    const jg_real t313 = C_j[6] * t265 + C_j[0] * t266 - C_j[3] * t267 - s_j[0] * t264;
-    jac_phi_q_t_lambda_A_j[61] = t313;
-    jac_phi_q_t_lambda_A_j[37] = -t313;
-    jac_phi_q_t_lambda_A_j[38] = lambda[5] * (t312 * t65 + t308 * t145 + t307 * t200) + lambda[4] * (t311 * f_star_0
-        + t305 * f_star_1 + t306 * f_star_2) * sine_0 - lambda[3] * (t309 * f_star_0 + t301 * f_star_1 + t302 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[39] = lambda[4] * (t67 * t311 + t147 * t305 + t202 * t306) - lambda[3] * (t309 * t68 +
-        t301 * t148 + t302 * t203);
-    const jg_real t314 = A_i[5] * C_j[7];
-    const jg_real t315 = A_i[8] * C_j[7];
-    const jg_real t316 = s_j[1] * A_i[8];
-    const jg_real t317 = s_j[1] * A_i[5];
-    const jg_real t318 = A_i[5] * C_j[1];
-    const jg_real t319 = A_i[8] * C_j[1];
-    const jg_real t320 = A_i[8] * C_j[4];
-    const jg_real t321 = A_i[5] * C_j[4];
-    jac_phi_q_t_lambda_A_j[40] = lambda[1] * t316 - lambda[2] * t317 + (t314 * t27 - t315 * t42) + (t318 * t35 -
-        t319 * t44) + (t320 * t46 - t321 * t40);
-    const jg_real t322 = A_i[2] * C_j[7];
-    const jg_real t323 = s_j[1] * A_i[2];
-    const jg_real t324 = A_i[2] * C_j[1];
-    const jg_real t325 = A_i[2] * C_j[4];
-    jac_phi_q_t_lambda_A_j[41] = lambda[2] * t323 - lambda[0] * t316 + (t315 * t51 - t27 * t322) + (t319 * t54 - t35
-        * t324) + (t40 * t325 - t320 * t57);
-    jac_phi_q_t_lambda_A_j[42] = lambda[0] * t317 - lambda[1] * t323 + (t42 * t322 - t314 * t51) + (t44 * t324 -
-        t318 * t54) + (t321 * t57 - t46 * t325);
-    const jg_real t326 = C_j[6] * t283 + C_j[0] * t284 - C_j[3] * t285 - s_j[0] * t282;
-    jac_phi_q_t_lambda_A_j[69] = t326;
-    jac_phi_q_t_lambda_A_j[45] = -t326;
-    jac_phi_q_t_lambda_A_j[46] = lambda[5] * (t325 * t65 + t321 * t145 + t320 * t200) + lambda[4] * (t324 * f_star_0
-        + t318 * f_star_1 + t319 * f_star_2) * sine_0 - lambda[3] * (t322 * f_star_0 + t314 * f_star_1 + t315 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[47] = lambda[4] * (t67 * t324 + t147 * t318 + t202 * t319) - lambda[3] * (t322 * t68 +
-        t314 * t148 + t315 * t203);
-    const jg_real t327 = A_i[3] * C_j[8];
-    const jg_real t328 = A_i[6] * C_j[8];
-    const jg_real t329 = s_j[2] * A_i[6];
-    const jg_real t330 = s_j[2] * A_i[3];
-    const jg_real t331 = A_i[3] * C_j[2];
-    const jg_real t332 = A_i[6] * C_j[2];
-    const jg_real t333 = A_i[6] * C_j[5];
-    const jg_real t334 = A_i[3] * C_j[5];
-    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t329 - lambda[2] * t330 + (t327 * t27 - t328 * t42) + (t331 * t35 -
-        t332 * t44) + (t333 * t46 - t334 * t40);
-    const jg_real t335 = A_i[0] * C_j[8];
-    const jg_real t336 = s_j[2] * A_i[0];
-    const jg_real t337 = A_i[0] * C_j[2];
-    const jg_real t338 = A_i[0] * C_j[5];
-    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t336 - lambda[0] * t329 + (t328 * t51 - t27 * t335) + (t332 * t54 - t35
-        * t337) + (t40 * t338 - t333 * t57);
-    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t330 - lambda[1] * t336 + (t42 * t335 - t327 * t51) + (t44 * t337 -
-        t331 * t54) + (t334 * t57 - t46 * t338);
-    jac_phi_q_t_lambda_A_j[54] = lambda[5] * (t338 * t65 + t334 * t145 + t333 * t200) + lambda[4] * (t337 * f_star_0
-        + t331 * f_star_1 + t332 * f_star_2) * sine_0 - lambda[3] * (t335 * f_star_0 + t327 * f_star_1 + t328 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[55] = lambda[4] * (t67 * t337 + t147 * t331 + t202 * t332) - lambda[3] * (t335 * t68 +
-        t327 * t148 + t328 * t203);
-    const jg_real t339 = A_i[4] * C_j[8];
-    const jg_real t340 = A_i[7] * C_j[8];
-    const jg_real t341 = s_j[2] * A_i[7];
-    const jg_real t342 = s_j[2] * A_i[4];
-    const jg_real t343 = A_i[4] * C_j[2];
-    const jg_real t344 = A_i[7] * C_j[2];
-    const jg_real t345 = A_i[7] * C_j[5];
-    const jg_real t346 = A_i[4] * C_j[5];
-    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t341 - lambda[2] * t342 + (t339 * t27 - t340 * t42) + (t343 * t35 -
-        t344 * t44) + (t345 * t46 - t346 * t40);
-    const jg_real t347 = A_i[1] * C_j[8];
-    const jg_real t348 = s_j[2] * A_i[1];
-    const jg_real t349 = A_i[1] * C_j[2];
-    const jg_real t350 = A_i[1] * C_j[5];
-    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t348 - lambda[0] * t341 + (t340 * t51 - t27 * t347) + (t344 * t54 - t35
-        * t349) + (t40 * t350 - t345 * t57);
-    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t342 - lambda[1] * t348 + (t42 * t347 - t339 * t51) + (t44 * t349 -
-        t343 * t54) + (t346 * t57 - t46 * t350);
-    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (t350 * t65 + t346 * t145 + t345 * t200) + lambda[4] * (t349 * f_star_0
-        + t343 * f_star_1 + t344 * f_star_2) * sine_0 - lambda[3] * (t347 * f_star_0 + t339 * f_star_1 + t340 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[63] = lambda[4] * (t67 * t349 + t147 * t343 + t202 * t344) - lambda[3] * (t347 * t68 +
-        t339 * t148 + t340 * t203);
-    const jg_real t351 = A_i[5] * C_j[8];
-    const jg_real t352 = A_i[8] * C_j[8];
-    const jg_real t353 = s_j[2] * A_i[8];
-    const jg_real t354 = s_j[2] * A_i[5];
-    const jg_real t355 = A_i[5] * C_j[2];
-    const jg_real t356 = A_i[8] * C_j[2];
-    const jg_real t357 = A_i[8] * C_j[5];
-    const jg_real t358 = A_i[5] * C_j[5];
-    jac_phi_q_t_lambda_A_j[64] = lambda[1] * t353 - lambda[2] * t354 + (t351 * t27 - t352 * t42) + (t355 * t35 -
-        t356 * t44) + (t357 * t46 - t358 * t40);
-    const jg_real t359 = A_i[2] * C_j[8];
-    const jg_real t360 = s_j[2] * A_i[2];
-    const jg_real t361 = A_i[2] * C_j[2];
-    const jg_real t362 = A_i[2] * C_j[5];
-    jac_phi_q_t_lambda_A_j[65] = lambda[2] * t360 - lambda[0] * t353 + (t352 * t51 - t27 * t359) + (t356 * t54 - t35
-        * t361) + (t40 * t362 - t357 * t57);
-    jac_phi_q_t_lambda_A_j[66] = lambda[0] * t354 - lambda[1] * t360 + (t42 * t359 - t351 * t51) + (t44 * t361 -
-        t355 * t54) + (t358 * t57 - t46 * t362);
-    jac_phi_q_t_lambda_A_j[70] = lambda[5] * (t362 * t65 + t358 * t145 + t357 * t200) + lambda[4] * (t361 * f_star_0
-        + t355 * f_star_1 + t356 * f_star_2) * sine_0 - lambda[3] * (t359 * f_star_0 + t351 * f_star_1 + t352 *
-        f_star_2) * cosine_0;
-    jac_phi_q_t_lambda_A_j[71] = lambda[4] * (t67 * t361 + t147 * t355 + t202 * t356) - lambda[3] * (t359 * t68 +
-        t351 * t148 + t352 * t203);
+    const jg_real t94 = s_i[0] * A_i[2];
+    const jg_real t95 = s_i[1] * A_i[5];
+    const jg_real t96 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t94 + t95 + t96;
+    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
+    const jg_real t99 = d_ij_2 - t94;
+    const jg_real t100 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t101 = h_star_2 * t100 * lambda[4];
+    const jg_real t102 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t103 = t102 * f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[23] = lambda[2] * t99 + lambda[0] * t90 + t92 + t101 + t103;
+    const jg_real t104 = t91 * g_star_1 * lambda[3];
+    const jg_real t105 = h_star_1 * t100 * lambda[4];
+    const jg_real t106 = t102 * f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[24] = -(lambda[0] * t89 + lambda[1] * t99 + t104 + t105 + t106);
+    const jg_real t107 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[25] = t107;
+    const jg_real t108 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[26] = t108;
+    const jg_real t109 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[27] = t109;
+    const jg_real t110 = A_j[8] * g_star_0;
+    const jg_real t111 = A_j[5] * g_star_0;
+    const jg_real t112 = A_j[8] * h_star_0;
+    const jg_real t113 = A_j[5] * h_star_0;
+    const jg_real t114 = A_j[8] * f_star_0;
+    const jg_real t115 = A_j[5] * f_star_0;
+    jac_phi_q_t_lambda_A_i[28] = lambda[3] * (C_j[7] * t110 - C_j[8] * t111) + lambda[4] * (C_j[1] * t112 - C_j[2] *
+        t113) + lambda[5] * (C_j[4] * t114 - C_j[5] * t115) + (s_j[1] * t109 - s_j[2] * t108);
+    const jg_real t116 = A_j[2] * g_star_0;
+    const jg_real t117 = A_j[2] * h_star_0;
+    const jg_real t118 = A_j[2] * f_star_0;
+    jac_phi_q_t_lambda_A_i[29] = lambda[3] * (C_j[8] * t116 - C_j[6] * t110) + lambda[4] * (C_j[2] * t117 - C_j[0] *
+        t112) + lambda[5] * (C_j[5] * t118 - C_j[3] * t114) + (s_j[2] * t107 - s_j[0] * t109);
+    jac_phi_q_t_lambda_A_i[30] = lambda[3] * (C_j[6] * t111 - C_j[7] * t116) + lambda[4] * (C_j[0] * t113 - C_j[1] *
+        t117) + lambda[5] * (C_j[3] * t115 - C_j[4] * t118) + (s_j[0] * t108 - s_j[1] * t107);
+    jac_phi_q_t_lambda_A_i[31] = t102 * t58 * lambda[5] + t100 * f_star_0 * lambda[4] * sine_1 - t91 * f_star_0 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[32] = t91 * h_star_0 * lambda[3] - t100 * g_star_0 * lambda[4];
+    const jg_real t119 = d_ij_0 - t22;
+    const jg_real t120 = s_i[1] * A_i[6];
+    jac_phi_q_t_lambda_A_i[33] = -(lambda[1] * t120 + lambda[2] * t119 + t19 + t31 + t34);
+    const jg_real t121 = A_i[0] * s_i[1];
+    jac_phi_q_t_lambda_A_i[34] = lambda[0] * t120 - lambda[2] * t121;
+    const jg_real t122 = t11 * g_star_0 * lambda[3];
+    const jg_real t123 = t30 * h_star_0 * lambda[4];
+    const jg_real t124 = t32 * f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[35] = lambda[0] * t119 + lambda[1] * t121 + t122 + t123 + t124;
+    const jg_real t125 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[36] = t125;
+    const jg_real t126 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[37] = t126;
+    const jg_real t127 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[38] = t127;
+    const jg_real t128 = A_j[6] * g_star_1;
+    const jg_real t129 = A_j[3] * g_star_1;
+    const jg_real t130 = A_j[6] * h_star_1;
+    const jg_real t131 = A_j[3] * h_star_1;
+    const jg_real t132 = A_j[6] * f_star_1;
+    const jg_real t133 = A_j[3] * f_star_1;
+    jac_phi_q_t_lambda_A_i[39] = lambda[3] * (C_j[7] * t128 - C_j[8] * t129) + lambda[4] * (C_j[1] * t130 - C_j[2] *
+        t131) + lambda[5] * (C_j[4] * t132 - C_j[5] * t133) + (s_j[1] * t127 - s_j[2] * t126);
+    const jg_real t134 = A_j[0] * g_star_1;
+    const jg_real t135 = A_j[0] * h_star_1;
+    const jg_real t136 = A_j[0] * f_star_1;
+    jac_phi_q_t_lambda_A_i[40] = lambda[3] * (C_j[8] * t134 - C_j[6] * t128) + lambda[4] * (C_j[2] * t135 - C_j[0] *
+        t130) + lambda[5] * (C_j[5] * t136 - C_j[3] * t132) + (s_j[2] * t125 - s_j[0] * t127);
+    jac_phi_q_t_lambda_A_i[41] = lambda[3] * (C_j[6] * t129 - C_j[7] * t134) + lambda[4] * (C_j[0] * t131 - C_j[1] *
+        t135) + lambda[5] * (C_j[3] * t133 - C_j[4] * t136) + (s_j[0] * t126 - s_j[1] * t125);
+    const jg_real t137 = C_i[4] * t56 - C_i[1] * t57;
+    jac_phi_q_t_lambda_A_i[42] = t32 * t137 * lambda[5] + t30 * f_star_1 * lambda[4] * sine_1 - t11 * f_star_1 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[43] = t11 * h_star_1 * lambda[3] - g_star_1 * t30 * lambda[4];
+    const jg_real t138 = d_ij_1 - t65;
+    const jg_real t139 = s_i[1] * A_i[7];
+    jac_phi_q_t_lambda_A_i[44] = -(lambda[1] * t139 + lambda[2] * t138 + t62 + t71 + t73);
+    const jg_real t140 = s_i[1] * A_i[1];
+    jac_phi_q_t_lambda_A_i[45] = lambda[0] * t139 - lambda[2] * t140;
+    const jg_real t141 = t61 * g_star_0 * lambda[3];
+    const jg_real t142 = t70 * h_star_0 * lambda[4];
+    const jg_real t143 = t72 * f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[46] = lambda[0] * t138 + lambda[1] * t140 + t141 + t142 + t143;
+    const jg_real t144 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[47] = t144;
+    const jg_real t145 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[48] = t145;
+    const jg_real t146 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[49] = t146;
+    const jg_real t147 = A_j[7] * g_star_1;
+    const jg_real t148 = A_j[4] * g_star_1;
+    const jg_real t149 = A_j[7] * h_star_1;
+    const jg_real t150 = A_j[4] * h_star_1;
+    const jg_real t151 = A_j[7] * f_star_1;
+    const jg_real t152 = A_j[4] * f_star_1;
+    jac_phi_q_t_lambda_A_i[50] = lambda[3] * (C_j[7] * t147 - C_j[8] * t148) + lambda[4] * (C_j[1] * t149 - C_j[2] *
+        t150) + lambda[5] * (C_j[4] * t151 - C_j[5] * t152) + (s_j[1] * t146 - s_j[2] * t145);
+    const jg_real t153 = A_j[1] * g_star_1;
+    const jg_real t154 = A_j[1] * h_star_1;
+    const jg_real t155 = A_j[1] * f_star_1;
+    jac_phi_q_t_lambda_A_i[51] = lambda[3] * (C_j[8] * t153 - C_j[6] * t147) + lambda[4] * (C_j[2] * t154 - C_j[0] *
+        t149) + lambda[5] * (C_j[5] * t155 - C_j[3] * t151) + (s_j[2] * t144 - s_j[0] * t146);
+    jac_phi_q_t_lambda_A_i[52] = lambda[3] * (C_j[6] * t148 - C_j[7] * t153) + lambda[4] * (C_j[0] * t150 - C_j[1] *
+        t154) + lambda[5] * (C_j[3] * t152 - C_j[4] * t155) + (s_j[0] * t145 - s_j[1] * t144);
+    jac_phi_q_t_lambda_A_i[53] = t72 * t137 * lambda[5] + t70 * f_star_1 * lambda[4] * sine_1 - t61 * f_star_1 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[54] = t61 * h_star_1 * lambda[3] - g_star_1 * t70 * lambda[4];
+    const jg_real t156 = d_ij_2 - t95;
+    const jg_real t157 = s_i[1] * A_i[8];
+    jac_phi_q_t_lambda_A_i[55] = -(lambda[1] * t157 + lambda[2] * t156 + t92 + t101 + t103);
+    const jg_real t158 = s_i[1] * A_i[2];
+    jac_phi_q_t_lambda_A_i[56] = lambda[0] * t157 - lambda[2] * t158;
+    const jg_real t159 = t91 * g_star_0 * lambda[3];
+    const jg_real t160 = t100 * h_star_0 * lambda[4];
+    const jg_real t161 = t102 * f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[57] = lambda[0] * t156 + lambda[1] * t158 + t159 + t160 + t161;
+    const jg_real t162 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[58] = t162;
+    const jg_real t163 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[59] = t163;
+    const jg_real t164 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[60] = t164;
+    const jg_real t165 = A_j[8] * g_star_1;
+    const jg_real t166 = A_j[5] * g_star_1;
+    const jg_real t167 = A_j[8] * h_star_1;
+    const jg_real t168 = A_j[5] * h_star_1;
+    const jg_real t169 = A_j[8] * f_star_1;
+    const jg_real t170 = A_j[5] * f_star_1;
+    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[7] * t165 - C_j[8] * t166) + lambda[4] * (C_j[1] * t167 - C_j[2] *
+        t168) + lambda[5] * (C_j[4] * t169 - C_j[5] * t170) + (s_j[1] * t164 - s_j[2] * t163);
+    const jg_real t171 = A_j[2] * g_star_1;
+    const jg_real t172 = A_j[2] * h_star_1;
+    const jg_real t173 = A_j[2] * f_star_1;
+    jac_phi_q_t_lambda_A_i[62] = lambda[3] * (C_j[8] * t171 - C_j[6] * t165) + lambda[4] * (C_j[2] * t172 - C_j[0] *
+        t167) + lambda[5] * (C_j[5] * t173 - C_j[3] * t169) + (s_j[2] * t162 - s_j[0] * t164);
+    jac_phi_q_t_lambda_A_i[63] = lambda[3] * (C_j[6] * t166 - C_j[7] * t171) + lambda[4] * (C_j[0] * t168 - C_j[1] *
+        t172) + lambda[5] * (C_j[3] * t170 - C_j[4] * t173) + (s_j[0] * t163 - s_j[1] * t162);
+    jac_phi_q_t_lambda_A_i[64] = t102 * t137 * lambda[5] + t100 * f_star_1 * lambda[4] * sine_1 - t91 * f_star_1 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[65] = t91 * h_star_1 * lambda[3] - g_star_1 * t100 * lambda[4];
+    const jg_real t174 = d_ij_0 - t23;
+    const jg_real t175 = A_i[3] * s_i[2];
+    jac_phi_q_t_lambda_A_i[66] = lambda[1] * t174 + lambda[2] * t175 + t36 + t38 + t40;
+    const jg_real t176 = A_i[0] * s_i[2];
+    jac_phi_q_t_lambda_A_i[67] = -(lambda[2] * t176 + lambda[0] * t174 + t122 + t123 + t124);
+    jac_phi_q_t_lambda_A_i[68] = lambda[1] * t176 - lambda[0] * t175;
+    const jg_real t177 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[69] = t177;
+    const jg_real t178 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[70] = t178;
+    const jg_real t179 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[71] = t179;
+    const jg_real t180 = A_j[6] * g_star_2;
+    const jg_real t181 = A_j[3] * g_star_2;
+    const jg_real t182 = A_j[6] * h_star_2;
+    const jg_real t183 = A_j[3] * h_star_2;
+    const jg_real t184 = A_j[6] * f_star_2;
+    const jg_real t185 = A_j[3] * f_star_2;
+    jac_phi_q_t_lambda_A_i[72] = lambda[3] * (C_j[7] * t180 - C_j[8] * t181) + lambda[4] * (C_j[1] * t182 - C_j[2] *
+        t183) + lambda[5] * (C_j[4] * t184 - C_j[5] * t185) + (s_j[1] * t179 - s_j[2] * t178);
+    const jg_real t186 = A_j[0] * g_star_2;
+    const jg_real t187 = A_j[0] * h_star_2;
+    const jg_real t188 = A_j[0] * f_star_2;
+    jac_phi_q_t_lambda_A_i[73] = lambda[3] * (C_j[8] * t186 - C_j[6] * t180) + lambda[4] * (C_j[2] * t187 - C_j[0] *
+        t182) + lambda[5] * (C_j[5] * t188 - C_j[3] * t184) + (s_j[2] * t177 - s_j[0] * t179);
+    jac_phi_q_t_lambda_A_i[74] = lambda[3] * (C_j[6] * t181 - C_j[7] * t186) + lambda[4] * (C_j[0] * t183 - C_j[1] *
+        t187) + lambda[5] * (C_j[3] * t185 - C_j[4] * t188) + (s_j[0] * t178 - s_j[1] * t177);
+    const jg_real t189 = C_i[5] * t56 - C_i[2] * t57;
+    jac_phi_q_t_lambda_A_i[75] = t32 * t189 * lambda[5] + t30 * f_star_2 * lambda[4] * sine_1 - t11 * f_star_2 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[76] = t11 * h_star_2 * lambda[3] - g_star_2 * t30 * lambda[4];
+    const jg_real t190 = d_ij_1 - t66;
+    const jg_real t191 = s_i[2] * A_i[4];
+    jac_phi_q_t_lambda_A_i[77] = lambda[1] * t190 + lambda[2] * t191 + t74 + t75 + t76;
+    const jg_real t192 = s_i[2] * A_i[1];
+    jac_phi_q_t_lambda_A_i[78] = -(lambda[2] * t192 + lambda[0] * t190 + t141 + t142 + t143);
+    jac_phi_q_t_lambda_A_i[79] = lambda[1] * t192 - lambda[0] * t191;
+    const jg_real t193 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[80] = t193;
+    const jg_real t194 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[81] = t194;
+    const jg_real t195 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[82] = t195;
+    const jg_real t196 = A_j[7] * g_star_2;
+    const jg_real t197 = A_j[4] * g_star_2;
+    const jg_real t198 = A_j[7] * h_star_2;
+    const jg_real t199 = A_j[4] * h_star_2;
+    const jg_real t200 = A_j[7] * f_star_2;
+    const jg_real t201 = A_j[4] * f_star_2;
+    jac_phi_q_t_lambda_A_i[83] = lambda[3] * (C_j[7] * t196 - C_j[8] * t197) + lambda[4] * (C_j[1] * t198 - C_j[2] *
+        t199) + lambda[5] * (C_j[4] * t200 - C_j[5] * t201) + (s_j[1] * t195 - s_j[2] * t194);
+    const jg_real t202 = A_j[1] * g_star_2;
+    const jg_real t203 = A_j[1] * h_star_2;
+    const jg_real t204 = A_j[1] * f_star_2;
+    jac_phi_q_t_lambda_A_i[84] = lambda[3] * (C_j[8] * t202 - C_j[6] * t196) + lambda[4] * (C_j[2] * t203 - C_j[0] *
+        t198) + lambda[5] * (C_j[5] * t204 - C_j[3] * t200) + (s_j[2] * t193 - s_j[0] * t195);
+    jac_phi_q_t_lambda_A_i[85] = lambda[3] * (C_j[6] * t197 - C_j[7] * t202) + lambda[4] * (C_j[0] * t199 - C_j[1] *
+        t203) + lambda[5] * (C_j[3] * t201 - C_j[4] * t204) + (s_j[0] * t194 - s_j[1] * t193);
+    jac_phi_q_t_lambda_A_i[86] = t72 * t189 * lambda[5] + t70 * f_star_2 * lambda[4] * sine_1 - t61 * f_star_2 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[87] = t61 * h_star_2 * lambda[3] - g_star_2 * t70 * lambda[4];
+    const jg_real t205 = d_ij_2 - t96;
+    const jg_real t206 = s_i[2] * A_i[5];
+    jac_phi_q_t_lambda_A_i[88] = lambda[1] * t205 + lambda[2] * t206 + t104 + t105 + t106;
+    const jg_real t207 = s_i[2] * A_i[2];
+    jac_phi_q_t_lambda_A_i[89] = -(lambda[2] * t207 + lambda[0] * t205 + t159 + t160 + t161);
+    jac_phi_q_t_lambda_A_i[90] = lambda[1] * t207 - lambda[0] * t206;
+    const jg_real t208 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[91] = t208;
+    const jg_real t209 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[92] = t209;
+    const jg_real t210 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[93] = t210;
+    const jg_real t211 = A_j[8] * g_star_2;
+    const jg_real t212 = A_j[5] * g_star_2;
+    const jg_real t213 = A_j[8] * h_star_2;
+    const jg_real t214 = A_j[5] * h_star_2;
+    const jg_real t215 = A_j[8] * f_star_2;
+    const jg_real t216 = A_j[5] * f_star_2;
+    jac_phi_q_t_lambda_A_i[94] = lambda[3] * (C_j[7] * t211 - C_j[8] * t212) + lambda[4] * (C_j[1] * t213 - C_j[2] *
+        t214) + lambda[5] * (C_j[4] * t215 - C_j[5] * t216) + (s_j[1] * t210 - s_j[2] * t209);
+    const jg_real t217 = A_j[2] * g_star_2;
+    const jg_real t218 = A_j[2] * h_star_2;
+    const jg_real t219 = A_j[2] * f_star_2;
+    jac_phi_q_t_lambda_A_i[95] = lambda[3] * (C_j[8] * t217 - C_j[6] * t211) + lambda[4] * (C_j[2] * t218 - C_j[0] *
+        t213) + lambda[5] * (C_j[5] * t219 - C_j[3] * t215) + (s_j[2] * t208 - s_j[0] * t210);
+    jac_phi_q_t_lambda_A_i[96] = lambda[3] * (C_j[6] * t212 - C_j[7] * t217) + lambda[4] * (C_j[0] * t214 - C_j[1] *
+        t218) + lambda[5] * (C_j[3] * t216 - C_j[4] * t219) + (s_j[0] * t209 - s_j[1] * t208);
+    jac_phi_q_t_lambda_A_i[97] = t102 * t189 * lambda[5] + t100 * f_star_2 * lambda[4] * sine_1 - t91 * f_star_2 *
+        lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_A_i[98] = t91 * h_star_2 * lambda[3] - g_star_2 * t100 * lambda[4];
+    const jg_real t220 = A_i[3] * C_j[6];
+    const jg_real t221 = A_i[6] * C_j[6];
+    const jg_real t222 = s_j[0] * A_i[6];
+    const jg_real t223 = s_j[0] * A_i[3];
+    const jg_real t224 = A_i[3] * C_j[0];
+    const jg_real t225 = A_i[6] * C_j[0];
+    const jg_real t226 = A_i[3] * C_j[3];
+    const jg_real t227 = A_i[6] * C_j[3];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t222 - lambda[2] * t223 - (t220 * g_star_2 - t221 * g_star_1) *
+        lambda[3] - (h_star_2 * t224 - h_star_1 * t225) * lambda[4] - (t226 * f_star_2 - t227 * f_star_1) *
+        lambda[5];
+    const jg_real t228 = A_i[0] * C_j[6];
+    const jg_real t229 = s_j[0] * A_i[0];
+    const jg_real t230 = A_i[0] * C_j[0];
+    const jg_real t231 = A_i[0] * C_j[3];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t229 - lambda[0] * t222 - lambda[3] * (t221 * g_star_0 - g_star_2 *
+        t228) - lambda[4] * (t225 * h_star_0 - h_star_2 * t230) - lambda[5] * (t227 * f_star_0 - f_star_2 * t231);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t223 - lambda[1] * t229 - lambda[3] * (g_star_1 * t228 - t220 *
+        g_star_0) - lambda[4] * (h_star_1 * t230 - t224 * h_star_0) - lambda[5] * (f_star_1 * t231 - t226 *
+        f_star_0);
+    const jg_real t232 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t232;
+    jac_phi_q_t_lambda_A_j[27] = t232;
+    jac_phi_q_t_lambda_A_j[51] = t232;
+    const jg_real t233 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
+    const jg_real t234 = A_i[0] * h_star_0 + A_i[3] * h_star_1 + A_i[6] * h_star_2;
+    const jg_real t235 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
+    const jg_real t236 = C_j[8] * t233 * lambda[3] + C_j[2] * t234 * lambda[4] + C_j[5] * t235 * lambda[5] + s_j[2]
+        * t232;
+    jac_phi_q_t_lambda_A_j[4] = t236;
+    const jg_real t237 = C_j[7] * t233 * lambda[3] + C_j[1] * t234 * lambda[4] + C_j[4] * t235 * lambda[5] + s_j[1]
+        * t232;
+    jac_phi_q_t_lambda_A_j[52] = t237;
+    jac_phi_q_t_lambda_A_j[5] = -t237;
+    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (t231 * t58 + t226 * t137 + t227 * t189) + lambda[4] * (t230 * f_star_0
+        + t224 * f_star_1 + t225 * f_star_2) * sine_1 - lambda[3] * (t228 * f_star_0 + t220 * f_star_1 + t221 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[7] = lambda[3] * (h_star_0 * t228 + t220 * h_star_1 + h_star_2 * t221) - lambda[4] *
+        (g_star_0 * t230 + g_star_1 * t224 + g_star_2 * t225);
+    const jg_real t238 = A_i[4] * C_j[6];
+    const jg_real t239 = A_i[7] * C_j[6];
+    const jg_real t240 = s_j[0] * A_i[7];
+    const jg_real t241 = s_j[0] * A_i[4];
+    const jg_real t242 = A_i[4] * C_j[0];
+    const jg_real t243 = A_i[7] * C_j[0];
+    const jg_real t244 = A_i[4] * C_j[3];
+    const jg_real t245 = A_i[7] * C_j[3];
+    jac_phi_q_t_lambda_A_j[8] = lambda[1] * t240 - lambda[2] * t241 - (t238 * g_star_2 - t239 * g_star_1) *
+        lambda[3] - (h_star_2 * t242 - h_star_1 * t243) * lambda[4] - (t244 * f_star_2 - t245 * f_star_1) *
+        lambda[5];
+    const jg_real t246 = A_i[1] * C_j[6];
+    const jg_real t247 = s_j[0] * A_i[1];
+    const jg_real t248 = A_i[1] * C_j[0];
+    const jg_real t249 = A_i[1] * C_j[3];
+    jac_phi_q_t_lambda_A_j[9] = lambda[2] * t247 - lambda[0] * t240 - lambda[3] * (t239 * g_star_0 - g_star_2 *
+        t246) - lambda[4] * (t243 * h_star_0 - h_star_2 * t248) - lambda[5] * (t245 * f_star_0 - f_star_2 * t249);
+    jac_phi_q_t_lambda_A_j[10] = lambda[0] * t241 - lambda[1] * t247 - lambda[3] * (g_star_1 * t246 - t238 *
+        g_star_0) - lambda[4] * (h_star_1 * t248 - t242 * h_star_0) - lambda[5] * (f_star_1 * t249 - t244 *
+        f_star_0);
+    const jg_real t250 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[11] = t250;
+    jac_phi_q_t_lambda_A_j[35] = t250;
+    jac_phi_q_t_lambda_A_j[59] = t250;
+    const jg_real t251 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
+    const jg_real t252 = A_i[1] * h_star_0 + A_i[4] * h_star_1 + A_i[7] * h_star_2;
+    const jg_real t253 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
+    const jg_real t254 = C_j[8] * t251 * lambda[3] + C_j[2] * t252 * lambda[4] + C_j[5] * t253 * lambda[5] + s_j[2]
+        * t250;
+    jac_phi_q_t_lambda_A_j[12] = t254;
+    const jg_real t255 = C_j[7] * t251 * lambda[3] + C_j[1] * t252 * lambda[4] + C_j[4] * t253 * lambda[5] + s_j[1]
+        * t250;
+    jac_phi_q_t_lambda_A_j[60] = t255;
+    jac_phi_q_t_lambda_A_j[13] = -t255;
+    jac_phi_q_t_lambda_A_j[14] = lambda[5] * (t249 * t58 + t244 * t137 + t245 * t189) + lambda[4] * (t248 * f_star_0
+        + t242 * f_star_1 + t243 * f_star_2) * sine_1 - lambda[3] * (t246 * f_star_0 + t238 * f_star_1 + t239 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[15] = lambda[3] * (h_star_0 * t246 + t238 * h_star_1 + h_star_2 * t239) - lambda[4] *
+        (g_star_0 * t248 + g_star_1 * t242 + g_star_2 * t243);
+    const jg_real t256 = A_i[5] * C_j[6];
+    const jg_real t257 = A_i[8] * C_j[6];
+    const jg_real t258 = s_j[0] * A_i[8];
+    const jg_real t259 = s_j[0] * A_i[5];
+    const jg_real t260 = A_i[5] * C_j[0];
+    const jg_real t261 = A_i[8] * C_j[0];
+    const jg_real t262 = A_i[5] * C_j[3];
+    const jg_real t263 = A_i[8] * C_j[3];
+    jac_phi_q_t_lambda_A_j[16] = lambda[1] * t258 - lambda[2] * t259 - (t256 * g_star_2 - t257 * g_star_1) *
+        lambda[3] - (h_star_2 * t260 - h_star_1 * t261) * lambda[4] - (t262 * f_star_2 - t263 * f_star_1) *
+        lambda[5];
+    const jg_real t264 = A_i[2] * C_j[6];
+    const jg_real t265 = s_j[0] * A_i[2];
+    const jg_real t266 = A_i[2] * C_j[0];
+    const jg_real t267 = A_i[2] * C_j[3];
+    jac_phi_q_t_lambda_A_j[17] = lambda[2] * t265 - lambda[0] * t258 - lambda[3] * (t257 * g_star_0 - g_star_2 *
+        t264) - lambda[4] * (t261 * h_star_0 - h_star_2 * t266) - lambda[5] * (t263 * f_star_0 - f_star_2 * t267);
+    jac_phi_q_t_lambda_A_j[18] = lambda[0] * t259 - lambda[1] * t265 - lambda[3] * (g_star_1 * t264 - t256 *
+        g_star_0) - lambda[4] * (h_star_1 * t266 - t260 * h_star_0) - lambda[5] * (f_star_1 * t267 - t262 *
+        f_star_0);
+    const jg_real t268 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[19] = t268;
+    jac_phi_q_t_lambda_A_j[43] = t268;
+    jac_phi_q_t_lambda_A_j[67] = t268;
+    const jg_real t269 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
+    const jg_real t270 = A_i[2] * h_star_0 + A_i[5] * h_star_1 + A_i[8] * h_star_2;
+    const jg_real t271 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
+    const jg_real t272 = C_j[8] * t269 * lambda[3] + C_j[2] * t270 * lambda[4] + C_j[5] * t271 * lambda[5] + s_j[2]
+        * t268;
+    jac_phi_q_t_lambda_A_j[20] = t272;
+    const jg_real t273 = C_j[7] * t269 * lambda[3] + C_j[1] * t270 * lambda[4] + C_j[4] * t271 * lambda[5] + s_j[1]
+        * t268;
+    jac_phi_q_t_lambda_A_j[68] = t273;
+    jac_phi_q_t_lambda_A_j[21] = -t273;
+    jac_phi_q_t_lambda_A_j[22] = lambda[5] * (t267 * t58 + t262 * t137 + t263 * t189) + lambda[4] * (t266 * f_star_0
+        + t260 * f_star_1 + t261 * f_star_2) * sine_1 - lambda[3] * (t264 * f_star_0 + t256 * f_star_1 + t257 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[23] = lambda[3] * (h_star_0 * t264 + t256 * h_star_1 + h_star_2 * t257) - lambda[4] *
+        (g_star_0 * t266 + g_star_1 * t260 + g_star_2 * t261);
+    const jg_real t274 = A_i[3] * C_j[7];
+    const jg_real t275 = A_i[6] * C_j[7];
+    const jg_real t276 = s_j[1] * A_i[6];
+    const jg_real t277 = s_j[1] * A_i[3];
+    const jg_real t278 = A_i[3] * C_j[1];
+    const jg_real t279 = A_i[6] * C_j[1];
+    const jg_real t280 = A_i[3] * C_j[4];
+    const jg_real t281 = A_i[6] * C_j[4];
+    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t276 - lambda[2] * t277 - (t274 * g_star_2 - t275 * g_star_1) *
+        lambda[3] - (h_star_2 * t278 - h_star_1 * t279) * lambda[4] - (t280 * f_star_2 - t281 * f_star_1) *
+        lambda[5];
+    const jg_real t282 = A_i[0] * C_j[7];
+    const jg_real t283 = s_j[1] * A_i[0];
+    const jg_real t284 = A_i[0] * C_j[1];
+    const jg_real t285 = A_i[0] * C_j[4];
+    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t283 - lambda[0] * t276 - lambda[3] * (t275 * g_star_0 - g_star_2 *
+        t282) - lambda[4] * (t279 * h_star_0 - h_star_2 * t284) - lambda[5] * (t281 * f_star_0 - f_star_2 * t285);
+    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t277 - lambda[1] * t283 - lambda[3] * (g_star_1 * t282 - t274 *
+        g_star_0) - lambda[4] * (h_star_1 * t284 - t278 * h_star_0) - lambda[5] * (f_star_1 * t285 - t280 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[28] = -t236;
+    const jg_real t286 = C_j[6] * t233 * lambda[3] + C_j[0] * t234 * lambda[4] + C_j[3] * t235 * lambda[5] + s_j[0]
+        * t232;
+    jac_phi_q_t_lambda_A_j[29] = t286;
+    jac_phi_q_t_lambda_A_j[30] = lambda[5] * (t285 * t58 + t280 * t137 + t281 * t189) + lambda[4] * (t284 * f_star_0
+        + t278 * f_star_1 + t279 * f_star_2) * sine_1 - lambda[3] * (t282 * f_star_0 + t274 * f_star_1 + t275 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[31] = lambda[3] * (h_star_0 * t282 + t274 * h_star_1 + h_star_2 * t275) - lambda[4] *
+        (g_star_0 * t284 + g_star_1 * t278 + g_star_2 * t279);
+    const jg_real t287 = A_i[4] * C_j[7];
+    const jg_real t288 = A_i[7] * C_j[7];
+    const jg_real t289 = s_j[1] * A_i[7];
+    const jg_real t290 = s_j[1] * A_i[4];
+    const jg_real t291 = A_i[4] * C_j[1];
+    const jg_real t292 = A_i[7] * C_j[1];
+    const jg_real t293 = A_i[4] * C_j[4];
+    const jg_real t294 = A_i[7] * C_j[4];
+    jac_phi_q_t_lambda_A_j[32] = lambda[1] * t289 - lambda[2] * t290 - (t287 * g_star_2 - t288 * g_star_1) *
+        lambda[3] - (h_star_2 * t291 - h_star_1 * t292) * lambda[4] - (t293 * f_star_2 - t294 * f_star_1) *
+        lambda[5];
+    const jg_real t295 = A_i[1] * C_j[7];
+    const jg_real t296 = s_j[1] * A_i[1];
+    const jg_real t297 = A_i[1] * C_j[1];
+    const jg_real t298 = A_i[1] * C_j[4];
+    jac_phi_q_t_lambda_A_j[33] = lambda[2] * t296 - lambda[0] * t289 - lambda[3] * (t288 * g_star_0 - g_star_2 *
+        t295) - lambda[4] * (t292 * h_star_0 - h_star_2 * t297) - lambda[5] * (t294 * f_star_0 - f_star_2 * t298);
+    jac_phi_q_t_lambda_A_j[34] = lambda[0] * t290 - lambda[1] * t296 - lambda[3] * (g_star_1 * t295 - t287 *
+        g_star_0) - lambda[4] * (h_star_1 * t297 - t291 * h_star_0) - lambda[5] * (f_star_1 * t298 - t293 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[36] = -t254;
+    const jg_real t299 = C_j[6] * t251 * lambda[3] + C_j[0] * t252 * lambda[4] + C_j[3] * t253 * lambda[5] + s_j[0]
+        * t250;
+    jac_phi_q_t_lambda_A_j[37] = t299;
+    jac_phi_q_t_lambda_A_j[38] = lambda[5] * (t298 * t58 + t293 * t137 + t294 * t189) + lambda[4] * (t297 * f_star_0
+        + t291 * f_star_1 + t292 * f_star_2) * sine_1 - lambda[3] * (t295 * f_star_0 + t287 * f_star_1 + t288 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[39] = lambda[3] * (h_star_0 * t295 + t287 * h_star_1 + h_star_2 * t288) - lambda[4] *
+        (g_star_0 * t297 + g_star_1 * t291 + g_star_2 * t292);
+    const jg_real t300 = A_i[5] * C_j[7];
+    const jg_real t301 = A_i[8] * C_j[7];
+    const jg_real t302 = s_j[1] * A_i[8];
+    const jg_real t303 = s_j[1] * A_i[5];
+    const jg_real t304 = A_i[5] * C_j[1];
+    const jg_real t305 = A_i[8] * C_j[1];
+    const jg_real t306 = A_i[5] * C_j[4];
+    const jg_real t307 = A_i[8] * C_j[4];
+    jac_phi_q_t_lambda_A_j[40] = lambda[1] * t302 - lambda[2] * t303 - (t300 * g_star_2 - t301 * g_star_1) *
+        lambda[3] - (h_star_2 * t304 - h_star_1 * t305) * lambda[4] - (t306 * f_star_2 - t307 * f_star_1) *
+        lambda[5];
+    const jg_real t308 = A_i[2] * C_j[7];
+    const jg_real t309 = s_j[1] * A_i[2];
+    const jg_real t310 = A_i[2] * C_j[1];
+    const jg_real t311 = A_i[2] * C_j[4];
+    jac_phi_q_t_lambda_A_j[41] = lambda[2] * t309 - lambda[0] * t302 - lambda[3] * (t301 * g_star_0 - g_star_2 *
+        t308) - lambda[4] * (t305 * h_star_0 - h_star_2 * t310) - lambda[5] * (t307 * f_star_0 - f_star_2 * t311);
+    jac_phi_q_t_lambda_A_j[42] = lambda[0] * t303 - lambda[1] * t309 - lambda[3] * (g_star_1 * t308 - t300 *
+        g_star_0) - lambda[4] * (h_star_1 * t310 - t304 * h_star_0) - lambda[5] * (f_star_1 * t311 - t306 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[44] = -t272;
+    const jg_real t312 = C_j[6] * t269 * lambda[3] + C_j[0] * t270 * lambda[4] + C_j[3] * t271 * lambda[5] + s_j[0]
+        * t268;
+    jac_phi_q_t_lambda_A_j[45] = t312;
+    jac_phi_q_t_lambda_A_j[46] = lambda[5] * (t311 * t58 + t306 * t137 + t307 * t189) + lambda[4] * (t310 * f_star_0
+        + t304 * f_star_1 + t305 * f_star_2) * sine_1 - lambda[3] * (t308 * f_star_0 + t300 * f_star_1 + t301 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[47] = lambda[3] * (h_star_0 * t308 + t300 * h_star_1 + h_star_2 * t301) - lambda[4] *
+        (g_star_0 * t310 + g_star_1 * t304 + g_star_2 * t305);
+    const jg_real t313 = A_i[3] * C_j[8];
+    const jg_real t314 = A_i[6] * C_j[8];
+    const jg_real t315 = s_j[2] * A_i[6];
+    const jg_real t316 = s_j[2] * A_i[3];
+    const jg_real t317 = A_i[3] * C_j[2];
+    const jg_real t318 = A_i[6] * C_j[2];
+    const jg_real t319 = A_i[3] * C_j[5];
+    const jg_real t320 = A_i[6] * C_j[5];
+    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t315 - lambda[2] * t316 - (t313 * g_star_2 - t314 * g_star_1) *
+        lambda[3] - (h_star_2 * t317 - h_star_1 * t318) * lambda[4] - (t319 * f_star_2 - t320 * f_star_1) *
+        lambda[5];
+    const jg_real t321 = A_i[0] * C_j[8];
+    const jg_real t322 = s_j[2] * A_i[0];
+    const jg_real t323 = A_i[0] * C_j[2];
+    const jg_real t324 = A_i[0] * C_j[5];
+    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t322 - lambda[0] * t315 - lambda[3] * (t314 * g_star_0 - g_star_2 *
+        t321) - lambda[4] * (t318 * h_star_0 - h_star_2 * t323) - lambda[5] * (t320 * f_star_0 - f_star_2 * t324);
+    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t316 - lambda[1] * t322 - lambda[3] * (g_star_1 * t321 - t313 *
+        g_star_0) - lambda[4] * (h_star_1 * t323 - t317 * h_star_0) - lambda[5] * (f_star_1 * t324 - t319 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[53] = -t286;
+    jac_phi_q_t_lambda_A_j[54] = lambda[5] * (t324 * t58 + t319 * t137 + t320 * t189) + lambda[4] * (t323 * f_star_0
+        + t317 * f_star_1 + t318 * f_star_2) * sine_1 - lambda[3] * (t321 * f_star_0 + t313 * f_star_1 + t314 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[55] = lambda[3] * (h_star_0 * t321 + t313 * h_star_1 + h_star_2 * t314) - lambda[4] *
+        (g_star_0 * t323 + g_star_1 * t317 + g_star_2 * t318);
+    const jg_real t325 = A_i[4] * C_j[8];
+    const jg_real t326 = A_i[7] * C_j[8];
+    const jg_real t327 = s_j[2] * A_i[7];
+    const jg_real t328 = s_j[2] * A_i[4];
+    const jg_real t329 = A_i[4] * C_j[2];
+    const jg_real t330 = A_i[7] * C_j[2];
+    const jg_real t331 = A_i[4] * C_j[5];
+    const jg_real t332 = A_i[7] * C_j[5];
+    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t327 - lambda[2] * t328 - (t325 * g_star_2 - t326 * g_star_1) *
+        lambda[3] - (h_star_2 * t329 - h_star_1 * t330) * lambda[4] - (t331 * f_star_2 - t332 * f_star_1) *
+        lambda[5];
+    const jg_real t333 = A_i[1] * C_j[8];
+    const jg_real t334 = s_j[2] * A_i[1];
+    const jg_real t335 = A_i[1] * C_j[2];
+    const jg_real t336 = A_i[1] * C_j[5];
+    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t334 - lambda[0] * t327 - lambda[3] * (t326 * g_star_0 - g_star_2 *
+        t333) - lambda[4] * (t330 * h_star_0 - h_star_2 * t335) - lambda[5] * (t332 * f_star_0 - f_star_2 * t336);
+    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t328 - lambda[1] * t334 - lambda[3] * (g_star_1 * t333 - t325 *
+        g_star_0) - lambda[4] * (h_star_1 * t335 - t329 * h_star_0) - lambda[5] * (f_star_1 * t336 - t331 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[61] = -t299;
+    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (t336 * t58 + t331 * t137 + t332 * t189) + lambda[4] * (t335 * f_star_0
+        + t329 * f_star_1 + t330 * f_star_2) * sine_1 - lambda[3] * (t333 * f_star_0 + t325 * f_star_1 + t326 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[63] = lambda[3] * (h_star_0 * t333 + t325 * h_star_1 + h_star_2 * t326) - lambda[4] *
+        (g_star_0 * t335 + g_star_1 * t329 + g_star_2 * t330);
+    const jg_real t337 = A_i[5] * C_j[8];
+    const jg_real t338 = A_i[8] * C_j[8];
+    const jg_real t339 = s_j[2] * A_i[8];
+    const jg_real t340 = s_j[2] * A_i[5];
+    const jg_real t341 = A_i[5] * C_j[2];
+    const jg_real t342 = A_i[8] * C_j[2];
+    const jg_real t343 = A_i[5] * C_j[5];
+    const jg_real t344 = A_i[8] * C_j[5];
+    jac_phi_q_t_lambda_A_j[64] = lambda[1] * t339 - lambda[2] * t340 - (t337 * g_star_2 - t338 * g_star_1) *
+        lambda[3] - (h_star_2 * t341 - h_star_1 * t342) * lambda[4] - (t343 * f_star_2 - t344 * f_star_1) *
+        lambda[5];
+    const jg_real t345 = A_i[2] * C_j[8];
+    const jg_real t346 = s_j[2] * A_i[2];
+    const jg_real t347 = A_i[2] * C_j[2];
+    const jg_real t348 = A_i[2] * C_j[5];
+    jac_phi_q_t_lambda_A_j[65] = lambda[2] * t346 - lambda[0] * t339 - lambda[3] * (t338 * g_star_0 - g_star_2 *
+        t345) - lambda[4] * (t342 * h_star_0 - h_star_2 * t347) - lambda[5] * (t344 * f_star_0 - f_star_2 * t348);
+    jac_phi_q_t_lambda_A_j[66] = lambda[0] * t340 - lambda[1] * t346 - lambda[3] * (g_star_1 * t345 - t337 *
+        g_star_0) - lambda[4] * (h_star_1 * t347 - t341 * h_star_0) - lambda[5] * (f_star_1 * t348 - t343 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[69] = -t312;
+    jac_phi_q_t_lambda_A_j[70] = lambda[5] * (t348 * t58 + t343 * t137 + t344 * t189) + lambda[4] * (t347 * f_star_0
+        + t341 * f_star_1 + t342 * f_star_2) * sine_1 - lambda[3] * (t345 * f_star_0 + t337 * f_star_1 + t338 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[71] = lambda[3] * (h_star_0 * t345 + t337 * h_star_1 + h_star_2 * t338) - lambda[4] *
+        (g_star_0 * t347 + g_star_1 * t341 + g_star_2 * t342);
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_q_t_lambda_lambda[12] = A_ij_1;
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_q_t_lambda_lambda[13] = A_ij_4;
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_q_t_lambda_lambda[14] = A_ij_7;
-    /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t367 = t25 * C_i[2] + t23 * C_i[5];
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_q_t_lambda_lambda[22] = A_ij_5;
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_q_t_lambda_lambda[23] = A_ij_8;
+    /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t372 = t25 * C_i[1] + t23 * C_i[4];
+    const jg_real t353 = t17 * C_i[4] + H_4 * C_i[1];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    jac_phi_q_t_lambda_lambda[12] = A_ij_1;
+    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    jac_phi_q_t_lambda_lambda[13] = A_ij_4;
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    jac_phi_q_t_lambda_lambda[14] = A_ij_7;
+    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real t358 = t17 * C_i[5] + H_4 * C_i[2];
     /* A_ij_f_j = A_ij f_j */
-    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t374 = C_i[4] * t33 + C_i[1] * t31;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t376 = C_i[5] * t33 + C_i[2] * t31;
+    const jg_real t360 = t28 * C_i[2] + C_i[5] * H_6;
+    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real t362 = t28 * C_i[1] + H_6 * C_i[4];
     /* A_ij_g_j = A_ij g_j */
-    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t378 = C_i[4] * t38 - C_i[1] * t39;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t380 = C_i[5] * t38 - C_i[2] * t39;
-    jac_phi_q_t_lambda_alpha[0] = A_ij_h_j_1 * t367 - A_ij_h_j_2 * t372 + (A_ij_f_j_2 * t374 - A_ij_f_j_1 * t376) +
-        (A_ij_g_j_2 * t378 - A_ij_g_j_1 * t380);
-    const jg_real t381 = t25 * C_i[0] + t23 * C_i[3];
+    const jg_real t364 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    const jg_real t366 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    jac_phi_q_t_lambda_alpha[0] = -((A_ij_h_j_2 * t353 - A_ij_h_j_1 * t358) * lambda[3] + (A_ij_f_j_1 * t360 -
+        A_ij_f_j_2 * t362) * lambda[4] + (A_ij_g_j_1 * t364 - A_ij_g_j_2 * t366) * lambda[5]);
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -1781,396 +1804,398 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_q_t_lambda_lambda[5] = A_ij_6;
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
+    const jg_real t371 = t17 * C_i[3] + H_4 * C_i[0];
+    const jg_real t372 = t28 * C_i[0] + H_6 * C_i[3];
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t387 = t33 * C_i[3] + t31 * C_i[0];
+    const jg_real t374 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real A_ij_g_j_0 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
-    const jg_real t389 = t38 * C_i[3] - t39 * C_i[0];
-    jac_phi_q_t_lambda_alpha[1] = A_ij_h_j_2 * t381 - t367 * A_ij_h_j_0 + (t376 * A_ij_f_j_0 - A_ij_f_j_2 * t387) +
-        (t380 * A_ij_g_j_0 - A_ij_g_j_2 * t389);
-    jac_phi_q_t_lambda_alpha[2] = t372 * A_ij_h_j_0 - A_ij_h_j_1 * t381 + (A_ij_f_j_1 * t387 - t374 * A_ij_f_j_0) +
-        (A_ij_g_j_1 * t389 - t378 * A_ij_g_j_0);
-    const jg_real t390 = A_ij_3 * t381 + A_ij_4 * t372 + A_ij_5 * t367;
-    const jg_real t391 = A_ij_6 * t381 + A_ij_7 * t372 + A_ij_8 * t367;
-    const jg_real t392 = A_ij_6 * t387 + A_ij_7 * t374 + A_ij_8 * t376;
-    const jg_real t393 = A_ij_3 * t387 + A_ij_4 * t374 + A_ij_5 * t376;
-    const jg_real t394 = A_ij_6 * t389 + A_ij_7 * t378 + A_ij_8 * t380;
-    const jg_real t395 = A_ij_3 * t389 + A_ij_4 * t378 + A_ij_5 * t380;
-    jac_phi_q_t_lambda_alpha[3] = C_j[8] * t390 - C_j[7] * t391 + (C_j[1] * t392 - C_j[2] * t393) + (C_j[4] * t394 -
-        C_j[5] * t395);
-    const jg_real t396 = A_ij_0 * t381 + A_ij_1 * t372 + A_ij_2 * t367;
-    const jg_real t397 = A_ij_0 * t387 + A_ij_1 * t374 + A_ij_2 * t376;
-    const jg_real t398 = A_ij_0 * t389 + A_ij_1 * t378 + A_ij_2 * t380;
-    jac_phi_q_t_lambda_alpha[4] = C_j[6] * t391 - C_j[8] * t396 + (C_j[2] * t397 - C_j[0] * t392) + (C_j[5] * t398 -
-        C_j[3] * t394);
-    jac_phi_q_t_lambda_alpha[5] = C_j[7] * t396 - C_j[6] * t390 + (C_j[0] * t393 - C_j[1] * t397) + (C_j[3] * t395 -
-        C_j[4] * t398);
-    const jg_real t399 = cosine_1 * C_i[3] - sine_1 * C_i[0];
-    const jg_real t400 = cosine_1 * C_i[4] - sine_1 * C_i[1];
-    const jg_real t401 = cosine_1 * C_i[5] - sine_1 * C_i[2];
-    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * t399 + A_ij_f_j_1 * t400 + A_ij_f_j_2 * t401) * sine_0 -
-        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t64 + C_i[0] * t63) + A_ij_g_j_1 * (C_i[4] * t64 + C_i[1] * t63) +
-        A_ij_g_j_2 * (C_i[5] * t64 + C_i[2] * t63)) - lambda[3] * (A_ij_h_j_0 * t399 + A_ij_h_j_1 * t400 +
-        A_ij_h_j_2 * t401) * cosine_0;
-    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * (t30 * C_i[0] + H_6 * C_i[3]) + A_ij_h_j_1 * (t30 *
-        C_i[1] + H_6 * C_i[4]) + A_ij_h_j_2 * (C_i[2] * t30 + H_6 * C_i[5])) + lambda[4] * (A_ij_f_j_0 * (t22 *
-        C_i[3] + H_4 * C_i[0]) + A_ij_f_j_1 * (t22 * C_i[4] + H_4 * C_i[1]) + A_ij_f_j_2 * (t22 * C_i[5] + H_4 *
-        C_i[2]));
-    const jg_real t402 = lambda[3] * t30;
-    const jg_real t403 = H_6 * lambda[3];
-    const jg_real t404 = cosine_0 * lambda[3];
-    const jg_real t405 = t402 * C_i[5] - t403 * C_i[2] - t404 * C_i[8];
-    const jg_real t406 = t402 * C_i[4] - t403 * C_i[1] - t404 * C_i[7];
-    const jg_real t407 = H_4 * lambda[4];
-    const jg_real t408 = t22 * lambda[4];
-    const jg_real t409 = sine_0 * lambda[4];
-    const jg_real t410 = C_i[5] * t407 - C_i[2] * t408 + C_i[8] * t409;
-    const jg_real t411 = C_i[4] * t407 - C_i[1] * t408 + C_i[7] * t409;
-    jac_phi_q_t_lambda_alpha[8] = A_ij_h_j_1 * t405 - A_ij_h_j_2 * t406 + (A_ij_f_j_1 * t410 - A_ij_f_j_2 * t411);
-    const jg_real t412 = t402 * C_i[3] - t403 * C_i[0] - t404 * C_i[6];
-    const jg_real t413 = t407 * C_i[3] - t408 * C_i[0] + t409 * C_i[6];
-    jac_phi_q_t_lambda_alpha[9] = A_ij_h_j_2 * t412 - t405 * A_ij_h_j_0 + (A_ij_f_j_2 * t413 - t410 * A_ij_f_j_0);
-    jac_phi_q_t_lambda_alpha[10] = t406 * A_ij_h_j_0 - A_ij_h_j_1 * t412 + (t411 * A_ij_f_j_0 - A_ij_f_j_1 * t413);
-    const jg_real t414 = A_ij_3 * t412 + A_ij_4 * t406 + A_ij_5 * t405;
-    const jg_real t415 = A_ij_6 * t412 + A_ij_7 * t406 + A_ij_8 * t405;
-    const jg_real t416 = A_ij_3 * t413 + A_ij_4 * t411 + A_ij_5 * t410;
-    const jg_real t417 = A_ij_6 * t413 + A_ij_7 * t411 + A_ij_8 * t410;
-    jac_phi_q_t_lambda_alpha[11] = C_j[8] * t414 - C_j[7] * t415 + (C_j[2] * t416 - C_j[1] * t417);
-    const jg_real t418 = A_ij_0 * t412 + A_ij_1 * t406 + A_ij_2 * t405;
-    const jg_real t419 = A_ij_0 * t413 + A_ij_1 * t411 + A_ij_2 * t410;
-    jac_phi_q_t_lambda_alpha[12] = C_j[6] * t415 - C_j[8] * t418 + (C_j[0] * t417 - C_j[2] * t419);
-    jac_phi_q_t_lambda_alpha[13] = C_j[7] * t418 - C_j[6] * t414 + (C_j[1] * t419 - C_j[0] * t416);
-    const jg_real t420 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    const jg_real t421 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    jac_phi_q_t_lambda_alpha[14] = lambda[4] * t420 * cosine_0 + lambda[3] * t421 * sine_0;
-    jac_phi_q_t_lambda_alpha[15] = lambda[3] * (t67 * A_ij_h_j_0 + A_ij_h_j_1 * t147 + t202 * A_ij_h_j_2) +
-        lambda[4] * (t68 * A_ij_f_j_0 + A_ij_f_j_1 * t148 + t203 * A_ij_f_j_2);
-    const jg_real t422 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t423 = lambda[2] * t422;
-    const jg_real t424 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t425 = lambda[1] * t424;
-    jac_phi_q_t_lambda_geometry[0] = t423 - t425;
-    const jg_real t426 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t426 + lambda[0] * t424;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t422 + lambda[1] * t426);
-    const jg_real t427 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t428 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t427 + lambda[2] * t428);
-    const jg_real t429 = lambda[0] * t427;
-    jac_phi_q_t_lambda_geometry[4] = t429 - t423;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t428 + lambda[1] * t422;
-    const jg_real t430 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t430 + lambda[2] * t427;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t424 + lambda[0] * t430);
-    jac_phi_q_t_lambda_geometry[8] = t425 - t429;
-    const jg_real t431 = t33 * A_ij_f_j_2 - t23 * A_ij_h_j_2 + A_ij_g_j_2 * t38;
-    jac_phi_q_t_lambda_geometry[16] = t431;
-    jac_phi_q_t_lambda_geometry[9] = -t431;
-    const jg_real t432 = A_ij_h_j_1 * t23 - A_ij_f_j_1 * t33 - t38 * A_ij_g_j_1;
-    jac_phi_q_t_lambda_geometry[23] = t432;
-    jac_phi_q_t_lambda_geometry[10] = -t432;
-    const jg_real t433 = t23 * A_ij_3;
-    const jg_real t434 = t23 * A_ij_6;
-    const jg_real t435 = t33 * A_ij_6;
-    const jg_real t436 = t33 * A_ij_3;
-    const jg_real t437 = t38 * A_ij_6;
-    const jg_real t438 = t38 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[11] = C_j[8] * t433 - C_j[7] * t434 + (C_j[1] * t435 - C_j[2] * t436) + (C_j[4] *
-        t437 - C_j[5] * t438);
-    const jg_real t439 = t23 * A_ij_0;
-    const jg_real t440 = t33 * A_ij_0;
-    const jg_real t441 = t38 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = C_j[6] * t434 - C_j[8] * t439 + (C_j[2] * t440 - C_j[0] * t435) + (C_j[5] *
-        t441 - C_j[3] * t437);
-    jac_phi_q_t_lambda_geometry[13] = C_j[7] * t439 - C_j[6] * t433 + (C_j[0] * t436 - C_j[1] * t440) + (C_j[3] *
-        t438 - C_j[4] * t441);
-    jac_phi_q_t_lambda_geometry[14] = cosine_1 * A_ij_f_j_0 * lambda[4] * sine_0 - A_ij_g_j_0 * t64 * lambda[5] -
-        cosine_1 * A_ij_h_j_0 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[15] = H_6 * A_ij_h_j_0 * lambda[3] + t22 * A_ij_f_j_0 * lambda[4];
-    const jg_real t442 = t33 * A_ij_f_j_0 - t23 * A_ij_h_j_0 + t38 * A_ij_g_j_0;
-    jac_phi_q_t_lambda_geometry[24] = t442;
-    jac_phi_q_t_lambda_geometry[17] = -t442;
-    const jg_real t443 = A_ij_4 * t23;
-    const jg_real t444 = A_ij_7 * t23;
-    const jg_real t445 = A_ij_7 * t33;
-    const jg_real t446 = A_ij_4 * t33;
-    const jg_real t447 = A_ij_7 * t38;
-    const jg_real t448 = A_ij_4 * t38;
-    jac_phi_q_t_lambda_geometry[18] = C_j[8] * t443 - C_j[7] * t444 + (C_j[1] * t445 - C_j[2] * t446) + (C_j[4] *
-        t447 - C_j[5] * t448);
-    const jg_real t449 = A_ij_1 * t23;
-    const jg_real t450 = A_ij_1 * t33;
-    const jg_real t451 = A_ij_1 * t38;
-    jac_phi_q_t_lambda_geometry[19] = C_j[6] * t444 - C_j[8] * t449 + (C_j[2] * t450 - C_j[0] * t445) + (C_j[5] *
-        t451 - C_j[3] * t447);
-    jac_phi_q_t_lambda_geometry[20] = C_j[7] * t449 - C_j[6] * t443 + (C_j[0] * t446 - C_j[1] * t450) + (C_j[3] *
-        t448 - C_j[4] * t451);
-    jac_phi_q_t_lambda_geometry[21] = cosine_1 * A_ij_f_j_1 * lambda[4] * sine_0 - A_ij_g_j_1 * t64 * lambda[5] -
-        A_ij_h_j_1 * cosine_1 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[22] = A_ij_h_j_1 * H_6 * lambda[3] + t22 * A_ij_f_j_1 * lambda[4];
-    const jg_real t452 = A_ij_5 * t23;
-    const jg_real t453 = A_ij_8 * t23;
-    const jg_real t454 = A_ij_8 * t33;
-    const jg_real t455 = A_ij_5 * t33;
-    const jg_real t456 = A_ij_8 * t38;
-    const jg_real t457 = A_ij_5 * t38;
-    jac_phi_q_t_lambda_geometry[25] = C_j[8] * t452 - C_j[7] * t453 + (C_j[1] * t454 - C_j[2] * t455) + (C_j[4] *
-        t456 - C_j[5] * t457);
-    const jg_real t458 = A_ij_2 * t23;
-    const jg_real t459 = A_ij_2 * t33;
-    const jg_real t460 = A_ij_2 * t38;
-    jac_phi_q_t_lambda_geometry[26] = C_j[6] * t453 - C_j[8] * t458 + (C_j[2] * t459 - C_j[0] * t454) + (C_j[5] *
-        t460 - C_j[3] * t456);
-    jac_phi_q_t_lambda_geometry[27] = C_j[7] * t458 - C_j[6] * t452 + (C_j[0] * t455 - C_j[1] * t459) + (C_j[3] *
-        t457 - C_j[4] * t460);
-    jac_phi_q_t_lambda_geometry[28] = cosine_1 * A_ij_f_j_2 * lambda[4] * sine_0 - A_ij_g_j_2 * t64 * lambda[5] -
-        cosine_1 * A_ij_h_j_2 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[29] = H_6 * A_ij_h_j_2 * lambda[3] + t22 * A_ij_f_j_2 * lambda[4];
-    const jg_real t461 = t25 * A_ij_h_j_2 - t31 * A_ij_f_j_2 + A_ij_g_j_2 * t39;
-    jac_phi_q_t_lambda_geometry[37] = t461;
-    jac_phi_q_t_lambda_geometry[30] = -t461;
-    const jg_real t462 = A_ij_f_j_1 * t31 - A_ij_h_j_1 * t25 - t39 * A_ij_g_j_1;
-    jac_phi_q_t_lambda_geometry[44] = t462;
-    jac_phi_q_t_lambda_geometry[31] = -t462;
-    const jg_real t463 = t25 * A_ij_6;
-    const jg_real t464 = t25 * A_ij_3;
-    const jg_real t465 = t31 * A_ij_3;
-    const jg_real t466 = t31 * A_ij_6;
-    const jg_real t467 = t39 * A_ij_6;
-    const jg_real t468 = t39 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[32] = C_j[7] * t463 - C_j[8] * t464 + (C_j[2] * t465 - C_j[1] * t466) + (C_j[4] *
-        t467 - C_j[5] * t468);
-    const jg_real t469 = t25 * A_ij_0;
-    const jg_real t470 = t31 * A_ij_0;
-    const jg_real t471 = t39 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[33] = C_j[8] * t469 - C_j[6] * t463 + (C_j[0] * t466 - C_j[2] * t470) + (C_j[5] *
-        t471 - C_j[3] * t467);
-    jac_phi_q_t_lambda_geometry[34] = C_j[6] * t464 - C_j[7] * t469 + (C_j[1] * t470 - C_j[0] * t465) + (C_j[3] *
-        t468 - C_j[4] * t471);
-    jac_phi_q_t_lambda_geometry[35] = A_ij_g_j_0 * t63 * lambda[5] + sine_1 * A_ij_f_j_0 * lambda[4] * sine_0 -
-        sine_1 * A_ij_h_j_0 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[36] = -(t30 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
-    const jg_real t472 = t25 * A_ij_h_j_0 - t31 * A_ij_f_j_0 + t39 * A_ij_g_j_0;
-    jac_phi_q_t_lambda_geometry[45] = t472;
-    jac_phi_q_t_lambda_geometry[38] = -t472;
-    const jg_real t473 = A_ij_7 * t25;
-    const jg_real t474 = A_ij_4 * t25;
-    const jg_real t475 = A_ij_4 * t31;
-    const jg_real t476 = A_ij_7 * t31;
-    const jg_real t477 = A_ij_7 * t39;
-    const jg_real t478 = A_ij_4 * t39;
-    jac_phi_q_t_lambda_geometry[39] = C_j[7] * t473 - C_j[8] * t474 + (C_j[2] * t475 - C_j[1] * t476) + (C_j[4] *
-        t477 - C_j[5] * t478);
-    const jg_real t479 = A_ij_1 * t25;
-    const jg_real t480 = A_ij_1 * t31;
-    const jg_real t481 = A_ij_1 * t39;
-    jac_phi_q_t_lambda_geometry[40] = C_j[8] * t479 - C_j[6] * t473 + (C_j[0] * t476 - C_j[2] * t480) + (C_j[5] *
-        t481 - C_j[3] * t477);
-    jac_phi_q_t_lambda_geometry[41] = C_j[6] * t474 - C_j[7] * t479 + (C_j[1] * t480 - C_j[0] * t475) + (C_j[3] *
-        t478 - C_j[4] * t481);
-    jac_phi_q_t_lambda_geometry[42] = A_ij_g_j_1 * t63 * lambda[5] + sine_1 * A_ij_f_j_1 * lambda[4] * sine_0 -
-        A_ij_h_j_1 * sine_1 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[43] = -(A_ij_h_j_1 * t30 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
-    const jg_real t482 = A_ij_8 * t25;
-    const jg_real t483 = A_ij_5 * t25;
-    const jg_real t484 = A_ij_5 * t31;
-    const jg_real t485 = A_ij_8 * t31;
-    const jg_real t486 = A_ij_8 * t39;
-    const jg_real t487 = A_ij_5 * t39;
-    jac_phi_q_t_lambda_geometry[46] = C_j[7] * t482 - C_j[8] * t483 + (C_j[2] * t484 - C_j[1] * t485) + (C_j[4] *
-        t486 - C_j[5] * t487);
-    const jg_real t488 = A_ij_2 * t25;
-    const jg_real t489 = A_ij_2 * t31;
-    const jg_real t490 = A_ij_2 * t39;
-    jac_phi_q_t_lambda_geometry[47] = C_j[8] * t488 - C_j[6] * t482 + (C_j[0] * t485 - C_j[2] * t489) + (C_j[5] *
-        t490 - C_j[3] * t486);
-    jac_phi_q_t_lambda_geometry[48] = C_j[6] * t483 - C_j[7] * t488 + (C_j[1] * t489 - C_j[0] * t484) + (C_j[3] *
-        t487 - C_j[4] * t490);
-    jac_phi_q_t_lambda_geometry[49] = A_ij_g_j_2 * t63 * lambda[5] + sine_1 * A_ij_f_j_2 * lambda[4] * sine_0 -
-        sine_1 * A_ij_h_j_2 * lambda[3] * cosine_0;
-    jac_phi_q_t_lambda_geometry[50] = -(t30 * A_ij_h_j_2 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
-    const jg_real t491 = t26 * A_ij_h_j_2 + t34 * A_ij_f_j_2;
-    jac_phi_q_t_lambda_geometry[57] = t491;
-    jac_phi_q_t_lambda_geometry[51] = -t491;
-    const jg_real t492 = A_ij_h_j_1 * t26 + A_ij_f_j_1 * t34;
-    jac_phi_q_t_lambda_geometry[52] = t492;
-    const jg_real t493 = t26 * A_ij_6;
-    const jg_real t494 = t26 * A_ij_3;
-    const jg_real t495 = t34 * A_ij_6;
-    const jg_real t496 = t34 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[53] = C_j[7] * t493 - C_j[8] * t494 + (C_j[1] * t495 - C_j[2] * t496);
-    const jg_real t497 = t26 * A_ij_0;
-    const jg_real t498 = t34 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[54] = C_j[8] * t497 - C_j[6] * t493 + (C_j[2] * t498 - C_j[0] * t495);
-    jac_phi_q_t_lambda_geometry[55] = C_j[6] * t494 - C_j[7] * t497 + (C_j[0] * t496 - C_j[1] * t498);
-    jac_phi_q_t_lambda_geometry[56] = cosine_0 * A_ij_h_j_0 * lambda[3] - sine_0 * A_ij_f_j_0 * lambda[4];
-    const jg_real t499 = t26 * A_ij_h_j_0 + t34 * A_ij_f_j_0;
-    jac_phi_q_t_lambda_geometry[64] = t499;
-    jac_phi_q_t_lambda_geometry[58] = -t499;
-    const jg_real t500 = A_ij_7 * t26;
-    const jg_real t501 = A_ij_4 * t26;
-    const jg_real t502 = A_ij_7 * t34;
-    const jg_real t503 = A_ij_4 * t34;
-    jac_phi_q_t_lambda_geometry[59] = C_j[7] * t500 - C_j[8] * t501 + (C_j[1] * t502 - C_j[2] * t503);
-    const jg_real t504 = A_ij_1 * t26;
-    const jg_real t505 = A_ij_1 * t34;
-    jac_phi_q_t_lambda_geometry[60] = C_j[8] * t504 - C_j[6] * t500 + (C_j[2] * t505 - C_j[0] * t502);
-    jac_phi_q_t_lambda_geometry[61] = C_j[6] * t501 - C_j[7] * t504 + (C_j[0] * t503 - C_j[1] * t505);
-    jac_phi_q_t_lambda_geometry[62] = A_ij_h_j_1 * cosine_0 * lambda[3] - sine_0 * A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[63] = -t492;
-    const jg_real t506 = A_ij_8 * t26;
-    const jg_real t507 = A_ij_5 * t26;
-    const jg_real t508 = A_ij_8 * t34;
-    const jg_real t509 = A_ij_5 * t34;
-    jac_phi_q_t_lambda_geometry[65] = C_j[7] * t506 - C_j[8] * t507 + (C_j[1] * t508 - C_j[2] * t509);
-    const jg_real t510 = A_ij_2 * t26;
-    const jg_real t511 = A_ij_2 * t34;
-    jac_phi_q_t_lambda_geometry[66] = C_j[8] * t510 - C_j[6] * t506 + (C_j[2] * t511 - C_j[0] * t508);
-    jac_phi_q_t_lambda_geometry[67] = C_j[6] * t507 - C_j[7] * t510 + (C_j[0] * t509 - C_j[1] * t511);
-    jac_phi_q_t_lambda_geometry[68] = cosine_0 * A_ij_h_j_2 * lambda[3] - sine_0 * A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * (t358 * A_ij_h_j_0 - A_ij_h_j_2 * t371) + lambda[4] * (A_ij_f_j_2 *
+        t372 - t360 * A_ij_f_j_0) + lambda[5] * (A_ij_g_j_2 * t374 - t364 * A_ij_g_j_0));
+    jac_phi_q_t_lambda_alpha[2] = -(lambda[3] * (A_ij_h_j_1 * t371 - t353 * A_ij_h_j_0) + lambda[4] * (t362 *
+        A_ij_f_j_0 - A_ij_f_j_1 * t372) + lambda[5] * (t366 * A_ij_g_j_0 - A_ij_g_j_1 * t374));
+    const jg_real t376 = A_ij_3 * t371 + A_ij_4 * t353 + A_ij_5 * t358;
+    const jg_real t377 = A_ij_6 * t371 + A_ij_7 * t353 + A_ij_8 * t358;
+    const jg_real t378 = A_ij_6 * t372 + A_ij_7 * t362 + A_ij_8 * t360;
+    const jg_real t379 = A_ij_3 * t372 + A_ij_4 * t362 + A_ij_5 * t360;
+    const jg_real t380 = A_ij_6 * t374 + A_ij_7 * t366 + A_ij_8 * t364;
+    const jg_real t381 = A_ij_3 * t374 + A_ij_4 * t366 + A_ij_5 * t364;
+    jac_phi_q_t_lambda_alpha[3] = lambda[3] * (C_j[8] * t376 - C_j[7] * t377) + lambda[4] * (C_j[1] * t378 - C_j[2]
+        * t379) + lambda[5] * (C_j[4] * t380 - C_j[5] * t381);
+    const jg_real t382 = A_ij_0 * t371 + A_ij_1 * t353 + A_ij_2 * t358;
+    const jg_real t383 = A_ij_0 * t372 + A_ij_1 * t362 + A_ij_2 * t360;
+    const jg_real t384 = A_ij_0 * t374 + A_ij_1 * t366 + A_ij_2 * t364;
+    jac_phi_q_t_lambda_alpha[4] = lambda[3] * (C_j[6] * t377 - C_j[8] * t382) + lambda[4] * (C_j[2] * t383 - C_j[0]
+        * t378) + lambda[5] * (C_j[5] * t384 - C_j[3] * t380);
+    jac_phi_q_t_lambda_alpha[5] = lambda[3] * (C_j[7] * t382 - C_j[6] * t376) + lambda[4] * (C_j[0] * t379 - C_j[1]
+        * t383) + lambda[5] * (C_j[3] * t381 - C_j[4] * t384);
+    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * t374 + A_ij_f_j_1 * t366 + A_ij_f_j_2 * t364) * sine_1 -
+        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t57 + C_i[0] * t56) + A_ij_g_j_1 * (C_i[4] * t57 + C_i[1] * t56) +
+        A_ij_g_j_2 * (C_i[5] * t57 + C_i[2] * t56)) - lambda[3] * (A_ij_h_j_0 * t374 + A_ij_h_j_1 * t366 +
+        A_ij_h_j_2 * t364) * cosine_1;
+    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * t372 + A_ij_h_j_1 * t362 + A_ij_h_j_2 * t360) +
+        lambda[4] * (t371 * A_ij_f_j_0 + t353 * A_ij_f_j_1 + t358 * A_ij_f_j_2);
+    jac_phi_q_t_lambda_alpha[8] = -((A_ij_h_j_1 * h_star_2 - A_ij_h_j_2 * h_star_1) * lambda[3] + (g_star_1 *
+        A_ij_f_j_2 - g_star_2 * A_ij_f_j_1) * lambda[4]);
+    jac_phi_q_t_lambda_alpha[9] = -(lambda[3] * (A_ij_h_j_2 * h_star_0 - h_star_2 * A_ij_h_j_0) + lambda[4] *
+        (g_star_2 * A_ij_f_j_0 - A_ij_f_j_2 * g_star_0));
+    jac_phi_q_t_lambda_alpha[10] = -(lambda[3] * (h_star_1 * A_ij_h_j_0 - A_ij_h_j_1 * h_star_0) + lambda[4] *
+        (A_ij_f_j_1 * g_star_0 - g_star_1 * A_ij_f_j_0));
+    /* A_ijt_h_star = A_ij^T h_star */
+    const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
+    const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
+    /* A_ijt_g_star = A_ij^T g_star */
+    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
+    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
+    jac_phi_q_t_lambda_alpha[11] = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) + lambda[4] *
+        (C_j[2] * A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_2);
+    const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
+    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
+    jac_phi_q_t_lambda_alpha[12] = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) + lambda[4] *
+        (C_j[0] * A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_0);
+    jac_phi_q_t_lambda_alpha[13] = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) + lambda[4] *
+        (C_j[1] * A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_1);
+    const jg_real t391 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    const jg_real t392 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    jac_phi_q_t_lambda_alpha[14] = lambda[4] * t391 * cosine_1 + lambda[3] * t392 * sine_1;
+    jac_phi_q_t_lambda_alpha[15] = -(lambda[3] * (g_star_0 * A_ij_h_j_0 + A_ij_h_j_1 * g_star_1 + g_star_2 *
+        A_ij_h_j_2) + lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2));
+    const jg_real t393 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
+    const jg_real t394 = lambda[2] * t393;
+    const jg_real t395 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
+    const jg_real t396 = lambda[1] * t395;
+    jac_phi_q_t_lambda_geometry[0] = t394 - t396;
+    const jg_real t397 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
+    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t397 + lambda[0] * t395;
+    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t393 + lambda[1] * t397);
+    const jg_real t398 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
+    const jg_real t399 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
+    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t398 + lambda[2] * t399);
+    const jg_real t400 = lambda[0] * t398;
+    jac_phi_q_t_lambda_geometry[4] = t400 - t394;
+    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t399 + lambda[1] * t393;
+    const jg_real t401 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
+    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t401 + lambda[2] * t398;
+    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t395 + lambda[0] * t401);
+    jac_phi_q_t_lambda_geometry[8] = t396 - t400;
+    const jg_real t402 = H_6 * A_ij_f_j_2 * lambda[4] - t17 * A_ij_h_j_2 * lambda[3] + cosine_0 * A_ij_g_j_2 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[16] = t402;
+    jac_phi_q_t_lambda_geometry[9] = -t402;
+    const jg_real t403 = A_ij_h_j_1 * t17 * lambda[3] - H_6 * A_ij_f_j_1 * lambda[4] - cosine_0 * A_ij_g_j_1 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[23] = t403;
+    jac_phi_q_t_lambda_geometry[10] = -t403;
+    const jg_real t404 = t17 * A_ij_3;
+    const jg_real t405 = t17 * A_ij_6;
+    const jg_real t406 = H_6 * A_ij_6;
+    const jg_real t407 = H_6 * A_ij_3;
+    const jg_real t408 = cosine_0 * A_ij_6;
+    const jg_real t409 = cosine_0 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[11] = lambda[3] * (C_j[8] * t404 - C_j[7] * t405) + lambda[4] * (C_j[1] * t406 -
+        C_j[2] * t407) + lambda[5] * (C_j[4] * t408 - C_j[5] * t409);
+    const jg_real t410 = t17 * A_ij_0;
+    const jg_real t411 = H_6 * A_ij_0;
+    const jg_real t412 = cosine_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[12] = lambda[3] * (C_j[6] * t405 - C_j[8] * t410) + lambda[4] * (C_j[2] * t411 -
+        C_j[0] * t406) + lambda[5] * (C_j[5] * t412 - C_j[3] * t408);
+    jac_phi_q_t_lambda_geometry[13] = lambda[3] * (C_j[7] * t410 - C_j[6] * t404) + lambda[4] * (C_j[0] * t407 -
+        C_j[1] * t411) + lambda[5] * (C_j[3] * t409 - C_j[4] * t412);
+    jac_phi_q_t_lambda_geometry[14] = cosine_0 * A_ij_f_j_0 * lambda[4] * sine_1 - A_ij_g_j_0 * t57 * lambda[5] -
+        cosine_0 * A_ij_h_j_0 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[15] = H_6 * A_ij_h_j_0 * lambda[3] + t17 * A_ij_f_j_0 * lambda[4];
+    const jg_real t413 = H_6 * A_ij_f_j_0 * lambda[4] - t17 * A_ij_h_j_0 * lambda[3] + cosine_0 * A_ij_g_j_0 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[24] = t413;
+    jac_phi_q_t_lambda_geometry[17] = -t413;
+    const jg_real t414 = A_ij_4 * t17;
+    const jg_real t415 = A_ij_7 * t17;
+    const jg_real t416 = A_ij_7 * H_6;
+    const jg_real t417 = A_ij_4 * H_6;
+    const jg_real t418 = A_ij_7 * cosine_0;
+    const jg_real t419 = A_ij_4 * cosine_0;
+    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[8] * t414 - C_j[7] * t415) + lambda[4] * (C_j[1] * t416 -
+        C_j[2] * t417) + lambda[5] * (C_j[4] * t418 - C_j[5] * t419);
+    const jg_real t420 = A_ij_1 * t17;
+    const jg_real t421 = A_ij_1 * H_6;
+    const jg_real t422 = A_ij_1 * cosine_0;
+    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[6] * t415 - C_j[8] * t420) + lambda[4] * (C_j[2] * t421 -
+        C_j[0] * t416) + lambda[5] * (C_j[5] * t422 - C_j[3] * t418);
+    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[7] * t420 - C_j[6] * t414) + lambda[4] * (C_j[0] * t417 -
+        C_j[1] * t421) + lambda[5] * (C_j[3] * t419 - C_j[4] * t422);
+    jac_phi_q_t_lambda_geometry[21] = cosine_0 * A_ij_f_j_1 * lambda[4] * sine_1 - A_ij_g_j_1 * t57 * lambda[5] -
+        A_ij_h_j_1 * cosine_0 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[22] = A_ij_h_j_1 * H_6 * lambda[3] + t17 * A_ij_f_j_1 * lambda[4];
+    const jg_real t423 = A_ij_5 * t17;
+    const jg_real t424 = A_ij_8 * t17;
+    const jg_real t425 = A_ij_8 * H_6;
+    const jg_real t426 = A_ij_5 * H_6;
+    const jg_real t427 = A_ij_8 * cosine_0;
+    const jg_real t428 = A_ij_5 * cosine_0;
+    jac_phi_q_t_lambda_geometry[25] = lambda[3] * (C_j[8] * t423 - C_j[7] * t424) + lambda[4] * (C_j[1] * t425 -
+        C_j[2] * t426) + lambda[5] * (C_j[4] * t427 - C_j[5] * t428);
+    const jg_real t429 = A_ij_2 * t17;
+    const jg_real t430 = A_ij_2 * H_6;
+    const jg_real t431 = A_ij_2 * cosine_0;
+    jac_phi_q_t_lambda_geometry[26] = lambda[3] * (C_j[6] * t424 - C_j[8] * t429) + lambda[4] * (C_j[2] * t430 -
+        C_j[0] * t425) + lambda[5] * (C_j[5] * t431 - C_j[3] * t427);
+    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (C_j[7] * t429 - C_j[6] * t423) + lambda[4] * (C_j[0] * t426 -
+        C_j[1] * t430) + lambda[5] * (C_j[3] * t428 - C_j[4] * t431);
+    jac_phi_q_t_lambda_geometry[28] = cosine_0 * A_ij_f_j_2 * lambda[4] * sine_1 - A_ij_g_j_2 * t57 * lambda[5] -
+        cosine_0 * A_ij_h_j_2 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[29] = H_6 * A_ij_h_j_2 * lambda[3] + t17 * A_ij_f_j_2 * lambda[4];
+    const jg_real t432 = H_4 * A_ij_h_j_2 * lambda[3] - t28 * A_ij_f_j_2 * lambda[4] + sine_0 * A_ij_g_j_2 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[37] = t432;
+    jac_phi_q_t_lambda_geometry[30] = -t432;
+    const jg_real t433 = t28 * A_ij_f_j_1 * lambda[4] - A_ij_h_j_1 * H_4 * lambda[3] - sine_0 * A_ij_g_j_1 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[44] = t433;
+    jac_phi_q_t_lambda_geometry[31] = -t433;
+    const jg_real t434 = H_4 * A_ij_6;
+    const jg_real t435 = H_4 * A_ij_3;
+    const jg_real t436 = t28 * A_ij_3;
+    const jg_real t437 = t28 * A_ij_6;
+    const jg_real t438 = sine_0 * A_ij_6;
+    const jg_real t439 = sine_0 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[32] = lambda[3] * (C_j[7] * t434 - C_j[8] * t435) + lambda[4] * (C_j[2] * t436 -
+        C_j[1] * t437) + lambda[5] * (C_j[4] * t438 - C_j[5] * t439);
+    const jg_real t440 = H_4 * A_ij_0;
+    const jg_real t441 = t28 * A_ij_0;
+    const jg_real t442 = sine_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[33] = lambda[3] * (C_j[8] * t440 - C_j[6] * t434) + lambda[4] * (C_j[0] * t437 -
+        C_j[2] * t441) + lambda[5] * (C_j[5] * t442 - C_j[3] * t438);
+    jac_phi_q_t_lambda_geometry[34] = lambda[3] * (C_j[6] * t435 - C_j[7] * t440) + lambda[4] * (C_j[1] * t441 -
+        C_j[0] * t436) + lambda[5] * (C_j[3] * t439 - C_j[4] * t442);
+    jac_phi_q_t_lambda_geometry[35] = A_ij_g_j_0 * t56 * lambda[5] + sine_0 * A_ij_f_j_0 * lambda[4] * sine_1 -
+        sine_0 * A_ij_h_j_0 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[36] = -(t28 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
+    const jg_real t443 = H_4 * A_ij_h_j_0 * lambda[3] - t28 * A_ij_f_j_0 * lambda[4] + sine_0 * A_ij_g_j_0 *
+        lambda[5];
+    jac_phi_q_t_lambda_geometry[45] = t443;
+    jac_phi_q_t_lambda_geometry[38] = -t443;
+    const jg_real t444 = A_ij_7 * H_4;
+    const jg_real t445 = A_ij_4 * H_4;
+    const jg_real t446 = A_ij_4 * t28;
+    const jg_real t447 = A_ij_7 * t28;
+    const jg_real t448 = A_ij_7 * sine_0;
+    const jg_real t449 = A_ij_4 * sine_0;
+    jac_phi_q_t_lambda_geometry[39] = lambda[3] * (C_j[7] * t444 - C_j[8] * t445) + lambda[4] * (C_j[2] * t446 -
+        C_j[1] * t447) + lambda[5] * (C_j[4] * t448 - C_j[5] * t449);
+    const jg_real t450 = A_ij_1 * H_4;
+    const jg_real t451 = A_ij_1 * t28;
+    const jg_real t452 = A_ij_1 * sine_0;
+    jac_phi_q_t_lambda_geometry[40] = lambda[3] * (C_j[8] * t450 - C_j[6] * t444) + lambda[4] * (C_j[0] * t447 -
+        C_j[2] * t451) + lambda[5] * (C_j[5] * t452 - C_j[3] * t448);
+    jac_phi_q_t_lambda_geometry[41] = lambda[3] * (C_j[6] * t445 - C_j[7] * t450) + lambda[4] * (C_j[1] * t451 -
+        C_j[0] * t446) + lambda[5] * (C_j[3] * t449 - C_j[4] * t452);
+    jac_phi_q_t_lambda_geometry[42] = A_ij_g_j_1 * t56 * lambda[5] + sine_0 * A_ij_f_j_1 * lambda[4] * sine_1 -
+        A_ij_h_j_1 * sine_0 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[43] = -(A_ij_h_j_1 * t28 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
+    const jg_real t453 = A_ij_8 * H_4;
+    const jg_real t454 = A_ij_5 * H_4;
+    const jg_real t455 = A_ij_5 * t28;
+    const jg_real t456 = A_ij_8 * t28;
+    const jg_real t457 = A_ij_8 * sine_0;
+    const jg_real t458 = A_ij_5 * sine_0;
+    jac_phi_q_t_lambda_geometry[46] = lambda[3] * (C_j[7] * t453 - C_j[8] * t454) + lambda[4] * (C_j[2] * t455 -
+        C_j[1] * t456) + lambda[5] * (C_j[4] * t457 - C_j[5] * t458);
+    const jg_real t459 = A_ij_2 * H_4;
+    const jg_real t460 = A_ij_2 * t28;
+    const jg_real t461 = A_ij_2 * sine_0;
+    jac_phi_q_t_lambda_geometry[47] = lambda[3] * (C_j[8] * t459 - C_j[6] * t453) + lambda[4] * (C_j[0] * t456 -
+        C_j[2] * t460) + lambda[5] * (C_j[5] * t461 - C_j[3] * t457);
+    jac_phi_q_t_lambda_geometry[48] = lambda[3] * (C_j[6] * t454 - C_j[7] * t459) + lambda[4] * (C_j[1] * t460 -
+        C_j[0] * t455) + lambda[5] * (C_j[3] * t458 - C_j[4] * t461);
+    jac_phi_q_t_lambda_geometry[49] = A_ij_g_j_2 * t56 * lambda[5] + sine_0 * A_ij_f_j_2 * lambda[4] * sine_1 -
+        sine_0 * A_ij_h_j_2 * lambda[3] * cosine_1;
+    jac_phi_q_t_lambda_geometry[50] = -(t28 * A_ij_h_j_2 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
+    const jg_real t462 = sine_1 * A_ij_h_j_2 * lambda[3] + cosine_1 * A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[57] = t462;
+    jac_phi_q_t_lambda_geometry[51] = -t462;
+    const jg_real t463 = A_ij_h_j_1 * sine_1 * lambda[3] + cosine_1 * A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[52] = t463;
+    const jg_real t464 = sine_1 * A_ij_6;
+    const jg_real t465 = sine_1 * A_ij_3;
+    const jg_real t466 = cosine_1 * A_ij_6;
+    const jg_real t467 = cosine_1 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[53] = lambda[3] * (C_j[7] * t464 - C_j[8] * t465) + lambda[4] * (C_j[1] * t466 -
+        C_j[2] * t467);
+    const jg_real t468 = sine_1 * A_ij_0;
+    const jg_real t469 = cosine_1 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[54] = lambda[3] * (C_j[8] * t468 - C_j[6] * t464) + lambda[4] * (C_j[2] * t469 -
+        C_j[0] * t466);
+    jac_phi_q_t_lambda_geometry[55] = lambda[3] * (C_j[6] * t465 - C_j[7] * t468) + lambda[4] * (C_j[0] * t467 -
+        C_j[1] * t469);
+    jac_phi_q_t_lambda_geometry[56] = cosine_1 * A_ij_h_j_0 * lambda[3] - sine_1 * A_ij_f_j_0 * lambda[4];
+    const jg_real t470 = sine_1 * A_ij_h_j_0 * lambda[3] + cosine_1 * A_ij_f_j_0 * lambda[4];
+    jac_phi_q_t_lambda_geometry[64] = t470;
+    jac_phi_q_t_lambda_geometry[58] = -t470;
+    const jg_real t471 = A_ij_7 * sine_1;
+    const jg_real t472 = A_ij_4 * sine_1;
+    const jg_real t473 = A_ij_7 * cosine_1;
+    const jg_real t474 = A_ij_4 * cosine_1;
+    jac_phi_q_t_lambda_geometry[59] = lambda[3] * (C_j[7] * t471 - C_j[8] * t472) + lambda[4] * (C_j[1] * t473 -
+        C_j[2] * t474);
+    const jg_real t475 = A_ij_1 * sine_1;
+    const jg_real t476 = A_ij_1 * cosine_1;
+    jac_phi_q_t_lambda_geometry[60] = lambda[3] * (C_j[8] * t475 - C_j[6] * t471) + lambda[4] * (C_j[2] * t476 -
+        C_j[0] * t473);
+    jac_phi_q_t_lambda_geometry[61] = lambda[3] * (C_j[6] * t472 - C_j[7] * t475) + lambda[4] * (C_j[0] * t474 -
+        C_j[1] * t476);
+    jac_phi_q_t_lambda_geometry[62] = A_ij_h_j_1 * cosine_1 * lambda[3] - sine_1 * A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[63] = -t463;
+    const jg_real t477 = A_ij_8 * sine_1;
+    const jg_real t478 = A_ij_5 * sine_1;
+    const jg_real t479 = A_ij_8 * cosine_1;
+    const jg_real t480 = A_ij_5 * cosine_1;
+    jac_phi_q_t_lambda_geometry[65] = lambda[3] * (C_j[7] * t477 - C_j[8] * t478) + lambda[4] * (C_j[1] * t479 -
+        C_j[2] * t480);
+    const jg_real t481 = A_ij_2 * sine_1;
+    const jg_real t482 = A_ij_2 * cosine_1;
+    jac_phi_q_t_lambda_geometry[66] = lambda[3] * (C_j[8] * t481 - C_j[6] * t477) + lambda[4] * (C_j[2] * t482 -
+        C_j[0] * t479);
+    jac_phi_q_t_lambda_geometry[67] = lambda[3] * (C_j[6] * t478 - C_j[7] * t481) + lambda[4] * (C_j[0] * t480 -
+        C_j[1] * t482);
+    jac_phi_q_t_lambda_geometry[68] = cosine_1 * A_ij_h_j_2 * lambda[3] - sine_1 * A_ij_f_j_2 * lambda[4];
     jac_phi_q_t_lambda_geometry[69] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
     jac_phi_q_t_lambda_geometry[70] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
     jac_phi_q_t_lambda_geometry[71] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t512 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[77] = t512;
-    jac_phi_q_t_lambda_geometry[72] = -t512;
-    const jg_real t513 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[73] = t513;
+    const jg_real t483 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[77] = t483;
+    jac_phi_q_t_lambda_geometry[72] = -t483;
+    const jg_real t484 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[73] = t484;
     jac_phi_q_t_lambda_geometry[74] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     jac_phi_q_t_lambda_geometry[75] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
     jac_phi_q_t_lambda_geometry[76] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t514 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[83] = t514;
-    jac_phi_q_t_lambda_geometry[78] = -t514;
+    const jg_real t485 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[83] = t485;
+    jac_phi_q_t_lambda_geometry[78] = -t485;
     jac_phi_q_t_lambda_geometry[79] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
     jac_phi_q_t_lambda_geometry[80] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
     jac_phi_q_t_lambda_geometry[81] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[82] = -t513;
-    jac_phi_q_t_lambda_geometry[84] = A_ij_1 * t35 - A_ij_2 * t44;
-    jac_phi_q_t_lambda_geometry[85] = A_ij_2 * t54 - t35 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[86] = t44 * A_ij_0 - A_ij_1 * t54;
-    const jg_real t515 = A_ij_6 * t54 + A_ij_7 * t44 + A_ij_8 * t35;
-    jac_phi_q_t_lambda_geometry[87] = t515;
-    const jg_real t516 = A_ij_3 * t54 + A_ij_4 * t44 + A_ij_5 * t35;
-    jac_phi_q_t_lambda_geometry[101] = t516;
-    jac_phi_q_t_lambda_geometry[88] = -t516;
-    const jg_real t517 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    jac_phi_q_t_lambda_geometry[89] = lambda[4] * t517 * sine_0;
-    const jg_real t518 = A_ij_0 * t67 + A_ij_1 * t147 + A_ij_2 * t202;
-    jac_phi_q_t_lambda_geometry[90] = lambda[4] * t518;
-    jac_phi_q_t_lambda_geometry[91] = A_ij_4 * t35 - A_ij_5 * t44;
-    jac_phi_q_t_lambda_geometry[92] = A_ij_5 * t54 - t35 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[93] = t44 * A_ij_3 - A_ij_4 * t54;
-    jac_phi_q_t_lambda_geometry[94] = -t515;
-    const jg_real t519 = A_ij_0 * t54 + A_ij_1 * t44 + A_ij_2 * t35;
-    jac_phi_q_t_lambda_geometry[95] = t519;
-    const jg_real t520 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    jac_phi_q_t_lambda_geometry[96] = lambda[4] * t520 * sine_0;
-    const jg_real t521 = A_ij_3 * t67 + A_ij_4 * t147 + A_ij_5 * t202;
-    jac_phi_q_t_lambda_geometry[97] = lambda[4] * t521;
-    jac_phi_q_t_lambda_geometry[98] = A_ij_7 * t35 - A_ij_8 * t44;
-    jac_phi_q_t_lambda_geometry[99] = A_ij_8 * t54 - t35 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[100] = t44 * A_ij_6 - A_ij_7 * t54;
-    jac_phi_q_t_lambda_geometry[102] = -t519;
-    const jg_real t522 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    jac_phi_q_t_lambda_geometry[103] = lambda[4] * t522 * sine_0;
-    const jg_real t523 = A_ij_6 * t67 + A_ij_7 * t147 + A_ij_8 * t202;
-    jac_phi_q_t_lambda_geometry[104] = lambda[4] * t523;
-    jac_phi_q_t_lambda_geometry[105] = A_ij_2 * t46 - A_ij_1 * t40;
-    jac_phi_q_t_lambda_geometry[106] = t40 * A_ij_0 - A_ij_2 * t57;
-    jac_phi_q_t_lambda_geometry[107] = A_ij_1 * t57 - t46 * A_ij_0;
-    const jg_real t524 = A_ij_6 * t57 + A_ij_7 * t46 + A_ij_8 * t40;
-    jac_phi_q_t_lambda_geometry[114] = t524;
-    jac_phi_q_t_lambda_geometry[108] = -t524;
-    const jg_real t525 = A_ij_3 * t57 + A_ij_4 * t46 + A_ij_5 * t40;
-    jac_phi_q_t_lambda_geometry[109] = t525;
-    jac_phi_q_t_lambda_geometry[110] = lambda[5] * (A_ij_0 * t65 + A_ij_1 * t145 + A_ij_2 * t200);
-    jac_phi_q_t_lambda_geometry[111] = A_ij_5 * t46 - A_ij_4 * t40;
-    jac_phi_q_t_lambda_geometry[112] = t40 * A_ij_3 - A_ij_5 * t57;
-    jac_phi_q_t_lambda_geometry[113] = A_ij_4 * t57 - t46 * A_ij_3;
-    const jg_real t526 = A_ij_0 * t57 + A_ij_1 * t46 + A_ij_2 * t40;
-    jac_phi_q_t_lambda_geometry[121] = t526;
-    jac_phi_q_t_lambda_geometry[115] = -t526;
-    jac_phi_q_t_lambda_geometry[116] = lambda[5] * (A_ij_3 * t65 + A_ij_4 * t145 + A_ij_5 * t200);
-    jac_phi_q_t_lambda_geometry[117] = A_ij_8 * t46 - A_ij_7 * t40;
-    jac_phi_q_t_lambda_geometry[118] = t40 * A_ij_6 - A_ij_8 * t57;
-    jac_phi_q_t_lambda_geometry[119] = A_ij_7 * t57 - t46 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[120] = -t525;
-    jac_phi_q_t_lambda_geometry[122] = lambda[5] * (A_ij_6 * t65 + A_ij_7 * t145 + A_ij_8 * t200);
-    jac_phi_q_t_lambda_geometry[123] = A_ij_1 * t27 - A_ij_2 * t42;
-    jac_phi_q_t_lambda_geometry[124] = A_ij_2 * t51 - t27 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[125] = t42 * A_ij_0 - A_ij_1 * t51;
-    const jg_real t527 = A_ij_6 * t51 + A_ij_7 * t42 + A_ij_8 * t27;
-    jac_phi_q_t_lambda_geometry[126] = t527;
-    const jg_real t528 = A_ij_3 * t51 + A_ij_4 * t42 + A_ij_5 * t27;
-    jac_phi_q_t_lambda_geometry[140] = t528;
-    jac_phi_q_t_lambda_geometry[127] = -t528;
-    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * t517 * cosine_0);
-    const jg_real t529 = A_ij_0 * t68 + A_ij_1 * t148 + A_ij_2 * t203;
-    jac_phi_q_t_lambda_geometry[129] = -(lambda[3] * t529);
-    jac_phi_q_t_lambda_geometry[130] = A_ij_4 * t27 - A_ij_5 * t42;
-    jac_phi_q_t_lambda_geometry[131] = A_ij_5 * t51 - t27 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[132] = t42 * A_ij_3 - A_ij_4 * t51;
-    jac_phi_q_t_lambda_geometry[133] = -t527;
-    const jg_real t530 = A_ij_0 * t51 + A_ij_1 * t42 + A_ij_2 * t27;
-    jac_phi_q_t_lambda_geometry[134] = t530;
-    jac_phi_q_t_lambda_geometry[135] = -(lambda[3] * t520 * cosine_0);
-    const jg_real t531 = A_ij_3 * t68 + A_ij_4 * t148 + A_ij_5 * t203;
-    jac_phi_q_t_lambda_geometry[136] = -(lambda[3] * t531);
-    jac_phi_q_t_lambda_geometry[137] = A_ij_7 * t27 - A_ij_8 * t42;
-    jac_phi_q_t_lambda_geometry[138] = A_ij_8 * t51 - t27 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[139] = t42 * A_ij_6 - A_ij_7 * t51;
-    jac_phi_q_t_lambda_geometry[141] = -t530;
-    jac_phi_q_t_lambda_geometry[142] = -(lambda[3] * t522 * cosine_0);
-    const jg_real t532 = A_ij_6 * t68 + A_ij_7 * t148 + A_ij_8 * t203;
-    jac_phi_q_t_lambda_geometry[143] = -(lambda[3] * t532);
+    jac_phi_q_t_lambda_geometry[82] = -t484;
+    jac_phi_q_t_lambda_geometry[84] = -((A_ij_1 * h_star_2 - A_ij_2 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[85] = -(lambda[4] * (A_ij_2 * h_star_0 - h_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[86] = -(lambda[4] * (h_star_1 * A_ij_0 - A_ij_1 * h_star_0));
+    const jg_real t486 = lambda[4] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[94] = t486;
+    jac_phi_q_t_lambda_geometry[87] = -t486;
+    const jg_real t487 = lambda[4] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[88] = t487;
+    /* A_ijt_f_star = A_ij^T f_star */
+    const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
+    jac_phi_q_t_lambda_geometry[89] = lambda[4] * A_ijt_f_star_0 * sine_1;
+    jac_phi_q_t_lambda_geometry[90] = -(lambda[4] * A_ijt_g_star_0);
+    jac_phi_q_t_lambda_geometry[91] = -((A_ij_4 * h_star_2 - A_ij_5 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[92] = -(lambda[4] * (A_ij_5 * h_star_0 - h_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[93] = -(lambda[4] * (h_star_1 * A_ij_3 - A_ij_4 * h_star_0));
+    const jg_real t489 = lambda[4] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[102] = t489;
+    jac_phi_q_t_lambda_geometry[95] = -t489;
+    const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
+    jac_phi_q_t_lambda_geometry[96] = lambda[4] * A_ijt_f_star_1 * sine_1;
+    jac_phi_q_t_lambda_geometry[97] = -(lambda[4] * A_ijt_g_star_1);
+    jac_phi_q_t_lambda_geometry[98] = -((A_ij_7 * h_star_2 - A_ij_8 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[99] = -(lambda[4] * (A_ij_8 * h_star_0 - h_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[100] = -(lambda[4] * (h_star_1 * A_ij_6 - A_ij_7 * h_star_0));
+    jac_phi_q_t_lambda_geometry[101] = -t487;
+    const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
+    jac_phi_q_t_lambda_geometry[103] = lambda[4] * A_ijt_f_star_2 * sine_1;
+    jac_phi_q_t_lambda_geometry[104] = -(lambda[4] * A_ijt_g_star_2);
+    jac_phi_q_t_lambda_geometry[105] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[106] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[107] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
+    const jg_real t492 = lambda[5] * A_ijt_f_star_2;
+    jac_phi_q_t_lambda_geometry[114] = t492;
+    jac_phi_q_t_lambda_geometry[108] = -t492;
+    const jg_real t493 = lambda[5] * A_ijt_f_star_1;
+    jac_phi_q_t_lambda_geometry[109] = t493;
+    jac_phi_q_t_lambda_geometry[110] = lambda[5] * (A_ij_0 * t58 + A_ij_1 * t137 + A_ij_2 * t189);
+    jac_phi_q_t_lambda_geometry[111] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[112] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[113] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
+    const jg_real t494 = lambda[5] * A_ijt_f_star_0;
+    jac_phi_q_t_lambda_geometry[121] = t494;
+    jac_phi_q_t_lambda_geometry[115] = -t494;
+    jac_phi_q_t_lambda_geometry[116] = lambda[5] * (A_ij_3 * t58 + A_ij_4 * t137 + A_ij_5 * t189);
+    jac_phi_q_t_lambda_geometry[117] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[118] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[119] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
+    jac_phi_q_t_lambda_geometry[120] = -t493;
+    jac_phi_q_t_lambda_geometry[122] = lambda[5] * (A_ij_6 * t58 + A_ij_7 * t137 + A_ij_8 * t189);
+    jac_phi_q_t_lambda_geometry[123] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[124] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[125] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
+    const jg_real t495 = lambda[3] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_geometry[133] = t495;
+    jac_phi_q_t_lambda_geometry[126] = -t495;
+    const jg_real t496 = lambda[3] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_geometry[127] = t496;
+    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * A_ijt_f_star_0 * cosine_1);
+    jac_phi_q_t_lambda_geometry[129] = lambda[3] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[130] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[131] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[132] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
+    const jg_real t497 = lambda[3] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_geometry[141] = t497;
+    jac_phi_q_t_lambda_geometry[134] = -t497;
+    jac_phi_q_t_lambda_geometry[135] = -(lambda[3] * A_ijt_f_star_1 * cosine_1);
+    jac_phi_q_t_lambda_geometry[136] = lambda[3] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[137] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[138] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[139] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
+    jac_phi_q_t_lambda_geometry[140] = -t496;
+    jac_phi_q_t_lambda_geometry[142] = -(lambda[3] * A_ijt_f_star_2 * cosine_1);
+    jac_phi_q_t_lambda_geometry[143] = lambda[3] * A_ijt_h_star_2;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t534 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[10] = t534;
-    jac_phi_q_t_lambda_lambda[1] = -t534;
+    const jg_real t499 = s_i[2] + dp_ij_2;
+    jac_phi_q_t_lambda_lambda[10] = t499;
+    jac_phi_q_t_lambda_lambda[1] = -t499;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t536 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t536;
+    const jg_real t501 = s_i[1] + dp_ij_1;
+    jac_phi_q_t_lambda_lambda[2] = t501;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t538 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[20] = t538;
-    jac_phi_q_t_lambda_lambda[11] = -t538;
+    const jg_real t503 = s_i[0] + dp_ij_0;
+    jac_phi_q_t_lambda_lambda[20] = t503;
+    jac_phi_q_t_lambda_lambda[11] = -t503;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_t_lambda_lambda[19] = -t536;
+    jac_phi_q_t_lambda_lambda[19] = -t501;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[26] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    jac_phi_q_t_lambda_lambda[27] = A_ij_h_j_1 * t202 - A_ij_h_j_2 * t147;
-    jac_phi_q_t_lambda_lambda[28] = A_ij_h_j_2 * t67 - t202 * A_ij_h_j_0;
-    jac_phi_q_t_lambda_lambda[29] = t147 * A_ij_h_j_0 - A_ij_h_j_1 * t67;
-    jac_phi_q_t_lambda_lambda[30] = C_j[8] * t521 - C_j[7] * t523;
-    jac_phi_q_t_lambda_lambda[31] = C_j[6] * t523 - C_j[8] * t518;
-    jac_phi_q_t_lambda_lambda[32] = C_j[7] * t518 - C_j[6] * t521;
-    jac_phi_q_t_lambda_lambda[33] = -(cosine_0 * t421);
-    jac_phi_q_t_lambda_lambda[34] = -(A_ij_h_j_0 * t68 + A_ij_h_j_1 * t148 + A_ij_h_j_2 * t203);
-    jac_phi_q_t_lambda_lambda[35] = A_ij_f_j_1 * t203 - A_ij_f_j_2 * t148;
-    jac_phi_q_t_lambda_lambda[36] = A_ij_f_j_2 * t68 - t203 * A_ij_f_j_0;
-    jac_phi_q_t_lambda_lambda[37] = t148 * A_ij_f_j_0 - A_ij_f_j_1 * t68;
-    jac_phi_q_t_lambda_lambda[38] = C_j[2] * t531 - C_j[1] * t532;
-    jac_phi_q_t_lambda_lambda[39] = C_j[0] * t532 - C_j[2] * t529;
-    jac_phi_q_t_lambda_lambda[40] = C_j[1] * t529 - C_j[0] * t531;
-    jac_phi_q_t_lambda_lambda[41] = sine_0 * t420;
-    jac_phi_q_t_lambda_lambda[42] = t67 * A_ij_f_j_0 + t147 * A_ij_f_j_1 + t202 * A_ij_f_j_2;
+    jac_phi_q_t_lambda_lambda[27] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
+    jac_phi_q_t_lambda_lambda[28] = g_star_2 * A_ij_h_j_0 - A_ij_h_j_2 * g_star_0;
+    jac_phi_q_t_lambda_lambda[29] = A_ij_h_j_1 * g_star_0 - g_star_1 * A_ij_h_j_0;
+    jac_phi_q_t_lambda_lambda[30] = C_j[7] * A_ijt_g_star_2 - C_j[8] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_lambda[31] = C_j[8] * A_ijt_g_star_0 - C_j[6] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_lambda[32] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_lambda[33] = -(cosine_1 * t392);
+    jac_phi_q_t_lambda_lambda[34] = h_star_0 * A_ij_h_j_0 + A_ij_h_j_1 * h_star_1 + h_star_2 * A_ij_h_j_2;
+    jac_phi_q_t_lambda_lambda[35] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
+    jac_phi_q_t_lambda_lambda[36] = h_star_2 * A_ij_f_j_0 - A_ij_f_j_2 * h_star_0;
+    jac_phi_q_t_lambda_lambda[37] = A_ij_f_j_1 * h_star_0 - h_star_1 * A_ij_f_j_0;
+    jac_phi_q_t_lambda_lambda[38] = C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_lambda[39] = C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_lambda[40] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_lambda[41] = sine_1 * t391;
+    jac_phi_q_t_lambda_lambda[42] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_q_t_lambda_lambda[43] = A_ij_g_j_2 * f_star_1 - A_ij_g_j_1 * f_star_2;
     jac_phi_q_t_lambda_lambda[44] = f_star_2 * A_ij_g_j_0 - A_ij_g_j_2 * f_star_0;
     jac_phi_q_t_lambda_lambda[45] = A_ij_g_j_1 * f_star_0 - f_star_1 * A_ij_g_j_0;
-    jac_phi_q_t_lambda_lambda[46] = C_j[4] * t522 - C_j[5] * t520;
-    jac_phi_q_t_lambda_lambda[47] = C_j[5] * t517 - C_j[3] * t522;
-    jac_phi_q_t_lambda_lambda[48] = C_j[3] * t520 - C_j[4] * t517;
-    jac_phi_q_t_lambda_lambda[49] = A_ij_g_j_0 * t65 + A_ij_g_j_1 * t145 + A_ij_g_j_2 * t200;
+    jac_phi_q_t_lambda_lambda[46] = C_j[4] * A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1;
+    jac_phi_q_t_lambda_lambda[47] = C_j[5] * A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2;
+    jac_phi_q_t_lambda_lambda[48] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
+    jac_phi_q_t_lambda_lambda[49] = A_ij_g_j_0 * t58 + A_ij_g_j_1 * t137 + A_ij_g_j_2 * t189;
 }
 
 JG_EXPORT int jg_universal_parametric_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

@@ -54,12 +54,14 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t1 = A_i[0] * s_i[0];
     const jg_real t2 = A_i[3] * s_i[1];
     const jg_real t3 = A_i[6] * s_i[2];
+    /* A_i_s_i = A_i s_i */
+    const jg_real A_i_s_i_0 = t1 + t2 + t3;
     /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - (t1 + t2 + t3);
+    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
     jac_phi_A_i[0] = d_ij_0 - t1;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t5 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -69,90 +71,92 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t11 = sine_0 * cosine_1;
+    const jg_real t12 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = H_4 * C_i[3] - t11 * C_i[0] + sine_1 * C_i[6];
-    jac_phi_A_i[3] = t5 * g_star_0;
+    const jg_real g_star_0 = H_4 * C_i[3] - t12 * C_i[0] + sine_1 * C_i[6];
+    jac_phi_A_i[3] = t6 * g_star_0;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t14 = cosine_0 * sine_1;
+    const jg_real t15 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t14 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real t16 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = h_star_0 * t16;
-    const jg_real t17 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_0 = H_6 * C_i[0] - t15 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t17 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = h_star_0 * t17;
+    const jg_real t18 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    jac_phi_A_i[5] = t17 * f_star_0;
+    jac_phi_A_i[5] = t18 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t20 = s_i[0] * A_i[1];
-    const jg_real t21 = s_i[1] * A_i[4];
-    const jg_real t22 = s_i[2] * A_i[7];
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - (t20 + t21 + t22);
-    jac_phi_A_i[6] = d_ij_1 - t20;
+    const jg_real t21 = s_i[0] * A_i[1];
+    const jg_real t22 = s_i[1] * A_i[4];
+    const jg_real t23 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t21 + t22 + t23;
+    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t21;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t24 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t24 * g_star_0;
-    const jg_real t25 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = h_star_0 * t25;
-    const jg_real t26 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t26 * f_star_0;
+    const jg_real t26 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t26 * g_star_0;
+    const jg_real t27 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = h_star_0 * t27;
+    const jg_real t28 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t28 * f_star_0;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t28 = s_i[0] * A_i[2];
-    const jg_real t29 = s_i[1] * A_i[5];
-    const jg_real t30 = s_i[2] * A_i[8];
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - (t28 + t29 + t30);
-    jac_phi_A_i[12] = d_ij_2 - t28;
+    const jg_real t30 = s_i[0] * A_i[2];
+    const jg_real t31 = s_i[1] * A_i[5];
+    const jg_real t32 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t30 + t31 + t32;
+    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t30;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t32 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t32 * g_star_0;
-    const jg_real t33 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = h_star_0 * t33;
-    const jg_real t34 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t34 * f_star_0;
+    const jg_real t35 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t35 * g_star_0;
+    const jg_real t36 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = h_star_0 * t36;
+    const jg_real t37 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t37 * f_star_0;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
     jac_phi_A_i[19] = d_ij_0 - t2;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    const jg_real g_star_1 = H_4 * C_i[4] - t11 * C_i[1] + sine_1 * C_i[7];
-    jac_phi_A_i[21] = t5 * g_star_1;
-    const jg_real h_star_1 = H_6 * C_i[1] - t14 * C_i[4] + cosine_1 * C_i[7];
-    jac_phi_A_i[22] = h_star_1 * t16;
+    const jg_real g_star_1 = H_4 * C_i[4] - t12 * C_i[1] + sine_1 * C_i[7];
+    jac_phi_A_i[21] = t6 * g_star_1;
+    const jg_real h_star_1 = H_6 * C_i[1] - t15 * C_i[4] + cosine_1 * C_i[7];
+    jac_phi_A_i[22] = h_star_1 * t17;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    jac_phi_A_i[23] = t17 * f_star_1;
+    jac_phi_A_i[23] = t18 * f_star_1;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t21;
+    jac_phi_A_i[25] = d_ij_1 - t22;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t24 * g_star_1;
-    jac_phi_A_i[28] = h_star_1 * t25;
-    jac_phi_A_i[29] = t26 * f_star_1;
+    jac_phi_A_i[27] = t26 * g_star_1;
+    jac_phi_A_i[28] = h_star_1 * t27;
+    jac_phi_A_i[29] = t28 * f_star_1;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t29;
+    jac_phi_A_i[31] = d_ij_2 - t31;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t32 * g_star_1;
-    jac_phi_A_i[34] = h_star_1 * t33;
-    jac_phi_A_i[35] = t34 * f_star_1;
+    jac_phi_A_i[33] = t35 * g_star_1;
+    jac_phi_A_i[34] = h_star_1 * t36;
+    jac_phi_A_i[35] = t37 * f_star_1;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
     jac_phi_A_i[38] = d_ij_0 - t3;
-    const jg_real g_star_2 = H_4 * C_i[5] - t11 * C_i[2] + sine_1 * C_i[8];
-    jac_phi_A_i[39] = t5 * g_star_2;
-    const jg_real h_star_2 = H_6 * C_i[2] - t14 * C_i[5] + cosine_1 * C_i[8];
-    jac_phi_A_i[40] = h_star_2 * t16;
+    const jg_real g_star_2 = H_4 * C_i[5] - t12 * C_i[2] + sine_1 * C_i[8];
+    jac_phi_A_i[39] = t6 * g_star_2;
+    const jg_real h_star_2 = H_6 * C_i[2] - t15 * C_i[5] + cosine_1 * C_i[8];
+    jac_phi_A_i[40] = h_star_2 * t17;
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    jac_phi_A_i[41] = t17 * f_star_2;
+    jac_phi_A_i[41] = t18 * f_star_2;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t22;
-    jac_phi_A_i[45] = t24 * g_star_2;
-    jac_phi_A_i[46] = h_star_2 * t25;
-    jac_phi_A_i[47] = t26 * f_star_2;
+    jac_phi_A_i[44] = d_ij_1 - t23;
+    jac_phi_A_i[45] = t26 * g_star_2;
+    jac_phi_A_i[46] = h_star_2 * t27;
+    jac_phi_A_i[47] = t28 * f_star_2;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t30;
-    jac_phi_A_i[51] = t32 * g_star_2;
-    jac_phi_A_i[52] = h_star_2 * t33;
-    jac_phi_A_i[53] = t34 * f_star_2;
+    jac_phi_A_i[50] = d_ij_2 - t32;
+    jac_phi_A_i[51] = t35 * g_star_2;
+    jac_phi_A_i[52] = h_star_2 * t36;
+    jac_phi_A_i[53] = t37 * f_star_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -230,14 +234,14 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[41] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t11 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t11 * C_i[4] + H_4 * C_i[1]) +
-        A_ij_h_j_2 * (t11 * C_i[5] + H_4 * C_i[2]));
+    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t12 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t12 * C_i[4] + H_4 * C_i[1]) +
+        A_ij_h_j_2 * (t12 * C_i[5] + H_4 * C_i[2]));
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    jac_phi_alpha[1] = A_ij_f_j_0 * (t14 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t14 * C_i[1] + H_6 * C_i[4]) +
-        A_ij_f_j_2 * (t14 * C_i[2] + H_6 * C_i[5]);
+    jac_phi_alpha[1] = A_ij_f_j_0 * (t15 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t15 * C_i[1] + H_6 * C_i[4]) +
+        A_ij_f_j_2 * (t15 * C_i[2] + H_6 * C_i[5]);
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -247,34 +251,34 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_alpha[3] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     jac_phi_alpha[4] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t59 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t59;
-    jac_phi_geometry[3] = t59;
-    const jg_real t60 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t60;
-    jac_phi_geometry[6] = t60;
+    const jg_real t62 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t62;
+    jac_phi_geometry[3] = t62;
+    const jg_real t63 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t63;
+    jac_phi_geometry[6] = t63;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t61 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t61;
-    jac_phi_geometry[7] = t61;
+    const jg_real t64 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t64;
+    jac_phi_geometry[7] = t64;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_geometry[9] = -(A_ij_h_j_0 * t11);
+    jac_phi_geometry[9] = -(A_ij_h_j_0 * t12);
     jac_phi_geometry[10] = H_6 * A_ij_f_j_0;
     jac_phi_geometry[11] = cosine_0 * A_ij_g_j_0;
-    jac_phi_geometry[12] = -(t11 * A_ij_h_j_1);
+    jac_phi_geometry[12] = -(t12 * A_ij_h_j_1);
     jac_phi_geometry[13] = H_6 * A_ij_f_j_1;
     jac_phi_geometry[14] = cosine_0 * A_ij_g_j_1;
-    jac_phi_geometry[15] = -(t11 * A_ij_h_j_2);
+    jac_phi_geometry[15] = -(t12 * A_ij_h_j_2);
     jac_phi_geometry[16] = H_6 * A_ij_f_j_2;
     jac_phi_geometry[17] = cosine_0 * A_ij_g_j_2;
     jac_phi_geometry[18] = A_ij_h_j_0 * H_4;
-    jac_phi_geometry[19] = -(t14 * A_ij_f_j_0);
+    jac_phi_geometry[19] = -(t15 * A_ij_f_j_0);
     jac_phi_geometry[20] = sine_0 * A_ij_g_j_0;
     jac_phi_geometry[21] = H_4 * A_ij_h_j_1;
-    jac_phi_geometry[22] = -(t14 * A_ij_f_j_1);
+    jac_phi_geometry[22] = -(t15 * A_ij_f_j_1);
     jac_phi_geometry[23] = sine_0 * A_ij_g_j_1;
     jac_phi_geometry[24] = H_4 * A_ij_h_j_2;
-    jac_phi_geometry[25] = -(t14 * A_ij_f_j_2);
+    jac_phi_geometry[25] = -(t15 * A_ij_f_j_2);
     jac_phi_geometry[26] = sine_0 * A_ij_g_j_2;
     jac_phi_geometry[27] = A_ij_h_j_0 * sine_1;
     jac_phi_geometry[28] = cosine_1 * A_ij_f_j_0;
@@ -306,14 +310,18 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    const jg_real t0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real t1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
-    const jg_real t2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
-    const jg_real t3 = t0 * C_j[0] + t1 * C_j[1] + t2 * C_j[2];
+    /* s_j_cross_omega_j = tilde(s_j) omega_j */
+    const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
+    const jg_real s_j_cross_omega_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
+    /* C_jt_s_j_cross_omega_j = C_j^T tilde(s_j) omega_j */
+    const jg_real C_jt_s_j_cross_omega_j_0 = s_j_cross_omega_j_0 * C_j[0] + s_j_cross_omega_j_1 * C_j[1] +
+        s_j_cross_omega_j_2 * C_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t6 = t0 * C_j[3] + t1 * C_j[4] + t2 * C_j[5];
+    const jg_real C_jt_s_j_cross_omega_j_1 = s_j_cross_omega_j_0 * C_j[3] + s_j_cross_omega_j_1 * C_j[4] +
+        s_j_cross_omega_j_2 * C_j[5];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
@@ -321,13 +329,16 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t10 = t0 * C_j[6] + t1 * C_j[7] + t2 * C_j[8];
+    const jg_real C_jt_s_j_cross_omega_j_2 = s_j_cross_omega_j_0 * C_j[6] + s_j_cross_omega_j_1 * C_j[7] +
+        s_j_cross_omega_j_2 * C_j[8];
     jac_phi_q_v_velocity[45] = sine_1;
     const jg_real t11 = cosine_0 * sine_1;
-    const jg_real t12 = t10 * t11 - (t3 * sine_0 + t6 * H_4);
+    const jg_real t12 = C_jt_s_j_cross_omega_j_2 * t11 - (C_jt_s_j_cross_omega_j_0 * sine_0 +
+        C_jt_s_j_cross_omega_j_1 * H_4);
     const jg_real t13 = sine_0 * cosine_1;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t15 = t3 * cosine_0 - t6 * t13 + H_6 * t10;
+    const jg_real t15 = C_jt_s_j_cross_omega_j_0 * cosine_0 - C_jt_s_j_cross_omega_j_1 * t13 + H_6 *
+        C_jt_s_j_cross_omega_j_2;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
@@ -335,9 +346,9 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     const jg_real t19 = t11 * C_jt_v_j_2 - (sine_0 * C_jt_v_j_0 + H_4 * C_jt_v_j_1);
     /* H_C_jt_v_j = H C_j^T v_j */
     const jg_real H_C_jt_v_j_0 = cosine_0 * C_jt_v_j_0 - t13 * C_jt_v_j_1 + H_6 * C_jt_v_j_2;
-    jac_phi_q_v_alpha[0] = t12 * C_i[0] + t15 * C_i[3] + (C_i[0] * t19 + C_i[3] * H_C_jt_v_j_0);
-    jac_phi_q_v_alpha[1] = t12 * C_i[1] + t15 * C_i[4] + (t19 * C_i[1] + H_C_jt_v_j_0 * C_i[4]);
-    jac_phi_q_v_alpha[2] = t12 * C_i[2] + t15 * C_i[5] + (t19 * C_i[2] + H_C_jt_v_j_0 * C_i[5]);
+    jac_phi_q_v_alpha[0] = C_i[0] * t19 + C_i[3] * H_C_jt_v_j_0 - (t12 * C_i[0] + t15 * C_i[3]);
+    jac_phi_q_v_alpha[1] = t19 * C_i[1] + H_C_jt_v_j_0 * C_i[4] - (t12 * C_i[1] + t15 * C_i[4]);
+    jac_phi_q_v_alpha[2] = t19 * C_i[2] + H_C_jt_v_j_0 * C_i[5] - (t12 * C_i[2] + t15 * C_i[5]);
     jac_phi_q_v_geometry[5] = omega_i[0];
     jac_phi_q_v_geometry[1] = omega_i[1];
     jac_phi_q_v_geometry[2] = omega_i[2];
@@ -347,17 +358,17 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
         + omega_i[2] * (t13 * C_i[5] + H_4 * C_i[2]));
     jac_phi_q_v_alpha[5] = omega_i[0] * (t11 * C_i[0] + H_6 * C_i[3]) + omega_i[1] * (t11 * C_i[1] + H_6 * C_i[4]) +
         omega_i[2] * (t11 * C_i[2] + H_6 * C_i[5]);
-    const jg_real t21 = t6 * H_6 + t13 * t10;
-    const jg_real t22 = t6 * t11 + H_4 * t10;
-    const jg_real t23 = t6 * cosine_1 - sine_1 * t10;
+    const jg_real t21 = C_jt_s_j_cross_omega_j_1 * H_6 + t13 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t22 = C_jt_s_j_cross_omega_j_1 * t11 + H_4 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t23 = C_jt_s_j_cross_omega_j_1 * cosine_1 - sine_1 * C_jt_s_j_cross_omega_j_2;
     const jg_real t24 = H_6 * C_jt_v_j_1 + t13 * C_jt_v_j_2;
     const jg_real t25 = t11 * C_jt_v_j_1 + H_4 * C_jt_v_j_2;
     const jg_real t26 = cosine_1 * C_jt_v_j_1 - sine_1 * C_jt_v_j_2;
-    jac_phi_q_v_alpha[6] = t21 * C_i[0] - t22 * C_i[3] + t23 * C_i[6] + (C_i[0] * t24 - C_i[3] * t25 + C_i[6] *
-        t26);
-    jac_phi_q_v_alpha[7] = t21 * C_i[1] - t22 * C_i[4] + t23 * C_i[7] + (t24 * C_i[1] - t25 * C_i[4] + t26 *
+    jac_phi_q_v_alpha[6] = C_i[0] * t24 - C_i[3] * t25 + C_i[6] * t26 - (t21 * C_i[0] - t22 * C_i[3] + t23 *
+        C_i[6]);
+    jac_phi_q_v_alpha[7] = t24 * C_i[1] - t25 * C_i[4] + t26 * C_i[7] - (t21 * C_i[1] - t22 * C_i[4] + t23 *
         C_i[7]);
-    jac_phi_q_v_alpha[8] = t21 * C_i[2] - t22 * C_i[5] + t23 * C_i[8] + (t24 * C_i[2] - t25 * C_i[5] + t26 *
+    jac_phi_q_v_alpha[8] = t24 * C_i[2] - t25 * C_i[5] + t26 * C_i[8] - (t21 * C_i[2] - t22 * C_i[5] + t23 *
         C_i[8]);
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = H_6 * C_i[0] - t11 * C_i[3] + cosine_1 * C_i[6];
@@ -380,7 +391,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
-    const jg_real t33 = t15 + H_C_jt_v_j_0;
+    const jg_real t33 = H_C_jt_v_j_0 - t15;
     jac_phi_q_v_geometry[6] = t33;
     jac_phi_q_v_geometry[10] = t33;
     jac_phi_q_v_geometry[14] = t33;
@@ -393,7 +404,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_geometry[15] = cosine_0 * omega_i[2];
     jac_phi_q_v_geometry[16] = -(t13 * omega_i[2]);
     jac_phi_q_v_geometry[17] = H_6 * omega_i[2];
-    const jg_real t34 = -(t12 + t19);
+    const jg_real t34 = t12 - t19;
     jac_phi_q_v_geometry[18] = t34;
     jac_phi_q_v_geometry[22] = t34;
     jac_phi_q_v_geometry[26] = t34;
@@ -407,7 +418,7 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_geometry[28] = H_4 * omega_i[2];
     jac_phi_q_v_geometry[29] = -(t11 * omega_i[2]);
     const jg_real H_C_jt_v_j_2 = sine_1 * C_jt_v_j_1 + cosine_1 * C_jt_v_j_2;
-    const jg_real t36 = t6 * sine_1 + cosine_1 * t10 + H_C_jt_v_j_2;
+    const jg_real t36 = H_C_jt_v_j_2 - (C_jt_s_j_cross_omega_j_1 * sine_1 + cosine_1 * C_jt_s_j_cross_omega_j_2);
     jac_phi_q_v_geometry[30] = t36;
     jac_phi_q_v_geometry[33] = t36;
     jac_phi_q_v_geometry[36] = t36;
@@ -417,137 +428,137 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_geometry[35] = cosine_1 * omega_i[1];
     jac_phi_q_v_geometry[37] = sine_1 * omega_i[2];
     jac_phi_q_v_geometry[38] = cosine_1 * omega_i[2];
-    const jg_real t37 = omega_j[2] * C_j[1] - omega_j[1] * C_j[2];
-    const jg_real t38 = omega_j[2] * C_j[4] - omega_j[1] * C_j[5];
-    const jg_real t39 = omega_j[2] * C_j[7] - omega_j[1] * C_j[8];
+    const jg_real t37 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
+    const jg_real t38 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
+    const jg_real t39 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real t40 = t37 * cosine_0 - t38 * t13 + H_6 * t39;
     const jg_real t41 = t37 * sine_0 + t38 * H_4 - t39 * t11;
     const jg_real t42 = t38 * sine_1 + cosine_1 * t39;
-    jac_phi_q_v_geometry[39] = t40 * C_i[0] + t41 * C_i[3] + t42 * C_i[6];
-    jac_phi_q_v_geometry[40] = t40 * C_i[1] + t41 * C_i[4] + t42 * C_i[7];
-    jac_phi_q_v_geometry[41] = t40 * C_i[2] + t41 * C_i[5] + t42 * C_i[8];
-    const jg_real t43 = omega_j[0] * C_j[2] - omega_j[2] * C_j[0];
-    const jg_real t44 = omega_j[0] * C_j[5] - omega_j[2] * C_j[3];
-    const jg_real t45 = omega_j[0] * C_j[8] - omega_j[2] * C_j[6];
+    jac_phi_q_v_geometry[39] = -(t40 * C_i[0] + t41 * C_i[3] + t42 * C_i[6]);
+    jac_phi_q_v_geometry[40] = -(t40 * C_i[1] + t41 * C_i[4] + t42 * C_i[7]);
+    jac_phi_q_v_geometry[41] = -(t40 * C_i[2] + t41 * C_i[5] + t42 * C_i[8]);
+    const jg_real t43 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
+    const jg_real t44 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
+    const jg_real t45 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real t46 = t43 * cosine_0 - t44 * t13 + H_6 * t45;
     const jg_real t47 = t43 * sine_0 + t44 * H_4 - t45 * t11;
     const jg_real t48 = t44 * sine_1 + cosine_1 * t45;
-    jac_phi_q_v_geometry[42] = t46 * C_i[0] + t47 * C_i[3] + t48 * C_i[6];
-    jac_phi_q_v_geometry[43] = t46 * C_i[1] + t47 * C_i[4] + t48 * C_i[7];
-    jac_phi_q_v_geometry[44] = t46 * C_i[2] + t47 * C_i[5] + t48 * C_i[8];
-    const jg_real t49 = omega_j[1] * C_j[0] - omega_j[0] * C_j[1];
-    const jg_real t50 = omega_j[1] * C_j[3] - omega_j[0] * C_j[4];
-    const jg_real t51 = omega_j[1] * C_j[6] - omega_j[0] * C_j[7];
+    jac_phi_q_v_geometry[42] = -(t46 * C_i[0] + t47 * C_i[3] + t48 * C_i[6]);
+    jac_phi_q_v_geometry[43] = -(t46 * C_i[1] + t47 * C_i[4] + t48 * C_i[7]);
+    jac_phi_q_v_geometry[44] = -(t46 * C_i[2] + t47 * C_i[5] + t48 * C_i[8]);
+    const jg_real t49 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
+    const jg_real t50 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
+    const jg_real t51 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
     const jg_real t52 = t49 * cosine_0 - t50 * t13 + H_6 * t51;
     const jg_real t53 = t49 * sine_0 + t50 * H_4 - t51 * t11;
     const jg_real t54 = t50 * sine_1 + cosine_1 * t51;
-    jac_phi_q_v_geometry[45] = t52 * C_i[0] + t53 * C_i[3] + t54 * C_i[6];
-    jac_phi_q_v_geometry[46] = t52 * C_i[1] + t53 * C_i[4] + t54 * C_i[7];
-    jac_phi_q_v_geometry[47] = t52 * C_i[2] + t53 * C_i[5] + t54 * C_i[8];
-    const jg_real t55 = t0 * cosine_0;
-    const jg_real t56 = t0 * sine_0;
+    jac_phi_q_v_geometry[45] = -(t52 * C_i[0] + t53 * C_i[3] + t54 * C_i[6]);
+    jac_phi_q_v_geometry[46] = -(t52 * C_i[1] + t53 * C_i[4] + t54 * C_i[7]);
+    jac_phi_q_v_geometry[47] = -(t52 * C_i[2] + t53 * C_i[5] + t54 * C_i[8]);
+    const jg_real t55 = s_j_cross_omega_j_0 * cosine_0;
+    const jg_real t56 = s_j_cross_omega_j_0 * sine_0;
     const jg_real t57 = cosine_0 * v_j[0];
     const jg_real t58 = sine_0 * v_j[0];
-    jac_phi_q_v_geometry[48] = t55 * C_i[0] + t56 * C_i[3] + (C_i[0] * t57 + C_i[3] * t58);
-    jac_phi_q_v_geometry[49] = t55 * C_i[1] + t56 * C_i[4] + (t57 * C_i[1] + t58 * C_i[4]);
-    jac_phi_q_v_geometry[50] = t55 * C_i[2] + t56 * C_i[5] + (t57 * C_i[2] + t58 * C_i[5]);
+    jac_phi_q_v_geometry[48] = C_i[0] * t57 + C_i[3] * t58 - (t55 * C_i[0] + t56 * C_i[3]);
+    jac_phi_q_v_geometry[49] = t57 * C_i[1] + t58 * C_i[4] - (t55 * C_i[1] + t56 * C_i[4]);
+    jac_phi_q_v_geometry[50] = t57 * C_i[2] + t58 * C_i[5] - (t55 * C_i[2] + t56 * C_i[5]);
     const jg_real t59 = -omega_j[0];
     jac_phi_q_v_geometry[51] = t59;
     jac_phi_q_v_geometry[63] = t59;
     jac_phi_q_v_geometry[75] = t59;
-    const jg_real t60 = t1 * cosine_0;
-    const jg_real t61 = t1 * sine_0;
+    const jg_real t60 = s_j_cross_omega_j_1 * cosine_0;
+    const jg_real t61 = s_j_cross_omega_j_1 * sine_0;
     const jg_real t62 = cosine_0 * v_j[1];
     const jg_real t63 = sine_0 * v_j[1];
-    jac_phi_q_v_geometry[52] = t60 * C_i[0] + t61 * C_i[3] + (C_i[0] * t62 + C_i[3] * t63);
-    jac_phi_q_v_geometry[53] = t60 * C_i[1] + t61 * C_i[4] + (t62 * C_i[1] + t63 * C_i[4]);
-    jac_phi_q_v_geometry[54] = t60 * C_i[2] + t61 * C_i[5] + (t62 * C_i[2] + t63 * C_i[5]);
+    jac_phi_q_v_geometry[52] = C_i[0] * t62 + C_i[3] * t63 - (t60 * C_i[0] + t61 * C_i[3]);
+    jac_phi_q_v_geometry[53] = t62 * C_i[1] + t63 * C_i[4] - (t60 * C_i[1] + t61 * C_i[4]);
+    jac_phi_q_v_geometry[54] = t62 * C_i[2] + t63 * C_i[5] - (t60 * C_i[2] + t61 * C_i[5]);
     const jg_real t64 = -omega_j[1];
     jac_phi_q_v_geometry[55] = t64;
     jac_phi_q_v_geometry[67] = t64;
     jac_phi_q_v_geometry[79] = t64;
-    const jg_real t65 = t2 * cosine_0;
-    const jg_real t66 = t2 * sine_0;
+    const jg_real t65 = s_j_cross_omega_j_2 * cosine_0;
+    const jg_real t66 = s_j_cross_omega_j_2 * sine_0;
     const jg_real t67 = cosine_0 * v_j[2];
     const jg_real t68 = sine_0 * v_j[2];
-    jac_phi_q_v_geometry[56] = t65 * C_i[0] + t66 * C_i[3] + (C_i[0] * t67 + C_i[3] * t68);
-    jac_phi_q_v_geometry[57] = t65 * C_i[1] + t66 * C_i[4] + (t67 * C_i[1] + t68 * C_i[4]);
-    jac_phi_q_v_geometry[58] = t65 * C_i[2] + t66 * C_i[5] + (t67 * C_i[2] + t68 * C_i[5]);
+    jac_phi_q_v_geometry[56] = C_i[0] * t67 + C_i[3] * t68 - (t65 * C_i[0] + t66 * C_i[3]);
+    jac_phi_q_v_geometry[57] = t67 * C_i[1] + t68 * C_i[4] - (t65 * C_i[1] + t66 * C_i[4]);
+    jac_phi_q_v_geometry[58] = t67 * C_i[2] + t68 * C_i[5] - (t65 * C_i[2] + t66 * C_i[5]);
     const jg_real t69 = -omega_j[2];
     jac_phi_q_v_geometry[59] = t69;
     jac_phi_q_v_geometry[71] = t69;
     jac_phi_q_v_geometry[83] = t69;
-    const jg_real t70 = t0 * H_4;
-    const jg_real t71 = t0 * t13;
-    const jg_real t72 = t0 * sine_1;
+    const jg_real t70 = s_j_cross_omega_j_0 * H_4;
+    const jg_real t71 = s_j_cross_omega_j_0 * t13;
+    const jg_real t72 = s_j_cross_omega_j_0 * sine_1;
     const jg_real t73 = H_4 * v_j[0];
     const jg_real t74 = t13 * v_j[0];
     const jg_real t75 = sine_1 * v_j[0];
-    jac_phi_q_v_geometry[60] = t70 * C_i[3] - t71 * C_i[0] + t72 * C_i[6] + (C_i[3] * t73 - C_i[0] * t74 + C_i[6] *
-        t75);
-    jac_phi_q_v_geometry[61] = t70 * C_i[4] - t71 * C_i[1] + t72 * C_i[7] + (t73 * C_i[4] - t74 * C_i[1] + t75 *
+    jac_phi_q_v_geometry[60] = C_i[3] * t73 - C_i[0] * t74 + C_i[6] * t75 - (t70 * C_i[3] - t71 * C_i[0] + t72 *
+        C_i[6]);
+    jac_phi_q_v_geometry[61] = t73 * C_i[4] - t74 * C_i[1] + t75 * C_i[7] - (t70 * C_i[4] - t71 * C_i[1] + t72 *
         C_i[7]);
-    jac_phi_q_v_geometry[62] = t70 * C_i[5] - t71 * C_i[2] + t72 * C_i[8] + (t73 * C_i[5] - t74 * C_i[2] + t75 *
+    jac_phi_q_v_geometry[62] = t73 * C_i[5] - t74 * C_i[2] + t75 * C_i[8] - (t70 * C_i[5] - t71 * C_i[2] + t72 *
         C_i[8]);
-    const jg_real t76 = t1 * H_4;
-    const jg_real t77 = t1 * t13;
-    const jg_real t78 = t1 * sine_1;
+    const jg_real t76 = s_j_cross_omega_j_1 * H_4;
+    const jg_real t77 = s_j_cross_omega_j_1 * t13;
+    const jg_real t78 = s_j_cross_omega_j_1 * sine_1;
     const jg_real t79 = H_4 * v_j[1];
     const jg_real t80 = t13 * v_j[1];
     const jg_real t81 = sine_1 * v_j[1];
-    jac_phi_q_v_geometry[64] = t76 * C_i[3] - t77 * C_i[0] + t78 * C_i[6] + (C_i[3] * t79 - C_i[0] * t80 + C_i[6] *
-        t81);
-    jac_phi_q_v_geometry[65] = t76 * C_i[4] - t77 * C_i[1] + t78 * C_i[7] + (t79 * C_i[4] - t80 * C_i[1] + t81 *
+    jac_phi_q_v_geometry[64] = C_i[3] * t79 - C_i[0] * t80 + C_i[6] * t81 - (t76 * C_i[3] - t77 * C_i[0] + t78 *
+        C_i[6]);
+    jac_phi_q_v_geometry[65] = t79 * C_i[4] - t80 * C_i[1] + t81 * C_i[7] - (t76 * C_i[4] - t77 * C_i[1] + t78 *
         C_i[7]);
-    jac_phi_q_v_geometry[66] = t76 * C_i[5] - t77 * C_i[2] + t78 * C_i[8] + (t79 * C_i[5] - t80 * C_i[2] + t81 *
+    jac_phi_q_v_geometry[66] = t79 * C_i[5] - t80 * C_i[2] + t81 * C_i[8] - (t76 * C_i[5] - t77 * C_i[2] + t78 *
         C_i[8]);
-    const jg_real t82 = t2 * H_4;
-    const jg_real t83 = t2 * t13;
-    const jg_real t84 = t2 * sine_1;
+    const jg_real t82 = s_j_cross_omega_j_2 * H_4;
+    const jg_real t83 = s_j_cross_omega_j_2 * t13;
+    const jg_real t84 = s_j_cross_omega_j_2 * sine_1;
     const jg_real t85 = H_4 * v_j[2];
     const jg_real t86 = t13 * v_j[2];
     const jg_real t87 = sine_1 * v_j[2];
-    jac_phi_q_v_geometry[68] = t82 * C_i[3] - t83 * C_i[0] + t84 * C_i[6] + (C_i[3] * t85 - C_i[0] * t86 + C_i[6] *
-        t87);
-    jac_phi_q_v_geometry[69] = t82 * C_i[4] - t83 * C_i[1] + t84 * C_i[7] + (t85 * C_i[4] - t86 * C_i[1] + t87 *
+    jac_phi_q_v_geometry[68] = C_i[3] * t85 - C_i[0] * t86 + C_i[6] * t87 - (t82 * C_i[3] - t83 * C_i[0] + t84 *
+        C_i[6]);
+    jac_phi_q_v_geometry[69] = t85 * C_i[4] - t86 * C_i[1] + t87 * C_i[7] - (t82 * C_i[4] - t83 * C_i[1] + t84 *
         C_i[7]);
-    jac_phi_q_v_geometry[70] = t82 * C_i[5] - t83 * C_i[2] + t84 * C_i[8] + (t85 * C_i[5] - t86 * C_i[2] + t87 *
+    jac_phi_q_v_geometry[70] = t85 * C_i[5] - t86 * C_i[2] + t87 * C_i[8] - (t82 * C_i[5] - t83 * C_i[2] + t84 *
         C_i[8]);
-    const jg_real t88 = t0 * H_6;
-    const jg_real t89 = t0 * t11;
-    const jg_real t90 = t0 * cosine_1;
+    const jg_real t88 = s_j_cross_omega_j_0 * H_6;
+    const jg_real t89 = s_j_cross_omega_j_0 * t11;
+    const jg_real t90 = s_j_cross_omega_j_0 * cosine_1;
     const jg_real t91 = H_6 * v_j[0];
     const jg_real t92 = t11 * v_j[0];
     const jg_real t93 = cosine_1 * v_j[0];
-    jac_phi_q_v_geometry[72] = t88 * C_i[0] - t89 * C_i[3] + t90 * C_i[6] + (C_i[0] * t91 - C_i[3] * t92 + C_i[6] *
-        t93);
-    jac_phi_q_v_geometry[73] = t88 * C_i[1] - t89 * C_i[4] + t90 * C_i[7] + (t91 * C_i[1] - t92 * C_i[4] + t93 *
+    jac_phi_q_v_geometry[72] = C_i[0] * t91 - C_i[3] * t92 + C_i[6] * t93 - (t88 * C_i[0] - t89 * C_i[3] + t90 *
+        C_i[6]);
+    jac_phi_q_v_geometry[73] = t91 * C_i[1] - t92 * C_i[4] + t93 * C_i[7] - (t88 * C_i[1] - t89 * C_i[4] + t90 *
         C_i[7]);
-    jac_phi_q_v_geometry[74] = t88 * C_i[2] - t89 * C_i[5] + t90 * C_i[8] + (t91 * C_i[2] - t92 * C_i[5] + t93 *
+    jac_phi_q_v_geometry[74] = t91 * C_i[2] - t92 * C_i[5] + t93 * C_i[8] - (t88 * C_i[2] - t89 * C_i[5] + t90 *
         C_i[8]);
-    const jg_real t94 = t1 * H_6;
-    const jg_real t95 = t1 * t11;
-    const jg_real t96 = t1 * cosine_1;
+    const jg_real t94 = s_j_cross_omega_j_1 * H_6;
+    const jg_real t95 = s_j_cross_omega_j_1 * t11;
+    const jg_real t96 = s_j_cross_omega_j_1 * cosine_1;
     const jg_real t97 = H_6 * v_j[1];
     const jg_real t98 = t11 * v_j[1];
     const jg_real t99 = cosine_1 * v_j[1];
-    jac_phi_q_v_geometry[76] = t94 * C_i[0] - t95 * C_i[3] + t96 * C_i[6] + (C_i[0] * t97 - C_i[3] * t98 + C_i[6] *
-        t99);
-    jac_phi_q_v_geometry[77] = t94 * C_i[1] - t95 * C_i[4] + t96 * C_i[7] + (t97 * C_i[1] - t98 * C_i[4] + t99 *
+    jac_phi_q_v_geometry[76] = C_i[0] * t97 - C_i[3] * t98 + C_i[6] * t99 - (t94 * C_i[0] - t95 * C_i[3] + t96 *
+        C_i[6]);
+    jac_phi_q_v_geometry[77] = t97 * C_i[1] - t98 * C_i[4] + t99 * C_i[7] - (t94 * C_i[1] - t95 * C_i[4] + t96 *
         C_i[7]);
-    jac_phi_q_v_geometry[78] = t94 * C_i[2] - t95 * C_i[5] + t96 * C_i[8] + (t97 * C_i[2] - t98 * C_i[5] + t99 *
+    jac_phi_q_v_geometry[78] = t97 * C_i[2] - t98 * C_i[5] + t99 * C_i[8] - (t94 * C_i[2] - t95 * C_i[5] + t96 *
         C_i[8]);
-    const jg_real t100 = t2 * H_6;
-    const jg_real t101 = t2 * t11;
-    const jg_real t102 = t2 * cosine_1;
+    const jg_real t100 = s_j_cross_omega_j_2 * H_6;
+    const jg_real t101 = s_j_cross_omega_j_2 * t11;
+    const jg_real t102 = s_j_cross_omega_j_2 * cosine_1;
     const jg_real t103 = H_6 * v_j[2];
     const jg_real t104 = t11 * v_j[2];
     const jg_real t105 = cosine_1 * v_j[2];
-    jac_phi_q_v_geometry[80] = t100 * C_i[0] - t101 * C_i[3] + t102 * C_i[6] + (C_i[0] * t103 - C_i[3] * t104 +
-        C_i[6] * t105);
-    jac_phi_q_v_geometry[81] = t100 * C_i[1] - t101 * C_i[4] + t102 * C_i[7] + (t103 * C_i[1] - t104 * C_i[4] + t105
+    jac_phi_q_v_geometry[80] = C_i[0] * t103 - C_i[3] * t104 + C_i[6] * t105 - (t100 * C_i[0] - t101 * C_i[3] + t102
+        * C_i[6]);
+    jac_phi_q_v_geometry[81] = t103 * C_i[1] - t104 * C_i[4] + t105 * C_i[7] - (t100 * C_i[1] - t101 * C_i[4] + t102
         * C_i[7]);
-    jac_phi_q_v_geometry[82] = t100 * C_i[2] - t101 * C_i[5] + t102 * C_i[8] + (t103 * C_i[2] - t104 * C_i[5] + t105
+    jac_phi_q_v_geometry[82] = t103 * C_i[2] - t104 * C_i[5] + t105 * C_i[8] - (t100 * C_i[2] - t101 * C_i[5] + t102
         * C_i[8]);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -583,39 +594,39 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_velocity[24] = C_i[0] * t115 + C_i[3] * t116 + C_i[6] * t117;
     jac_phi_q_v_velocity[25] = t115 * C_i[1] + t116 * C_i[4] + t117 * C_i[7];
     jac_phi_q_v_velocity[26] = t115 * C_i[2] + t116 * C_i[5] + t117 * C_i[8];
-    const jg_real t118 = s_j[1] * C_j[2] - s_j[2] * C_j[1];
-    const jg_real t119 = s_j[1] * C_j[5] - s_j[2] * C_j[4];
-    const jg_real t120 = s_j[1] * C_j[8] - s_j[2] * C_j[7];
+    const jg_real t118 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
+    const jg_real t119 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
+    const jg_real t120 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
     const jg_real t121 = t118 * cosine_0 - t119 * t13 + H_6 * t120;
     const jg_real t122 = t118 * sine_0 + t119 * H_4 - t120 * t11;
     const jg_real t123 = t119 * sine_1 + cosine_1 * t120;
-    jac_phi_q_v_velocity[27] = t121 * C_i[0] + t122 * C_i[3] + t123 * C_i[6];
-    jac_phi_q_v_velocity[28] = t121 * C_i[1] + t122 * C_i[4] + t123 * C_i[7];
-    jac_phi_q_v_velocity[29] = t121 * C_i[2] + t122 * C_i[5] + t123 * C_i[8];
+    jac_phi_q_v_velocity[27] = -(t121 * C_i[0] + t122 * C_i[3] + t123 * C_i[6]);
+    jac_phi_q_v_velocity[28] = -(t121 * C_i[1] + t122 * C_i[4] + t123 * C_i[7]);
+    jac_phi_q_v_velocity[29] = -(t121 * C_i[2] + t122 * C_i[5] + t123 * C_i[8]);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
-    const jg_real t124 = s_j[2] * C_j[0] - s_j[0] * C_j[2];
-    const jg_real t125 = s_j[2] * C_j[3] - s_j[0] * C_j[5];
-    const jg_real t126 = s_j[2] * C_j[6] - s_j[0] * C_j[8];
+    const jg_real t124 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
+    const jg_real t125 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
+    const jg_real t126 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
     const jg_real t127 = t124 * cosine_0 - t125 * t13 + H_6 * t126;
     const jg_real t128 = t124 * sine_0 + t125 * H_4 - t126 * t11;
     const jg_real t129 = t125 * sine_1 + cosine_1 * t126;
-    jac_phi_q_v_velocity[33] = t127 * C_i[0] + t128 * C_i[3] + t129 * C_i[6];
-    jac_phi_q_v_velocity[34] = t127 * C_i[1] + t128 * C_i[4] + t129 * C_i[7];
-    jac_phi_q_v_velocity[35] = t127 * C_i[2] + t128 * C_i[5] + t129 * C_i[8];
+    jac_phi_q_v_velocity[33] = -(t127 * C_i[0] + t128 * C_i[3] + t129 * C_i[6]);
+    jac_phi_q_v_velocity[34] = -(t127 * C_i[1] + t128 * C_i[4] + t129 * C_i[7]);
+    jac_phi_q_v_velocity[35] = -(t127 * C_i[2] + t128 * C_i[5] + t129 * C_i[8]);
     jac_phi_q_v_velocity[36] = -C_j[1];
     jac_phi_q_v_velocity[37] = -C_j[4];
     jac_phi_q_v_velocity[38] = -C_j[7];
-    const jg_real t130 = s_j[0] * C_j[1] - s_j[1] * C_j[0];
-    const jg_real t131 = s_j[0] * C_j[4] - s_j[1] * C_j[3];
-    const jg_real t132 = s_j[0] * C_j[7] - s_j[1] * C_j[6];
+    const jg_real t130 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
+    const jg_real t131 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
+    const jg_real t132 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
     const jg_real t133 = t130 * cosine_0 - t131 * t13 + H_6 * t132;
     const jg_real t134 = t130 * sine_0 + t131 * H_4 - t132 * t11;
     const jg_real t135 = t131 * sine_1 + cosine_1 * t132;
-    jac_phi_q_v_velocity[39] = t133 * C_i[0] + t134 * C_i[3] + t135 * C_i[6];
-    jac_phi_q_v_velocity[40] = t133 * C_i[1] + t134 * C_i[4] + t135 * C_i[7];
-    jac_phi_q_v_velocity[41] = t133 * C_i[2] + t134 * C_i[5] + t135 * C_i[8];
+    jac_phi_q_v_velocity[39] = -(t133 * C_i[0] + t134 * C_i[3] + t135 * C_i[6]);
+    jac_phi_q_v_velocity[40] = -(t133 * C_i[1] + t134 * C_i[4] + t135 * C_i[7]);
+    jac_phi_q_v_velocity[41] = -(t133 * C_i[2] + t134 * C_i[5] + t135 * C_i[8]);
     jac_phi_q_v_velocity[42] = -C_j[2];
     jac_phi_q_v_velocity[43] = -C_j[5];
     jac_phi_q_v_velocity[44] = -C_j[8];

@@ -41,7 +41,7 @@ const int *jg_ball_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 39 (21 add, 18 mul); temporaries: 6.
+ * @note Operations: 39 (21 add, 18 mul); temporaries: 9.
  * @see S1 Eq. (4), Table 1
  */
 void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -144,7 +144,7 @@ void jg_ball_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i,
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 69 (27 add, 42 mul, 3 neg); temporaries: 12.
+ * @note Operations: 69 (27 add, 42 mul); temporaries: 12.
  * @see second time derivative of S1 Table 1
  */
 void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -167,7 +167,7 @@ void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *J
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [3]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 57 (27 add, 30 mul); temporaries: 9.
+ * @note Operations: 57 (27 add, 30 mul); temporaries: 12.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -219,7 +219,7 @@ void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 216 (84 add, 132 mul, 12 neg); temporaries: 39.
+ * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 42.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -253,7 +253,7 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 216 (84 add, 132 mul, 12 neg); temporaries: 42.
+ * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 42.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -389,7 +389,7 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRIC
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 69 (27 add, 42 mul, 3 neg); temporaries: 15.
+ * @note Operations: 69 (27 add, 42 mul); temporaries: 18.
  * @see second time derivative of S1 Table 1
  */
 void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -412,7 +412,7 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [3]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 57 (27 add, 30 mul); temporaries: 9.
+ * @note Operations: 57 (27 add, 30 mul); temporaries: 12.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -464,7 +464,7 @@ void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, c
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 102 (42 add, 60 mul, 18 neg); temporaries: 24.
+ * @note Operations: 102 (42 add, 60 mul, 15 neg); temporaries: 27.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -498,7 +498,7 @@ void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 102 (42 add, 60 mul, 18 neg); temporaries: 36.
+ * @note Operations: 102 (42 add, 60 mul, 15 neg); temporaries: 36.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -532,7 +532,7 @@ const int *jg_ball_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 52.
+ * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 55.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -556,7 +556,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 53 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 450 (173 add, 274 mul, 3 sincos, 6 neg); temporaries: 73.
+ * @note Operations: 450 (173 add, 274 mul, 3 sincos, 6 neg); temporaries: 76.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -605,7 +605,7 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1719 (696 add, 1020 mul, 3 sincos, 14 neg); temporaries: 350.
+ * @note Operations: 1455 (585 add, 867 mul, 3 sincos, 14 neg); temporaries: 299.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -630,7 +630,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1719 (696 add, 1020 mul, 3 sincos, 14 neg); temporaries: 111.
+ * @note Operations: 1455 (585 add, 867 mul, 3 sincos, 14 neg); temporaries: 111.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -660,7 +660,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, c
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1299 (503 add, 793 mul, 3 sincos, 3 neg); temporaries: 214.
+ * @note Operations: 1290 (500 add, 787 mul, 3 sincos, 3 neg); temporaries: 211.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -689,7 +689,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 538 (217 add, 318 mul, 3 sincos); temporaries: 97.
+ * @note Operations: 538 (217 add, 318 mul, 3 sincos); temporaries: 106.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -714,7 +714,7 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 541 (217 add, 321 mul, 3 sincos, 3 neg); temporaries: 94.
+ * @note Operations: 505 (199 add, 303 mul, 3 sincos, 3 neg); temporaries: 79.
  * @see S1 Eqs. (1), (13); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -750,7 +750,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 2522 (1001 add, 1518 mul, 3 sincos, 23 neg); temporaries: 463.
+ * @note Operations: 2249 (887 add, 1359 mul, 3 sincos, 23 neg); temporaries: 406.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -788,7 +788,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 2522 (1001 add, 1518 mul, 3 sincos, 23 neg); temporaries: 164.
+ * @note Operations: 2249 (887 add, 1359 mul, 3 sincos, 23 neg); temporaries: 164.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -823,7 +823,7 @@ const int *jg_ball_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 52.
+ * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 55.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -928,7 +928,7 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RES
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 609 (232 add, 374 mul, 3 sincos, 3 neg); temporaries: 119.
+ * @note Operations: 535 (204 add, 328 mul, 3 sincos); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -952,7 +952,7 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 228 (94 add, 131 mul, 3 sincos); temporaries: 47.
+ * @note Operations: 228 (94 add, 131 mul, 3 sincos); temporaries: 50.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -1008,7 +1008,7 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 30 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 857 (329 add, 525 mul, 3 sincos, 20 neg); temporaries: 152.
+ * @note Operations: 789 (303 add, 483 mul, 3 sincos, 17 neg); temporaries: 128.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1047,7 +1047,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 857 (329 add, 525 mul, 3 sincos, 20 neg); temporaries: 81.
+ * @note Operations: 789 (303 add, 483 mul, 3 sincos, 17 neg); temporaries: 81.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1082,7 +1082,7 @@ const int *jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 26.
+ * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 29.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1106,7 +1106,7 @@ void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 250 (99 add, 148 mul, 3 sincos, 3 neg); temporaries: 39.
+ * @note Operations: 250 (99 add, 148 mul, 3 sincos, 3 neg); temporaries: 42.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1155,7 +1155,7 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 571 (255 add, 313 mul, 3 sincos, 14 neg); temporaries: 120.
+ * @note Operations: 472 (213 add, 256 mul, 3 sincos, 14 neg); temporaries: 120.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1180,7 +1180,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 571 (255 add, 313 mul, 3 sincos, 14 neg); temporaries: 73.
+ * @note Operations: 472 (213 add, 256 mul, 3 sincos, 14 neg); temporaries: 73.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1211,7 +1211,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 522 (205 add, 314 mul, 3 sincos, 3 neg); temporaries: 100.
+ * @note Operations: 513 (202 add, 308 mul, 3 sincos, 3 neg); temporaries: 97.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3
  */
 void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1240,7 +1240,7 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 314 (134 add, 177 mul, 3 sincos); temporaries: 57.
+ * @note Operations: 314 (134 add, 177 mul, 3 sincos); temporaries: 66.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1265,7 +1265,7 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 269 (113 add, 153 mul, 3 sincos, 3 neg); temporaries: 48.
+ * @note Operations: 272 (113 add, 156 mul, 3 sincos, 3 neg); temporaries: 48.
  * @see S1 Eqs. (1), (13); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1301,7 +1301,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1076 (443 add, 630 mul, 3 sincos, 20 neg); temporaries: 194.
+ * @note Operations: 968 (398 add, 567 mul, 3 sincos, 20 neg); temporaries: 188.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1339,7 +1339,7 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1076 (443 add, 630 mul, 3 sincos, 20 neg); temporaries: 123.
+ * @note Operations: 968 (398 add, 567 mul, 3 sincos, 20 neg); temporaries: 123.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1374,7 +1374,7 @@ const int *jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void)
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 26.
+ * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 29.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1433,7 +1433,7 @@ void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 334 (122 add, 209 mul, 3 sincos, 2 neg); temporaries: 71.
+ * @note Operations: 321 (113 add, 205 mul, 3 sincos, 2 neg); temporaries: 62.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1453,7 +1453,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 334 (122 add, 209 mul, 3 sincos, 2 neg); temporaries: 34.
+ * @note Operations: 321 (113 add, 205 mul, 3 sincos, 2 neg); temporaries: 34.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1479,7 +1479,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 691 (254 add, 434 mul, 3 sincos, 3 neg); temporaries: 110.
+ * @note Operations: 617 (226 add, 388 mul, 3 sincos); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1503,7 +1503,7 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alph
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 239 (93 add, 143 mul, 3 sincos); temporaries: 37.
+ * @note Operations: 239 (93 add, 143 mul, 3 sincos); temporaries: 40.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1523,7 +1523,7 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 164 (60 add, 101 mul, 3 sincos, 3 neg); temporaries: 34.
+ * @note Operations: 166 (60 add, 103 mul, 3 sincos, 3 neg); temporaries: 30.
  * @see S1 Eqs. (1), (13); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -1559,7 +1559,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1172 (443 add, 726 mul, 3 sincos, 11 neg); temporaries: 185.
+ * @note Operations: 1051 (396 add, 652 mul, 3 sincos, 11 neg); temporaries: 160.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1598,7 +1598,7 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1172 (443 add, 726 mul, 3 sincos, 11 neg); temporaries: 84.
+ * @note Operations: 1051 (396 add, 652 mul, 3 sincos, 11 neg); temporaries: 84.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

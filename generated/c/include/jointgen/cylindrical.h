@@ -41,7 +41,7 @@ const int *jg_cylindrical_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 134 (59 add, 75 mul); temporaries: 21.
+ * @note Operations: 134 (59 add, 75 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 249 (102 add, 147 mul, 6 neg); temporaries: 42.
+ * @note Operations: 249 (102 add, 147 mul, 6 neg); temporaries: 45.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -108,7 +108,7 @@ void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 379 (166 add, 213 mul, 15 neg); temporaries: 86.
+ * @note Operations: 325 (139 add, 186 mul, 15 neg); temporaries: 83.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -131,7 +131,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 379 (166 add, 213 mul, 15 neg); temporaries: 72.
+ * @note Operations: 325 (139 add, 186 mul, 15 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -158,7 +158,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 442 (179 add, 263 mul); temporaries: 81.
+ * @note Operations: 442 (179 add, 263 mul); temporaries: 84.
  * @see second time derivative of S1 Table 1
  */
 void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -184,7 +184,7 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 299 (128 add, 171 mul); temporaries: 48.
+ * @note Operations: 299 (128 add, 171 mul); temporaries: 51.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 222 (96 add, 126 mul, 3 neg); temporaries: 39.
+ * @note Operations: 222 (96 add, 126 mul, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (5)
  */
 void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -240,7 +240,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 859 (350 add, 509 mul, 21 neg); temporaries: 164.
+ * @note Operations: 805 (323 add, 482 mul, 21 neg); temporaries: 161.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -274,7 +274,7 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 859 (350 add, 509 mul, 21 neg); temporaries: 108.
+ * @note Operations: 805 (323 add, 482 mul, 21 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -328,7 +328,7 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 162 (69 add, 93 mul, 12 neg); temporaries: 36.
+ * @note Operations: 162 (69 add, 93 mul, 12 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -472,7 +472,7 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 186 (81 add, 105 mul, 3 neg); temporaries: 36.
+ * @note Operations: 192 (81 add, 111 mul, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (5)
  */
 void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
@@ -505,7 +505,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 524 (220 add, 304 mul, 35 neg); temporaries: 117.
+ * @note Operations: 524 (220 add, 304 mul, 35 neg); temporaries: 123.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -573,7 +573,7 @@ const int *jg_cylindrical_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 35.
+ * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 38.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,7 +597,7 @@ void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 8 neg); temporaries: 47.
+ * @note Operations: 302 (121 add, 180 mul, 1 sincos, 7 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -621,7 +621,7 @@ void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 8 neg); temporaries: 50.
+ * @note Operations: 302 (121 add, 180 mul, 1 sincos, 7 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -646,7 +646,7 @@ void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 896 (387 add, 508 mul, 1 sincos, 13 neg); temporaries: 186.
+ * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -671,7 +671,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 896 (387 add, 508 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -702,7 +702,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 645 (255 add, 389 mul, 1 sincos, 3 neg); temporaries: 109.
+ * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -731,7 +731,7 @@ void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 384 (162 add, 221 mul, 1 sincos); temporaries: 71.
+ * @note Operations: 384 (162 add, 221 mul, 1 sincos); temporaries: 80.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -756,7 +756,7 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 359 (151 add, 207 mul, 1 sincos, 4 neg); temporaries: 63.
+ * @note Operations: 352 (145 add, 206 mul, 1 sincos, 4 neg); temporaries: 53.
  * @see S1 Eqs. (1), (13); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -792,7 +792,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1465 (603 add, 861 mul, 1 sincos, 23 neg); temporaries: 263.
+ * @note Operations: 1236 (504 add, 731 mul, 1 sincos, 23 neg); temporaries: 220.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -830,7 +830,7 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1465 (603 add, 861 mul, 1 sincos, 23 neg); temporaries: 129.
+ * @note Operations: 1236 (504 add, 731 mul, 1 sincos, 23 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -865,7 +865,7 @@ const int *jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_sparsity(void)
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 35.
+ * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 38.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -970,7 +970,7 @@ void jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 174 (66 add, 107 mul, 1 sincos, 4 neg); temporaries: 39.
+ * @note Operations: 174 (66 add, 107 mul, 1 sincos, 1 neg); temporaries: 33.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -994,7 +994,7 @@ void jg_cylindrical_parametric_substituted_gamma(const jg_real *JG_RESTRICT alph
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 164 (71 add, 92 mul, 1 sincos); temporaries: 27.
+ * @note Operations: 164 (71 add, 92 mul, 1 sincos); temporaries: 30.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1050,7 +1050,7 @@ void jg_cylindrical_parametric_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 12 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 433 (174 add, 258 mul, 1 sincos, 19 neg); temporaries: 79.
+ * @note Operations: 433 (174 add, 258 mul, 1 sincos, 16 neg); temporaries: 76.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1089,7 +1089,7 @@ void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 433 (174 add, 258 mul, 1 sincos, 19 neg); temporaries: 61.
+ * @note Operations: 433 (174 add, 258 mul, 1 sincos, 16 neg); temporaries: 61.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1124,7 +1124,7 @@ const int *jg_cylindrical_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 24.
+ * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1148,7 +1148,7 @@ void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 6 neg); temporaries: 33.
+ * @note Operations: 244 (99 add, 144 mul, 1 sin, 6 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1197,7 +1197,7 @@ void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 619 (277 add, 341 mul, 1 cos, 12 neg); temporaries: 122.
+ * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1223,7 +1223,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_REST
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 619 (277 add, 341 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1254,7 +1254,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_R
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 496 (199 add, 296 mul, 1 cos, 3 neg); temporaries: 93.
+ * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1283,7 +1283,7 @@ void jg_cylindrical_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, cons
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 306 (133 add, 172 mul, 1 sin); temporaries: 51.
+ * @note Operations: 306 (133 add, 172 mul, 1 sin); temporaries: 60.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1308,7 +1308,7 @@ void jg_cylindrical_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, co
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 262 (113 add, 148 mul, 1 sin, 4 neg); temporaries: 42.
+ * @note Operations: 265 (113 add, 151 mul, 1 sin, 4 neg); temporaries: 42.
  * @see S1 Eqs. (1), (13); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1344,7 +1344,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT 
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1098 (460 add, 637 mul, 1 sincos, 21 neg); temporaries: 197.
+ * @note Operations: 930 (391 add, 538 mul, 1 sincos, 21 neg); temporaries: 179.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1382,7 +1382,7 @@ void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1098 (460 add, 637 mul, 1 sincos, 21 neg); temporaries: 116.
+ * @note Operations: 930 (391 add, 538 mul, 1 sincos, 21 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1417,7 +1417,7 @@ const int *jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsit
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 24.
+ * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,
@@ -1476,7 +1476,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_dense(const jg_real *JG_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 13 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 82 (30 add, 51 mul, 1 sincos); temporaries: 14.
+ * @note Operations: 86 (30 add, 55 mul, 1 sincos); temporaries: 12.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1496,7 +1496,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 82 (30 add, 51 mul, 1 sincos); temporaries: 13.
+ * @note Operations: 86 (30 add, 55 mul, 1 sincos); temporaries: 13.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1522,7 +1522,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 196 (72 add, 123 mul, 1 sincos, 5 neg); temporaries: 33.
+ * @note Operations: 196 (72 add, 123 mul, 1 sincos, 2 neg); temporaries: 27.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1546,7 +1546,7 @@ void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRI
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 171 (71 add, 99 mul, 1 sincos); temporaries: 21.
+ * @note Operations: 171 (71 add, 99 mul, 1 sincos); temporaries: 24.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1566,7 +1566,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 114 (47 add, 66 mul, 1 sincos, 4 neg); temporaries: 18.
+ * @note Operations: 115 (47 add, 67 mul, 1 sincos, 4 neg); temporaries: 16.
  * @see S1 Eqs. (1), (13); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -1602,7 +1602,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 13 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 494 (193 add, 300 mul, 1 sincos, 16 neg); temporaries: 87.
+ * @note Operations: 486 (190 add, 295 mul, 1 sincos, 13 neg); temporaries: 85.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
@@ -1641,7 +1641,7 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 494 (193 add, 300 mul, 1 sincos, 16 neg); temporaries: 62.
+ * @note Operations: 486 (190 add, 295 mul, 1 sincos, 13 neg); temporaries: 62.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -41,7 +41,7 @@ const int *jg_revolute_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 109 (49 add, 60 mul); temporaries: 18.
+ * @note Operations: 109 (49 add, 60 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -100,7 +100,7 @@ void jg_revolute_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const 
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 262 (112 add, 150 mul, 3 neg); temporaries: 53.
+ * @note Operations: 208 (85 add, 123 mul, 3 neg); temporaries: 47.
  * @see S1 Eq. (9), corrected
  */
 void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -120,7 +120,7 @@ void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 262 (112 add, 150 mul, 3 neg); temporaries: 36.
+ * @note Operations: 208 (85 add, 123 mul, 3 neg); temporaries: 36.
  * @see S1 Eq. (9), corrected
  */
 void jg_revolute_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -144,7 +144,7 @@ void jg_revolute_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT 
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 240 (94 add, 146 mul, 3 neg); temporaries: 45.
+ * @note Operations: 240 (94 add, 146 mul); temporaries: 45.
  * @see second time derivative of S1 Table 1
  */
 void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -167,7 +167,7 @@ void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_rea
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 172 (73 add, 99 mul); temporaries: 30.
+ * @note Operations: 172 (73 add, 99 mul); temporaries: 33.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -219,7 +219,7 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (249 add, 362 mul, 6 neg); temporaries: 107.
+ * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 104.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -253,7 +253,7 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (249 add, 362 mul, 6 neg); temporaries: 72.
+ * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 72.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -390,7 +390,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RES
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 204 (79 add, 125 mul, 5 neg); temporaries: 42.
+ * @note Operations: 204 (79 add, 125 mul, 2 neg); temporaries: 45.
  * @see second time derivative of S1 Table 1
  */
 void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -413,7 +413,7 @@ void jg_revolute_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const 
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 151 (64 add, 87 mul); temporaries: 27.
+ * @note Operations: 151 (64 add, 87 mul); temporaries: 30.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_revolute_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -433,7 +433,7 @@ void jg_revolute_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, cons
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 138 (57 add, 81 mul, 3 neg); temporaries: 24.
+ * @note Operations: 144 (57 add, 87 mul, 3 neg); temporaries: 24.
  * @see S1 Eqs. (1), (5)
  */
 void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -465,7 +465,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 304 (128 add, 176 mul, 26 neg); temporaries: 78.
+ * @note Operations: 304 (128 add, 176 mul, 23 neg); temporaries: 81.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -499,7 +499,7 @@ void jg_revolute_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 304 (128 add, 176 mul, 26 neg); temporaries: 66.
+ * @note Operations: 304 (128 add, 176 mul, 23 neg); temporaries: 66.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -533,7 +533,7 @@ const int *jg_revolute_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 35.
+ * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 38.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -557,7 +557,7 @@ void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 5 neg); temporaries: 47.
+ * @note Operations: 302 (121 add, 180 mul, 1 sincos, 4 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -581,7 +581,7 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 5 neg); temporaries: 47.
+ * @note Operations: 302 (121 add, 180 mul, 1 sincos, 4 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -606,7 +606,7 @@ void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 896 (387 add, 508 mul, 1 sincos, 13 neg); temporaries: 186.
+ * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -631,7 +631,7 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 896 (387 add, 508 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -661,7 +661,7 @@ void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 645 (255 add, 389 mul, 1 sincos, 3 neg); temporaries: 109.
+ * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -690,7 +690,7 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 378 (159 add, 218 mul, 1 sincos); temporaries: 71.
+ * @note Operations: 378 (159 add, 218 mul, 1 sincos); temporaries: 80.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -715,7 +715,7 @@ void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 354 (149 add, 204 mul, 1 sincos, 3 neg); temporaries: 63.
+ * @note Operations: 347 (143 add, 203 mul, 1 sincos, 3 neg); temporaries: 53.
  * @see S1 Eqs. (1), (13); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -751,7 +751,7 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1459 (600 add, 858 mul, 1 sincos, 20 neg); temporaries: 263.
+ * @note Operations: 1230 (501 add, 728 mul, 1 sincos, 20 neg); temporaries: 220.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -789,7 +789,7 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1459 (600 add, 858 mul, 1 sincos, 20 neg); temporaries: 126.
+ * @note Operations: 1230 (501 add, 728 mul, 1 sincos, 20 neg); temporaries: 126.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -824,7 +824,7 @@ const int *jg_revolute_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 35.
+ * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 38.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -929,7 +929,7 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 159 (60 add, 98 mul, 1 sincos, 4 neg); temporaries: 36.
+ * @note Operations: 159 (60 add, 98 mul, 1 sincos, 1 neg); temporaries: 33.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -953,7 +953,7 @@ void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 152 (65 add, 86 mul, 1 sincos); temporaries: 27.
+ * @note Operations: 152 (65 add, 86 mul, 1 sincos); temporaries: 30.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1009,7 +1009,7 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRIC
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 9 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 400 (159 add, 240 mul, 1 sincos, 16 neg); temporaries: 70.
+ * @note Operations: 400 (159 add, 240 mul, 1 sincos, 13 neg); temporaries: 70.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1048,7 +1048,7 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 400 (159 add, 240 mul, 1 sincos, 16 neg); temporaries: 55.
+ * @note Operations: 400 (159 add, 240 mul, 1 sincos, 13 neg); temporaries: 55.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1083,7 +1083,7 @@ const int *jg_revolute_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 24.
+ * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1107,7 +1107,7 @@ void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 46 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 3 neg); temporaries: 33.
+ * @note Operations: 244 (99 add, 144 mul, 1 sin, 3 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1156,7 +1156,7 @@ void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 559 (253 add, 305 mul, 1 cos, 12 neg); temporaries: 110.
+ * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1182,7 +1182,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 559 (253 add, 305 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1213,7 +1213,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_REST
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 496 (199 add, 296 mul, 1 cos, 3 neg); temporaries: 93.
+ * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1242,7 +1242,7 @@ void jg_revolute_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 300 (130 add, 169 mul, 1 sin); temporaries: 51.
+ * @note Operations: 300 (130 add, 169 mul, 1 sin); temporaries: 60.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1267,7 +1267,7 @@ void jg_revolute_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 257 (111 add, 145 mul, 1 sin, 3 neg); temporaries: 42.
+ * @note Operations: 260 (111 add, 148 mul, 1 sin, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (13); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1303,7 +1303,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1032 (433 add, 598 mul, 1 sincos, 18 neg); temporaries: 185.
+ * @note Operations: 924 (388 add, 535 mul, 1 sincos, 18 neg); temporaries: 179.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1341,7 +1341,7 @@ void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1032 (433 add, 598 mul, 1 sincos, 18 neg); temporaries: 113.
+ * @note Operations: 924 (388 add, 535 mul, 1 sincos, 18 neg); temporaries: 113.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1376,7 +1376,7 @@ const int *jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(v
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 24.
+ * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1435,7 +1435,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RES
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 63 (23 add, 39 mul, 1 sincos); temporaries: 12.
+ * @note Operations: 69 (23 add, 45 mul, 1 sincos); temporaries: 11.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1455,7 +1455,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 63 (23 add, 39 mul, 1 sincos); temporaries: 10.
+ * @note Operations: 69 (23 add, 45 mul, 1 sincos); temporaries: 10.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1481,7 +1481,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 181 (66 add, 114 mul, 1 sincos, 5 neg); temporaries: 30.
+ * @note Operations: 181 (66 add, 114 mul, 1 sincos, 2 neg); temporaries: 27.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1505,7 +1505,7 @@ void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 159 (65 add, 93 mul, 1 sincos); temporaries: 21.
+ * @note Operations: 159 (65 add, 93 mul, 1 sincos); temporaries: 24.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1525,7 +1525,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 98 (40 add, 57 mul, 1 sincos, 3 neg); temporaries: 13.
+ * @note Operations: 104 (40 add, 63 mul, 1 sincos, 3 neg); temporaries: 12.
  * @see S1 Eqs. (1), (13); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -1561,7 +1561,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 451 (174 add, 276 mul, 1 sincos, 13 neg); temporaries: 76.
+ * @note Operations: 451 (174 add, 276 mul, 1 sincos, 10 neg); temporaries: 81.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1600,7 +1600,7 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 451 (174 add, 276 mul, 1 sincos, 13 neg); temporaries: 56.
+ * @note Operations: 451 (174 add, 276 mul, 1 sincos, 10 neg); temporaries: 56.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -41,7 +41,7 @@ const int *jg_rigid_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 129 (57 add, 72 mul); temporaries: 21.
+ * @note Operations: 129 (57 add, 72 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -100,7 +100,7 @@ void jg_rigid_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 443 (193 add, 250 mul, 3 neg); temporaries: 83.
+ * @note Operations: 344 (151 add, 193 mul, 3 neg); temporaries: 80.
  * @see S1 Eq. (9), corrected
  */
 void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -120,7 +120,7 @@ void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, c
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 443 (193 add, 250 mul, 3 neg); temporaries: 36.
+ * @note Operations: 344 (151 add, 193 mul, 3 neg); temporaries: 36.
  * @see S1 Eq. (9), corrected
  */
 void jg_rigid_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -144,7 +144,7 @@ void jg_rigid_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 348 (135 add, 213 mul, 3 neg); temporaries: 60.
+ * @note Operations: 348 (135 add, 213 mul); temporaries: 60.
  * @see second time derivative of S1 Table 1
  */
 void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -167,7 +167,7 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 231 (96 add, 135 mul); temporaries: 42.
+ * @note Operations: 231 (96 add, 135 mul); temporaries: 45.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -187,7 +187,7 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 213 (87 add, 126 mul, 3 neg); temporaries: 33.
+ * @note Operations: 216 (87 add, 129 mul, 3 neg); temporaries: 30.
  * @see S1 Eqs. (1), (5)
  */
 void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -219,7 +219,7 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 888 (365 add, 523 mul, 6 neg); temporaries: 147.
+ * @note Operations: 789 (323 add, 466 mul, 3 neg); temporaries: 147.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -253,7 +253,7 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 888 (365 add, 523 mul, 6 neg); temporaries: 78.
+ * @note Operations: 789 (323 add, 466 mul, 3 neg); temporaries: 78.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -389,7 +389,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 255 (99 add, 156 mul, 6 neg); temporaries: 51.
+ * @note Operations: 255 (99 add, 156 mul, 3 neg); temporaries: 54.
  * @see second time derivative of S1 Table 1
  */
 void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -412,7 +412,7 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 186 (78 add, 108 mul); temporaries: 33.
+ * @note Operations: 186 (78 add, 108 mul); temporaries: 36.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -432,7 +432,7 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 174 (72 add, 102 mul, 3 neg); temporaries: 30.
+ * @note Operations: 180 (72 add, 108 mul, 3 neg); temporaries: 30.
  * @see S1 Eqs. (1), (5)
  */
 void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -464,7 +464,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 480 (207 add, 273 mul, 36 neg); temporaries: 123.
+ * @note Operations: 480 (207 add, 273 mul, 33 neg); temporaries: 126.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -498,7 +498,7 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 480 (207 add, 273 mul, 36 neg); temporaries: 72.
+ * @note Operations: 480 (207 add, 273 mul, 33 neg); temporaries: 72.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -531,7 +531,7 @@ const int *jg_rigid_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 159 (69 add, 90 mul); temporaries: 27.
+ * @note Operations: 159 (69 add, 90 mul); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -554,7 +554,7 @@ void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] compressed-columns, 45 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 273 (111 add, 162 mul, 3 neg); temporaries: 39.
+ * @note Operations: 273 (111 add, 162 mul, 3 neg); temporaries: 42.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -601,7 +601,7 @@ void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 944 (410 add, 534 mul, 12 neg); temporaries: 184.
+ * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 133.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -625,7 +625,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 944 (410 add, 534 mul, 12 neg); temporaries: 66.
+ * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 66.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -653,7 +653,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, 
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 582 (231 add, 351 mul, 3 neg); temporaries: 99.
+ * @note Operations: 573 (228 add, 345 mul, 3 neg); temporaries: 96.
  * @see second time derivative of S1 Eq. (12); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -680,7 +680,7 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 345 (147 add, 198 mul); temporaries: 63.
+ * @note Operations: 345 (147 add, 198 mul); temporaries: 72.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -704,7 +704,7 @@ void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 306 (132 add, 174 mul, 3 neg); temporaries: 51.
+ * @note Operations: 315 (132 add, 183 mul, 3 neg); temporaries: 45.
  * @see S1 Eqs. (1), (13); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -738,7 +738,7 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1463 (605 add, 858 mul, 18 neg); temporaries: 259.
+ * @note Operations: 1112 (458 add, 654 mul, 18 neg); temporaries: 202.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -773,7 +773,7 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1463 (605 add, 858 mul, 18 neg); temporaries: 111.
+ * @note Operations: 1112 (458 add, 654 mul, 18 neg); temporaries: 111.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -806,7 +806,7 @@ const int *jg_rigid_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 159 (69 add, 90 mul); temporaries: 27.
+ * @note Operations: 159 (69 add, 90 mul); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -889,7 +889,7 @@ void jg_rigid_parametric_substituted_phi_q_t_lambda_q_dense(jg_real *JG_RESTRICT
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 51 (21 add, 30 mul, 3 neg); temporaries: 9.
+ * @note Operations: 51 (21 add, 30 mul); temporaries: 9.
  * @see second time derivative of S1 Eq. (12); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_gamma(const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
@@ -963,7 +963,7 @@ void jg_rigid_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT g
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 0 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 267 (111 add, 156 mul, 15 neg); temporaries: 42.
+ * @note Operations: 267 (111 add, 156 mul, 12 neg); temporaries: 45.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -998,7 +998,7 @@ void jg_rigid_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 267 (111 add, 156 mul, 15 neg); temporaries: 45.
+ * @note Operations: 267 (111 add, 156 mul, 12 neg); temporaries: 45.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_universal_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 104 (47 add, 57 mul); temporaries: 18.
+ * @note Operations: 104 (47 add, 57 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -100,7 +100,7 @@ void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 348 (140 add, 208 mul, 3 neg); temporaries: 73.
+ * @note Operations: 234 (92 add, 142 mul, 3 neg); temporaries: 55.
  * @see S1 Eq. (9), corrected
  */
 void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -120,7 +120,7 @@ void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 348 (140 add, 208 mul, 3 neg); temporaries: 36.
+ * @note Operations: 234 (92 add, 142 mul, 3 neg); temporaries: 36.
  * @see S1 Eq. (9), corrected
  */
 void jg_universal_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i,
@@ -145,7 +145,7 @@ void jg_universal_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 222 (86 add, 136 mul, 3 neg); temporaries: 36.
+ * @note Operations: 222 (86 add, 136 mul); temporaries: 36.
  * @see second time derivative of S1 Table 1
  */
 void jg_universal_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -168,7 +168,7 @@ void jg_universal_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_re
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 161 (68 add, 93 mul); temporaries: 30.
+ * @note Operations: 161 (68 add, 93 mul); temporaries: 33.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -188,7 +188,7 @@ void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 150 (60 add, 90 mul, 3 neg); temporaries: 24.
+ * @note Operations: 153 (60 add, 93 mul, 3 neg); temporaries: 21.
  * @see S1 Eqs. (1), (5)
  */
 void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -220,7 +220,7 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 621 (247 add, 374 mul, 6 neg); temporaries: 113.
+ * @note Operations: 507 (199 add, 308 mul, 3 neg); temporaries: 98.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -254,7 +254,7 @@ void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 621 (247 add, 374 mul, 6 neg); temporaries: 66.
+ * @note Operations: 507 (199 add, 308 mul, 3 neg); temporaries: 66.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -391,7 +391,7 @@ void jg_universal_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RE
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 153 (59 add, 94 mul, 4 neg); temporaries: 33.
+ * @note Operations: 153 (59 add, 94 mul, 1 neg); temporaries: 36.
  * @see second time derivative of S1 Table 1
  */
 void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -414,7 +414,7 @@ void jg_universal_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 116 (50 add, 66 mul); temporaries: 21.
+ * @note Operations: 116 (50 add, 66 mul); temporaries: 24.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_universal_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -434,7 +434,7 @@ void jg_universal_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, con
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 108 (42 add, 66 mul, 3 neg); temporaries: 18.
+ * @note Operations: 96 (39 add, 57 mul, 3 neg); temporaries: 18.
  * @see S1 Eqs. (1), (5)
  */
 void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -466,7 +466,7 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 248 (103 add, 145 mul, 28 neg); temporaries: 75.
+ * @note Operations: 248 (103 add, 145 mul, 25 neg); temporaries: 78.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -500,7 +500,7 @@ void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 248 (103 add, 145 mul, 28 neg); temporaries: 60.
+ * @note Operations: 248 (103 add, 145 mul, 25 neg); temporaries: 60.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -534,7 +534,7 @@ const int *jg_universal_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 44.
+ * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 47.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -558,7 +558,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 360 (141 add, 217 mul, 2 sincos, 4 neg); temporaries: 58.
+ * @note Operations: 360 (141 add, 217 mul, 2 sincos, 5 neg); temporaries: 61.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -582,7 +582,7 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 360 (141 add, 217 mul, 2 sincos, 4 neg); temporaries: 50.
+ * @note Operations: 360 (141 add, 217 mul, 2 sincos, 5 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -607,7 +607,7 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1118 (466 add, 650 mul, 2 sincos, 13 neg); temporaries: 237.
+ * @note Operations: 863 (358 add, 503 mul, 2 sincos, 13 neg); temporaries: 189.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -632,7 +632,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1118 (466 add, 650 mul, 2 sincos, 13 neg); temporaries: 94.
+ * @note Operations: 863 (358 add, 503 mul, 2 sincos, 13 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -662,7 +662,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 811 (316 add, 493 mul, 2 sincos, 3 neg); temporaries: 133.
+ * @note Operations: 802 (313 add, 487 mul, 2 sincos, 3 neg); temporaries: 130.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -691,7 +691,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 442 (182 add, 258 mul, 2 sincos); temporaries: 82.
+ * @note Operations: 442 (182 add, 258 mul, 2 sincos); temporaries: 91.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -716,7 +716,7 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 439 (180 add, 257 mul, 2 sincos, 3 neg); temporaries: 78.
+ * @note Operations: 410 (165 add, 243 mul, 2 sincos, 3 neg); temporaries: 64.
  * @see S1 Eqs. (1), (13); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -752,7 +752,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1786 (718 add, 1066 mul, 2 sincos, 21 neg); temporaries: 326.
+ * @note Operations: 1522 (607 add, 913 mul, 2 sincos, 21 neg); temporaries: 272.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -790,7 +790,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1786 (718 add, 1066 mul, 2 sincos, 21 neg); temporaries: 144.
+ * @note Operations: 1522 (607 add, 913 mul, 2 sincos, 21 neg); temporaries: 144.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -825,7 +825,7 @@ const int *jg_universal_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 44.
+ * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 47.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -930,7 +930,7 @@ void jg_universal_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *J
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 363 (138 add, 223 mul, 2 sincos, 4 neg); temporaries: 75.
+ * @note Operations: 328 (125 add, 201 mul, 2 sincos, 1 neg); temporaries: 61.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -954,7 +954,7 @@ void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 196 (82 add, 112 mul, 2 sincos); temporaries: 38.
+ * @note Operations: 196 (82 add, 112 mul, 2 sincos); temporaries: 41.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1010,7 +1010,7 @@ void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRI
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 19 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 608 (236 add, 370 mul, 2 sincos, 17 neg); temporaries: 109.
+ * @note Operations: 579 (225 add, 352 mul, 2 sincos, 14 neg); temporaries: 100.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1049,7 +1049,7 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 608 (236 add, 370 mul, 2 sincos, 17 neg); temporaries: 67.
+ * @note Operations: 579 (225 add, 352 mul, 2 sincos, 14 neg); temporaries: 67.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1084,7 +1084,7 @@ const int *jg_universal_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 24.
+ * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1108,7 +1108,7 @@ void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 245 (99 add, 144 mul, 2 sin, 3 neg); temporaries: 33.
+ * @note Operations: 245 (99 add, 144 mul, 2 sin, 3 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1157,7 +1157,7 @@ void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 561 (253 add, 306 mul, 2 cos, 12 neg); temporaries: 110.
+ * @note Operations: 462 (211 add, 249 mul, 2 cos, 12 neg); temporaries: 110.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1183,7 +1183,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 561 (253 add, 306 mul, 2 cos, 12 neg); temporaries: 68.
+ * @note Operations: 462 (211 add, 249 mul, 2 cos, 12 neg); temporaries: 68.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1214,7 +1214,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RES
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 500 (200 add, 298 mul, 2 cos, 3 neg); temporaries: 93.
+ * @note Operations: 491 (197 add, 292 mul, 2 cos, 3 neg); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2
  */
 void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1243,7 +1243,7 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 303 (131 add, 170 mul, 2 sin); temporaries: 51.
+ * @note Operations: 303 (131 add, 170 mul, 2 sin); temporaries: 60.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1268,7 +1268,7 @@ void jg_universal_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 259 (111 add, 146 mul, 2 sin, 3 neg); temporaries: 42.
+ * @note Operations: 262 (111 add, 149 mul, 2 sin, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (13); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1304,7 +1304,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1038 (435 add, 601 mul, 2 sincos, 18 neg); temporaries: 187.
+ * @note Operations: 930 (390 add, 538 mul, 2 sincos, 18 neg); temporaries: 181.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1342,7 +1342,7 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1038 (435 add, 601 mul, 2 sincos, 18 neg); temporaries: 115.
+ * @note Operations: 930 (390 add, 538 mul, 2 sincos, 18 neg); temporaries: 115.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1377,7 +1377,7 @@ const int *jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 24.
+ * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1436,7 +1436,7 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 180 (65 add, 113 mul, 2 sincos); temporaries: 38.
+ * @note Operations: 176 (61 add, 113 mul, 2 sincos); temporaries: 32.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1456,7 +1456,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 180 (65 add, 113 mul, 2 sincos); temporaries: 20.
+ * @note Operations: 176 (61 add, 113 mul, 2 sincos); temporaries: 20.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1482,7 +1482,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 402 (149 add, 251 mul, 2 sincos, 3 neg); temporaries: 64.
+ * @note Operations: 367 (136 add, 229 mul, 2 sincos); temporaries: 50.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1506,7 +1506,7 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 198 (78 add, 118 mul, 2 sincos); temporaries: 29.
+ * @note Operations: 198 (78 add, 118 mul, 2 sincos); temporaries: 32.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
@@ -1526,7 +1526,7 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 127 (49 add, 76 mul, 2 sincos, 3 neg); temporaries: 25.
+ * @note Operations: 131 (49 add, 80 mul, 2 sincos, 3 neg); temporaries: 22.
  * @see S1 Eqs. (1), (13); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -1562,7 +1562,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 776 (295 add, 479 mul, 2 sincos, 12 neg); temporaries: 120.
+ * @note Operations: 722 (274 add, 446 mul, 2 sincos, 12 neg); temporaries: 111.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1601,7 +1601,7 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 776 (295 add, 479 mul, 2 sincos, 12 neg); temporaries: 67.
+ * @note Operations: 722 (274 add, 446 mul, 2 sincos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -1,0 +1,1 @@
+"""Measurements: emitted code compiled and run on this machine."""

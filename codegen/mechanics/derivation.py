@@ -89,11 +89,9 @@ class Derivation:
         )
 
     def substituted(self, expression: Any) -> Any:
-        """Insert the joint relation (S1 section 3.2), where the formulation asks for it."""
-        if not self.form.substitution:
-            return expression
+        """Insert the joint relation (S1 section 3.2) where the formulation asks for it; else reduce stages."""
         algebra = self.form.algebra
-        replaced = expression.xreplace(self.form.substitution)
+        replaced = expression.xreplace(self.form.substitution or self.form.reduction)
         if is_matrix(replaced):
             return algebra.normal(algebra.normal(replaced))
         return replaced.xreplace({dot: algebra.dot(*dot.args) for dot in scalar_products(replaced)})
@@ -132,7 +130,7 @@ class Derivation:
         form = self.form
         if not form.substitution:
             variation = Variation(form.algebra, form.stages, form.rates, form.partials)
-            return [variation.of(row) for row in form.rows]
+            return [self.substituted(variation.of(row)) for row in form.rows]
         velocity_of = {column: v for (_, column), v in zip(form.displacements, form.velocities, strict=True)}
         rows: dict[int, Any] = {
             start: sympy.ZeroMatrix(3, 1) if is_matrix(row) else sympy.S.Zero for start, row in self._places

@@ -16,7 +16,7 @@ from codegen.ir.lower import Tilde
 from codegen.mechanics import frames, mixed
 from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.basic import SCREW_PARTIALS, constraint, on_manifold_theta, screw_stages, theta
-from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
 from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
@@ -40,6 +40,7 @@ class Formulation:
         velocity_rates: rate of a velocity symbol at zero acceleration, where its axes turn.
         partials: known partial derivatives of scalar stages.
         substitution: what the joint relation makes of ``A_ij`` and ``d'_ij`` (derivative ``substituted``), else empty.
+        reduction: stages that derivatives express by others, where they meet terms that cancel.
         coordinates: number of alphas.
     """
 
@@ -54,6 +55,7 @@ class Formulation:
     velocity_rates: dict[Any, Any] = field(default_factory=dict)
     partials: dict[Any, dict[Any, Any]] = field(default_factory=dict)
     substitution: dict[Any, Any] = field(default_factory=dict)
+    reduction: dict[Any, Any] = field(default_factory=dict)
     coordinates: int = 0
 
     @property
@@ -77,23 +79,30 @@ def formulation(joint: JointType, variant: Variant) -> Formulation:
     return _conventional(joint, variant) if variant.form == "conventional" else _parametric(joint, variant)
 
 
+RELATIVE_REDUCTION = {dp_ij: sympy.MatAdd(ep_ij, sympy.MatMul(-1, s_i))}
+"""``d'_ij + s_i = e'_ij``: for derivatives, since it takes ``A_i^T A_i = I``."""
+
+
 def relative_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     """Vectors in the axes of body i: ``A_ij = A_i^T A_j`` and ``d'_ij = A_i^T d_ij`` are named."""
     stages = {
         A_ij: sympy.MatMul(sympy.Transpose(A_i), A_j),
-        d_ij: sympy.MatAdd(r_j, sympy.MatMul(A_j, s_j), sympy.MatMul(-1, r_i), sympy.MatMul(-1, A_i, s_i)),
+        e_ij: sympy.MatAdd(r_j, sympy.MatMul(A_j, s_j), sympy.MatMul(-1, r_i)),
+        d_ij: sympy.MatAdd(e_ij, sympy.MatMul(-1, A_i, s_i)),
         dp_ij: sympy.MatMul(sympy.Transpose(A_i), d_ij),
+        ep_ij: sympy.MatMul(sympy.Transpose(A_i), e_ij),
     }
     names: dict[Factors, Any] = {
         (sympy.Transpose(A_i), A_j): A_ij,
         (sympy.Transpose(A_j), A_i): sympy.Transpose(A_ij),
         (sympy.Transpose(A_i), d_ij): dp_ij,
+        (sympy.Transpose(A_i), e_ij): ep_ij,
     }
     aliases: dict[Factors, str] = {(C_i, unit(k)): f"{_AXES[k]}_i" for k in range(3)}
     aliases |= {(C_j, unit(k)): f"{_AXES[k]}_j" for k in range(3)}
     aliases |= {(C_i, H, unit(k)): f"{_AXES[k]}_star" for k in range(3)}
     aliases |= {(C_i, H, sympy.Transpose(C_j)): A_ij.name, (sympy.Transpose(A_i), A_j): A_ij.name}
-    aliases |= {(sympy.Transpose(A_i), d_ij): dp_ij.name}
+    aliases |= {(sympy.Transpose(A_i), d_ij): dp_ij.name, (sympy.Transpose(A_i), e_ij): ep_ij.name}
     rotations = frozenset({A_i, A_j, A_ij, C_i, C_j, H})
     algebra = Algebra(rotations, names, pulled=frozenset({A_i}), flipped=frozenset({A_ij}))
     return algebra, stages, aliases
@@ -110,9 +119,15 @@ def world_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     names |= attachments
     stages |= {symbol: sympy.MatMul(*chain) for chain, symbol in names.items()}
     s_i_world, s_j_world = attachments.values()
-    stages[d_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i), sympy.MatMul(-1, s_i_world))
+    stages[e_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i))
+    stages[d_ij] = sympy.MatAdd(e_ij, sympy.MatMul(-1, s_i_world))
     aliases = {chain: symbol.name for chain, symbol in names.items()}
     return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, aliases
+
+
+def _world_reduction(stages: dict[Any, Any]) -> dict[Any, Any]:
+    """``d_ij + s_i = e_ij`` in world axes."""
+    return {d_ij: stages[d_ij]}
 
 
 def _conventional(joint: JointType, variant: Variant) -> Formulation:
@@ -136,6 +151,7 @@ def _conventional(joint: JointType, variant: Variant) -> Formulation:
         rates,
         frames.BODY_VELOCITIES,
         partials=SCREW_PARTIALS if joint.is_screw else {},
+        reduction=RELATIVE_REDUCTION if variant.variation == "body" else _world_reduction(stages),
     )
 
 
@@ -204,6 +220,7 @@ def _parametric(joint: JointType, variant: Variant) -> Formulation:
         (*frames.BODY_VELOCITIES, *frames.alpha_dot(count)),
         _turning_axes() if variant.variation == "body" else {},
         substitution={A_ij: rotation_of_alpha, dp_ij: d_of_alpha} if substituted else {},
+        reduction=RELATIVE_REDUCTION,
         coordinates=count,
     )
 

@@ -32,6 +32,10 @@ A_ij = matrix("A_ij")
 d_ij = vector("d_ij")
 dp_ij = vector("dp_ij")
 """``d'_ij = A_i^T d_ij``: the joining vector in the axes of body i."""
+e_ij = vector("e_ij")
+"""``e_ij = r_j + A_j s_j - r_i = d_ij + A_i s_i``: from the origin of body i to the joint on body j, m, world."""
+ep_ij = vector("ep_ij")
+"""``e'_ij = A_i^T e_ij``."""
 H = matrix("H")
 """Rotation of joint frame j seen from joint frame i, a function of alpha."""
 

@@ -38,16 +38,20 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -64,14 +68,14 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t18 = cosine_2 * sine_0;
+    const jg_real t21 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
-    const jg_real t20 = cosine_0 * cosine_2;
-    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t21;
+    const jg_real t23 = cosine_0 * cosine_2;
+    const jg_real H_4 = t23 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -92,8 +96,8 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
-    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t23;
+    const jg_real H_7 = t21 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -121,7 +125,6 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -130,24 +133,18 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -166,14 +163,14 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t23 = cosine_2 * sine_0;
+    const jg_real t18 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t23;
-    const jg_real t25 = cosine_0 * cosine_2;
-    const jg_real H_4 = t25 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
+    const jg_real t20 = cosine_0 * cosine_2;
+    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
@@ -186,8 +183,8 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     phi_q[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t25;
-    const jg_real H_7 = t23 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
+    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
@@ -205,10 +202,9 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t48 = s_i[0] + dp_ij_0;
-    phi_q[9] = t48;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -224,7 +220,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t48;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -258,25 +254,25 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t67 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t68 = H_1 * H_8 + sine_1 * H_7;
-    phi_q[45] = -(A_ij_h_j_0 * (C_i[0] * t67 + C_i[3] * t68) + A_ij_h_j_1 * (C_i[1] * t67 + C_i[4] * t68) +
-        A_ij_h_j_2 * (C_i[2] * t67 + C_i[5] * t68));
-    const jg_real t69 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t70 = H_1 * H_5 + sine_1 * H_4;
-    phi_q[46] = A_ij_f_j_0 * (C_i[0] * t69 + C_i[3] * t70) + A_ij_f_j_1 * (C_i[1] * t69 + C_i[4] * t70) + A_ij_f_j_2
-        * (C_i[2] * t69 + C_i[5] * t70);
-    const jg_real t71 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t72 = H_4 * H_8 - H_7 * H_5;
-    phi_q[47] = A_ij_g_j_0 * (C_i[0] * t71 + C_i[3] * t72) + A_ij_g_j_1 * (C_i[1] * t71 + C_i[4] * t72) + A_ij_g_j_2
-        * (C_i[2] * t71 + C_i[5] * t72);
+    const jg_real t61 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t62 = H_1 * H_8 + sine_1 * H_7;
+    phi_q[45] = -(A_ij_h_j_0 * (C_i[0] * t61 + C_i[3] * t62) + A_ij_h_j_1 * (C_i[1] * t61 + C_i[4] * t62) +
+        A_ij_h_j_2 * (C_i[2] * t61 + C_i[5] * t62));
+    const jg_real t63 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t64 = H_1 * H_5 + sine_1 * H_4;
+    phi_q[46] = A_ij_f_j_0 * (C_i[0] * t63 + C_i[3] * t64) + A_ij_f_j_1 * (C_i[1] * t63 + C_i[4] * t64) + A_ij_f_j_2
+        * (C_i[2] * t63 + C_i[5] * t64);
+    const jg_real t65 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t66 = H_4 * H_8 - H_7 * H_5;
+    phi_q[47] = A_ij_g_j_0 * (C_i[0] * t65 + C_i[3] * t66) + A_ij_g_j_1 * (C_i[1] * t65 + C_i[4] * t66) + A_ij_g_j_2
+        * (C_i[2] * t65 + C_i[5] * t66);
     phi_q[48] = sine_2 * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
     phi_q[49] = cosine_2 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2);
-    const jg_real t73 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t74 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t75 = sine_2 * H_5 + cosine_2 * H_8;
-    phi_q[50] = -(A_ij_g_j_0 * (C_i[0] * t73 + C_i[3] * t74 + C_i[6] * t75) + A_ij_g_j_1 * (C_i[1] * t73 + C_i[4] *
-        t74 + C_i[7] * t75) + A_ij_g_j_2 * (C_i[2] * t73 + C_i[5] * t74 + C_i[8] * t75));
+    const jg_real t67 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t68 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t69 = sine_2 * H_5 + cosine_2 * H_8;
+    phi_q[50] = -(A_ij_g_j_0 * (C_i[0] * t67 + C_i[3] * t68 + C_i[6] * t69) + A_ij_g_j_1 * (C_i[1] * t67 + C_i[4] *
+        t68 + C_i[7] * t69) + A_ij_g_j_2 * (C_i[2] * t67 + C_i[5] * t68 + C_i[8] * t69));
     phi_q[51] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[52] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -294,7 +290,6 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -366,401 +361,394 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t45 = A_ij_g_j_1 * t44;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t56 = s_i[2] + dp_ij_2;
-    const jg_real t57 = lambda[2] * t56;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t59 = s_i[1] + dp_ij_1;
-    const jg_real t60 = lambda[1] * t59;
-    phi_q_t_lambda_q[6] = -(t57 + t60 + (t41 + t45 + (t17 + t24 + (t31 + t35))));
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t53 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t55 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t53 + t55 + (t41 + t45 + (t17 + t24 + (t31 + t35))));
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
-    const jg_real t62 = g_star_0 * lambda[3];
+    const jg_real t57 = g_star_0 * lambda[3];
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
-    const jg_real t64 = h_star_0 * lambda[4];
+    const jg_real t59 = h_star_0 * lambda[4];
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
-    const jg_real t66 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t62 + A_ij_f_j_1 * t64 + A_ij_g_j_1 * t66 + lambda[0] * t59;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t62 + A_ij_f_j_2 * t64 + A_ij_g_j_2 * t66 + lambda[0] * t56;
-    const jg_real t67 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t67;
-    phi_q_t_lambda_q[42] = t67;
-    const jg_real t68 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t68;
-    phi_q_t_lambda_q[45] = t68;
-    const jg_real t69 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t69;
-    phi_q_t_lambda_q[48] = t69;
+    const jg_real t61 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t57 + A_ij_f_j_1 * t59 + A_ij_g_j_1 * t61 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t57 + A_ij_f_j_2 * t59 + A_ij_g_j_2 * t61 + lambda[0] * ep_ij_2;
+    const jg_real t62 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t62;
+    phi_q_t_lambda_q[42] = t62;
+    const jg_real t63 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t63;
+    phi_q_t_lambda_q[45] = t63;
+    const jg_real t64 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t64;
+    phi_q_t_lambda_q[48] = t64;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t74 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
+    const jg_real t69 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t76 = lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
-    const jg_real t77 = t74 + t76;
+    const jg_real t71 = lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
+    const jg_real t72 = t69 + t71;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t79 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t80 = lambda[5] * t79 + t77;
-    const jg_real t81 = A_ij_0 * t80;
+    const jg_real t74 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t75 = lambda[5] * t74 + t72;
+    const jg_real t76 = A_ij_0 * t75;
     /* A_ijt_g_star = A_ij^T g_star */
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
-    const jg_real t83 = lambda[3] * A_ijt_g_star_0;
+    const jg_real t78 = lambda[3] * A_ijt_g_star_0;
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
-    const jg_real t85 = lambda[4] * A_ijt_h_star_0;
+    const jg_real t80 = lambda[4] * A_ijt_h_star_0;
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    const jg_real t87 = lambda[5] * A_ijt_f_star_0;
-    const jg_real t88 = s_j[1] * t69 - s_j[2] * t68;
-    phi_q_t_lambda_q[12] = t81 - A_ij_h_j_0 * t83 - A_ij_f_j_0 * t85 - A_ij_g_j_0 * t87 + t88;
-    const jg_real t89 = A_ij_3 * t80;
+    const jg_real t82 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t83 = s_j[1] * t64 - s_j[2] * t63;
+    phi_q_t_lambda_q[12] = t76 - A_ij_h_j_0 * t78 - A_ij_f_j_0 * t80 - A_ij_g_j_0 * t82 + t83;
+    const jg_real t84 = A_ij_3 * t75;
     const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t91 = lambda[3] * A_ijt_g_star_1;
+    const jg_real t86 = lambda[3] * A_ijt_g_star_1;
     const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
-    const jg_real t93 = lambda[4] * A_ijt_h_star_1;
+    const jg_real t88 = lambda[4] * A_ijt_h_star_1;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t95 = lambda[5] * A_ijt_f_star_1;
-    const jg_real t96 = s_j[2] * t67 - s_j[0] * t69;
-    phi_q_t_lambda_q[13] = t89 - A_ij_h_j_0 * t91 - A_ij_f_j_0 * t93 - A_ij_g_j_0 * t95 + t96;
-    const jg_real t97 = A_ij_6 * t80;
+    const jg_real t90 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t91 = s_j[2] * t62 - s_j[0] * t64;
+    phi_q_t_lambda_q[13] = t84 - A_ij_h_j_0 * t86 - A_ij_f_j_0 * t88 - A_ij_g_j_0 * t90 + t91;
+    const jg_real t92 = A_ij_6 * t75;
     const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t99 = lambda[3] * A_ijt_g_star_2;
+    const jg_real t94 = lambda[3] * A_ijt_g_star_2;
     const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
-    const jg_real t101 = lambda[4] * A_ijt_h_star_2;
+    const jg_real t96 = lambda[4] * A_ijt_h_star_2;
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t103 = lambda[5] * A_ijt_f_star_2;
-    const jg_real t104 = s_j[0] * t68 - s_j[1] * t67;
-    phi_q_t_lambda_q[14] = t97 - A_ij_h_j_0 * t99 - A_ij_f_j_0 * t101 - A_ij_g_j_0 * t103 + t104;
-    const jg_real t105 = cosine_1 * lambda[3] * cosine_2;
-    const jg_real t106 = sine_1 * lambda[3];
-    const jg_real t107 = H_0 * t105 + H_6 * t106;
-    const jg_real t108 = H_1 * t105 + H_7 * t106;
-    const jg_real t109 = H_8 * t106 - sine_1 * t105;
-    const jg_real t110 = C_i[2] * t107 + C_i[5] * t108 + C_i[8] * t109;
-    const jg_real t111 = C_i[1] * t107 + C_i[4] * t108 + C_i[7] * t109;
-    const jg_real t112 = cosine_1 * lambda[4] * sine_2;
-    const jg_real t113 = sine_1 * lambda[4];
-    const jg_real t114 = H_0 * t112 + H_3 * t113;
-    const jg_real t115 = H_1 * t112 + H_4 * t113;
-    const jg_real t116 = sine_1 * t112 - H_5 * t113;
-    const jg_real t117 = C_i[8] * t116 - (C_i[2] * t114 + C_i[5] * t115);
-    const jg_real t118 = C_i[7] * t116 - (C_i[1] * t114 + C_i[4] * t115);
-    const jg_real t119 = cosine_1 * lambda[5];
-    const jg_real t120 = sine_2 * t119;
-    const jg_real t121 = cosine_2 * t119;
-    const jg_real t122 = H_6 * t120 - H_3 * t121;
-    const jg_real t123 = H_7 * t120 - H_4 * t121;
-    const jg_real t124 = H_8 * t120 - H_5 * t121;
-    const jg_real t125 = C_i[2] * t122 + C_i[5] * t123 + C_i[8] * t124;
-    const jg_real t126 = C_i[1] * t122 + C_i[4] * t123 + C_i[7] * t124;
-    const jg_real t127 = A_ij_g_j_1 * t125 - A_ij_g_j_2 * t126 + (A_ij_h_j_1 * t110 - A_ij_h_j_2 * t111 +
-        (A_ij_f_j_1 * t117 - A_ij_f_j_2 * t118));
-    phi_q_t_lambda_q[15] = t127;
-    phi_q_t_lambda_q[84] = t127;
-    const jg_real t128 = cosine_2 * lambda[4];
-    const jg_real t129 = sine_2 * lambda[3];
-    const jg_real t130 = C_j[0] * t128 + C_j[6] * t129;
-    const jg_real t131 = C_j[1] * t128 + C_j[7] * t129;
-    const jg_real t132 = C_j[2] * t128 + C_j[8] * t129;
-    const jg_real t133 = A_ij_2 * t130 + A_ij_5 * t131 + A_ij_8 * t132;
-    const jg_real t134 = A_ij_1 * t130 + A_ij_4 * t131 + A_ij_7 * t132;
-    const jg_real t135 = sine_2 * lambda[5];
-    const jg_real t136 = cosine_2 * lambda[5];
-    const jg_real t137 = H_3 * t135 + H_6 * t136;
-    const jg_real t138 = H_4 * t135 + H_7 * t136;
-    const jg_real t139 = H_5 * t135 + H_8 * t136;
-    const jg_real t140 = C_i[2] * t137 + C_i[5] * t138 + C_i[8] * t139;
-    const jg_real t141 = C_i[1] * t137 + C_i[4] * t138 + C_i[7] * t139;
-    const jg_real t142 = f_star_1 * t133 - f_star_2 * t134 + (A_ij_g_j_1 * t140 - A_ij_g_j_2 * t141);
-    phi_q_t_lambda_q[16] = t142;
-    phi_q_t_lambda_q[93] = t142;
-    const jg_real t143 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+    const jg_real t98 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t99 = s_j[0] * t63 - s_j[1] * t62;
+    phi_q_t_lambda_q[14] = t92 - A_ij_h_j_0 * t94 - A_ij_f_j_0 * t96 - A_ij_g_j_0 * t98 + t99;
+    const jg_real t100 = cosine_1 * lambda[3] * cosine_2;
+    const jg_real t101 = sine_1 * lambda[3];
+    const jg_real t102 = H_0 * t100 + H_6 * t101;
+    const jg_real t103 = H_1 * t100 + H_7 * t101;
+    const jg_real t104 = H_8 * t101 - sine_1 * t100;
+    const jg_real t105 = C_i[2] * t102 + C_i[5] * t103 + C_i[8] * t104;
+    const jg_real t106 = C_i[1] * t102 + C_i[4] * t103 + C_i[7] * t104;
+    const jg_real t107 = cosine_1 * lambda[4] * sine_2;
+    const jg_real t108 = sine_1 * lambda[4];
+    const jg_real t109 = H_0 * t107 + H_3 * t108;
+    const jg_real t110 = H_1 * t107 + H_4 * t108;
+    const jg_real t111 = sine_1 * t107 - H_5 * t108;
+    const jg_real t112 = C_i[8] * t111 - (C_i[2] * t109 + C_i[5] * t110);
+    const jg_real t113 = C_i[7] * t111 - (C_i[1] * t109 + C_i[4] * t110);
+    const jg_real t114 = cosine_1 * lambda[5];
+    const jg_real t115 = sine_2 * t114;
+    const jg_real t116 = cosine_2 * t114;
+    const jg_real t117 = H_6 * t115 - H_3 * t116;
+    const jg_real t118 = H_7 * t115 - H_4 * t116;
+    const jg_real t119 = H_8 * t115 - H_5 * t116;
+    const jg_real t120 = C_i[2] * t117 + C_i[5] * t118 + C_i[8] * t119;
+    const jg_real t121 = C_i[1] * t117 + C_i[4] * t118 + C_i[7] * t119;
+    const jg_real t122 = A_ij_g_j_1 * t120 - A_ij_g_j_2 * t121 + (A_ij_h_j_1 * t105 - A_ij_h_j_2 * t106 +
+        (A_ij_f_j_1 * t112 - A_ij_f_j_2 * t113));
+    phi_q_t_lambda_q[15] = t122;
+    phi_q_t_lambda_q[84] = t122;
+    const jg_real t123 = cosine_2 * lambda[4];
+    const jg_real t124 = sine_2 * lambda[3];
+    const jg_real t125 = C_j[0] * t123 + C_j[6] * t124;
+    const jg_real t126 = C_j[1] * t123 + C_j[7] * t124;
+    const jg_real t127 = C_j[2] * t123 + C_j[8] * t124;
+    const jg_real t128 = A_ij_2 * t125 + A_ij_5 * t126 + A_ij_8 * t127;
+    const jg_real t129 = A_ij_1 * t125 + A_ij_4 * t126 + A_ij_7 * t127;
+    const jg_real t130 = sine_2 * lambda[5];
+    const jg_real t131 = cosine_2 * lambda[5];
+    const jg_real t132 = H_3 * t130 + H_6 * t131;
+    const jg_real t133 = H_4 * t130 + H_7 * t131;
+    const jg_real t134 = H_5 * t130 + H_8 * t131;
+    const jg_real t135 = C_i[2] * t132 + C_i[5] * t133 + C_i[8] * t134;
+    const jg_real t136 = C_i[1] * t132 + C_i[4] * t133 + C_i[7] * t134;
+    const jg_real t137 = f_star_1 * t128 - f_star_2 * t129 + (A_ij_g_j_1 * t135 - A_ij_g_j_2 * t136);
+    phi_q_t_lambda_q[16] = t137;
+    phi_q_t_lambda_q[93] = t137;
+    const jg_real t138 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
         h_star_2 - A_ij_h_j_2 * h_star_1);
-    phi_q_t_lambda_q[17] = t143;
-    phi_q_t_lambda_q[102] = t143;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t145 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t23 + A_ij_f_j_0 * t34 + A_ij_g_j_0 * t44 + lambda[1] * t145;
-    const jg_real t146 = A_ij_h_j_0 * t62;
-    const jg_real t147 = A_ij_f_j_0 * t64;
-    const jg_real t148 = A_ij_g_j_0 * t66;
-    const jg_real t149 = lambda[0] * t145;
-    phi_q_t_lambda_q[19] = -(t57 + t149 + (t41 + t148 + (t17 + t146 + (t31 + t147))));
-    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t23 + A_ij_f_j_2 * t34 + A_ij_g_j_2 * t44 + lambda[1] * t56;
-    const jg_real t150 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[21] = t150;
-    phi_q_t_lambda_q[43] = t150;
-    const jg_real t151 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[22] = t151;
-    phi_q_t_lambda_q[46] = t151;
-    const jg_real t152 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[23] = t152;
-    phi_q_t_lambda_q[49] = t152;
-    const jg_real t153 = A_ij_1 * t80;
-    const jg_real t154 = s_j[1] * t152 - s_j[2] * t151;
-    phi_q_t_lambda_q[24] = t153 - A_ij_h_j_1 * t83 - A_ij_f_j_1 * t85 - A_ij_g_j_1 * t87 + t154;
-    const jg_real t155 = A_ij_4 * t80;
-    const jg_real t156 = s_j[2] * t150 - s_j[0] * t152;
-    phi_q_t_lambda_q[25] = t155 - A_ij_h_j_1 * t91 - A_ij_f_j_1 * t93 - A_ij_g_j_1 * t95 + t156;
-    const jg_real t157 = A_ij_7 * t80;
-    const jg_real t158 = s_j[0] * t151 - s_j[1] * t150;
-    phi_q_t_lambda_q[26] = t157 - A_ij_h_j_1 * t99 - A_ij_f_j_1 * t101 - A_ij_g_j_1 * t103 + t158;
-    const jg_real t159 = C_i[0] * t107 + C_i[3] * t108 + C_i[6] * t109;
-    const jg_real t160 = C_i[6] * t116 - (C_i[0] * t114 + C_i[3] * t115);
-    const jg_real t161 = C_i[0] * t122 + C_i[3] * t123 + C_i[6] * t124;
-    const jg_real t162 = A_ij_g_j_2 * t161 - A_ij_g_j_0 * t125 + (A_ij_h_j_2 * t159 - A_ij_h_j_0 * t110 +
-        (A_ij_f_j_2 * t160 - A_ij_f_j_0 * t117));
-    phi_q_t_lambda_q[27] = t162;
-    phi_q_t_lambda_q[85] = t162;
-    const jg_real t163 = A_ij_0 * t130 + A_ij_3 * t131 + A_ij_6 * t132;
-    const jg_real t164 = C_i[0] * t137 + C_i[3] * t138 + C_i[6] * t139;
-    const jg_real t165 = f_star_2 * t163 - f_star_0 * t133 + (A_ij_g_j_2 * t164 - A_ij_g_j_0 * t140);
-    phi_q_t_lambda_q[28] = t165;
-    phi_q_t_lambda_q[94] = t165;
-    const jg_real t166 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+    phi_q_t_lambda_q[17] = t138;
+    phi_q_t_lambda_q[102] = t138;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t23 + A_ij_f_j_0 * t34 + A_ij_g_j_0 * t44 + lambda[1] * ep_ij_0;
+    const jg_real t140 = A_ij_h_j_0 * t57;
+    const jg_real t141 = A_ij_f_j_0 * t59;
+    const jg_real t142 = A_ij_g_j_0 * t61;
+    const jg_real t143 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[19] = -(t53 + t143 + (t41 + t142 + (t17 + t140 + (t31 + t141))));
+    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t23 + A_ij_f_j_2 * t34 + A_ij_g_j_2 * t44 + lambda[1] * ep_ij_2;
+    const jg_real t144 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[21] = t144;
+    phi_q_t_lambda_q[43] = t144;
+    const jg_real t145 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[22] = t145;
+    phi_q_t_lambda_q[46] = t145;
+    const jg_real t146 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[23] = t146;
+    phi_q_t_lambda_q[49] = t146;
+    const jg_real t147 = A_ij_1 * t75;
+    const jg_real t148 = s_j[1] * t146 - s_j[2] * t145;
+    phi_q_t_lambda_q[24] = t147 - A_ij_h_j_1 * t78 - A_ij_f_j_1 * t80 - A_ij_g_j_1 * t82 + t148;
+    const jg_real t149 = A_ij_4 * t75;
+    const jg_real t150 = s_j[2] * t144 - s_j[0] * t146;
+    phi_q_t_lambda_q[25] = t149 - A_ij_h_j_1 * t86 - A_ij_f_j_1 * t88 - A_ij_g_j_1 * t90 + t150;
+    const jg_real t151 = A_ij_7 * t75;
+    const jg_real t152 = s_j[0] * t145 - s_j[1] * t144;
+    phi_q_t_lambda_q[26] = t151 - A_ij_h_j_1 * t94 - A_ij_f_j_1 * t96 - A_ij_g_j_1 * t98 + t152;
+    const jg_real t153 = C_i[0] * t102 + C_i[3] * t103 + C_i[6] * t104;
+    const jg_real t154 = C_i[6] * t111 - (C_i[0] * t109 + C_i[3] * t110);
+    const jg_real t155 = C_i[0] * t117 + C_i[3] * t118 + C_i[6] * t119;
+    const jg_real t156 = A_ij_g_j_2 * t155 - A_ij_g_j_0 * t120 + (A_ij_h_j_2 * t153 - A_ij_h_j_0 * t105 +
+        (A_ij_f_j_2 * t154 - A_ij_f_j_0 * t112));
+    phi_q_t_lambda_q[27] = t156;
+    phi_q_t_lambda_q[85] = t156;
+    const jg_real t157 = A_ij_0 * t125 + A_ij_3 * t126 + A_ij_6 * t127;
+    const jg_real t158 = C_i[0] * t132 + C_i[3] * t133 + C_i[6] * t134;
+    const jg_real t159 = f_star_2 * t157 - f_star_0 * t128 + (A_ij_g_j_2 * t158 - A_ij_g_j_0 * t135);
+    phi_q_t_lambda_q[28] = t159;
+    phi_q_t_lambda_q[94] = t159;
+    const jg_real t160 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
         h_star_0 - A_ij_h_j_0 * h_star_2);
-    phi_q_t_lambda_q[29] = t166;
-    phi_q_t_lambda_q[103] = t166;
-    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t16 + A_ij_f_j_0 * t30 + A_ij_g_j_0 * t40 + lambda[2] * t145;
-    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t16 + A_ij_f_j_1 * t30 + A_ij_g_j_1 * t40 + lambda[2] * t59;
-    phi_q_t_lambda_q[32] = -(t60 + t149 + (t45 + t148 + (t24 + t146 + (t35 + t147))));
-    const jg_real t167 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[33] = t167;
-    phi_q_t_lambda_q[44] = t167;
-    const jg_real t168 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[34] = t168;
-    phi_q_t_lambda_q[47] = t168;
-    const jg_real t169 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[35] = t169;
-    phi_q_t_lambda_q[50] = t169;
-    const jg_real t170 = A_ij_2 * t80;
-    const jg_real t171 = s_j[1] * t169 - s_j[2] * t168;
-    phi_q_t_lambda_q[36] = t170 - A_ij_h_j_2 * t83 - A_ij_f_j_2 * t85 - A_ij_g_j_2 * t87 + t171;
-    const jg_real t172 = A_ij_5 * t80;
-    const jg_real t173 = s_j[2] * t167 - s_j[0] * t169;
-    phi_q_t_lambda_q[37] = t172 - A_ij_h_j_2 * t91 - A_ij_f_j_2 * t93 - A_ij_g_j_2 * t95 + t173;
-    const jg_real t174 = A_ij_8 * t80;
-    const jg_real t175 = s_j[0] * t168 - s_j[1] * t167;
-    phi_q_t_lambda_q[38] = t174 - A_ij_h_j_2 * t99 - A_ij_f_j_2 * t101 - A_ij_g_j_2 * t103 + t175;
-    const jg_real t176 = A_ij_g_j_0 * t126 - A_ij_g_j_1 * t161 + (A_ij_h_j_0 * t111 - A_ij_h_j_1 * t159 +
-        (A_ij_f_j_0 * t118 - A_ij_f_j_1 * t160));
-    phi_q_t_lambda_q[39] = t176;
-    phi_q_t_lambda_q[86] = t176;
-    const jg_real t177 = f_star_0 * t134 - f_star_1 * t163 + (A_ij_g_j_0 * t141 - A_ij_g_j_1 * t164);
-    phi_q_t_lambda_q[40] = t177;
-    phi_q_t_lambda_q[95] = t177;
-    const jg_real t178 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+    phi_q_t_lambda_q[29] = t160;
+    phi_q_t_lambda_q[103] = t160;
+    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t16 + A_ij_f_j_0 * t30 + A_ij_g_j_0 * t40 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t16 + A_ij_f_j_1 * t30 + A_ij_g_j_1 * t40 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[32] = -(t55 + t143 + (t45 + t142 + (t24 + t140 + (t35 + t141))));
+    const jg_real t161 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[33] = t161;
+    phi_q_t_lambda_q[44] = t161;
+    const jg_real t162 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[34] = t162;
+    phi_q_t_lambda_q[47] = t162;
+    const jg_real t163 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[35] = t163;
+    phi_q_t_lambda_q[50] = t163;
+    const jg_real t164 = A_ij_2 * t75;
+    const jg_real t165 = s_j[1] * t163 - s_j[2] * t162;
+    phi_q_t_lambda_q[36] = t164 - A_ij_h_j_2 * t78 - A_ij_f_j_2 * t80 - A_ij_g_j_2 * t82 + t165;
+    const jg_real t166 = A_ij_5 * t75;
+    const jg_real t167 = s_j[2] * t161 - s_j[0] * t163;
+    phi_q_t_lambda_q[37] = t166 - A_ij_h_j_2 * t86 - A_ij_f_j_2 * t88 - A_ij_g_j_2 * t90 + t167;
+    const jg_real t168 = A_ij_8 * t75;
+    const jg_real t169 = s_j[0] * t162 - s_j[1] * t161;
+    phi_q_t_lambda_q[38] = t168 - A_ij_h_j_2 * t94 - A_ij_f_j_2 * t96 - A_ij_g_j_2 * t98 + t169;
+    const jg_real t170 = A_ij_g_j_0 * t121 - A_ij_g_j_1 * t155 + (A_ij_h_j_0 * t106 - A_ij_h_j_1 * t153 +
+        (A_ij_f_j_0 * t113 - A_ij_f_j_1 * t154));
+    phi_q_t_lambda_q[39] = t170;
+    phi_q_t_lambda_q[86] = t170;
+    const jg_real t171 = f_star_0 * t129 - f_star_1 * t157 + (A_ij_g_j_0 * t136 - A_ij_g_j_1 * t158);
+    phi_q_t_lambda_q[40] = t171;
+    phi_q_t_lambda_q[95] = t171;
+    const jg_real t172 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
         h_star_1 - A_ij_h_j_1 * h_star_0);
-    phi_q_t_lambda_q[41] = t178;
-    phi_q_t_lambda_q[104] = t178;
-    const jg_real t179 = A_ij_h_j_0 * lambda[3];
-    const jg_real t180 = A_ij_f_j_0 * lambda[4];
-    const jg_real t181 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[51] = t81 - t179 * A_ijt_g_star_0 - t180 * A_ijt_h_star_0 - t181 * A_ijt_f_star_0 + t88;
-    const jg_real t182 = A_ij_h_j_1 * lambda[3];
-    const jg_real t183 = A_ij_f_j_1 * lambda[4];
-    const jg_real t184 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[52] = t153 - t182 * A_ijt_g_star_0 - t183 * A_ijt_h_star_0 - t184 * A_ijt_f_star_0 + t154;
-    const jg_real t185 = A_ij_h_j_2 * lambda[3];
-    const jg_real t186 = A_ij_f_j_2 * lambda[4];
-    const jg_real t187 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[53] = t170 - t185 * A_ijt_g_star_0 - t186 * A_ijt_h_star_0 - t187 * A_ijt_f_star_0 + t171;
-    const jg_real t188 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[54] = t188;
-    const jg_real t189 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[76] = t189;
-    phi_q_t_lambda_q[55] = -t189;
-    const jg_real t190 = C_j[8] * lambda[3];
-    const jg_real t191 = A_ijt_g_star_2 * t190;
-    const jg_real t192 = C_j[7] * lambda[3];
-    const jg_real t193 = A_ijt_g_star_1 * t192;
-    const jg_real t194 = C_j[2] * lambda[4];
-    const jg_real t195 = A_ijt_h_star_2 * t194;
-    const jg_real t196 = C_j[1] * lambda[4];
-    const jg_real t197 = A_ijt_h_star_1 * t196;
-    const jg_real t198 = C_j[5] * lambda[5];
-    const jg_real t199 = A_ijt_f_star_2 * t198;
-    const jg_real t200 = C_j[4] * lambda[5];
-    const jg_real t201 = A_ijt_f_star_1 * t200;
-    const jg_real t202 = s_j[2] * t188;
-    const jg_real t203 = s_j[1] * t189;
-    phi_q_t_lambda_q[56] = -(t202 + t203 + (t199 + t201 + (t191 + t193 + (t195 + t197))));
-    const jg_real t204 = C_j[6] * lambda[3];
-    const jg_real t205 = C_j[0] * lambda[4];
-    const jg_real t206 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t204 + A_ijt_h_star_1 * t205 + A_ijt_f_star_1 * t206 + s_j[0] * t189;
-    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t204 + A_ijt_h_star_2 * t205 + A_ijt_f_star_2 * t206 + s_j[0] * t188;
-    const jg_real t207 = A_ij_3 * t159 + A_ij_4 * t111 + A_ij_5 * t110;
-    const jg_real t208 = A_ij_6 * t159 + A_ij_7 * t111 + A_ij_8 * t110;
-    const jg_real t209 = A_ij_3 * t160 + A_ij_4 * t118 + A_ij_5 * t117;
-    const jg_real t210 = A_ij_6 * t160 + A_ij_7 * t118 + A_ij_8 * t117;
-    const jg_real t211 = A_ij_3 * t161 + A_ij_4 * t126 + A_ij_5 * t125;
-    const jg_real t212 = A_ij_6 * t161 + A_ij_7 * t126 + A_ij_8 * t125;
-    const jg_real t213 = C_j[5] * t211 - C_j[4] * t212 + (C_j[8] * t207 - C_j[7] * t208 + (C_j[2] * t209 - C_j[1] *
-        t210));
-    phi_q_t_lambda_q[59] = t213;
-    phi_q_t_lambda_q[87] = t213;
-    const jg_real t214 = A_ij_3 * t164 + A_ij_4 * t141 + A_ij_5 * t140;
-    const jg_real t215 = A_ij_6 * t164 + A_ij_7 * t141 + A_ij_8 * t140;
-    const jg_real t216 = A_ijt_f_star_2 * t131 - A_ijt_f_star_1 * t132 + (C_j[5] * t214 - C_j[4] * t215);
-    phi_q_t_lambda_q[60] = t216;
-    phi_q_t_lambda_q[96] = t216;
-    const jg_real t217 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+    phi_q_t_lambda_q[41] = t172;
+    phi_q_t_lambda_q[104] = t172;
+    const jg_real t173 = A_ij_h_j_0 * lambda[3];
+    const jg_real t174 = A_ij_f_j_0 * lambda[4];
+    const jg_real t175 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[51] = t76 - t173 * A_ijt_g_star_0 - t174 * A_ijt_h_star_0 - t175 * A_ijt_f_star_0 + t83;
+    const jg_real t176 = A_ij_h_j_1 * lambda[3];
+    const jg_real t177 = A_ij_f_j_1 * lambda[4];
+    const jg_real t178 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[52] = t147 - t176 * A_ijt_g_star_0 - t177 * A_ijt_h_star_0 - t178 * A_ijt_f_star_0 + t148;
+    const jg_real t179 = A_ij_h_j_2 * lambda[3];
+    const jg_real t180 = A_ij_f_j_2 * lambda[4];
+    const jg_real t181 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[53] = t164 - t179 * A_ijt_g_star_0 - t180 * A_ijt_h_star_0 - t181 * A_ijt_f_star_0 + t165;
+    const jg_real t182 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[54] = t182;
+    const jg_real t183 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[76] = t183;
+    phi_q_t_lambda_q[55] = -t183;
+    const jg_real t184 = C_j[8] * lambda[3];
+    const jg_real t185 = A_ijt_g_star_2 * t184;
+    const jg_real t186 = C_j[7] * lambda[3];
+    const jg_real t187 = A_ijt_g_star_1 * t186;
+    const jg_real t188 = C_j[2] * lambda[4];
+    const jg_real t189 = A_ijt_h_star_2 * t188;
+    const jg_real t190 = C_j[1] * lambda[4];
+    const jg_real t191 = A_ijt_h_star_1 * t190;
+    const jg_real t192 = C_j[5] * lambda[5];
+    const jg_real t193 = A_ijt_f_star_2 * t192;
+    const jg_real t194 = C_j[4] * lambda[5];
+    const jg_real t195 = A_ijt_f_star_1 * t194;
+    const jg_real t196 = s_j[2] * t182;
+    const jg_real t197 = s_j[1] * t183;
+    phi_q_t_lambda_q[56] = -(t196 + t197 + (t193 + t195 + (t185 + t187 + (t189 + t191))));
+    const jg_real t198 = C_j[6] * lambda[3];
+    const jg_real t199 = C_j[0] * lambda[4];
+    const jg_real t200 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t198 + A_ijt_h_star_1 * t199 + A_ijt_f_star_1 * t200 + s_j[0] * t183;
+    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t198 + A_ijt_h_star_2 * t199 + A_ijt_f_star_2 * t200 + s_j[0] * t182;
+    const jg_real t201 = A_ij_3 * t153 + A_ij_4 * t106 + A_ij_5 * t105;
+    const jg_real t202 = A_ij_6 * t153 + A_ij_7 * t106 + A_ij_8 * t105;
+    const jg_real t203 = A_ij_3 * t154 + A_ij_4 * t113 + A_ij_5 * t112;
+    const jg_real t204 = A_ij_6 * t154 + A_ij_7 * t113 + A_ij_8 * t112;
+    const jg_real t205 = A_ij_3 * t155 + A_ij_4 * t121 + A_ij_5 * t120;
+    const jg_real t206 = A_ij_6 * t155 + A_ij_7 * t121 + A_ij_8 * t120;
+    const jg_real t207 = C_j[5] * t205 - C_j[4] * t206 + (C_j[8] * t201 - C_j[7] * t202 + (C_j[2] * t203 - C_j[1] *
+        t204));
+    phi_q_t_lambda_q[59] = t207;
+    phi_q_t_lambda_q[87] = t207;
+    const jg_real t208 = A_ij_3 * t158 + A_ij_4 * t136 + A_ij_5 * t135;
+    const jg_real t209 = A_ij_6 * t158 + A_ij_7 * t136 + A_ij_8 * t135;
+    const jg_real t210 = A_ijt_f_star_2 * t126 - A_ijt_f_star_1 * t127 + (C_j[5] * t208 - C_j[4] * t209);
+    phi_q_t_lambda_q[60] = t210;
+    phi_q_t_lambda_q[96] = t210;
+    const jg_real t211 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
         A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
-    phi_q_t_lambda_q[61] = t217;
-    phi_q_t_lambda_q[105] = t217;
-    phi_q_t_lambda_q[62] = t89 - t179 * A_ijt_g_star_1 - t180 * A_ijt_h_star_1 - t181 * A_ijt_f_star_1 + t96;
-    phi_q_t_lambda_q[63] = t155 - t182 * A_ijt_g_star_1 - t183 * A_ijt_h_star_1 - t184 * A_ijt_f_star_1 + t156;
-    phi_q_t_lambda_q[64] = t172 - t185 * A_ijt_g_star_1 - t186 * A_ijt_h_star_1 - t187 * A_ijt_f_star_1 + t173;
-    phi_q_t_lambda_q[65] = -t188;
-    const jg_real t218 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[66] = t218;
-    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t192 + A_ijt_h_star_0 * t196 + A_ijt_f_star_0 * t200 + s_j[1] * t218;
-    const jg_real t219 = A_ijt_g_star_0 * t204;
-    const jg_real t220 = A_ijt_h_star_0 * t205;
-    const jg_real t221 = A_ijt_f_star_0 * t206;
-    const jg_real t222 = s_j[0] * t218;
-    phi_q_t_lambda_q[68] = -(t202 + t222 + (t199 + t221 + (t191 + t219 + (t195 + t220))));
-    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t192 + A_ijt_h_star_2 * t196 + A_ijt_f_star_2 * t200 + s_j[1] * t188;
-    const jg_real t223 = A_ij_0 * t159 + A_ij_1 * t111 + A_ij_2 * t110;
-    const jg_real t224 = A_ij_0 * t160 + A_ij_1 * t118 + A_ij_2 * t117;
-    const jg_real t225 = A_ij_0 * t161 + A_ij_1 * t126 + A_ij_2 * t125;
-    const jg_real t226 = C_j[3] * t212 - C_j[5] * t225 + (C_j[6] * t208 - C_j[8] * t223 + (C_j[0] * t210 - C_j[2] *
-        t224));
-    phi_q_t_lambda_q[70] = t226;
-    phi_q_t_lambda_q[88] = t226;
-    const jg_real t227 = A_ij_0 * t164 + A_ij_1 * t141 + A_ij_2 * t140;
-    const jg_real t228 = A_ijt_f_star_0 * t132 - A_ijt_f_star_2 * t130 + (C_j[3] * t215 - C_j[5] * t227);
-    phi_q_t_lambda_q[71] = t228;
-    phi_q_t_lambda_q[97] = t228;
-    const jg_real t229 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+    phi_q_t_lambda_q[61] = t211;
+    phi_q_t_lambda_q[105] = t211;
+    phi_q_t_lambda_q[62] = t84 - t173 * A_ijt_g_star_1 - t174 * A_ijt_h_star_1 - t175 * A_ijt_f_star_1 + t91;
+    phi_q_t_lambda_q[63] = t149 - t176 * A_ijt_g_star_1 - t177 * A_ijt_h_star_1 - t178 * A_ijt_f_star_1 + t150;
+    phi_q_t_lambda_q[64] = t166 - t179 * A_ijt_g_star_1 - t180 * A_ijt_h_star_1 - t181 * A_ijt_f_star_1 + t167;
+    phi_q_t_lambda_q[65] = -t182;
+    const jg_real t212 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[66] = t212;
+    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t186 + A_ijt_h_star_0 * t190 + A_ijt_f_star_0 * t194 + s_j[1] * t212;
+    const jg_real t213 = A_ijt_g_star_0 * t198;
+    const jg_real t214 = A_ijt_h_star_0 * t199;
+    const jg_real t215 = A_ijt_f_star_0 * t200;
+    const jg_real t216 = s_j[0] * t212;
+    phi_q_t_lambda_q[68] = -(t196 + t216 + (t193 + t215 + (t185 + t213 + (t189 + t214))));
+    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t186 + A_ijt_h_star_2 * t190 + A_ijt_f_star_2 * t194 + s_j[1] * t182;
+    const jg_real t217 = A_ij_0 * t153 + A_ij_1 * t106 + A_ij_2 * t105;
+    const jg_real t218 = A_ij_0 * t154 + A_ij_1 * t113 + A_ij_2 * t112;
+    const jg_real t219 = A_ij_0 * t155 + A_ij_1 * t121 + A_ij_2 * t120;
+    const jg_real t220 = C_j[3] * t206 - C_j[5] * t219 + (C_j[6] * t202 - C_j[8] * t217 + (C_j[0] * t204 - C_j[2] *
+        t218));
+    phi_q_t_lambda_q[70] = t220;
+    phi_q_t_lambda_q[88] = t220;
+    const jg_real t221 = A_ij_0 * t158 + A_ij_1 * t136 + A_ij_2 * t135;
+    const jg_real t222 = A_ijt_f_star_0 * t127 - A_ijt_f_star_2 * t125 + (C_j[3] * t209 - C_j[5] * t221);
+    phi_q_t_lambda_q[71] = t222;
+    phi_q_t_lambda_q[97] = t222;
+    const jg_real t223 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
         A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
-    phi_q_t_lambda_q[72] = t229;
-    phi_q_t_lambda_q[106] = t229;
-    phi_q_t_lambda_q[73] = t97 - t179 * A_ijt_g_star_2 - t180 * A_ijt_h_star_2 - t181 * A_ijt_f_star_2 + t104;
-    phi_q_t_lambda_q[74] = t157 - t182 * A_ijt_g_star_2 - t183 * A_ijt_h_star_2 - t184 * A_ijt_f_star_2 + t158;
-    phi_q_t_lambda_q[75] = t174 - t185 * A_ijt_g_star_2 - t186 * A_ijt_h_star_2 - t187 * A_ijt_f_star_2 + t175;
-    phi_q_t_lambda_q[77] = -t218;
-    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t190 + A_ijt_h_star_0 * t194 + A_ijt_f_star_0 * t198 + s_j[2] * t218;
-    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t190 + A_ijt_h_star_1 * t194 + A_ijt_f_star_1 * t198 + s_j[2] * t189;
-    phi_q_t_lambda_q[80] = -(t203 + t222 + (t201 + t221 + (t193 + t219 + (t197 + t220))));
-    const jg_real t230 = C_j[4] * t225 - C_j[3] * t211 + (C_j[7] * t223 - C_j[6] * t207 + (C_j[1] * t224 - C_j[0] *
-        t209));
-    phi_q_t_lambda_q[81] = t230;
-    phi_q_t_lambda_q[89] = t230;
-    const jg_real t231 = A_ijt_f_star_1 * t130 - A_ijt_f_star_0 * t131 + (C_j[4] * t227 - C_j[3] * t214);
-    phi_q_t_lambda_q[82] = t231;
-    phi_q_t_lambda_q[98] = t231;
-    const jg_real t232 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+    phi_q_t_lambda_q[72] = t223;
+    phi_q_t_lambda_q[106] = t223;
+    phi_q_t_lambda_q[73] = t92 - t173 * A_ijt_g_star_2 - t174 * A_ijt_h_star_2 - t175 * A_ijt_f_star_2 + t99;
+    phi_q_t_lambda_q[74] = t151 - t176 * A_ijt_g_star_2 - t177 * A_ijt_h_star_2 - t178 * A_ijt_f_star_2 + t152;
+    phi_q_t_lambda_q[75] = t168 - t179 * A_ijt_g_star_2 - t180 * A_ijt_h_star_2 - t181 * A_ijt_f_star_2 + t169;
+    phi_q_t_lambda_q[77] = -t212;
+    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t184 + A_ijt_h_star_0 * t188 + A_ijt_f_star_0 * t192 + s_j[2] * t212;
+    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t184 + A_ijt_h_star_1 * t188 + A_ijt_f_star_1 * t192 + s_j[2] * t183;
+    phi_q_t_lambda_q[80] = -(t197 + t216 + (t195 + t215 + (t187 + t213 + (t191 + t214))));
+    const jg_real t224 = C_j[4] * t219 - C_j[3] * t205 + (C_j[7] * t217 - C_j[6] * t201 + (C_j[1] * t218 - C_j[0] *
+        t203));
+    phi_q_t_lambda_q[81] = t224;
+    phi_q_t_lambda_q[89] = t224;
+    const jg_real t225 = A_ijt_f_star_1 * t125 - A_ijt_f_star_0 * t126 + (C_j[4] * t221 - C_j[3] * t208);
+    phi_q_t_lambda_q[82] = t225;
+    phi_q_t_lambda_q[98] = t225;
+    const jg_real t226 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
         A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
-    phi_q_t_lambda_q[83] = t232;
-    phi_q_t_lambda_q[107] = t232;
-    const jg_real t233 = cosine_1 * cosine_1;
-    const jg_real t234 = cosine_2 * t233 * sine_2;
-    const jg_real t235 = sine_1 * H_8;
-    const jg_real t236 = sine_2 * sine_2;
-    const jg_real t237 = t233 * t236;
-    const jg_real t238 = sine_1 * sine_1;
-    const jg_real t239 = t238 + t237;
-    const jg_real t240 = H_3 * t234 - H_0 * t235 - H_6 * t239;
-    const jg_real t241 = H_4 * t234 - H_1 * t235 - H_7 * t239;
-    const jg_real t242 = sine_1 * t235 + H_5 * t234 - H_8 * t239;
-    const jg_real t243 = cosine_2 * cosine_2;
-    const jg_real t244 = t233 * t243;
-    const jg_real t245 = t238 + t244;
-    const jg_real t246 = cosine_1 * sine_1 * sine_2;
-    const jg_real t247 = H_6 * t234 - (H_0 * t246 + H_3 * t245);
-    const jg_real t248 = H_7 * t234 - (H_1 * t246 + H_4 * t245);
-    const jg_real t249 = sine_1 * t246 - H_5 * t245 + H_8 * t234;
-    const jg_real t250 = t244 + t237;
-    const jg_real t251 = H_0 * t250 + H_3 * t246 + H_6 * t235;
-    const jg_real t252 = H_1 * t250 + H_4 * t246 + H_7 * t235;
-    const jg_real t253 = sine_1 * t250 - H_5 * t246 - H_8 * t235;
-    phi_q_t_lambda_q[90] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t247 + C_i[3] * t248 + C_i[6] * t249) + A_ij_h_j_1 *
-        (C_i[1] * t247 + C_i[4] * t248 + C_i[7] * t249) + A_ij_h_j_2 * (C_i[2] * t247 + C_i[5] * t248 + C_i[8] *
-        t249)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t240 + C_i[3] * t241 + C_i[6] * t242) + A_ij_f_j_1 * (C_i[1] *
-        t240 + C_i[4] * t241 + C_i[7] * t242) + A_ij_f_j_2 * (C_i[2] * t240 + C_i[5] * t241 + C_i[8] * t242)) +
-        lambda[5] * (A_ij_g_j_0 * (C_i[6] * t253 - (C_i[0] * t251 + C_i[3] * t252)) + A_ij_g_j_1 * (C_i[7] * t253 -
-        (C_i[1] * t251 + C_i[4] * t252)) + A_ij_g_j_2 * (C_i[8] * t253 - (C_i[2] * t251 + C_i[5] * t252)));
-    const jg_real t254 = sine_1 * sine_2;
-    const jg_real t255 = cosine_2 * sine_1;
-    const jg_real t256 = H_6 * t254 - H_3 * t255;
-    const jg_real t257 = H_7 * t254 - H_4 * t255;
-    const jg_real t258 = H_8 * t254 - H_5 * t255;
-    const jg_real t259 = lambda[5] * (A_ij_g_j_0 * (C_i[0] * t256 + C_i[3] * t257 + C_i[6] * t258) + A_ij_g_j_1 *
-        (C_i[1] * t256 + C_i[4] * t257 + C_i[7] * t258) + A_ij_g_j_2 * (C_i[2] * t256 + C_i[5] * t257 + C_i[8] *
-        t258));
-    const jg_real t260 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t261 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t262 = C_i[0] * t260 + C_i[3] * t261;
-    const jg_real t263 = C_i[1] * t260 + C_i[4] * t261;
-    const jg_real t264 = C_i[2] * t260 + C_i[5] * t261;
-    phi_q_t_lambda_q[91] = t259 + lambda[3] * (A_ij_h_j_0 * t262 + A_ij_h_j_1 * t263 + A_ij_h_j_2 * t264) * sine_2 +
-        lambda[4] * (A_ij_f_j_0 * t262 + A_ij_f_j_1 * t263 + A_ij_f_j_2 * t264) * cosine_2;
-    const jg_real t265 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t266 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t267 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t268 = H_1 * H_8 + sine_1 * H_7;
-    phi_q_t_lambda_q[92] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t265 + C_i[3] * t266) + A_ij_h_j_1 * (C_i[1] * t265 +
-        C_i[4] * t266) + A_ij_h_j_2 * (C_i[2] * t265 + C_i[5] * t266)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t267 +
-        C_i[3] * t268) + A_ij_f_j_1 * (C_i[1] * t267 + C_i[4] * t268) + A_ij_f_j_2 * (C_i[2] * t267 + C_i[5] *
-        t268));
-    const jg_real t269 = H_0 * t255;
-    const jg_real t270 = t269 - cosine_1 * H_6;
-    const jg_real t271 = H_1 * t255;
-    const jg_real t272 = t271 - cosine_1 * H_7;
-    const jg_real t273 = sine_1 * t255;
-    const jg_real t274 = t273 + cosine_1 * H_8;
-    const jg_real t275 = sine_2 * H_8;
-    const jg_real t276 = cosine_1 * t243;
-    const jg_real t277 = H_3 * t275 - t269 + H_6 * t276;
-    const jg_real t278 = H_4 * t275 - t271 + H_7 * t276;
-    const jg_real t279 = t273 + H_5 * t275 + H_8 * t276;
-    const jg_real t280 = H_0 * t254;
-    const jg_real t281 = cosine_1 * t236;
-    const jg_real t282 = t280 - H_3 * t281 - H_6 * t275;
-    const jg_real t283 = H_1 * t254;
-    const jg_real t284 = t283 - H_4 * t281 - H_7 * t275;
-    const jg_real t285 = sine_1 * t254;
-    const jg_real t286 = t285 + H_5 * t281 + H_8 * t275;
-    const jg_real t287 = cosine_1 * H_3 - t280;
-    const jg_real t288 = cosine_1 * H_4 - t283;
-    const jg_real t289 = t285 + cosine_1 * H_5;
-    phi_q_t_lambda_q[99] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t270 + C_i[3] * t272 - C_i[6] * t274) + A_ij_h_j_1 *
-        (C_i[1] * t270 + C_i[4] * t272 - C_i[7] * t274) + A_ij_h_j_2 * (C_i[2] * t270 + C_i[5] * t272 - C_i[8] *
-        t274)) + lambda[3] * (A_ij_h_j_0 * (C_i[0] * t277 + C_i[3] * t278 + C_i[6] * t279) + A_ij_h_j_1 * (C_i[1] *
-        t277 + C_i[4] * t278 + C_i[7] * t279) + A_ij_h_j_2 * (C_i[2] * t277 + C_i[5] * t278 + C_i[8] * t279)) +
-        lambda[4] * (A_ij_f_j_0 * (C_i[0] * t282 + C_i[3] * t284 - C_i[6] * t286) + A_ij_f_j_1 * (C_i[1] * t282 +
-        C_i[4] * t284 - C_i[7] * t286) + A_ij_f_j_2 * (C_i[2] * t282 + C_i[5] * t284 - C_i[8] * t286)) + lambda[4] *
-        (A_ij_f_j_0 * (C_i[0] * t287 + C_i[3] * t288 + C_i[6] * t289) + A_ij_f_j_1 * (C_i[1] * t287 + C_i[4] * t288
-        + C_i[7] * t289) + A_ij_f_j_2 * (C_i[2] * t287 + C_i[5] * t288 + C_i[8] * t289)) + t259;
-    const jg_real t290 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t291 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t292 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t293 = C_i[0] * t290 + C_i[3] * t291 + C_i[6] * t292;
-    const jg_real t294 = C_i[1] * t290 + C_i[4] * t291 + C_i[7] * t292;
-    const jg_real t295 = C_i[2] * t290 + C_i[5] * t291 + C_i[8] * t292;
-    phi_q_t_lambda_q[100] = -(lambda[3] * (A_ij_h_j_0 * t293 + A_ij_h_j_1 * t294 + A_ij_h_j_2 * t295) * sine_2 +
-        lambda[4] * (A_ij_f_j_0 * t293 + A_ij_f_j_1 * t294 + A_ij_f_j_2 * t295) * cosine_2 + lambda[5] * t243 * t79
-        + lambda[5] * t236 * t79);
-    const jg_real t296 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
-    const jg_real t297 = lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2);
-    const jg_real t298 = cosine_2 * t296 - sine_2 * t297;
-    phi_q_t_lambda_q[101] = t298;
-    phi_q_t_lambda_q[109] = t298;
-    phi_q_t_lambda_q[108] = sine_1 * t74 + sine_1 * t76 + cosine_1 * t296 * sine_2 + cosine_1 * t297 * cosine_2;
-    phi_q_t_lambda_q[110] = -t77;
+    phi_q_t_lambda_q[83] = t226;
+    phi_q_t_lambda_q[107] = t226;
+    const jg_real t227 = cosine_1 * cosine_1;
+    const jg_real t228 = cosine_2 * t227 * sine_2;
+    const jg_real t229 = sine_1 * H_8;
+    const jg_real t230 = sine_2 * sine_2;
+    const jg_real t231 = t227 * t230;
+    const jg_real t232 = sine_1 * sine_1;
+    const jg_real t233 = t232 + t231;
+    const jg_real t234 = H_3 * t228 - H_0 * t229 - H_6 * t233;
+    const jg_real t235 = H_4 * t228 - H_1 * t229 - H_7 * t233;
+    const jg_real t236 = sine_1 * t229 + H_5 * t228 - H_8 * t233;
+    const jg_real t237 = cosine_2 * cosine_2;
+    const jg_real t238 = t227 * t237;
+    const jg_real t239 = t232 + t238;
+    const jg_real t240 = cosine_1 * sine_1 * sine_2;
+    const jg_real t241 = H_6 * t228 - (H_0 * t240 + H_3 * t239);
+    const jg_real t242 = H_7 * t228 - (H_1 * t240 + H_4 * t239);
+    const jg_real t243 = sine_1 * t240 - H_5 * t239 + H_8 * t228;
+    const jg_real t244 = t238 + t231;
+    const jg_real t245 = H_0 * t244 + H_3 * t240 + H_6 * t229;
+    const jg_real t246 = H_1 * t244 + H_4 * t240 + H_7 * t229;
+    const jg_real t247 = sine_1 * t244 - H_5 * t240 - H_8 * t229;
+    phi_q_t_lambda_q[90] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t241 + C_i[3] * t242 + C_i[6] * t243) + A_ij_h_j_1 *
+        (C_i[1] * t241 + C_i[4] * t242 + C_i[7] * t243) + A_ij_h_j_2 * (C_i[2] * t241 + C_i[5] * t242 + C_i[8] *
+        t243)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t234 + C_i[3] * t235 + C_i[6] * t236) + A_ij_f_j_1 * (C_i[1] *
+        t234 + C_i[4] * t235 + C_i[7] * t236) + A_ij_f_j_2 * (C_i[2] * t234 + C_i[5] * t235 + C_i[8] * t236)) +
+        lambda[5] * (A_ij_g_j_0 * (C_i[6] * t247 - (C_i[0] * t245 + C_i[3] * t246)) + A_ij_g_j_1 * (C_i[7] * t247 -
+        (C_i[1] * t245 + C_i[4] * t246)) + A_ij_g_j_2 * (C_i[8] * t247 - (C_i[2] * t245 + C_i[5] * t246)));
+    const jg_real t248 = sine_1 * sine_2;
+    const jg_real t249 = cosine_2 * sine_1;
+    const jg_real t250 = H_6 * t248 - H_3 * t249;
+    const jg_real t251 = H_7 * t248 - H_4 * t249;
+    const jg_real t252 = H_8 * t248 - H_5 * t249;
+    const jg_real t253 = lambda[5] * (A_ij_g_j_0 * (C_i[0] * t250 + C_i[3] * t251 + C_i[6] * t252) + A_ij_g_j_1 *
+        (C_i[1] * t250 + C_i[4] * t251 + C_i[7] * t252) + A_ij_g_j_2 * (C_i[2] * t250 + C_i[5] * t251 + C_i[8] *
+        t252));
+    const jg_real t254 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t255 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t256 = C_i[0] * t254 + C_i[3] * t255;
+    const jg_real t257 = C_i[1] * t254 + C_i[4] * t255;
+    const jg_real t258 = C_i[2] * t254 + C_i[5] * t255;
+    phi_q_t_lambda_q[91] = t253 + lambda[3] * (A_ij_h_j_0 * t256 + A_ij_h_j_1 * t257 + A_ij_h_j_2 * t258) * sine_2 +
+        lambda[4] * (A_ij_f_j_0 * t256 + A_ij_f_j_1 * t257 + A_ij_f_j_2 * t258) * cosine_2;
+    const jg_real t259 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t260 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t261 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t262 = H_1 * H_8 + sine_1 * H_7;
+    phi_q_t_lambda_q[92] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t259 + C_i[3] * t260) + A_ij_h_j_1 * (C_i[1] * t259 +
+        C_i[4] * t260) + A_ij_h_j_2 * (C_i[2] * t259 + C_i[5] * t260)) + lambda[4] * (A_ij_f_j_0 * (C_i[0] * t261 +
+        C_i[3] * t262) + A_ij_f_j_1 * (C_i[1] * t261 + C_i[4] * t262) + A_ij_f_j_2 * (C_i[2] * t261 + C_i[5] *
+        t262));
+    const jg_real t263 = H_0 * t249;
+    const jg_real t264 = t263 - cosine_1 * H_6;
+    const jg_real t265 = H_1 * t249;
+    const jg_real t266 = t265 - cosine_1 * H_7;
+    const jg_real t267 = sine_1 * t249;
+    const jg_real t268 = t267 + cosine_1 * H_8;
+    const jg_real t269 = sine_2 * H_8;
+    const jg_real t270 = cosine_1 * t237;
+    const jg_real t271 = H_3 * t269 - t263 + H_6 * t270;
+    const jg_real t272 = H_4 * t269 - t265 + H_7 * t270;
+    const jg_real t273 = t267 + H_5 * t269 + H_8 * t270;
+    const jg_real t274 = H_0 * t248;
+    const jg_real t275 = cosine_1 * t230;
+    const jg_real t276 = t274 - H_3 * t275 - H_6 * t269;
+    const jg_real t277 = H_1 * t248;
+    const jg_real t278 = t277 - H_4 * t275 - H_7 * t269;
+    const jg_real t279 = sine_1 * t248;
+    const jg_real t280 = t279 + H_5 * t275 + H_8 * t269;
+    const jg_real t281 = cosine_1 * H_3 - t274;
+    const jg_real t282 = cosine_1 * H_4 - t277;
+    const jg_real t283 = t279 + cosine_1 * H_5;
+    phi_q_t_lambda_q[99] = lambda[3] * (A_ij_h_j_0 * (C_i[0] * t264 + C_i[3] * t266 - C_i[6] * t268) + A_ij_h_j_1 *
+        (C_i[1] * t264 + C_i[4] * t266 - C_i[7] * t268) + A_ij_h_j_2 * (C_i[2] * t264 + C_i[5] * t266 - C_i[8] *
+        t268)) + lambda[3] * (A_ij_h_j_0 * (C_i[0] * t271 + C_i[3] * t272 + C_i[6] * t273) + A_ij_h_j_1 * (C_i[1] *
+        t271 + C_i[4] * t272 + C_i[7] * t273) + A_ij_h_j_2 * (C_i[2] * t271 + C_i[5] * t272 + C_i[8] * t273)) +
+        lambda[4] * (A_ij_f_j_0 * (C_i[0] * t276 + C_i[3] * t278 - C_i[6] * t280) + A_ij_f_j_1 * (C_i[1] * t276 +
+        C_i[4] * t278 - C_i[7] * t280) + A_ij_f_j_2 * (C_i[2] * t276 + C_i[5] * t278 - C_i[8] * t280)) + lambda[4] *
+        (A_ij_f_j_0 * (C_i[0] * t281 + C_i[3] * t282 + C_i[6] * t283) + A_ij_f_j_1 * (C_i[1] * t281 + C_i[4] * t282
+        + C_i[7] * t283) + A_ij_f_j_2 * (C_i[2] * t281 + C_i[5] * t282 + C_i[8] * t283)) + t253;
+    const jg_real t284 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t285 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t286 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t287 = C_i[0] * t284 + C_i[3] * t285 + C_i[6] * t286;
+    const jg_real t288 = C_i[1] * t284 + C_i[4] * t285 + C_i[7] * t286;
+    const jg_real t289 = C_i[2] * t284 + C_i[5] * t285 + C_i[8] * t286;
+    phi_q_t_lambda_q[100] = -(lambda[3] * (A_ij_h_j_0 * t287 + A_ij_h_j_1 * t288 + A_ij_h_j_2 * t289) * sine_2 +
+        lambda[4] * (A_ij_f_j_0 * t287 + A_ij_f_j_1 * t288 + A_ij_f_j_2 * t289) * cosine_2 + lambda[5] * t237 * t74
+        + lambda[5] * t230 * t74);
+    const jg_real t290 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2);
+    const jg_real t291 = lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2);
+    const jg_real t292 = cosine_2 * t290 - sine_2 * t291;
+    phi_q_t_lambda_q[101] = t292;
+    phi_q_t_lambda_q[109] = t292;
+    phi_q_t_lambda_q[108] = sine_1 * t69 + sine_1 * t71 + cosine_1 * t290 * sine_2 + cosine_1 * t291 * cosine_2;
+    phi_q_t_lambda_q[110] = -t72;
 }
 
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -776,7 +764,6 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -787,26 +774,22 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -823,12 +806,6 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -847,34 +824,29 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -893,14 +865,14 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t62 = cosine_2 * sine_0;
+    const jg_real t53 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t62;
-    const jg_real t64 = cosine_0 * cosine_2;
-    const jg_real H_4 = t64 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t53;
+    const jg_real t55 = cosine_0 * cosine_2;
+    const jg_real H_4 = t55 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -923,73 +895,73 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t80 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real t81 = alphadot[2] * alphadot[2];
-    const jg_real t82 = cosine_1 * cosine_1;
-    const jg_real t83 = cosine_2 * cosine_2;
-    const jg_real t84 = t82 * t83;
-    const jg_real t85 = sine_1 * sine_1;
-    const jg_real t86 = t85 + t84;
+    const jg_real t71 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    const jg_real t72 = alphadot[2] * alphadot[2];
+    const jg_real t73 = cosine_1 * cosine_1;
+    const jg_real t74 = cosine_2 * cosine_2;
+    const jg_real t75 = t73 * t74;
+    const jg_real t76 = sine_1 * sine_1;
+    const jg_real t77 = t76 + t75;
     const jg_real H_0 = cosine_0 * cosine_1;
-    const jg_real t88 = cosine_1 * sine_1 * sine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t64;
-    const jg_real t90 = cosine_2 * t82 * sine_2;
-    const jg_real t91 = H_6 * t90 - (H_0 * t88 + H_3 * t86);
+    const jg_real t79 = cosine_1 * sine_1 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t55;
+    const jg_real t81 = cosine_2 * t73 * sine_2;
+    const jg_real t82 = H_6 * t81 - (H_0 * t79 + H_3 * t77);
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_7 = t62 * sine_1 - cosine_0 * sine_2;
-    const jg_real t94 = H_7 * t90 - (H_1 * t88 + H_4 * t86);
+    const jg_real H_7 = t53 * sine_1 - cosine_0 * sine_2;
+    const jg_real t85 = H_7 * t81 - (H_1 * t79 + H_4 * t77);
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t96 = sine_1 * t88 - H_5 * t86 + H_8 * t90;
-    const jg_real t97 = alphadot[0] * alphadot[0];
-    const jg_real t98 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t99 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t100 = C_i[0] * t98 + C_i[3] * t99;
-    const jg_real t101 = C_i[1] * t98 + C_i[4] * t99;
-    const jg_real t102 = C_i[2] * t98 + C_i[5] * t99;
-    const jg_real t103 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t87 = sine_1 * t79 - H_5 * t77 + H_8 * t81;
+    const jg_real t88 = alphadot[0] * alphadot[0];
+    const jg_real t89 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t90 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t91 = C_i[0] * t89 + C_i[3] * t90;
+    const jg_real t92 = C_i[1] * t89 + C_i[4] * t90;
+    const jg_real t93 = C_i[2] * t89 + C_i[5] * t90;
+    const jg_real t94 = JG_REAL(2.0) * alphadot[0];
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
-    const jg_real t107 = JG_REAL(2.0) * alphadot[2];
-    const jg_real t108 = cosine_2 * sine_1;
-    const jg_real t109 = H_0 * t108;
-    const jg_real t110 = t109 - cosine_1 * H_6;
-    const jg_real t111 = H_1 * t108;
-    const jg_real t112 = t111 - cosine_1 * H_7;
-    const jg_real t113 = sine_1 * t108;
-    const jg_real t114 = t113 + cosine_1 * H_8;
-    const jg_real t115 = alphadot[0] * alphadot[1];
-    const jg_real t116 = sine_2 * H_8;
-    const jg_real t117 = cosine_1 * t83;
-    const jg_real t118 = H_3 * t116 - t109 + H_6 * t117;
-    const jg_real t119 = H_4 * t116 - t111 + H_7 * t117;
-    const jg_real t120 = t113 + H_5 * t116 + H_8 * t117;
-    const jg_real t121 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t122 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t123 = C_i[0] * t121 + C_i[3] * t122;
-    const jg_real t124 = C_i[1] * t121 + C_i[4] * t122;
-    const jg_real t125 = C_i[2] * t121 + C_i[5] * t122;
-    const jg_real t126 = alphadot[2] * alphadot[0];
-    const jg_real t127 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t128 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t129 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t130 = C_i[0] * t127 + C_i[3] * t128 + C_i[6] * t129;
-    const jg_real t131 = C_i[1] * t127 + C_i[4] * t128 + C_i[7] * t129;
-    const jg_real t132 = C_i[2] * t127 + C_i[5] * t128 + C_i[8] * t129;
-    const jg_real t133 = alphadot[1] * alphadot[1];
+    const jg_real t98 = JG_REAL(2.0) * alphadot[2];
+    const jg_real t99 = cosine_2 * sine_1;
+    const jg_real t100 = H_0 * t99;
+    const jg_real t101 = t100 - cosine_1 * H_6;
+    const jg_real t102 = H_1 * t99;
+    const jg_real t103 = t102 - cosine_1 * H_7;
+    const jg_real t104 = sine_1 * t99;
+    const jg_real t105 = t104 + cosine_1 * H_8;
+    const jg_real t106 = alphadot[0] * alphadot[1];
+    const jg_real t107 = sine_2 * H_8;
+    const jg_real t108 = cosine_1 * t74;
+    const jg_real t109 = H_3 * t107 - t100 + H_6 * t108;
+    const jg_real t110 = H_4 * t107 - t102 + H_7 * t108;
+    const jg_real t111 = t104 + H_5 * t107 + H_8 * t108;
+    const jg_real t112 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t113 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t114 = C_i[0] * t112 + C_i[3] * t113;
+    const jg_real t115 = C_i[1] * t112 + C_i[4] * t113;
+    const jg_real t116 = C_i[2] * t112 + C_i[5] * t113;
+    const jg_real t117 = alphadot[2] * alphadot[0];
+    const jg_real t118 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t119 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t120 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t121 = C_i[0] * t118 + C_i[3] * t119 + C_i[6] * t120;
+    const jg_real t122 = C_i[1] * t118 + C_i[4] * t119 + C_i[7] * t120;
+    const jg_real t123 = C_i[2] * t118 + C_i[5] * t119 + C_i[8] * t120;
+    const jg_real t124 = alphadot[1] * alphadot[1];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
-    const jg_real t137 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t138 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t139 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t140 = C_i[0] * t138 + C_i[3] * t139;
-    const jg_real t141 = C_i[1] * t138 + C_i[4] * t139;
-    const jg_real t142 = C_i[2] * t138 + C_i[5] * t139;
-    const jg_real t143 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    const jg_real t144 = alphadot[2] * t137;
+    const jg_real t128 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t129 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t130 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t131 = C_i[0] * t129 + C_i[3] * t130;
+    const jg_real t132 = C_i[1] * t129 + C_i[4] * t130;
+    const jg_real t133 = C_i[2] * t129 + C_i[5] * t130;
+    const jg_real t134 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    const jg_real t135 = alphadot[2] * t128;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1000,23 +972,23 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t81 * t80 - t97 * (A_ij_h_j_0 *
-        (C_i[0] * t91 + C_i[3] * t94 + C_i[6] * t96) + A_ij_h_j_1 * (C_i[1] * t91 + C_i[4] * t94 + C_i[7] * t96) +
-        A_ij_h_j_2 * (C_i[2] * t91 + C_i[5] * t94 + C_i[8] * t96)) + (A_ij_omega_j_cross_h_j_0 * t100 +
-        A_ij_omega_j_cross_h_j_1 * t101 + A_ij_omega_j_cross_h_j_2 * t102) * t103 - (A_ij_omega_j_cross_h_j_0 *
-        h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t107 - t103 *
-        (omega_i_cross_A_ij_h_j_0 * t100 + omega_i_cross_A_ij_h_j_1 * t101 + omega_i_cross_A_ij_h_j_2 * t102) + t107
-        * (omega_i_cross_A_ij_h_j_0 * h_star_0 + omega_i_cross_A_ij_h_j_1 * h_star_1 + omega_i_cross_A_ij_h_j_2 *
-        h_star_2) - (A_ij_h_j_0 * (C_i[0] * t110 + C_i[3] * t112 - C_i[6] * t114) + A_ij_h_j_1 * (C_i[1] * t110 +
-        C_i[4] * t112 - C_i[7] * t114) + A_ij_h_j_2 * (C_i[2] * t110 + C_i[5] * t112 - C_i[8] * t114)) * t115 - t115
-        * (A_ij_h_j_0 * (C_i[0] * t118 + C_i[3] * t119 + C_i[6] * t120) + A_ij_h_j_1 * (C_i[1] * t118 + C_i[4] *
-        t119 + C_i[7] * t120) + A_ij_h_j_2 * (C_i[2] * t118 + C_i[5] * t119 + C_i[8] * t120)) - (A_ij_h_j_0 * t123 +
-        A_ij_h_j_1 * t124 + A_ij_h_j_2 * t125) * t126 + t133 * (A_ij_h_j_0 * t130 + A_ij_h_j_1 * t131 + A_ij_h_j_2 *
-        t132) * sine_2 - (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 +
-        A_ij_omega_j_cross_h_j_2 * f_star_2) * t137 * sine_2 + t137 * (omega_i_cross_A_ij_h_j_0 * f_star_0 +
-        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * sine_2 - t115 * (A_ij_h_j_0 *
-        t140 + A_ij_h_j_1 * t141 + A_ij_h_j_2 * t142) * sine_2 - t80 * t126 * sine_1 - t143 * t144 * cosine_2 - t126
-        * t143 * cosine_1 * sine_2;
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t72 * t71 - t88 * (A_ij_h_j_0 *
+        (C_i[0] * t82 + C_i[3] * t85 + C_i[6] * t87) + A_ij_h_j_1 * (C_i[1] * t82 + C_i[4] * t85 + C_i[7] * t87) +
+        A_ij_h_j_2 * (C_i[2] * t82 + C_i[5] * t85 + C_i[8] * t87)) + (A_ij_omega_j_cross_h_j_0 * t91 +
+        A_ij_omega_j_cross_h_j_1 * t92 + A_ij_omega_j_cross_h_j_2 * t93) * t94 - (A_ij_omega_j_cross_h_j_0 *
+        h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t98 - t94 *
+        (omega_i_cross_A_ij_h_j_0 * t91 + omega_i_cross_A_ij_h_j_1 * t92 + omega_i_cross_A_ij_h_j_2 * t93) + t98 *
+        (omega_i_cross_A_ij_h_j_0 * h_star_0 + omega_i_cross_A_ij_h_j_1 * h_star_1 + omega_i_cross_A_ij_h_j_2 *
+        h_star_2) - (A_ij_h_j_0 * (C_i[0] * t101 + C_i[3] * t103 - C_i[6] * t105) + A_ij_h_j_1 * (C_i[1] * t101 +
+        C_i[4] * t103 - C_i[7] * t105) + A_ij_h_j_2 * (C_i[2] * t101 + C_i[5] * t103 - C_i[8] * t105)) * t106 - t106
+        * (A_ij_h_j_0 * (C_i[0] * t109 + C_i[3] * t110 + C_i[6] * t111) + A_ij_h_j_1 * (C_i[1] * t109 + C_i[4] *
+        t110 + C_i[7] * t111) + A_ij_h_j_2 * (C_i[2] * t109 + C_i[5] * t110 + C_i[8] * t111)) - (A_ij_h_j_0 * t114 +
+        A_ij_h_j_1 * t115 + A_ij_h_j_2 * t116) * t117 + t124 * (A_ij_h_j_0 * t121 + A_ij_h_j_1 * t122 + A_ij_h_j_2 *
+        t123) * sine_2 - (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 +
+        A_ij_omega_j_cross_h_j_2 * f_star_2) * t128 * sine_2 + t128 * (omega_i_cross_A_ij_h_j_0 * f_star_0 +
+        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * sine_2 - t106 * (A_ij_h_j_0 *
+        t131 + A_ij_h_j_1 * t132 + A_ij_h_j_2 * t133) * sine_2 - t71 * t117 * sine_1 - t134 * t135 * cosine_2 - t117
+        * t134 * cosine_1 * sine_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -1043,26 +1015,26 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t160 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    const jg_real t161 = sine_1 * H_8;
-    const jg_real t162 = sine_2 * sine_2;
-    const jg_real t163 = t82 * t162;
-    const jg_real t164 = t85 + t163;
-    const jg_real t165 = H_3 * t90 - H_0 * t161 - H_6 * t164;
-    const jg_real t166 = H_4 * t90 - H_1 * t161 - H_7 * t164;
-    const jg_real t167 = sine_1 * t161 + H_5 * t90 - H_8 * t164;
-    const jg_real t168 = sine_1 * sine_2;
-    const jg_real t169 = H_0 * t168;
-    const jg_real t170 = cosine_1 * t162;
-    const jg_real t171 = t169 - H_3 * t170 - H_6 * t116;
-    const jg_real t172 = H_1 * t168;
-    const jg_real t173 = t172 - H_4 * t170 - H_7 * t116;
-    const jg_real t174 = sine_1 * t168;
-    const jg_real t175 = t174 + H_5 * t170 + H_8 * t116;
-    const jg_real t176 = cosine_1 * H_3 - t169;
-    const jg_real t177 = cosine_1 * H_4 - t172;
-    const jg_real t178 = t174 + cosine_1 * H_5;
-    const jg_real t179 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
+    const jg_real t151 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    const jg_real t152 = sine_1 * H_8;
+    const jg_real t153 = sine_2 * sine_2;
+    const jg_real t154 = t73 * t153;
+    const jg_real t155 = t76 + t154;
+    const jg_real t156 = H_3 * t81 - H_0 * t152 - H_6 * t155;
+    const jg_real t157 = H_4 * t81 - H_1 * t152 - H_7 * t155;
+    const jg_real t158 = sine_1 * t152 + H_5 * t81 - H_8 * t155;
+    const jg_real t159 = sine_1 * sine_2;
+    const jg_real t160 = H_0 * t159;
+    const jg_real t161 = cosine_1 * t153;
+    const jg_real t162 = t160 - H_3 * t161 - H_6 * t107;
+    const jg_real t163 = H_1 * t159;
+    const jg_real t164 = t163 - H_4 * t161 - H_7 * t107;
+    const jg_real t165 = sine_1 * t159;
+    const jg_real t166 = t165 + H_5 * t161 + H_8 * t107;
+    const jg_real t167 = cosine_1 * H_3 - t160;
+    const jg_real t168 = cosine_1 * H_4 - t163;
+    const jg_real t169 = t165 + cosine_1 * H_5;
+    const jg_real t170 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
     gamma[4] = JG_REAL(2.0) * (h_star_0 * (omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] *
         A_ij_omega_j_cross_f_j_1) + h_star_1 * (omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] *
         A_ij_omega_j_cross_f_j_2) + h_star_2 * (omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] *
@@ -1073,23 +1045,23 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t81 * t160 - t97 * (A_ij_f_j_0 *
-        (C_i[0] * t165 + C_i[3] * t166 + C_i[6] * t167) + A_ij_f_j_1 * (C_i[1] * t165 + C_i[4] * t166 + C_i[7] *
-        t167) + A_ij_f_j_2 * (C_i[2] * t165 + C_i[5] * t166 + C_i[8] * t167)) - t103 * (t123 *
-        A_ij_omega_j_cross_f_j_0 + t124 * A_ij_omega_j_cross_f_j_1 + t125 * A_ij_omega_j_cross_f_j_2) - t107 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t72 * t151 - t88 * (A_ij_f_j_0 *
+        (C_i[0] * t156 + C_i[3] * t157 + C_i[6] * t158) + A_ij_f_j_1 * (C_i[1] * t156 + C_i[4] * t157 + C_i[7] *
+        t158) + A_ij_f_j_2 * (C_i[2] * t156 + C_i[5] * t157 + C_i[8] * t158)) - t94 * (t114 *
+        A_ij_omega_j_cross_f_j_0 + t115 * A_ij_omega_j_cross_f_j_1 + t116 * A_ij_omega_j_cross_f_j_2) - t98 *
         (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 *
-        omega_i_cross_A_ij_f_j_2) + t103 * (t123 * omega_i_cross_A_ij_f_j_0 + t124 * omega_i_cross_A_ij_f_j_1 + t125
-        * omega_i_cross_A_ij_f_j_2) + t107 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
-        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t126 * (t100 * A_ij_f_j_0 + t101 *
-        A_ij_f_j_1 + t102 * A_ij_f_j_2) - t115 * (A_ij_f_j_0 * (C_i[0] * t171 + C_i[3] * t173 - C_i[6] * t175) +
-        A_ij_f_j_1 * (C_i[1] * t171 + C_i[4] * t173 - C_i[7] * t175) + A_ij_f_j_2 * (C_i[2] * t171 + C_i[5] * t173 -
-        C_i[8] * t175)) - t115 * (A_ij_f_j_0 * (C_i[0] * t176 + C_i[3] * t177 + C_i[6] * t178) + A_ij_f_j_1 *
-        (C_i[1] * t176 + C_i[4] * t177 + C_i[7] * t178) + A_ij_f_j_2 * (C_i[2] * t176 + C_i[5] * t177 + C_i[8] *
-        t178)) + t133 * (t130 * A_ij_f_j_0 + t131 * A_ij_f_j_1 + t132 * A_ij_f_j_2) * cosine_2 - t137 * (f_star_0 *
+        omega_i_cross_A_ij_f_j_2) + t94 * (t114 * omega_i_cross_A_ij_f_j_0 + t115 * omega_i_cross_A_ij_f_j_1 + t116
+        * omega_i_cross_A_ij_f_j_2) + t98 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
+        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t117 * (t91 * A_ij_f_j_0 + t92 *
+        A_ij_f_j_1 + t93 * A_ij_f_j_2) - t106 * (A_ij_f_j_0 * (C_i[0] * t162 + C_i[3] * t164 - C_i[6] * t166) +
+        A_ij_f_j_1 * (C_i[1] * t162 + C_i[4] * t164 - C_i[7] * t166) + A_ij_f_j_2 * (C_i[2] * t162 + C_i[5] * t164 -
+        C_i[8] * t166)) - t106 * (A_ij_f_j_0 * (C_i[0] * t167 + C_i[3] * t168 + C_i[6] * t169) + A_ij_f_j_1 *
+        (C_i[1] * t167 + C_i[4] * t168 + C_i[7] * t169) + A_ij_f_j_2 * (C_i[2] * t167 + C_i[5] * t168 + C_i[8] *
+        t169)) + t124 * (t121 * A_ij_f_j_0 + t122 * A_ij_f_j_1 + t123 * A_ij_f_j_2) * cosine_2 - t128 * (f_star_0 *
         A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) *
-        cosine_2 + t137 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 *
-        omega_i_cross_A_ij_f_j_2) * cosine_2 - t115 * (t140 * A_ij_f_j_0 + t141 * A_ij_f_j_1 + t142 * A_ij_f_j_2) *
-        cosine_2 - t126 * t160 * sine_1 + t144 * t179 * sine_2 - t126 * t179 * cosine_1 * cosine_2;
+        cosine_2 + t128 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 *
+        omega_i_cross_A_ij_f_j_2) * cosine_2 - t106 * (t131 * A_ij_f_j_0 + t132 * A_ij_f_j_1 + t133 * A_ij_f_j_2) *
+        cosine_2 - t117 * t151 * sine_1 + t135 * t170 * sine_2 - t117 * t170 * cosine_1 * cosine_2;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -1116,25 +1088,25 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t195 = t84 + t163;
-    const jg_real t196 = H_0 * t195 + H_3 * t88 + H_6 * t161;
-    const jg_real t197 = H_1 * t195 + H_4 * t88 + H_7 * t161;
-    const jg_real t198 = sine_1 * t195 - H_5 * t88 - H_8 * t161;
-    const jg_real t199 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t200 = H_3 * H_5 + H_6 * H_8;
-    const jg_real t201 = H_4 * H_5 + H_7 * H_8;
-    const jg_real t202 = H_5 * H_5 + H_8 * H_8;
-    const jg_real t203 = t126 * (A_ij_g_j_0 * (C_i[0] * t200 + C_i[3] * t201 + C_i[6] * t202) + A_ij_g_j_1 * (C_i[1]
-        * t200 + C_i[4] * t201 + C_i[7] * t202) + A_ij_g_j_2 * (C_i[2] * t200 + C_i[5] * t201 + C_i[8] * t202));
-    const jg_real t204 = sine_2 * H_6 - cosine_2 * H_3;
-    const jg_real t205 = sine_2 * H_7 - cosine_2 * H_4;
-    const jg_real t206 = t116 - cosine_2 * H_5;
-    const jg_real t207 = (A_ij_g_j_0 * (C_i[0] * t204 + C_i[3] * t205 + C_i[6] * t206) + A_ij_g_j_1 * (C_i[1] * t204
-        + C_i[4] * t205 + C_i[7] * t206) + A_ij_g_j_2 * (C_i[2] * t204 + C_i[5] * t205 + C_i[8] * t206)) *
+    const jg_real t186 = t75 + t154;
+    const jg_real t187 = H_0 * t186 + H_3 * t79 + H_6 * t152;
+    const jg_real t188 = H_1 * t186 + H_4 * t79 + H_7 * t152;
+    const jg_real t189 = sine_1 * t186 - H_5 * t79 - H_8 * t152;
+    const jg_real t190 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t191 = H_3 * H_5 + H_6 * H_8;
+    const jg_real t192 = H_4 * H_5 + H_7 * H_8;
+    const jg_real t193 = H_5 * H_5 + H_8 * H_8;
+    const jg_real t194 = t117 * (A_ij_g_j_0 * (C_i[0] * t191 + C_i[3] * t192 + C_i[6] * t193) + A_ij_g_j_1 * (C_i[1]
+        * t191 + C_i[4] * t192 + C_i[7] * t193) + A_ij_g_j_2 * (C_i[2] * t191 + C_i[5] * t192 + C_i[8] * t193));
+    const jg_real t195 = sine_2 * H_6 - cosine_2 * H_3;
+    const jg_real t196 = sine_2 * H_7 - cosine_2 * H_4;
+    const jg_real t197 = t107 - cosine_2 * H_5;
+    const jg_real t198 = (A_ij_g_j_0 * (C_i[0] * t195 + C_i[3] * t196 + C_i[6] * t197) + A_ij_g_j_1 * (C_i[1] * t195
+        + C_i[4] * t196 + C_i[7] * t197) + A_ij_g_j_2 * (C_i[2] * t195 + C_i[5] * t196 + C_i[8] * t197)) *
         (alphadot[2] * alphadot[1]);
-    const jg_real t208 = H_6 * t168 - H_3 * t108;
-    const jg_real t209 = H_7 * t168 - H_4 * t108;
-    const jg_real t210 = H_8 * t168 - H_5 * t108;
+    const jg_real t199 = H_6 * t159 - H_3 * t99;
+    const jg_real t200 = H_7 * t159 - H_4 * t99;
+    const jg_real t201 = H_8 * t159 - H_5 * t99;
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
         A_ij_omega_j_cross_g_j_2) + f_star_2 * (omega_i[0] * A_ij_omega_j_cross_g_j_1 - omega_i[1] *
@@ -1145,16 +1117,16 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t97 * (A_ij_g_j_0 * (C_i[6] * t198 -
-        (C_i[0] * t196 + C_i[3] * t197)) + A_ij_g_j_1 * (C_i[7] * t198 - (C_i[1] * t196 + C_i[4] * t197)) +
-        A_ij_g_j_2 * (C_i[8] * t198 - (C_i[2] * t196 + C_i[5] * t197))) - t103 * (t140 * A_ij_omega_j_cross_g_j_0 +
-        t141 * A_ij_omega_j_cross_g_j_1 + t142 * A_ij_omega_j_cross_g_j_2) + t137 * (t130 * A_ij_omega_j_cross_g_j_0
-        + t131 * A_ij_omega_j_cross_g_j_1 + t132 * A_ij_omega_j_cross_g_j_2) + t103 * (t140 *
-        omega_i_cross_A_ij_g_j_0 + t141 * omega_i_cross_A_ij_g_j_1 + t142 * omega_i_cross_A_ij_g_j_2) - t137 * (t130
-        * omega_i_cross_A_ij_g_j_0 + t131 * omega_i_cross_A_ij_g_j_1 + t132 * omega_i_cross_A_ij_g_j_2) + t83 * t133
-        * t199 + t133 * t162 * t199 - t203 + t203 - t207 + t207 - (A_ij_g_j_0 * (C_i[0] * t208 + C_i[3] * t209 +
-        C_i[6] * t210) + A_ij_g_j_1 * (C_i[1] * t208 + C_i[4] * t209 + C_i[7] * t210) + A_ij_g_j_2 * (C_i[2] * t208
-        + C_i[5] * t209 + C_i[8] * t210)) * (t103 * alphadot[1]);
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t88 * (A_ij_g_j_0 * (C_i[6] * t189 -
+        (C_i[0] * t187 + C_i[3] * t188)) + A_ij_g_j_1 * (C_i[7] * t189 - (C_i[1] * t187 + C_i[4] * t188)) +
+        A_ij_g_j_2 * (C_i[8] * t189 - (C_i[2] * t187 + C_i[5] * t188))) - t94 * (t131 * A_ij_omega_j_cross_g_j_0 +
+        t132 * A_ij_omega_j_cross_g_j_1 + t133 * A_ij_omega_j_cross_g_j_2) + t128 * (t121 * A_ij_omega_j_cross_g_j_0
+        + t122 * A_ij_omega_j_cross_g_j_1 + t123 * A_ij_omega_j_cross_g_j_2) + t94 * (t131 *
+        omega_i_cross_A_ij_g_j_0 + t132 * omega_i_cross_A_ij_g_j_1 + t133 * omega_i_cross_A_ij_g_j_2) - t128 * (t121
+        * omega_i_cross_A_ij_g_j_0 + t122 * omega_i_cross_A_ij_g_j_1 + t123 * omega_i_cross_A_ij_g_j_2) + t74 * t124
+        * t190 + t124 * t153 * t190 - t194 + t194 - t198 + t198 - (A_ij_g_j_0 * (C_i[0] * t199 + C_i[3] * t200 +
+        C_i[6] * t201) + A_ij_g_j_1 * (C_i[1] * t199 + C_i[4] * t200 + C_i[7] * t201) + A_ij_g_j_2 * (C_i[2] * t199
+        + C_i[5] * t200 + C_i[8] * t201)) * (t94 * alphadot[1]);
 }
 
 void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1170,58 +1142,56 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - (omega_i[1] * t14 - omega_i[2] * t16) + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t24 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - (omega_i[2] * t24 - omega_i[0] * t14) + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - (omega_i[0] * t16 - omega_i[1] * t24) + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
@@ -1236,14 +1206,14 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t45 = cosine_2 * sine_0;
+    const jg_real t42 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t45;
-    const jg_real t47 = cosine_0 * cosine_2;
-    const jg_real H_4 = t47 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t42;
+    const jg_real t44 = cosine_0 * cosine_2;
+    const jg_real H_4 = t44 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -1254,11 +1224,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t47;
-    const jg_real t59 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t44;
+    const jg_real t56 = H_0 * H_8 + sine_1 * H_6;
     const jg_real H_1 = cosine_1 * sine_0;
-    const jg_real H_7 = t45 * sine_1 - cosine_0 * sine_2;
-    const jg_real t62 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real H_7 = t42 * sine_1 - cosine_0 * sine_2;
+    const jg_real t59 = H_1 * H_8 + sine_1 * H_7;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real h_star_1 = C_i[1] * H_6 + C_i[4] * H_7 + C_i[7] * H_8;
@@ -1281,11 +1251,11 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q_v[3] = g_star_0 * A_ij_omega_j_cross_h_j_0 + g_star_1 * A_ij_omega_j_cross_h_j_1 + g_star_2 *
         A_ij_omega_j_cross_h_j_2 + (alphadot[2] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 *
         h_star_2) - (g_star_0 * omega_i_cross_A_ij_h_j_0 + g_star_1 * omega_i_cross_A_ij_h_j_1 + g_star_2 *
-        omega_i_cross_A_ij_h_j_2 + alphadot[0] * (A_ij_h_j_0 * (C_i[0] * t59 + C_i[3] * t62) + A_ij_h_j_1 * (C_i[1]
-        * t59 + C_i[4] * t62) + A_ij_h_j_2 * (C_i[2] * t59 + C_i[5] * t62))) + alphadot[1] * (A_ij_h_j_0 * f_star_0
+        omega_i_cross_A_ij_h_j_2 + alphadot[0] * (A_ij_h_j_0 * (C_i[0] * t56 + C_i[3] * t59) + A_ij_h_j_1 * (C_i[1]
+        * t56 + C_i[4] * t59) + A_ij_h_j_2 * (C_i[2] * t56 + C_i[5] * t59))) + alphadot[1] * (A_ij_h_j_0 * f_star_0
         + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) * sine_2);
-    const jg_real t75 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t76 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t72 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t73 = H_1 * H_5 + sine_1 * H_4;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -1306,13 +1276,13 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     phi_q_v[4] = h_star_0 * A_ij_omega_j_cross_f_j_0 + h_star_1 * A_ij_omega_j_cross_f_j_1 + h_star_2 *
-        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (A_ij_f_j_0 * (C_i[0] * t75 + C_i[3] * t76) + A_ij_f_j_1 * (C_i[1]
-        * t75 + C_i[4] * t76) + A_ij_f_j_2 * (C_i[2] * t75 + C_i[5] * t76)) - (h_star_0 * omega_i_cross_A_ij_f_j_0 +
+        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (A_ij_f_j_0 * (C_i[0] * t72 + C_i[3] * t73) + A_ij_f_j_1 * (C_i[1]
+        * t72 + C_i[4] * t73) + A_ij_f_j_2 * (C_i[2] * t72 + C_i[5] * t73)) - (h_star_0 * omega_i_cross_A_ij_f_j_0 +
         h_star_1 * omega_i_cross_A_ij_f_j_1 + h_star_2 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (g_star_0 *
         A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2) + alphadot[1] * (f_star_0 * A_ij_f_j_0 +
         f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_2);
-    const jg_real t89 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t90 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t86 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t87 = H_4 * H_8 - H_7 * H_5;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -1321,9 +1291,9 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real omega_i_cross_A_ij_g_j_0 = omega_i[1] * A_ij_g_j_2 - omega_i[2] * A_ij_g_j_1;
     const jg_real omega_i_cross_A_ij_g_j_1 = omega_i[2] * A_ij_g_j_0 - omega_i[0] * A_ij_g_j_2;
     const jg_real omega_i_cross_A_ij_g_j_2 = omega_i[0] * A_ij_g_j_1 - omega_i[1] * A_ij_g_j_0;
-    const jg_real t97 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t98 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t99 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t94 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t95 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t96 = sine_2 * H_5 + cosine_2 * H_8;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -1336,41 +1306,23 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     phi_q_v[5] = f_star_0 * A_ij_omega_j_cross_g_j_0 + f_star_1 * A_ij_omega_j_cross_g_j_1 + f_star_2 *
-        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[0] * t89 + C_i[3] * t90) + A_ij_g_j_1 * (C_i[1]
-        * t89 + C_i[4] * t90) + A_ij_g_j_2 * (C_i[2] * t89 + C_i[5] * t90)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
+        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[0] * t86 + C_i[3] * t87) + A_ij_g_j_1 * (C_i[1]
+        * t86 + C_i[4] * t87) + A_ij_g_j_2 * (C_i[2] * t86 + C_i[5] * t87)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
         f_star_1 * omega_i_cross_A_ij_g_j_1 + f_star_2 * omega_i_cross_A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 *
-        (C_i[0] * t97 + C_i[3] * t98 + C_i[6] * t99) + A_ij_g_j_1 * (C_i[1] * t97 + C_i[4] * t98 + C_i[7] * t99) +
-        A_ij_g_j_2 * (C_i[2] * t97 + C_i[5] * t98 + C_i[8] * t99)));
+        (C_i[0] * t94 + C_i[3] * t95 + C_i[6] * t96) + A_ij_g_j_1 * (C_i[1] * t94 + C_i[4] * t95 + C_i[7] * t96) +
+        A_ij_g_j_2 * (C_i[2] * t94 + C_i[5] * t95 + C_i[8] * t96)));
 }
 
 void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     phi_q_t_lambda[0] = -lambda[0];
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[2] = -lambda[2];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -1386,14 +1338,14 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t23 = cosine_2 * sine_0;
+    const jg_real t10 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t23;
-    const jg_real t25 = cosine_0 * cosine_2;
-    const jg_real H_4 = t25 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t10;
+    const jg_real t12 = cosine_0 * cosine_2;
+    const jg_real H_4 = t12 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[2] * H_3 + C_i[5] * H_4 + C_i[8] * H_5;
@@ -1402,10 +1354,21 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real g_star_1 = C_i[1] * H_3 + C_i[4] * H_4 + C_i[7] * H_5;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t25;
-    const jg_real H_7 = t23 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t12;
+    const jg_real H_7 = t10 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
@@ -1419,32 +1382,31 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
-    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
-        g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 * f_star_2
-        - A_ij_g_j_2 * f_star_1);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t48 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda[3] = lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2
+        * g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 *
+        f_star_2 - A_ij_g_j_2 * f_star_1);
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real f_star_0 = C_i[0] * H_0 + C_i[3] * H_1 - C_i[6] * sine_1;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    phi_q_t_lambda[4] = lambda[2] * t48 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
-        g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 * f_star_0
-        - A_ij_g_j_0 * f_star_2);
-    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t48 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
-        g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 * f_star_1
-        - A_ij_g_j_1 * f_star_0);
-    const jg_real t58 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t58;
-    const jg_real t59 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t59;
-    const jg_real t60 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t60;
+    phi_q_t_lambda[4] = lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0
+        * g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 *
+        f_star_0 - A_ij_g_j_0 * f_star_2);
+    phi_q_t_lambda[5] = lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1
+        * g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 *
+        f_star_1 - A_ij_g_j_1 * f_star_0);
+    const jg_real t52 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t52;
+    const jg_real t53 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t53;
+    const jg_real t54 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t54;
     /* A_ijt_g_star = A_ij^T g_star */
     const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
     const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
@@ -1454,35 +1416,35 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    phi_q_t_lambda[9] = s_j[1] * t60 - s_j[2] * t59 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+    phi_q_t_lambda[9] = s_j[1] * t54 - s_j[2] * t53 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
         A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
         A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
     const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    phi_q_t_lambda[10] = s_j[2] * t58 - s_j[0] * t60 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+    phi_q_t_lambda[10] = s_j[2] * t52 - s_j[0] * t54 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
         A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
         A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
-    phi_q_t_lambda[11] = s_j[0] * t59 - s_j[1] * t58 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+    phi_q_t_lambda[11] = s_j[0] * t53 - s_j[1] * t52 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
         A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
         A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
-    const jg_real t70 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t71 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t72 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t73 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t74 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t75 = H_4 * H_8 - H_7 * H_5;
-    phi_q_t_lambda[12] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t70 + C_i[3] * t71) + A_ij_f_j_1 * (C_i[1] * t70 +
-        C_i[4] * t71) + A_ij_f_j_2 * (C_i[2] * t70 + C_i[5] * t71)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t72 +
-        C_i[3] * t73) + A_ij_h_j_1 * (C_i[1] * t72 + C_i[4] * t73) + A_ij_h_j_2 * (C_i[2] * t72 + C_i[5] * t73)) +
-        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t74 + C_i[3] * t75) + A_ij_g_j_1 * (C_i[1] * t74 + C_i[4] * t75) +
-        A_ij_g_j_2 * (C_i[2] * t74 + C_i[5] * t75));
-    const jg_real t76 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t77 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t78 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t64 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t65 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t66 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t67 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t68 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t69 = H_4 * H_8 - H_7 * H_5;
+    phi_q_t_lambda[12] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t64 + C_i[3] * t65) + A_ij_f_j_1 * (C_i[1] * t64 +
+        C_i[4] * t65) + A_ij_f_j_2 * (C_i[2] * t64 + C_i[5] * t65)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t66 +
+        C_i[3] * t67) + A_ij_h_j_1 * (C_i[1] * t66 + C_i[4] * t67) + A_ij_h_j_2 * (C_i[2] * t66 + C_i[5] * t67)) +
+        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t68 + C_i[3] * t69) + A_ij_g_j_1 * (C_i[1] * t68 + C_i[4] * t69) +
+        A_ij_g_j_2 * (C_i[2] * t68 + C_i[5] * t69));
+    const jg_real t70 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t71 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t72 = sine_2 * H_5 + cosine_2 * H_8;
     phi_q_t_lambda[13] = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
-        sine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t76 + C_i[3] * t77 + C_i[6] * t78) + A_ij_g_j_1 * (C_i[1] * t76
-        + C_i[4] * t77 + C_i[7] * t78) + A_ij_g_j_2 * (C_i[2] * t76 + C_i[5] * t77 + C_i[8] * t78)) + lambda[4] *
+        sine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t70 + C_i[3] * t71 + C_i[6] * t72) + A_ij_g_j_1 * (C_i[1] * t70
+        + C_i[4] * t71 + C_i[7] * t72) + A_ij_g_j_2 * (C_i[2] * t70 + C_i[5] * t71 + C_i[8] * t72)) + lambda[4] *
         (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_2;
     phi_q_t_lambda[14] = lambda[3] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2) -
         lambda[4] * (g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
@@ -1505,16 +1467,20 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -1531,14 +1497,14 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t18 = cosine_2 * sine_0;
+    const jg_real t21 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
-    const jg_real t20 = cosine_0 * cosine_2;
-    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t21;
+    const jg_real t23 = cosine_0 * cosine_2;
+    const jg_real H_4 = t23 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -1567,10 +1533,10 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t38 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t38;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
-    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
+    const jg_real t41 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t41;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t23;
+    const jg_real H_7 = t21 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -1580,8 +1546,8 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_star_2 = C_i[2] * H_6 + C_i[5] * H_7 + C_i[8] * H_8;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t48 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    phi[4] = t48;
+    const jg_real t51 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    phi[4] = t51;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
@@ -1592,26 +1558,27 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real f_star_1 = C_i[1] * H_0 + C_i[4] * H_1 - C_i[7] * sine_1;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * H_0 + C_i[5] * H_1 - C_i[8] * sine_1;
-    const jg_real t57 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t57;
+    const jg_real t60 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t60;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t58 = s_i[2] + dp_ij_2;
-    phi_q[3] = t58;
-    const jg_real t59 = s_i[1] + dp_ij_1;
-    phi_q[13] = t59;
-    phi_q[4] = -t59;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t58;
-    const jg_real t60 = s_i[0] + dp_ij_0;
-    phi_q[9] = t60;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t60;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1645,35 +1612,35 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t70 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t71 = H_1 * H_8 + sine_1 * H_7;
-    const jg_real t72 = C_i[0] * t70 + C_i[3] * t71;
-    const jg_real t73 = C_i[1] * t70 + C_i[4] * t71;
-    const jg_real t74 = C_i[2] * t70 + C_i[5] * t71;
-    phi_q[45] = -(A_ij_h_j_0 * t72 + A_ij_h_j_1 * t73 + A_ij_h_j_2 * t74);
-    const jg_real t75 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t76 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t77 = C_i[0] * t75 + C_i[3] * t76;
-    const jg_real t78 = C_i[1] * t75 + C_i[4] * t76;
-    const jg_real t79 = C_i[2] * t75 + C_i[5] * t76;
-    phi_q[46] = A_ij_f_j_0 * t77 + A_ij_f_j_1 * t78 + A_ij_f_j_2 * t79;
-    const jg_real t80 = H_3 * H_8 - H_6 * H_5;
-    const jg_real t81 = H_4 * H_8 - H_7 * H_5;
-    const jg_real t82 = C_i[0] * t80 + C_i[3] * t81;
-    const jg_real t83 = C_i[1] * t80 + C_i[4] * t81;
-    const jg_real t84 = C_i[2] * t80 + C_i[5] * t81;
-    phi_q[47] = A_ij_g_j_0 * t82 + A_ij_g_j_1 * t83 + A_ij_g_j_2 * t84;
-    const jg_real t85 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    phi_q[48] = sine_2 * t85;
-    const jg_real t86 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    phi_q[49] = cosine_2 * t86;
-    const jg_real t87 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t88 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t89 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t90 = C_i[0] * t87 + C_i[3] * t88 + C_i[6] * t89;
-    const jg_real t91 = C_i[1] * t87 + C_i[4] * t88 + C_i[7] * t89;
-    const jg_real t92 = C_i[2] * t87 + C_i[5] * t88 + C_i[8] * t89;
-    phi_q[50] = -(A_ij_g_j_0 * t90 + A_ij_g_j_1 * t91 + A_ij_g_j_2 * t92);
+    const jg_real t73 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t74 = H_1 * H_8 + sine_1 * H_7;
+    const jg_real t75 = C_i[0] * t73 + C_i[3] * t74;
+    const jg_real t76 = C_i[1] * t73 + C_i[4] * t74;
+    const jg_real t77 = C_i[2] * t73 + C_i[5] * t74;
+    phi_q[45] = -(A_ij_h_j_0 * t75 + A_ij_h_j_1 * t76 + A_ij_h_j_2 * t77);
+    const jg_real t78 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t79 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t80 = C_i[0] * t78 + C_i[3] * t79;
+    const jg_real t81 = C_i[1] * t78 + C_i[4] * t79;
+    const jg_real t82 = C_i[2] * t78 + C_i[5] * t79;
+    phi_q[46] = A_ij_f_j_0 * t80 + A_ij_f_j_1 * t81 + A_ij_f_j_2 * t82;
+    const jg_real t83 = H_3 * H_8 - H_6 * H_5;
+    const jg_real t84 = H_4 * H_8 - H_7 * H_5;
+    const jg_real t85 = C_i[0] * t83 + C_i[3] * t84;
+    const jg_real t86 = C_i[1] * t83 + C_i[4] * t84;
+    const jg_real t87 = C_i[2] * t83 + C_i[5] * t84;
+    phi_q[47] = A_ij_g_j_0 * t85 + A_ij_g_j_1 * t86 + A_ij_g_j_2 * t87;
+    const jg_real t88 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    phi_q[48] = sine_2 * t88;
+    const jg_real t89 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    phi_q[49] = cosine_2 * t89;
+    const jg_real t90 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t91 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t92 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t93 = C_i[0] * t90 + C_i[3] * t91 + C_i[6] * t92;
+    const jg_real t94 = C_i[1] * t90 + C_i[4] * t91 + C_i[7] * t92;
+    const jg_real t95 = C_i[2] * t90 + C_i[5] * t91 + C_i[8] * t92;
+    phi_q[50] = -(A_ij_g_j_0 * t93 + A_ij_g_j_1 * t94 + A_ij_g_j_2 * t95);
     phi_q[51] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[52] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     phi_q_t_lambda_q[2] = lambda[2];
@@ -1682,368 +1649,368 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t93 = g_star_2 * lambda[3];
-    const jg_real t94 = A_ij_h_j_2 * t93;
-    const jg_real t95 = g_star_1 * lambda[3];
-    const jg_real t96 = A_ij_h_j_1 * t95;
-    const jg_real t97 = h_star_2 * lambda[4];
-    const jg_real t98 = A_ij_f_j_2 * t97;
-    const jg_real t99 = h_star_1 * lambda[4];
-    const jg_real t100 = A_ij_f_j_1 * t99;
-    const jg_real t101 = f_star_2 * lambda[5];
-    const jg_real t102 = A_ij_g_j_2 * t101;
-    const jg_real t103 = f_star_1 * lambda[5];
-    const jg_real t104 = A_ij_g_j_1 * t103;
-    const jg_real t105 = t58 * lambda[2];
-    const jg_real t106 = t59 * lambda[1];
-    phi_q_t_lambda_q[6] = -(t105 + t106 + (t102 + t104 + (t94 + t96 + (t98 + t100))));
-    const jg_real t107 = g_star_0 * lambda[3];
-    const jg_real t108 = h_star_0 * lambda[4];
-    const jg_real t109 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t107 + A_ij_f_j_1 * t108 + A_ij_g_j_1 * t109 + t59 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t107 + A_ij_f_j_2 * t108 + A_ij_g_j_2 * t109 + t58 * lambda[0];
-    const jg_real t110 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t110;
-    phi_q_t_lambda_q[42] = t110;
-    const jg_real t111 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t111;
-    phi_q_t_lambda_q[45] = t111;
-    const jg_real t112 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t112;
-    phi_q_t_lambda_q[48] = t112;
-    const jg_real t113 = t38 * lambda[3];
-    const jg_real t114 = t48 * lambda[4];
-    const jg_real t115 = t113 + t114;
-    const jg_real t116 = t57 * lambda[5] + t115;
-    const jg_real t117 = A_ij_0 * t116;
-    const jg_real t118 = A_ijt_g_star_0 * lambda[3];
-    const jg_real t119 = A_ijt_h_star_0 * lambda[4];
-    const jg_real t120 = A_ijt_f_star_0 * lambda[5];
-    const jg_real t121 = s_j[1] * t112 - s_j[2] * t111;
-    phi_q_t_lambda_q[12] = t117 - A_ij_h_j_0 * t118 - A_ij_f_j_0 * t119 - A_ij_g_j_0 * t120 + t121;
-    const jg_real t122 = A_ij_3 * t116;
-    const jg_real t123 = A_ijt_g_star_1 * lambda[3];
-    const jg_real t124 = A_ijt_h_star_1 * lambda[4];
-    const jg_real t125 = A_ijt_f_star_1 * lambda[5];
-    const jg_real t126 = s_j[2] * t110 - s_j[0] * t112;
-    phi_q_t_lambda_q[13] = t122 - A_ij_h_j_0 * t123 - A_ij_f_j_0 * t124 - A_ij_g_j_0 * t125 + t126;
-    const jg_real t127 = A_ij_6 * t116;
-    const jg_real t128 = A_ijt_g_star_2 * lambda[3];
-    const jg_real t129 = A_ijt_h_star_2 * lambda[4];
-    const jg_real t130 = A_ijt_f_star_2 * lambda[5];
-    const jg_real t131 = s_j[0] * t111 - s_j[1] * t110;
-    phi_q_t_lambda_q[14] = t127 - A_ij_h_j_0 * t128 - A_ij_f_j_0 * t129 - A_ij_g_j_0 * t130 + t131;
-    const jg_real t132 = cosine_1 * lambda[3] * cosine_2;
-    const jg_real t133 = sine_1 * lambda[3];
-    const jg_real t134 = H_0 * t132 + H_6 * t133;
-    const jg_real t135 = H_1 * t132 + H_7 * t133;
-    const jg_real t136 = H_8 * t133 - sine_1 * t132;
-    const jg_real t137 = C_i[2] * t134 + C_i[5] * t135 + C_i[8] * t136;
-    const jg_real t138 = C_i[1] * t134 + C_i[4] * t135 + C_i[7] * t136;
-    const jg_real t139 = cosine_1 * lambda[4] * sine_2;
-    const jg_real t140 = sine_1 * lambda[4];
-    const jg_real t141 = H_0 * t139 + H_3 * t140;
-    const jg_real t142 = H_1 * t139 + H_4 * t140;
-    const jg_real t143 = sine_1 * t139 - H_5 * t140;
-    const jg_real t144 = C_i[8] * t143 - (C_i[2] * t141 + C_i[5] * t142);
-    const jg_real t145 = C_i[7] * t143 - (C_i[1] * t141 + C_i[4] * t142);
-    const jg_real t146 = cosine_1 * lambda[5];
-    const jg_real t147 = sine_2 * t146;
-    const jg_real t148 = cosine_2 * t146;
-    const jg_real t149 = H_6 * t147 - H_3 * t148;
-    const jg_real t150 = H_7 * t147 - H_4 * t148;
-    const jg_real t151 = H_8 * t147 - H_5 * t148;
-    const jg_real t152 = C_i[2] * t149 + C_i[5] * t150 + C_i[8] * t151;
-    const jg_real t153 = C_i[1] * t149 + C_i[4] * t150 + C_i[7] * t151;
-    const jg_real t154 = A_ij_g_j_1 * t152 - A_ij_g_j_2 * t153 + (A_ij_h_j_1 * t137 - A_ij_h_j_2 * t138 +
-        (A_ij_f_j_1 * t144 - A_ij_f_j_2 * t145));
-    phi_q_t_lambda_q[15] = t154;
-    phi_q_t_lambda_q[84] = t154;
-    const jg_real t155 = cosine_2 * lambda[4];
-    const jg_real t156 = sine_2 * lambda[3];
-    const jg_real t157 = C_j[0] * t155 + C_j[6] * t156;
-    const jg_real t158 = C_j[1] * t155 + C_j[7] * t156;
-    const jg_real t159 = C_j[2] * t155 + C_j[8] * t156;
-    const jg_real t160 = A_ij_2 * t157 + A_ij_5 * t158 + A_ij_8 * t159;
-    const jg_real t161 = A_ij_1 * t157 + A_ij_4 * t158 + A_ij_7 * t159;
-    const jg_real t162 = sine_2 * lambda[5];
-    const jg_real t163 = cosine_2 * lambda[5];
-    const jg_real t164 = H_3 * t162 + H_6 * t163;
-    const jg_real t165 = H_4 * t162 + H_7 * t163;
-    const jg_real t166 = H_5 * t162 + H_8 * t163;
-    const jg_real t167 = C_i[2] * t164 + C_i[5] * t165 + C_i[8] * t166;
-    const jg_real t168 = C_i[1] * t164 + C_i[4] * t165 + C_i[7] * t166;
-    const jg_real t169 = f_star_1 * t160 - f_star_2 * t161 + (A_ij_g_j_1 * t167 - A_ij_g_j_2 * t168);
-    phi_q_t_lambda_q[16] = t169;
-    phi_q_t_lambda_q[93] = t169;
-    const jg_real t170 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+    const jg_real t96 = g_star_2 * lambda[3];
+    const jg_real t97 = A_ij_h_j_2 * t96;
+    const jg_real t98 = g_star_1 * lambda[3];
+    const jg_real t99 = A_ij_h_j_1 * t98;
+    const jg_real t100 = h_star_2 * lambda[4];
+    const jg_real t101 = A_ij_f_j_2 * t100;
+    const jg_real t102 = h_star_1 * lambda[4];
+    const jg_real t103 = A_ij_f_j_1 * t102;
+    const jg_real t104 = f_star_2 * lambda[5];
+    const jg_real t105 = A_ij_g_j_2 * t104;
+    const jg_real t106 = f_star_1 * lambda[5];
+    const jg_real t107 = A_ij_g_j_1 * t106;
+    const jg_real t108 = ep_ij_2 * lambda[2];
+    const jg_real t109 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t108 + t109 + (t105 + t107 + (t97 + t99 + (t101 + t103))));
+    const jg_real t110 = g_star_0 * lambda[3];
+    const jg_real t111 = h_star_0 * lambda[4];
+    const jg_real t112 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t110 + A_ij_f_j_1 * t111 + A_ij_g_j_1 * t112 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t110 + A_ij_f_j_2 * t111 + A_ij_g_j_2 * t112 + ep_ij_2 * lambda[0];
+    const jg_real t113 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t113;
+    phi_q_t_lambda_q[42] = t113;
+    const jg_real t114 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t114;
+    phi_q_t_lambda_q[45] = t114;
+    const jg_real t115 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t115;
+    phi_q_t_lambda_q[48] = t115;
+    const jg_real t116 = t41 * lambda[3];
+    const jg_real t117 = t51 * lambda[4];
+    const jg_real t118 = t116 + t117;
+    const jg_real t119 = t60 * lambda[5] + t118;
+    const jg_real t120 = A_ij_0 * t119;
+    const jg_real t121 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t122 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t123 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t124 = s_j[1] * t115 - s_j[2] * t114;
+    phi_q_t_lambda_q[12] = t120 - A_ij_h_j_0 * t121 - A_ij_f_j_0 * t122 - A_ij_g_j_0 * t123 + t124;
+    const jg_real t125 = A_ij_3 * t119;
+    const jg_real t126 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t127 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t128 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t129 = s_j[2] * t113 - s_j[0] * t115;
+    phi_q_t_lambda_q[13] = t125 - A_ij_h_j_0 * t126 - A_ij_f_j_0 * t127 - A_ij_g_j_0 * t128 + t129;
+    const jg_real t130 = A_ij_6 * t119;
+    const jg_real t131 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t132 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t133 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t134 = s_j[0] * t114 - s_j[1] * t113;
+    phi_q_t_lambda_q[14] = t130 - A_ij_h_j_0 * t131 - A_ij_f_j_0 * t132 - A_ij_g_j_0 * t133 + t134;
+    const jg_real t135 = cosine_1 * lambda[3] * cosine_2;
+    const jg_real t136 = sine_1 * lambda[3];
+    const jg_real t137 = H_0 * t135 + H_6 * t136;
+    const jg_real t138 = H_1 * t135 + H_7 * t136;
+    const jg_real t139 = H_8 * t136 - sine_1 * t135;
+    const jg_real t140 = C_i[2] * t137 + C_i[5] * t138 + C_i[8] * t139;
+    const jg_real t141 = C_i[1] * t137 + C_i[4] * t138 + C_i[7] * t139;
+    const jg_real t142 = cosine_1 * lambda[4] * sine_2;
+    const jg_real t143 = sine_1 * lambda[4];
+    const jg_real t144 = H_0 * t142 + H_3 * t143;
+    const jg_real t145 = H_1 * t142 + H_4 * t143;
+    const jg_real t146 = sine_1 * t142 - H_5 * t143;
+    const jg_real t147 = C_i[8] * t146 - (C_i[2] * t144 + C_i[5] * t145);
+    const jg_real t148 = C_i[7] * t146 - (C_i[1] * t144 + C_i[4] * t145);
+    const jg_real t149 = cosine_1 * lambda[5];
+    const jg_real t150 = sine_2 * t149;
+    const jg_real t151 = cosine_2 * t149;
+    const jg_real t152 = H_6 * t150 - H_3 * t151;
+    const jg_real t153 = H_7 * t150 - H_4 * t151;
+    const jg_real t154 = H_8 * t150 - H_5 * t151;
+    const jg_real t155 = C_i[2] * t152 + C_i[5] * t153 + C_i[8] * t154;
+    const jg_real t156 = C_i[1] * t152 + C_i[4] * t153 + C_i[7] * t154;
+    const jg_real t157 = A_ij_g_j_1 * t155 - A_ij_g_j_2 * t156 + (A_ij_h_j_1 * t140 - A_ij_h_j_2 * t141 +
+        (A_ij_f_j_1 * t147 - A_ij_f_j_2 * t148));
+    phi_q_t_lambda_q[15] = t157;
+    phi_q_t_lambda_q[84] = t157;
+    const jg_real t158 = cosine_2 * lambda[4];
+    const jg_real t159 = sine_2 * lambda[3];
+    const jg_real t160 = C_j[0] * t158 + C_j[6] * t159;
+    const jg_real t161 = C_j[1] * t158 + C_j[7] * t159;
+    const jg_real t162 = C_j[2] * t158 + C_j[8] * t159;
+    const jg_real t163 = A_ij_2 * t160 + A_ij_5 * t161 + A_ij_8 * t162;
+    const jg_real t164 = A_ij_1 * t160 + A_ij_4 * t161 + A_ij_7 * t162;
+    const jg_real t165 = sine_2 * lambda[5];
+    const jg_real t166 = cosine_2 * lambda[5];
+    const jg_real t167 = H_3 * t165 + H_6 * t166;
+    const jg_real t168 = H_4 * t165 + H_7 * t166;
+    const jg_real t169 = H_5 * t165 + H_8 * t166;
+    const jg_real t170 = C_i[2] * t167 + C_i[5] * t168 + C_i[8] * t169;
+    const jg_real t171 = C_i[1] * t167 + C_i[4] * t168 + C_i[7] * t169;
+    const jg_real t172 = f_star_1 * t163 - f_star_2 * t164 + (A_ij_g_j_1 * t170 - A_ij_g_j_2 * t171);
+    phi_q_t_lambda_q[16] = t172;
+    phi_q_t_lambda_q[93] = t172;
+    const jg_real t173 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
         h_star_2 - A_ij_h_j_2 * h_star_1);
-    phi_q_t_lambda_q[17] = t170;
-    phi_q_t_lambda_q[102] = t170;
-    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t95 + A_ij_f_j_0 * t99 + A_ij_g_j_0 * t103 + t60 * lambda[1];
-    const jg_real t171 = A_ij_h_j_0 * t107;
-    const jg_real t172 = A_ij_f_j_0 * t108;
-    const jg_real t173 = A_ij_g_j_0 * t109;
-    const jg_real t174 = t60 * lambda[0];
-    phi_q_t_lambda_q[19] = -(t105 + t174 + (t102 + t173 + (t94 + t171 + (t98 + t172))));
-    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t95 + A_ij_f_j_2 * t99 + A_ij_g_j_2 * t103 + t58 * lambda[1];
-    const jg_real t175 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[21] = t175;
-    phi_q_t_lambda_q[43] = t175;
-    const jg_real t176 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[22] = t176;
-    phi_q_t_lambda_q[46] = t176;
-    const jg_real t177 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[23] = t177;
-    phi_q_t_lambda_q[49] = t177;
-    const jg_real t178 = A_ij_1 * t116;
-    const jg_real t179 = s_j[1] * t177 - s_j[2] * t176;
-    phi_q_t_lambda_q[24] = t178 - A_ij_h_j_1 * t118 - A_ij_f_j_1 * t119 - A_ij_g_j_1 * t120 + t179;
-    const jg_real t180 = A_ij_4 * t116;
-    const jg_real t181 = s_j[2] * t175 - s_j[0] * t177;
-    phi_q_t_lambda_q[25] = t180 - A_ij_h_j_1 * t123 - A_ij_f_j_1 * t124 - A_ij_g_j_1 * t125 + t181;
-    const jg_real t182 = A_ij_7 * t116;
-    const jg_real t183 = s_j[0] * t176 - s_j[1] * t175;
-    phi_q_t_lambda_q[26] = t182 - A_ij_h_j_1 * t128 - A_ij_f_j_1 * t129 - A_ij_g_j_1 * t130 + t183;
-    const jg_real t184 = C_i[0] * t134 + C_i[3] * t135 + C_i[6] * t136;
-    const jg_real t185 = C_i[6] * t143 - (C_i[0] * t141 + C_i[3] * t142);
-    const jg_real t186 = C_i[0] * t149 + C_i[3] * t150 + C_i[6] * t151;
-    const jg_real t187 = A_ij_g_j_2 * t186 - A_ij_g_j_0 * t152 + (A_ij_h_j_2 * t184 - A_ij_h_j_0 * t137 +
-        (A_ij_f_j_2 * t185 - A_ij_f_j_0 * t144));
-    phi_q_t_lambda_q[27] = t187;
-    phi_q_t_lambda_q[85] = t187;
-    const jg_real t188 = A_ij_0 * t157 + A_ij_3 * t158 + A_ij_6 * t159;
-    const jg_real t189 = C_i[0] * t164 + C_i[3] * t165 + C_i[6] * t166;
-    const jg_real t190 = f_star_2 * t188 - f_star_0 * t160 + (A_ij_g_j_2 * t189 - A_ij_g_j_0 * t167);
-    phi_q_t_lambda_q[28] = t190;
-    phi_q_t_lambda_q[94] = t190;
-    const jg_real t191 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+    phi_q_t_lambda_q[17] = t173;
+    phi_q_t_lambda_q[102] = t173;
+    phi_q_t_lambda_q[18] = A_ij_h_j_0 * t98 + A_ij_f_j_0 * t102 + A_ij_g_j_0 * t106 + ep_ij_0 * lambda[1];
+    const jg_real t174 = A_ij_h_j_0 * t110;
+    const jg_real t175 = A_ij_f_j_0 * t111;
+    const jg_real t176 = A_ij_g_j_0 * t112;
+    const jg_real t177 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[19] = -(t108 + t177 + (t105 + t176 + (t97 + t174 + (t101 + t175))));
+    phi_q_t_lambda_q[20] = A_ij_h_j_2 * t98 + A_ij_f_j_2 * t102 + A_ij_g_j_2 * t106 + ep_ij_2 * lambda[1];
+    const jg_real t178 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[21] = t178;
+    phi_q_t_lambda_q[43] = t178;
+    const jg_real t179 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[22] = t179;
+    phi_q_t_lambda_q[46] = t179;
+    const jg_real t180 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[23] = t180;
+    phi_q_t_lambda_q[49] = t180;
+    const jg_real t181 = A_ij_1 * t119;
+    const jg_real t182 = s_j[1] * t180 - s_j[2] * t179;
+    phi_q_t_lambda_q[24] = t181 - A_ij_h_j_1 * t121 - A_ij_f_j_1 * t122 - A_ij_g_j_1 * t123 + t182;
+    const jg_real t183 = A_ij_4 * t119;
+    const jg_real t184 = s_j[2] * t178 - s_j[0] * t180;
+    phi_q_t_lambda_q[25] = t183 - A_ij_h_j_1 * t126 - A_ij_f_j_1 * t127 - A_ij_g_j_1 * t128 + t184;
+    const jg_real t185 = A_ij_7 * t119;
+    const jg_real t186 = s_j[0] * t179 - s_j[1] * t178;
+    phi_q_t_lambda_q[26] = t185 - A_ij_h_j_1 * t131 - A_ij_f_j_1 * t132 - A_ij_g_j_1 * t133 + t186;
+    const jg_real t187 = C_i[0] * t137 + C_i[3] * t138 + C_i[6] * t139;
+    const jg_real t188 = C_i[6] * t146 - (C_i[0] * t144 + C_i[3] * t145);
+    const jg_real t189 = C_i[0] * t152 + C_i[3] * t153 + C_i[6] * t154;
+    const jg_real t190 = A_ij_g_j_2 * t189 - A_ij_g_j_0 * t155 + (A_ij_h_j_2 * t187 - A_ij_h_j_0 * t140 +
+        (A_ij_f_j_2 * t188 - A_ij_f_j_0 * t147));
+    phi_q_t_lambda_q[27] = t190;
+    phi_q_t_lambda_q[85] = t190;
+    const jg_real t191 = A_ij_0 * t160 + A_ij_3 * t161 + A_ij_6 * t162;
+    const jg_real t192 = C_i[0] * t167 + C_i[3] * t168 + C_i[6] * t169;
+    const jg_real t193 = f_star_2 * t191 - f_star_0 * t163 + (A_ij_g_j_2 * t192 - A_ij_g_j_0 * t170);
+    phi_q_t_lambda_q[28] = t193;
+    phi_q_t_lambda_q[94] = t193;
+    const jg_real t194 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
         h_star_0 - A_ij_h_j_0 * h_star_2);
-    phi_q_t_lambda_q[29] = t191;
-    phi_q_t_lambda_q[103] = t191;
-    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t93 + A_ij_f_j_0 * t97 + A_ij_g_j_0 * t101 + t60 * lambda[2];
-    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t93 + A_ij_f_j_1 * t97 + A_ij_g_j_1 * t101 + t59 * lambda[2];
-    phi_q_t_lambda_q[32] = -(t106 + t174 + (t104 + t173 + (t96 + t171 + (t100 + t172))));
-    const jg_real t192 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[33] = t192;
-    phi_q_t_lambda_q[44] = t192;
-    const jg_real t193 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[34] = t193;
-    phi_q_t_lambda_q[47] = t193;
-    const jg_real t194 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[35] = t194;
-    phi_q_t_lambda_q[50] = t194;
-    const jg_real t195 = A_ij_2 * t116;
-    const jg_real t196 = s_j[1] * t194 - s_j[2] * t193;
-    phi_q_t_lambda_q[36] = t195 - A_ij_h_j_2 * t118 - A_ij_f_j_2 * t119 - A_ij_g_j_2 * t120 + t196;
-    const jg_real t197 = A_ij_5 * t116;
-    const jg_real t198 = s_j[2] * t192 - s_j[0] * t194;
-    phi_q_t_lambda_q[37] = t197 - A_ij_h_j_2 * t123 - A_ij_f_j_2 * t124 - A_ij_g_j_2 * t125 + t198;
-    const jg_real t199 = A_ij_8 * t116;
-    const jg_real t200 = s_j[0] * t193 - s_j[1] * t192;
-    phi_q_t_lambda_q[38] = t199 - A_ij_h_j_2 * t128 - A_ij_f_j_2 * t129 - A_ij_g_j_2 * t130 + t200;
-    const jg_real t201 = A_ij_g_j_0 * t153 - A_ij_g_j_1 * t186 + (A_ij_h_j_0 * t138 - A_ij_h_j_1 * t184 +
-        (A_ij_f_j_0 * t145 - A_ij_f_j_1 * t185));
-    phi_q_t_lambda_q[39] = t201;
-    phi_q_t_lambda_q[86] = t201;
-    const jg_real t202 = f_star_0 * t161 - f_star_1 * t188 + (A_ij_g_j_0 * t168 - A_ij_g_j_1 * t189);
-    phi_q_t_lambda_q[40] = t202;
-    phi_q_t_lambda_q[95] = t202;
-    const jg_real t203 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+    phi_q_t_lambda_q[29] = t194;
+    phi_q_t_lambda_q[103] = t194;
+    phi_q_t_lambda_q[30] = A_ij_h_j_0 * t96 + A_ij_f_j_0 * t100 + A_ij_g_j_0 * t104 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[31] = A_ij_h_j_1 * t96 + A_ij_f_j_1 * t100 + A_ij_g_j_1 * t104 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[32] = -(t109 + t177 + (t107 + t176 + (t99 + t174 + (t103 + t175))));
+    const jg_real t195 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[33] = t195;
+    phi_q_t_lambda_q[44] = t195;
+    const jg_real t196 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[34] = t196;
+    phi_q_t_lambda_q[47] = t196;
+    const jg_real t197 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[35] = t197;
+    phi_q_t_lambda_q[50] = t197;
+    const jg_real t198 = A_ij_2 * t119;
+    const jg_real t199 = s_j[1] * t197 - s_j[2] * t196;
+    phi_q_t_lambda_q[36] = t198 - A_ij_h_j_2 * t121 - A_ij_f_j_2 * t122 - A_ij_g_j_2 * t123 + t199;
+    const jg_real t200 = A_ij_5 * t119;
+    const jg_real t201 = s_j[2] * t195 - s_j[0] * t197;
+    phi_q_t_lambda_q[37] = t200 - A_ij_h_j_2 * t126 - A_ij_f_j_2 * t127 - A_ij_g_j_2 * t128 + t201;
+    const jg_real t202 = A_ij_8 * t119;
+    const jg_real t203 = s_j[0] * t196 - s_j[1] * t195;
+    phi_q_t_lambda_q[38] = t202 - A_ij_h_j_2 * t131 - A_ij_f_j_2 * t132 - A_ij_g_j_2 * t133 + t203;
+    const jg_real t204 = A_ij_g_j_0 * t156 - A_ij_g_j_1 * t189 + (A_ij_h_j_0 * t141 - A_ij_h_j_1 * t187 +
+        (A_ij_f_j_0 * t148 - A_ij_f_j_1 * t188));
+    phi_q_t_lambda_q[39] = t204;
+    phi_q_t_lambda_q[86] = t204;
+    const jg_real t205 = f_star_0 * t164 - f_star_1 * t191 + (A_ij_g_j_0 * t171 - A_ij_g_j_1 * t192);
+    phi_q_t_lambda_q[40] = t205;
+    phi_q_t_lambda_q[95] = t205;
+    const jg_real t206 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
         h_star_1 - A_ij_h_j_1 * h_star_0);
-    phi_q_t_lambda_q[41] = t203;
-    phi_q_t_lambda_q[104] = t203;
-    const jg_real t204 = A_ij_h_j_0 * lambda[3];
-    const jg_real t205 = A_ij_f_j_0 * lambda[4];
-    const jg_real t206 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[51] = t117 - A_ijt_g_star_0 * t204 - A_ijt_h_star_0 * t205 - A_ijt_f_star_0 * t206 + t121;
-    const jg_real t207 = A_ij_h_j_1 * lambda[3];
-    const jg_real t208 = A_ij_f_j_1 * lambda[4];
-    const jg_real t209 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[52] = t178 - A_ijt_g_star_0 * t207 - A_ijt_h_star_0 * t208 - A_ijt_f_star_0 * t209 + t179;
-    const jg_real t210 = A_ij_h_j_2 * lambda[3];
-    const jg_real t211 = A_ij_f_j_2 * lambda[4];
-    const jg_real t212 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[53] = t195 - A_ijt_g_star_0 * t210 - A_ijt_h_star_0 * t211 - A_ijt_f_star_0 * t212 + t196;
-    const jg_real t213 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[54] = t213;
-    const jg_real t214 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[76] = t214;
-    phi_q_t_lambda_q[55] = -t214;
-    const jg_real t215 = C_j[8] * lambda[3];
-    const jg_real t216 = A_ijt_g_star_2 * t215;
-    const jg_real t217 = C_j[7] * lambda[3];
-    const jg_real t218 = A_ijt_g_star_1 * t217;
-    const jg_real t219 = C_j[2] * lambda[4];
-    const jg_real t220 = A_ijt_h_star_2 * t219;
-    const jg_real t221 = C_j[1] * lambda[4];
-    const jg_real t222 = A_ijt_h_star_1 * t221;
-    const jg_real t223 = C_j[5] * lambda[5];
-    const jg_real t224 = A_ijt_f_star_2 * t223;
-    const jg_real t225 = C_j[4] * lambda[5];
-    const jg_real t226 = A_ijt_f_star_1 * t225;
-    const jg_real t227 = s_j[2] * t213;
-    const jg_real t228 = s_j[1] * t214;
-    phi_q_t_lambda_q[56] = -(t227 + t228 + (t224 + t226 + (t216 + t218 + (t220 + t222))));
-    const jg_real t229 = C_j[6] * lambda[3];
-    const jg_real t230 = C_j[0] * lambda[4];
-    const jg_real t231 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t229 + A_ijt_h_star_1 * t230 + A_ijt_f_star_1 * t231 + s_j[0] * t214;
-    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t229 + A_ijt_h_star_2 * t230 + A_ijt_f_star_2 * t231 + s_j[0] * t213;
-    const jg_real t232 = A_ij_3 * t184 + A_ij_4 * t138 + A_ij_5 * t137;
-    const jg_real t233 = A_ij_6 * t184 + A_ij_7 * t138 + A_ij_8 * t137;
-    const jg_real t234 = A_ij_3 * t185 + A_ij_4 * t145 + A_ij_5 * t144;
-    const jg_real t235 = A_ij_6 * t185 + A_ij_7 * t145 + A_ij_8 * t144;
-    const jg_real t236 = A_ij_3 * t186 + A_ij_4 * t153 + A_ij_5 * t152;
-    const jg_real t237 = A_ij_6 * t186 + A_ij_7 * t153 + A_ij_8 * t152;
-    const jg_real t238 = C_j[5] * t236 - C_j[4] * t237 + (C_j[8] * t232 - C_j[7] * t233 + (C_j[2] * t234 - C_j[1] *
-        t235));
-    phi_q_t_lambda_q[59] = t238;
-    phi_q_t_lambda_q[87] = t238;
-    const jg_real t239 = A_ij_3 * t189 + A_ij_4 * t168 + A_ij_5 * t167;
-    const jg_real t240 = A_ij_6 * t189 + A_ij_7 * t168 + A_ij_8 * t167;
-    const jg_real t241 = A_ijt_f_star_2 * t158 - A_ijt_f_star_1 * t159 + (C_j[5] * t239 - C_j[4] * t240);
-    phi_q_t_lambda_q[60] = t241;
-    phi_q_t_lambda_q[96] = t241;
-    const jg_real t242 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+    phi_q_t_lambda_q[41] = t206;
+    phi_q_t_lambda_q[104] = t206;
+    const jg_real t207 = A_ij_h_j_0 * lambda[3];
+    const jg_real t208 = A_ij_f_j_0 * lambda[4];
+    const jg_real t209 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[51] = t120 - A_ijt_g_star_0 * t207 - A_ijt_h_star_0 * t208 - A_ijt_f_star_0 * t209 + t124;
+    const jg_real t210 = A_ij_h_j_1 * lambda[3];
+    const jg_real t211 = A_ij_f_j_1 * lambda[4];
+    const jg_real t212 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[52] = t181 - A_ijt_g_star_0 * t210 - A_ijt_h_star_0 * t211 - A_ijt_f_star_0 * t212 + t182;
+    const jg_real t213 = A_ij_h_j_2 * lambda[3];
+    const jg_real t214 = A_ij_f_j_2 * lambda[4];
+    const jg_real t215 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[53] = t198 - A_ijt_g_star_0 * t213 - A_ijt_h_star_0 * t214 - A_ijt_f_star_0 * t215 + t199;
+    const jg_real t216 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[54] = t216;
+    const jg_real t217 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[76] = t217;
+    phi_q_t_lambda_q[55] = -t217;
+    const jg_real t218 = C_j[8] * lambda[3];
+    const jg_real t219 = A_ijt_g_star_2 * t218;
+    const jg_real t220 = C_j[7] * lambda[3];
+    const jg_real t221 = A_ijt_g_star_1 * t220;
+    const jg_real t222 = C_j[2] * lambda[4];
+    const jg_real t223 = A_ijt_h_star_2 * t222;
+    const jg_real t224 = C_j[1] * lambda[4];
+    const jg_real t225 = A_ijt_h_star_1 * t224;
+    const jg_real t226 = C_j[5] * lambda[5];
+    const jg_real t227 = A_ijt_f_star_2 * t226;
+    const jg_real t228 = C_j[4] * lambda[5];
+    const jg_real t229 = A_ijt_f_star_1 * t228;
+    const jg_real t230 = s_j[2] * t216;
+    const jg_real t231 = s_j[1] * t217;
+    phi_q_t_lambda_q[56] = -(t230 + t231 + (t227 + t229 + (t219 + t221 + (t223 + t225))));
+    const jg_real t232 = C_j[6] * lambda[3];
+    const jg_real t233 = C_j[0] * lambda[4];
+    const jg_real t234 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[57] = A_ijt_g_star_1 * t232 + A_ijt_h_star_1 * t233 + A_ijt_f_star_1 * t234 + s_j[0] * t217;
+    phi_q_t_lambda_q[58] = A_ijt_g_star_2 * t232 + A_ijt_h_star_2 * t233 + A_ijt_f_star_2 * t234 + s_j[0] * t216;
+    const jg_real t235 = A_ij_3 * t187 + A_ij_4 * t141 + A_ij_5 * t140;
+    const jg_real t236 = A_ij_6 * t187 + A_ij_7 * t141 + A_ij_8 * t140;
+    const jg_real t237 = A_ij_3 * t188 + A_ij_4 * t148 + A_ij_5 * t147;
+    const jg_real t238 = A_ij_6 * t188 + A_ij_7 * t148 + A_ij_8 * t147;
+    const jg_real t239 = A_ij_3 * t189 + A_ij_4 * t156 + A_ij_5 * t155;
+    const jg_real t240 = A_ij_6 * t189 + A_ij_7 * t156 + A_ij_8 * t155;
+    const jg_real t241 = C_j[5] * t239 - C_j[4] * t240 + (C_j[8] * t235 - C_j[7] * t236 + (C_j[2] * t237 - C_j[1] *
+        t238));
+    phi_q_t_lambda_q[59] = t241;
+    phi_q_t_lambda_q[87] = t241;
+    const jg_real t242 = A_ij_3 * t192 + A_ij_4 * t171 + A_ij_5 * t170;
+    const jg_real t243 = A_ij_6 * t192 + A_ij_7 * t171 + A_ij_8 * t170;
+    const jg_real t244 = A_ijt_f_star_2 * t161 - A_ijt_f_star_1 * t162 + (C_j[5] * t242 - C_j[4] * t243);
+    phi_q_t_lambda_q[60] = t244;
+    phi_q_t_lambda_q[96] = t244;
+    const jg_real t245 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
         A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
-    phi_q_t_lambda_q[61] = t242;
-    phi_q_t_lambda_q[105] = t242;
-    phi_q_t_lambda_q[62] = t122 - A_ijt_g_star_1 * t204 - A_ijt_h_star_1 * t205 - A_ijt_f_star_1 * t206 + t126;
-    phi_q_t_lambda_q[63] = t180 - A_ijt_g_star_1 * t207 - A_ijt_h_star_1 * t208 - A_ijt_f_star_1 * t209 + t181;
-    phi_q_t_lambda_q[64] = t197 - A_ijt_g_star_1 * t210 - A_ijt_h_star_1 * t211 - A_ijt_f_star_1 * t212 + t198;
-    phi_q_t_lambda_q[65] = -t213;
-    const jg_real t243 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[66] = t243;
-    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t217 + A_ijt_h_star_0 * t221 + A_ijt_f_star_0 * t225 + s_j[1] * t243;
-    const jg_real t244 = A_ijt_g_star_0 * t229;
-    const jg_real t245 = A_ijt_h_star_0 * t230;
-    const jg_real t246 = A_ijt_f_star_0 * t231;
-    const jg_real t247 = s_j[0] * t243;
-    phi_q_t_lambda_q[68] = -(t227 + t247 + (t224 + t246 + (t216 + t244 + (t220 + t245))));
-    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t217 + A_ijt_h_star_2 * t221 + A_ijt_f_star_2 * t225 + s_j[1] * t213;
-    const jg_real t248 = A_ij_0 * t184 + A_ij_1 * t138 + A_ij_2 * t137;
-    const jg_real t249 = A_ij_0 * t185 + A_ij_1 * t145 + A_ij_2 * t144;
-    const jg_real t250 = A_ij_0 * t186 + A_ij_1 * t153 + A_ij_2 * t152;
-    const jg_real t251 = C_j[3] * t237 - C_j[5] * t250 + (C_j[6] * t233 - C_j[8] * t248 + (C_j[0] * t235 - C_j[2] *
-        t249));
-    phi_q_t_lambda_q[70] = t251;
-    phi_q_t_lambda_q[88] = t251;
-    const jg_real t252 = A_ij_0 * t189 + A_ij_1 * t168 + A_ij_2 * t167;
-    const jg_real t253 = A_ijt_f_star_0 * t159 - A_ijt_f_star_2 * t157 + (C_j[3] * t240 - C_j[5] * t252);
-    phi_q_t_lambda_q[71] = t253;
-    phi_q_t_lambda_q[97] = t253;
-    const jg_real t254 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+    phi_q_t_lambda_q[61] = t245;
+    phi_q_t_lambda_q[105] = t245;
+    phi_q_t_lambda_q[62] = t125 - A_ijt_g_star_1 * t207 - A_ijt_h_star_1 * t208 - A_ijt_f_star_1 * t209 + t129;
+    phi_q_t_lambda_q[63] = t183 - A_ijt_g_star_1 * t210 - A_ijt_h_star_1 * t211 - A_ijt_f_star_1 * t212 + t184;
+    phi_q_t_lambda_q[64] = t200 - A_ijt_g_star_1 * t213 - A_ijt_h_star_1 * t214 - A_ijt_f_star_1 * t215 + t201;
+    phi_q_t_lambda_q[65] = -t216;
+    const jg_real t246 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[66] = t246;
+    phi_q_t_lambda_q[67] = A_ijt_g_star_0 * t220 + A_ijt_h_star_0 * t224 + A_ijt_f_star_0 * t228 + s_j[1] * t246;
+    const jg_real t247 = A_ijt_g_star_0 * t232;
+    const jg_real t248 = A_ijt_h_star_0 * t233;
+    const jg_real t249 = A_ijt_f_star_0 * t234;
+    const jg_real t250 = s_j[0] * t246;
+    phi_q_t_lambda_q[68] = -(t230 + t250 + (t227 + t249 + (t219 + t247 + (t223 + t248))));
+    phi_q_t_lambda_q[69] = A_ijt_g_star_2 * t220 + A_ijt_h_star_2 * t224 + A_ijt_f_star_2 * t228 + s_j[1] * t216;
+    const jg_real t251 = A_ij_0 * t187 + A_ij_1 * t141 + A_ij_2 * t140;
+    const jg_real t252 = A_ij_0 * t188 + A_ij_1 * t148 + A_ij_2 * t147;
+    const jg_real t253 = A_ij_0 * t189 + A_ij_1 * t156 + A_ij_2 * t155;
+    const jg_real t254 = C_j[3] * t240 - C_j[5] * t253 + (C_j[6] * t236 - C_j[8] * t251 + (C_j[0] * t238 - C_j[2] *
+        t252));
+    phi_q_t_lambda_q[70] = t254;
+    phi_q_t_lambda_q[88] = t254;
+    const jg_real t255 = A_ij_0 * t192 + A_ij_1 * t171 + A_ij_2 * t170;
+    const jg_real t256 = A_ijt_f_star_0 * t162 - A_ijt_f_star_2 * t160 + (C_j[3] * t243 - C_j[5] * t255);
+    phi_q_t_lambda_q[71] = t256;
+    phi_q_t_lambda_q[97] = t256;
+    const jg_real t257 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
         A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
-    phi_q_t_lambda_q[72] = t254;
-    phi_q_t_lambda_q[106] = t254;
-    phi_q_t_lambda_q[73] = t127 - A_ijt_g_star_2 * t204 - A_ijt_h_star_2 * t205 - A_ijt_f_star_2 * t206 + t131;
-    phi_q_t_lambda_q[74] = t182 - A_ijt_g_star_2 * t207 - A_ijt_h_star_2 * t208 - A_ijt_f_star_2 * t209 + t183;
-    phi_q_t_lambda_q[75] = t199 - A_ijt_g_star_2 * t210 - A_ijt_h_star_2 * t211 - A_ijt_f_star_2 * t212 + t200;
-    phi_q_t_lambda_q[77] = -t243;
-    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t215 + A_ijt_h_star_0 * t219 + A_ijt_f_star_0 * t223 + s_j[2] * t243;
-    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t215 + A_ijt_h_star_1 * t219 + A_ijt_f_star_1 * t223 + s_j[2] * t214;
-    phi_q_t_lambda_q[80] = -(t228 + t247 + (t226 + t246 + (t218 + t244 + (t222 + t245))));
-    const jg_real t255 = C_j[4] * t250 - C_j[3] * t236 + (C_j[7] * t248 - C_j[6] * t232 + (C_j[1] * t249 - C_j[0] *
-        t234));
-    phi_q_t_lambda_q[81] = t255;
-    phi_q_t_lambda_q[89] = t255;
-    const jg_real t256 = A_ijt_f_star_1 * t157 - A_ijt_f_star_0 * t158 + (C_j[4] * t252 - C_j[3] * t239);
-    phi_q_t_lambda_q[82] = t256;
-    phi_q_t_lambda_q[98] = t256;
-    const jg_real t257 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+    phi_q_t_lambda_q[72] = t257;
+    phi_q_t_lambda_q[106] = t257;
+    phi_q_t_lambda_q[73] = t130 - A_ijt_g_star_2 * t207 - A_ijt_h_star_2 * t208 - A_ijt_f_star_2 * t209 + t134;
+    phi_q_t_lambda_q[74] = t185 - A_ijt_g_star_2 * t210 - A_ijt_h_star_2 * t211 - A_ijt_f_star_2 * t212 + t186;
+    phi_q_t_lambda_q[75] = t202 - A_ijt_g_star_2 * t213 - A_ijt_h_star_2 * t214 - A_ijt_f_star_2 * t215 + t203;
+    phi_q_t_lambda_q[77] = -t246;
+    phi_q_t_lambda_q[78] = A_ijt_g_star_0 * t218 + A_ijt_h_star_0 * t222 + A_ijt_f_star_0 * t226 + s_j[2] * t246;
+    phi_q_t_lambda_q[79] = A_ijt_g_star_1 * t218 + A_ijt_h_star_1 * t222 + A_ijt_f_star_1 * t226 + s_j[2] * t217;
+    phi_q_t_lambda_q[80] = -(t231 + t250 + (t229 + t249 + (t221 + t247 + (t225 + t248))));
+    const jg_real t258 = C_j[4] * t253 - C_j[3] * t239 + (C_j[7] * t251 - C_j[6] * t235 + (C_j[1] * t252 - C_j[0] *
+        t237));
+    phi_q_t_lambda_q[81] = t258;
+    phi_q_t_lambda_q[89] = t258;
+    const jg_real t259 = A_ijt_f_star_1 * t160 - A_ijt_f_star_0 * t161 + (C_j[4] * t255 - C_j[3] * t242);
+    phi_q_t_lambda_q[82] = t259;
+    phi_q_t_lambda_q[98] = t259;
+    const jg_real t260 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
         A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
-    phi_q_t_lambda_q[83] = t257;
-    phi_q_t_lambda_q[107] = t257;
-    const jg_real t258 = cosine_1 * cosine_1;
-    const jg_real t259 = cosine_2 * t258 * sine_2;
-    const jg_real t260 = sine_1 * H_8;
-    const jg_real t261 = sine_2 * sine_2;
-    const jg_real t262 = t258 * t261;
-    const jg_real t263 = sine_1 * sine_1;
-    const jg_real t264 = t263 + t262;
-    const jg_real t265 = H_3 * t259 - H_0 * t260 - H_6 * t264;
-    const jg_real t266 = H_4 * t259 - H_1 * t260 - H_7 * t264;
-    const jg_real t267 = sine_1 * t260 + H_5 * t259 - H_8 * t264;
-    const jg_real t268 = A_ij_f_j_0 * (C_i[0] * t265 + C_i[3] * t266 + C_i[6] * t267) + A_ij_f_j_1 * (C_i[1] * t265
-        + C_i[4] * t266 + C_i[7] * t267) + A_ij_f_j_2 * (C_i[2] * t265 + C_i[5] * t266 + C_i[8] * t267);
-    const jg_real t269 = cosine_2 * cosine_2;
-    const jg_real t270 = t258 * t269;
-    const jg_real t271 = t263 + t270;
-    const jg_real t272 = cosine_1 * sine_1 * sine_2;
-    const jg_real t273 = H_6 * t259 - (H_0 * t272 + H_3 * t271);
-    const jg_real t274 = H_7 * t259 - (H_1 * t272 + H_4 * t271);
-    const jg_real t275 = sine_1 * t272 - H_5 * t271 + H_8 * t259;
-    const jg_real t276 = A_ij_h_j_0 * (C_i[0] * t273 + C_i[3] * t274 + C_i[6] * t275) + A_ij_h_j_1 * (C_i[1] * t273
-        + C_i[4] * t274 + C_i[7] * t275) + A_ij_h_j_2 * (C_i[2] * t273 + C_i[5] * t274 + C_i[8] * t275);
-    const jg_real t277 = t270 + t262;
-    const jg_real t278 = H_0 * t277 + H_3 * t272 + H_6 * t260;
-    const jg_real t279 = H_1 * t277 + H_4 * t272 + H_7 * t260;
-    const jg_real t280 = sine_1 * t277 - H_5 * t272 - H_8 * t260;
-    const jg_real t281 = A_ij_g_j_0 * (C_i[6] * t280 - (C_i[0] * t278 + C_i[3] * t279)) + A_ij_g_j_1 * (C_i[7] *
-        t280 - (C_i[1] * t278 + C_i[4] * t279)) + A_ij_g_j_2 * (C_i[8] * t280 - (C_i[2] * t278 + C_i[5] * t279));
-    phi_q_t_lambda_q[90] = lambda[3] * t276 + lambda[4] * t268 + lambda[5] * t281;
-    const jg_real t282 = sine_1 * sine_2;
-    const jg_real t283 = cosine_2 * sine_1;
-    const jg_real t284 = H_6 * t282 - H_3 * t283;
-    const jg_real t285 = H_7 * t282 - H_4 * t283;
-    const jg_real t286 = H_8 * t282 - H_5 * t283;
-    const jg_real t287 = A_ij_g_j_0 * (C_i[0] * t284 + C_i[3] * t285 + C_i[6] * t286) + A_ij_g_j_1 * (C_i[1] * t284
-        + C_i[4] * t285 + C_i[7] * t286) + A_ij_g_j_2 * (C_i[2] * t284 + C_i[5] * t285 + C_i[8] * t286);
-    const jg_real t288 = lambda[5] * t287;
-    const jg_real t289 = A_ij_h_j_0 * t82 + A_ij_h_j_1 * t83 + A_ij_h_j_2 * t84;
-    const jg_real t290 = A_ij_f_j_0 * t82 + A_ij_f_j_1 * t83 + A_ij_f_j_2 * t84;
-    phi_q_t_lambda_q[91] = t288 + lambda[3] * t289 * sine_2 + lambda[4] * t290 * cosine_2;
-    const jg_real t291 = A_ij_h_j_0 * t77 + A_ij_h_j_1 * t78 + A_ij_h_j_2 * t79;
-    const jg_real t292 = A_ij_f_j_0 * t72 + A_ij_f_j_1 * t73 + A_ij_f_j_2 * t74;
-    phi_q_t_lambda_q[92] = lambda[3] * t291 + lambda[4] * t292;
-    const jg_real t293 = H_0 * t283;
-    const jg_real t294 = t293 - cosine_1 * H_6;
-    const jg_real t295 = H_1 * t283;
-    const jg_real t296 = t295 - cosine_1 * H_7;
-    const jg_real t297 = sine_1 * t283;
-    const jg_real t298 = t297 + cosine_1 * H_8;
-    const jg_real t299 = A_ij_h_j_0 * (C_i[0] * t294 + C_i[3] * t296 - C_i[6] * t298) + A_ij_h_j_1 * (C_i[1] * t294
-        + C_i[4] * t296 - C_i[7] * t298) + A_ij_h_j_2 * (C_i[2] * t294 + C_i[5] * t296 - C_i[8] * t298);
-    const jg_real t300 = sine_2 * H_8;
-    const jg_real t301 = cosine_1 * t269;
-    const jg_real t302 = H_3 * t300 - t293 + H_6 * t301;
-    const jg_real t303 = H_4 * t300 - t295 + H_7 * t301;
-    const jg_real t304 = t297 + H_5 * t300 + H_8 * t301;
-    const jg_real t305 = A_ij_h_j_0 * (C_i[0] * t302 + C_i[3] * t303 + C_i[6] * t304) + A_ij_h_j_1 * (C_i[1] * t302
-        + C_i[4] * t303 + C_i[7] * t304) + A_ij_h_j_2 * (C_i[2] * t302 + C_i[5] * t303 + C_i[8] * t304);
-    const jg_real t306 = H_0 * t282;
-    const jg_real t307 = cosine_1 * t261;
-    const jg_real t308 = t306 - H_3 * t307 - H_6 * t300;
-    const jg_real t309 = H_1 * t282;
-    const jg_real t310 = t309 - H_4 * t307 - H_7 * t300;
-    const jg_real t311 = sine_1 * t282;
-    const jg_real t312 = t311 + H_5 * t307 + H_8 * t300;
-    const jg_real t313 = A_ij_f_j_0 * (C_i[0] * t308 + C_i[3] * t310 - C_i[6] * t312) + A_ij_f_j_1 * (C_i[1] * t308
-        + C_i[4] * t310 - C_i[7] * t312) + A_ij_f_j_2 * (C_i[2] * t308 + C_i[5] * t310 - C_i[8] * t312);
-    const jg_real t314 = cosine_1 * H_3 - t306;
-    const jg_real t315 = cosine_1 * H_4 - t309;
-    const jg_real t316 = t311 + cosine_1 * H_5;
-    const jg_real t317 = A_ij_f_j_0 * (C_i[0] * t314 + C_i[3] * t315 + C_i[6] * t316) + A_ij_f_j_1 * (C_i[1] * t314
-        + C_i[4] * t315 + C_i[7] * t316) + A_ij_f_j_2 * (C_i[2] * t314 + C_i[5] * t315 + C_i[8] * t316);
-    phi_q_t_lambda_q[99] = lambda[3] * t299 + lambda[3] * t305 + lambda[4] * t313 + lambda[4] * t317 + t288;
-    const jg_real t318 = A_ij_h_j_0 * t90 + A_ij_h_j_1 * t91 + A_ij_h_j_2 * t92;
-    const jg_real t319 = A_ij_f_j_0 * t90 + A_ij_f_j_1 * t91 + A_ij_f_j_2 * t92;
-    phi_q_t_lambda_q[100] = -(lambda[3] * t318 * sine_2 + lambda[4] * t319 * cosine_2 + lambda[5] * t269 * t57 +
-        lambda[5] * t261 * t57);
-    const jg_real t320 = t85 * lambda[3];
-    const jg_real t321 = t86 * lambda[4];
-    const jg_real t322 = cosine_2 * t320 - sine_2 * t321;
-    phi_q_t_lambda_q[101] = t322;
-    phi_q_t_lambda_q[109] = t322;
-    phi_q_t_lambda_q[108] = sine_1 * t113 + sine_1 * t114 + cosine_1 * t320 * sine_2 + cosine_1 * t321 * cosine_2;
-    phi_q_t_lambda_q[110] = -t115;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    phi_q_t_lambda_q[83] = t260;
+    phi_q_t_lambda_q[107] = t260;
+    const jg_real t261 = cosine_1 * cosine_1;
+    const jg_real t262 = cosine_2 * t261 * sine_2;
+    const jg_real t263 = sine_1 * H_8;
+    const jg_real t264 = sine_2 * sine_2;
+    const jg_real t265 = t261 * t264;
+    const jg_real t266 = sine_1 * sine_1;
+    const jg_real t267 = t266 + t265;
+    const jg_real t268 = H_3 * t262 - H_0 * t263 - H_6 * t267;
+    const jg_real t269 = H_4 * t262 - H_1 * t263 - H_7 * t267;
+    const jg_real t270 = sine_1 * t263 + H_5 * t262 - H_8 * t267;
+    const jg_real t271 = A_ij_f_j_0 * (C_i[0] * t268 + C_i[3] * t269 + C_i[6] * t270) + A_ij_f_j_1 * (C_i[1] * t268
+        + C_i[4] * t269 + C_i[7] * t270) + A_ij_f_j_2 * (C_i[2] * t268 + C_i[5] * t269 + C_i[8] * t270);
+    const jg_real t272 = cosine_2 * cosine_2;
+    const jg_real t273 = t261 * t272;
+    const jg_real t274 = t266 + t273;
+    const jg_real t275 = cosine_1 * sine_1 * sine_2;
+    const jg_real t276 = H_6 * t262 - (H_0 * t275 + H_3 * t274);
+    const jg_real t277 = H_7 * t262 - (H_1 * t275 + H_4 * t274);
+    const jg_real t278 = sine_1 * t275 - H_5 * t274 + H_8 * t262;
+    const jg_real t279 = A_ij_h_j_0 * (C_i[0] * t276 + C_i[3] * t277 + C_i[6] * t278) + A_ij_h_j_1 * (C_i[1] * t276
+        + C_i[4] * t277 + C_i[7] * t278) + A_ij_h_j_2 * (C_i[2] * t276 + C_i[5] * t277 + C_i[8] * t278);
+    const jg_real t280 = t273 + t265;
+    const jg_real t281 = H_0 * t280 + H_3 * t275 + H_6 * t263;
+    const jg_real t282 = H_1 * t280 + H_4 * t275 + H_7 * t263;
+    const jg_real t283 = sine_1 * t280 - H_5 * t275 - H_8 * t263;
+    const jg_real t284 = A_ij_g_j_0 * (C_i[6] * t283 - (C_i[0] * t281 + C_i[3] * t282)) + A_ij_g_j_1 * (C_i[7] *
+        t283 - (C_i[1] * t281 + C_i[4] * t282)) + A_ij_g_j_2 * (C_i[8] * t283 - (C_i[2] * t281 + C_i[5] * t282));
+    phi_q_t_lambda_q[90] = lambda[3] * t279 + lambda[4] * t271 + lambda[5] * t284;
+    const jg_real t285 = sine_1 * sine_2;
+    const jg_real t286 = cosine_2 * sine_1;
+    const jg_real t287 = H_6 * t285 - H_3 * t286;
+    const jg_real t288 = H_7 * t285 - H_4 * t286;
+    const jg_real t289 = H_8 * t285 - H_5 * t286;
+    const jg_real t290 = A_ij_g_j_0 * (C_i[0] * t287 + C_i[3] * t288 + C_i[6] * t289) + A_ij_g_j_1 * (C_i[1] * t287
+        + C_i[4] * t288 + C_i[7] * t289) + A_ij_g_j_2 * (C_i[2] * t287 + C_i[5] * t288 + C_i[8] * t289);
+    const jg_real t291 = lambda[5] * t290;
+    const jg_real t292 = A_ij_h_j_0 * t85 + A_ij_h_j_1 * t86 + A_ij_h_j_2 * t87;
+    const jg_real t293 = A_ij_f_j_0 * t85 + A_ij_f_j_1 * t86 + A_ij_f_j_2 * t87;
+    phi_q_t_lambda_q[91] = t291 + lambda[3] * t292 * sine_2 + lambda[4] * t293 * cosine_2;
+    const jg_real t294 = A_ij_h_j_0 * t80 + A_ij_h_j_1 * t81 + A_ij_h_j_2 * t82;
+    const jg_real t295 = A_ij_f_j_0 * t75 + A_ij_f_j_1 * t76 + A_ij_f_j_2 * t77;
+    phi_q_t_lambda_q[92] = lambda[3] * t294 + lambda[4] * t295;
+    const jg_real t296 = H_0 * t286;
+    const jg_real t297 = t296 - cosine_1 * H_6;
+    const jg_real t298 = H_1 * t286;
+    const jg_real t299 = t298 - cosine_1 * H_7;
+    const jg_real t300 = sine_1 * t286;
+    const jg_real t301 = t300 + cosine_1 * H_8;
+    const jg_real t302 = A_ij_h_j_0 * (C_i[0] * t297 + C_i[3] * t299 - C_i[6] * t301) + A_ij_h_j_1 * (C_i[1] * t297
+        + C_i[4] * t299 - C_i[7] * t301) + A_ij_h_j_2 * (C_i[2] * t297 + C_i[5] * t299 - C_i[8] * t301);
+    const jg_real t303 = sine_2 * H_8;
+    const jg_real t304 = cosine_1 * t272;
+    const jg_real t305 = H_3 * t303 - t296 + H_6 * t304;
+    const jg_real t306 = H_4 * t303 - t298 + H_7 * t304;
+    const jg_real t307 = t300 + H_5 * t303 + H_8 * t304;
+    const jg_real t308 = A_ij_h_j_0 * (C_i[0] * t305 + C_i[3] * t306 + C_i[6] * t307) + A_ij_h_j_1 * (C_i[1] * t305
+        + C_i[4] * t306 + C_i[7] * t307) + A_ij_h_j_2 * (C_i[2] * t305 + C_i[5] * t306 + C_i[8] * t307);
+    const jg_real t309 = H_0 * t285;
+    const jg_real t310 = cosine_1 * t264;
+    const jg_real t311 = t309 - H_3 * t310 - H_6 * t303;
+    const jg_real t312 = H_1 * t285;
+    const jg_real t313 = t312 - H_4 * t310 - H_7 * t303;
+    const jg_real t314 = sine_1 * t285;
+    const jg_real t315 = t314 + H_5 * t310 + H_8 * t303;
+    const jg_real t316 = A_ij_f_j_0 * (C_i[0] * t311 + C_i[3] * t313 - C_i[6] * t315) + A_ij_f_j_1 * (C_i[1] * t311
+        + C_i[4] * t313 - C_i[7] * t315) + A_ij_f_j_2 * (C_i[2] * t311 + C_i[5] * t313 - C_i[8] * t315);
+    const jg_real t317 = cosine_1 * H_3 - t309;
+    const jg_real t318 = cosine_1 * H_4 - t312;
+    const jg_real t319 = t314 + cosine_1 * H_5;
+    const jg_real t320 = A_ij_f_j_0 * (C_i[0] * t317 + C_i[3] * t318 + C_i[6] * t319) + A_ij_f_j_1 * (C_i[1] * t317
+        + C_i[4] * t318 + C_i[7] * t319) + A_ij_f_j_2 * (C_i[2] * t317 + C_i[5] * t318 + C_i[8] * t319);
+    phi_q_t_lambda_q[99] = lambda[3] * t302 + lambda[3] * t308 + lambda[4] * t316 + lambda[4] * t320 + t291;
+    const jg_real t321 = A_ij_h_j_0 * t93 + A_ij_h_j_1 * t94 + A_ij_h_j_2 * t95;
+    const jg_real t322 = A_ij_f_j_0 * t93 + A_ij_f_j_1 * t94 + A_ij_f_j_2 * t95;
+    phi_q_t_lambda_q[100] = -(lambda[3] * t321 * sine_2 + lambda[4] * t322 * cosine_2 + lambda[5] * t272 * t60 +
+        lambda[5] * t264 * t60);
+    const jg_real t323 = t88 * lambda[3];
+    const jg_real t324 = t89 * lambda[4];
+    const jg_real t325 = cosine_2 * t323 - sine_2 * t324;
+    phi_q_t_lambda_q[101] = t325;
+    phi_q_t_lambda_q[109] = t325;
+    phi_q_t_lambda_q[108] = sine_1 * t116 + sine_1 * t117 + cosine_1 * t323 * sine_2 + cosine_1 * t324 * cosine_2;
+    phi_q_t_lambda_q[110] = -t118;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -2053,12 +2020,6 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -2074,34 +2035,29 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -2124,15 +2080,15 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t365 = alphadot[2] * alphadot[2];
-    const jg_real t366 = alphadot[0] * alphadot[0];
-    const jg_real t367 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t368 = JG_REAL(2.0) * alphadot[2];
-    const jg_real t369 = alphadot[0] * alphadot[1];
-    const jg_real t370 = alphadot[2] * alphadot[0];
-    const jg_real t371 = alphadot[1] * alphadot[1];
-    const jg_real t372 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t373 = alphadot[2] * t372;
+    const jg_real t362 = alphadot[2] * alphadot[2];
+    const jg_real t363 = alphadot[0] * alphadot[0];
+    const jg_real t364 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t365 = JG_REAL(2.0) * alphadot[2];
+    const jg_real t366 = alphadot[0] * alphadot[1];
+    const jg_real t367 = alphadot[2] * alphadot[0];
+    const jg_real t368 = alphadot[1] * alphadot[1];
+    const jg_real t369 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t370 = alphadot[2] * t369;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -2143,16 +2099,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t38 * t365 - t276 * t366 + (t72 *
-        A_ij_omega_j_cross_h_j_0 + t73 * A_ij_omega_j_cross_h_j_1 + t74 * A_ij_omega_j_cross_h_j_2) * t367 -
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t41 * t362 - t279 * t363 + (t75 *
+        A_ij_omega_j_cross_h_j_0 + t76 * A_ij_omega_j_cross_h_j_1 + t77 * A_ij_omega_j_cross_h_j_2) * t364 -
         (h_star_0 * A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 *
-        A_ij_omega_j_cross_h_j_2) * t368 - t367 * (t72 * omega_i_cross_A_ij_h_j_0 + t73 * omega_i_cross_A_ij_h_j_1 +
-        t74 * omega_i_cross_A_ij_h_j_2) + t368 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 *
-        omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2) - t299 * t369 - t305 * t369 - t291 * t370 +
-        t318 * t371 * sine_2 - (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2
-        * A_ij_omega_j_cross_h_j_2) * t372 * sine_2 + t372 * (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
-        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * sine_2 - t289 * t369 * sine_2 - t38 * t370
-        * sine_1 - t85 * t373 * cosine_2 - t85 * t370 * cosine_1 * sine_2;
+        A_ij_omega_j_cross_h_j_2) * t365 - t364 * (t75 * omega_i_cross_A_ij_h_j_0 + t76 * omega_i_cross_A_ij_h_j_1 +
+        t77 * omega_i_cross_A_ij_h_j_2) + t365 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 *
+        omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2) - t302 * t366 - t308 * t366 - t294 * t367 +
+        t321 * t368 * sine_2 - (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2
+        * A_ij_omega_j_cross_h_j_2) * t369 * sine_2 + t369 * (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
+        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * sine_2 - t292 * t366 * sine_2 - t41 * t367
+        * sine_1 - t88 * t370 * cosine_2 - t88 * t367 * cosine_1 * sine_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -2185,16 +2141,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t48 * t365 - t268 * t366 - t367 * (t77
-        * A_ij_omega_j_cross_f_j_0 + t78 * A_ij_omega_j_cross_f_j_1 + t79 * A_ij_omega_j_cross_f_j_2) - t368 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t51 * t362 - t271 * t363 - t364 * (t80
+        * A_ij_omega_j_cross_f_j_0 + t81 * A_ij_omega_j_cross_f_j_1 + t82 * A_ij_omega_j_cross_f_j_2) - t365 *
         (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 *
-        omega_i_cross_A_ij_f_j_2) + t367 * (t77 * omega_i_cross_A_ij_f_j_0 + t78 * omega_i_cross_A_ij_f_j_1 + t79 *
-        omega_i_cross_A_ij_f_j_2) + t368 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
-        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t292 * t370 - t313 * t369 - t317 * t369 +
-        t319 * t371 * cosine_2 - t372 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 +
-        f_star_2 * A_ij_omega_j_cross_f_j_2) * cosine_2 + t372 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 *
-        omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) * cosine_2 - t290 * t369 * cosine_2 - t48 *
-        t370 * sine_1 + t86 * t373 * sine_2 - t86 * t370 * cosine_1 * cosine_2;
+        omega_i_cross_A_ij_f_j_2) + t364 * (t80 * omega_i_cross_A_ij_f_j_0 + t81 * omega_i_cross_A_ij_f_j_1 + t82 *
+        omega_i_cross_A_ij_f_j_2) + t365 * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 *
+        A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t295 * t367 - t316 * t366 - t320 * t366 +
+        t322 * t368 * cosine_2 - t369 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 * A_ij_omega_j_cross_f_j_1 +
+        f_star_2 * A_ij_omega_j_cross_f_j_2) * cosine_2 + t369 * (f_star_0 * omega_i_cross_A_ij_f_j_0 + f_star_1 *
+        omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) * cosine_2 - t293 * t366 * cosine_2 - t51 *
+        t367 * sine_1 + t89 * t370 * sine_2 - t89 * t367 * cosine_1 * cosine_2;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real omega_j_cross_g_j_1 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
@@ -2217,16 +2173,16 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t398 = H_3 * H_5 + H_6 * H_8;
-    const jg_real t399 = H_4 * H_5 + H_7 * H_8;
-    const jg_real t400 = H_5 * H_5 + H_8 * H_8;
-    const jg_real t401 = (A_ij_g_j_0 * (C_i[0] * t398 + C_i[3] * t399 + C_i[6] * t400) + A_ij_g_j_1 * (C_i[1] * t398
-        + C_i[4] * t399 + C_i[7] * t400) + A_ij_g_j_2 * (C_i[2] * t398 + C_i[5] * t399 + C_i[8] * t400)) * t370;
-    const jg_real t402 = sine_2 * H_6 - cosine_2 * H_3;
-    const jg_real t403 = sine_2 * H_7 - cosine_2 * H_4;
-    const jg_real t404 = t300 - cosine_2 * H_5;
-    const jg_real t405 = (A_ij_g_j_0 * (C_i[0] * t402 + C_i[3] * t403 + C_i[6] * t404) + A_ij_g_j_1 * (C_i[1] * t402
-        + C_i[4] * t403 + C_i[7] * t404) + A_ij_g_j_2 * (C_i[2] * t402 + C_i[5] * t403 + C_i[8] * t404)) *
+    const jg_real t395 = H_3 * H_5 + H_6 * H_8;
+    const jg_real t396 = H_4 * H_5 + H_7 * H_8;
+    const jg_real t397 = H_5 * H_5 + H_8 * H_8;
+    const jg_real t398 = (A_ij_g_j_0 * (C_i[0] * t395 + C_i[3] * t396 + C_i[6] * t397) + A_ij_g_j_1 * (C_i[1] * t395
+        + C_i[4] * t396 + C_i[7] * t397) + A_ij_g_j_2 * (C_i[2] * t395 + C_i[5] * t396 + C_i[8] * t397)) * t367;
+    const jg_real t399 = sine_2 * H_6 - cosine_2 * H_3;
+    const jg_real t400 = sine_2 * H_7 - cosine_2 * H_4;
+    const jg_real t401 = t303 - cosine_2 * H_5;
+    const jg_real t402 = (A_ij_g_j_0 * (C_i[0] * t399 + C_i[3] * t400 + C_i[6] * t401) + A_ij_g_j_1 * (C_i[1] * t399
+        + C_i[4] * t400 + C_i[7] * t401) + A_ij_g_j_2 * (C_i[2] * t399 + C_i[5] * t400 + C_i[8] * t401)) *
         (alphadot[2] * alphadot[1]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -2238,12 +2194,12 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t281 * t366 - t367 * (t82 *
-        A_ij_omega_j_cross_g_j_0 + t83 * A_ij_omega_j_cross_g_j_1 + t84 * A_ij_omega_j_cross_g_j_2) + t372 * (t90 *
-        A_ij_omega_j_cross_g_j_0 + t91 * A_ij_omega_j_cross_g_j_1 + t92 * A_ij_omega_j_cross_g_j_2) + t367 * (t82 *
-        omega_i_cross_A_ij_g_j_0 + t83 * omega_i_cross_A_ij_g_j_1 + t84 * omega_i_cross_A_ij_g_j_2) - t372 * (t90 *
-        omega_i_cross_A_ij_g_j_0 + t91 * omega_i_cross_A_ij_g_j_1 + t92 * omega_i_cross_A_ij_g_j_2) + t269 * t371 *
-        t57 + t261 * t371 * t57 - t401 + t401 - t405 + t405 - t367 * alphadot[1] * t287;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t284 * t363 - t364 * (t85 *
+        A_ij_omega_j_cross_g_j_0 + t86 * A_ij_omega_j_cross_g_j_1 + t87 * A_ij_omega_j_cross_g_j_2) + t369 * (t93 *
+        A_ij_omega_j_cross_g_j_0 + t94 * A_ij_omega_j_cross_g_j_1 + t95 * A_ij_omega_j_cross_g_j_2) + t364 * (t85 *
+        omega_i_cross_A_ij_g_j_0 + t86 * omega_i_cross_A_ij_g_j_1 + t87 * omega_i_cross_A_ij_g_j_2) - t369 * (t93 *
+        omega_i_cross_A_ij_g_j_0 + t94 * omega_i_cross_A_ij_g_j_1 + t95 * omega_i_cross_A_ij_g_j_2) + t272 * t368 *
+        t60 + t264 * t368 * t60 - t398 + t398 - t402 + t402 - t364 * alphadot[1] * t290;
 }
 
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

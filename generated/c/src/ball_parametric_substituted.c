@@ -35,16 +35,20 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -61,14 +65,14 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t18 = cosine_2 * sine_0;
+    const jg_real t21 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
-    const jg_real t20 = cosine_0 * cosine_2;
-    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t21;
+    const jg_real t23 = cosine_0 * cosine_2;
+    const jg_real H_4 = t23 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -89,8 +93,8 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
-    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t23;
+    const jg_real H_7 = t21 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     /* h_star = C_i H [0; 0; 1] */
     const jg_real h_star_0 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
@@ -660,19 +664,23 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -690,14 +698,14 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
     phi_q[48] = cosine_2;
-    const jg_real t18 = cosine_2 * sine_0;
+    const jg_real t21 = cosine_2 * sine_0;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t18;
-    const jg_real t20 = cosine_0 * cosine_2;
-    const jg_real H_4 = t20 + sine_0 * sine_1 * sine_2;
+    const jg_real H_3 = cosine_0 * sine_1 * sine_2 - t21;
+    const jg_real t23 = cosine_0 * cosine_2;
+    const jg_real H_4 = t23 + sine_0 * sine_1 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     phi_q[46] = H_5;
     /* g_star = C_i H [0; 1; 0] */
@@ -722,8 +730,8 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t20;
-    const jg_real H_7 = t18 * sine_1 - cosine_0 * sine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t23;
+    const jg_real H_7 = t21 * sine_1 - cosine_0 * sine_2;
     const jg_real H_8 = cosine_1 * cosine_2;
     phi_q[47] = H_8;
     /* h_star = C_i H [0; 0; 1] */
@@ -797,76 +805,76 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[45] = -sine_1;
     phi_q[49] = -sine_2;
     phi_q[50] = JG_REAL(1.0);
-    const jg_real t64 = cosine_1 * lambda[5] * sine_2 - cosine_1 * lambda[4] * cosine_2;
-    const jg_real t65 = cosine_1 * lambda[3];
-    const jg_real t66 = sine_1 * lambda[5] + cosine_2 * t65;
-    const jg_real t67 = sine_1 * lambda[4];
-    const jg_real t68 = t67 + sine_2 * t65;
-    phi_q_t_lambda_q[0] = f_star_0 * t64 + g_star_0 * t66 - h_star_0 * t68;
-    phi_q_t_lambda_q[1] = f_star_1 * t64 + g_star_1 * t66 - h_star_1 * t68;
-    phi_q_t_lambda_q[2] = f_star_2 * t64 + g_star_2 * t66 - h_star_2 * t68;
-    const jg_real t69 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t70 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t71 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t72 = H_3 * t69 + H_4 * t70 + H_5 * t71;
-    const jg_real t73 = H_6 * t69 + H_7 * t70 + H_8 * t71;
-    const jg_real t74 = H_8 * t72 - H_5 * t73;
-    const jg_real t75 = H_0 * t69 + H_1 * t70 - sine_1 * t71;
-    const jg_real t76 = H_8 * t75 + sine_1 * t73;
-    const jg_real t77 = H_5 * t75 + sine_1 * t72;
-    const jg_real t78 = C_j[0] * t74 - C_j[3] * t76 + C_j[6] * t77;
-    phi_q_t_lambda_q[3] = t78;
-    const jg_real t79 = C_j[1] * t74 - C_j[4] * t76 + C_j[7] * t77;
-    phi_q_t_lambda_q[4] = t79;
-    const jg_real t80 = C_j[2] * t74 - C_j[5] * t76 + C_j[8] * t77;
-    phi_q_t_lambda_q[5] = t80;
-    phi_q_t_lambda_q[6] = s_j[1] * t80 - s_j[2] * t79;
-    phi_q_t_lambda_q[7] = s_j[2] * t78 - s_j[0] * t80;
-    phi_q_t_lambda_q[8] = s_j[0] * t79 - s_j[1] * t78;
-    const jg_real t81 = cosine_2 * lambda[5];
-    const jg_real t82 = sine_2 * lambda[4] + t81;
-    const jg_real t83 = sine_2 * lambda[3];
-    const jg_real t84 = cosine_2 * lambda[3];
-    phi_q_t_lambda_q[9] = f_star_0 * t82 - g_star_0 * t83 - h_star_0 * t84;
-    phi_q_t_lambda_q[10] = f_star_1 * t82 - g_star_1 * t83 - h_star_1 * t84;
-    phi_q_t_lambda_q[11] = f_star_2 * t82 - g_star_2 * t83 - h_star_2 * t84;
-    const jg_real t85 = sine_2 * t72 + cosine_2 * t73;
-    const jg_real t86 = sine_2 * t75;
-    const jg_real t87 = cosine_2 * t75;
-    const jg_real t88 = C_j[3] * t86 - C_j[0] * t85 + C_j[6] * t87;
-    phi_q_t_lambda_q[12] = t88;
-    const jg_real t89 = C_j[4] * t86 - C_j[1] * t85 + C_j[7] * t87;
-    phi_q_t_lambda_q[13] = t89;
-    const jg_real t90 = C_j[5] * t86 - C_j[2] * t85 + C_j[8] * t87;
-    phi_q_t_lambda_q[14] = t90;
-    phi_q_t_lambda_q[15] = s_j[1] * t90 - s_j[2] * t89;
-    phi_q_t_lambda_q[16] = s_j[2] * t88 - s_j[0] * t90;
-    phi_q_t_lambda_q[17] = s_j[0] * t89 - s_j[1] * t88;
-    phi_q_t_lambda_q[18] = -(t65 + sine_2 * t67 + sine_1 * t81);
+    const jg_real t67 = cosine_1 * lambda[5] * sine_2 - cosine_1 * lambda[4] * cosine_2;
+    const jg_real t68 = cosine_1 * lambda[3];
+    const jg_real t69 = sine_1 * lambda[5] + cosine_2 * t68;
+    const jg_real t70 = sine_1 * lambda[4];
+    const jg_real t71 = t70 + sine_2 * t68;
+    phi_q_t_lambda_q[0] = f_star_0 * t67 + g_star_0 * t69 - h_star_0 * t71;
+    phi_q_t_lambda_q[1] = f_star_1 * t67 + g_star_1 * t69 - h_star_1 * t71;
+    phi_q_t_lambda_q[2] = f_star_2 * t67 + g_star_2 * t69 - h_star_2 * t71;
+    const jg_real t72 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t73 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t74 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t75 = H_3 * t72 + H_4 * t73 + H_5 * t74;
+    const jg_real t76 = H_6 * t72 + H_7 * t73 + H_8 * t74;
+    const jg_real t77 = H_8 * t75 - H_5 * t76;
+    const jg_real t78 = H_0 * t72 + H_1 * t73 - sine_1 * t74;
+    const jg_real t79 = H_8 * t78 + sine_1 * t76;
+    const jg_real t80 = H_5 * t78 + sine_1 * t75;
+    const jg_real t81 = C_j[0] * t77 - C_j[3] * t79 + C_j[6] * t80;
+    phi_q_t_lambda_q[3] = t81;
+    const jg_real t82 = C_j[1] * t77 - C_j[4] * t79 + C_j[7] * t80;
+    phi_q_t_lambda_q[4] = t82;
+    const jg_real t83 = C_j[2] * t77 - C_j[5] * t79 + C_j[8] * t80;
+    phi_q_t_lambda_q[5] = t83;
+    phi_q_t_lambda_q[6] = s_j[1] * t83 - s_j[2] * t82;
+    phi_q_t_lambda_q[7] = s_j[2] * t81 - s_j[0] * t83;
+    phi_q_t_lambda_q[8] = s_j[0] * t82 - s_j[1] * t81;
+    const jg_real t84 = cosine_2 * lambda[5];
+    const jg_real t85 = sine_2 * lambda[4] + t84;
+    const jg_real t86 = sine_2 * lambda[3];
+    const jg_real t87 = cosine_2 * lambda[3];
+    phi_q_t_lambda_q[9] = f_star_0 * t85 - g_star_0 * t86 - h_star_0 * t87;
+    phi_q_t_lambda_q[10] = f_star_1 * t85 - g_star_1 * t86 - h_star_1 * t87;
+    phi_q_t_lambda_q[11] = f_star_2 * t85 - g_star_2 * t86 - h_star_2 * t87;
+    const jg_real t88 = sine_2 * t75 + cosine_2 * t76;
+    const jg_real t89 = sine_2 * t78;
+    const jg_real t90 = cosine_2 * t78;
+    const jg_real t91 = C_j[3] * t89 - C_j[0] * t88 + C_j[6] * t90;
+    phi_q_t_lambda_q[12] = t91;
+    const jg_real t92 = C_j[4] * t89 - C_j[1] * t88 + C_j[7] * t90;
+    phi_q_t_lambda_q[13] = t92;
+    const jg_real t93 = C_j[5] * t89 - C_j[2] * t88 + C_j[8] * t90;
+    phi_q_t_lambda_q[14] = t93;
+    phi_q_t_lambda_q[15] = s_j[1] * t93 - s_j[2] * t92;
+    phi_q_t_lambda_q[16] = s_j[2] * t91 - s_j[0] * t93;
+    phi_q_t_lambda_q[17] = s_j[0] * t92 - s_j[1] * t91;
+    phi_q_t_lambda_q[18] = -(t68 + sine_2 * t70 + sine_1 * t84);
     phi_q_t_lambda_q[19] = h_star_0 * lambda[4] - g_star_0 * lambda[5];
     phi_q_t_lambda_q[20] = h_star_1 * lambda[4] - g_star_1 * lambda[5];
     phi_q_t_lambda_q[21] = h_star_2 * lambda[4] - g_star_2 * lambda[5];
-    const jg_real t91 = C_j[3] * t73 - C_j[6] * t72;
-    phi_q_t_lambda_q[22] = t91;
-    const jg_real t92 = C_j[4] * t73 - C_j[7] * t72;
-    phi_q_t_lambda_q[23] = t92;
-    const jg_real t93 = C_j[5] * t73 - C_j[8] * t72;
-    phi_q_t_lambda_q[24] = t93;
-    phi_q_t_lambda_q[25] = s_j[1] * t93 - s_j[2] * t92;
-    phi_q_t_lambda_q[26] = s_j[2] * t91 - s_j[0] * t93;
-    phi_q_t_lambda_q[27] = s_j[0] * t92 - s_j[1] * t91;
-    phi_q_t_lambda_q[28] = -t64;
-    phi_q_t_lambda_q[29] = -t82;
+    const jg_real t94 = C_j[3] * t76 - C_j[6] * t75;
+    phi_q_t_lambda_q[22] = t94;
+    const jg_real t95 = C_j[4] * t76 - C_j[7] * t75;
+    phi_q_t_lambda_q[23] = t95;
+    const jg_real t96 = C_j[5] * t76 - C_j[8] * t75;
+    phi_q_t_lambda_q[24] = t96;
+    phi_q_t_lambda_q[25] = s_j[1] * t96 - s_j[2] * t95;
+    phi_q_t_lambda_q[26] = s_j[2] * t94 - s_j[0] * t96;
+    phi_q_t_lambda_q[27] = s_j[0] * t95 - s_j[1] * t94;
+    phi_q_t_lambda_q[28] = -t67;
+    phi_q_t_lambda_q[29] = -t85;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real t96 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
+    const jg_real t99 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real t98 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
-    const jg_real t99 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
-    const jg_real t100 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
-    const jg_real t101 = sine_2 * C_jt_v_j_0;
-    const jg_real t102 = cosine_2 * C_jt_v_j_0;
+    const jg_real t101 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
+    const jg_real t102 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
+    const jg_real t103 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
+    const jg_real t104 = sine_2 * C_jt_v_j_0;
+    const jg_real t105 = cosine_2 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
@@ -876,14 +884,14 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
         s_j_cross_omega_j_2;
     const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
         s_j_cross_omega_j_2;
-    const jg_real t108 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t111 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
     const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
         s_j_cross_omega_j_2;
-    const jg_real t110 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
-    const jg_real t111 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
-    const jg_real t112 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
-    const jg_real t113 = sine_2 * C_jt_s_j_cross_omega_j_0;
-    const jg_real t114 = cosine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t113 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t114 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t115 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t116 = sine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t117 = cosine_2 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -893,43 +901,43 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t98 + g_star_0 * t96 - h_star_0 * t99) +
-        alphadot[1] * (f_star_0 * t100 - g_star_0 * t101 - h_star_0 * t102) + alphadot[2] * (h_star_0 * C_jt_v_j_1 -
-        g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t108 + g_star_0 * t110 - h_star_0 * t111) - alphadot[1] *
-        (f_star_0 * t112 - g_star_0 * t113 - h_star_0 * t114) - alphadot[2] * (h_star_0 * C_jt_s_j_cross_omega_j_1 -
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t101 + g_star_0 * t99 - h_star_0 * t102) +
+        alphadot[1] * (f_star_0 * t103 - g_star_0 * t104 - h_star_0 * t105) + alphadot[2] * (h_star_0 * C_jt_v_j_1 -
+        g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t111 + g_star_0 * t113 - h_star_0 * t114) - alphadot[1] *
+        (f_star_0 * t115 - g_star_0 * t116 - h_star_0 * t117) - alphadot[2] * (h_star_0 * C_jt_s_j_cross_omega_j_1 -
         g_star_0 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t98 + g_star_1 * t96 - h_star_1 * t99) +
-        alphadot[1] * (f_star_1 * t100 - g_star_1 * t101 - h_star_1 * t102) + alphadot[2] * (h_star_1 * C_jt_v_j_1 -
-        g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t108 + g_star_1 * t110 - h_star_1 * t111) - alphadot[1] *
-        (f_star_1 * t112 - g_star_1 * t113 - h_star_1 * t114) - alphadot[2] * (h_star_1 * C_jt_s_j_cross_omega_j_1 -
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t101 + g_star_1 * t99 - h_star_1 * t102) +
+        alphadot[1] * (f_star_1 * t103 - g_star_1 * t104 - h_star_1 * t105) + alphadot[2] * (h_star_1 * C_jt_v_j_1 -
+        g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t111 + g_star_1 * t113 - h_star_1 * t114) - alphadot[1] *
+        (f_star_1 * t115 - g_star_1 * t116 - h_star_1 * t117) - alphadot[2] * (h_star_1 * C_jt_s_j_cross_omega_j_1 -
         g_star_1 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t98 + g_star_2 * t96 - h_star_2 * t99) +
-        alphadot[1] * (f_star_2 * t100 - g_star_2 * t101 - h_star_2 * t102) + alphadot[2] * (h_star_2 * C_jt_v_j_1 -
-        g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t108 + g_star_2 * t110 - h_star_2 * t111) - alphadot[1] *
-        (f_star_2 * t112 - g_star_2 * t113 - h_star_2 * t114) - alphadot[2] * (h_star_2 * C_jt_s_j_cross_omega_j_1 -
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t101 + g_star_2 * t99 - h_star_2 * t102) +
+        alphadot[1] * (f_star_2 * t103 - g_star_2 * t104 - h_star_2 * t105) + alphadot[2] * (h_star_2 * C_jt_v_j_1 -
+        g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t111 + g_star_2 * t113 - h_star_2 * t114) - alphadot[1] *
+        (f_star_2 * t115 - g_star_2 * t116 - h_star_2 * t117) - alphadot[2] * (h_star_2 * C_jt_s_j_cross_omega_j_1 -
         g_star_2 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
-    const jg_real t124 = alphadot[0] * alphadot[1];
+    const jg_real t127 = alphadot[0] * alphadot[1];
     gamma[3] = alphadot[1] * (omega_i[0] * (sine_2 * g_star_0 + cosine_2 * h_star_0) + omega_i[1] * (sine_2 *
         g_star_1 + cosine_2 * h_star_1) + omega_i[2] * (sine_2 * g_star_2 + cosine_2 * h_star_2)) - alphadot[0] *
         (omega_i[0] * (H_8 * g_star_0 - H_5 * h_star_0) + omega_i[1] * (H_8 * g_star_1 - H_5 * h_star_1) +
-        omega_i[2] * (H_8 * g_star_2 - H_5 * h_star_2)) + cosine_1 * t124;
-    const jg_real t125 = alphadot[1] * alphadot[2];
-    const jg_real t126 = alphadot[1] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
-    const jg_real t127 = alphadot[0] * alphadot[2] * cosine_1;
+        omega_i[2] * (H_8 * g_star_2 - H_5 * h_star_2)) + cosine_1 * t127;
+    const jg_real t128 = alphadot[1] * alphadot[2];
+    const jg_real t129 = alphadot[1] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
+    const jg_real t130 = alphadot[0] * alphadot[2] * cosine_1;
     gamma[4] = alphadot[0] * (omega_i[0] * (H_8 * f_star_0 + sine_1 * h_star_0) + omega_i[1] * (H_8 * f_star_1 +
         sine_1 * h_star_1) + omega_i[2] * (H_8 * f_star_2 + sine_1 * h_star_2)) - alphadot[2] * (h_star_0 *
-        omega_i[0] + h_star_1 * omega_i[1] + h_star_2 * omega_i[2]) + sine_2 * t125 - sine_2 * t126 + sine_1 * t124
-        * sine_2 - cosine_2 * t127;
+        omega_i[0] + h_star_1 * omega_i[1] + h_star_2 * omega_i[2]) + sine_2 * t128 - sine_2 * t129 + sine_1 * t127
+        * sine_2 - cosine_2 * t130;
     gamma[5] = alphadot[2] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) - alphadot[0] *
         (omega_i[0] * (H_5 * f_star_0 + sine_1 * g_star_0) + omega_i[1] * (H_5 * f_star_1 + sine_1 * g_star_1) +
-        omega_i[2] * (H_5 * f_star_2 + sine_1 * g_star_2)) + cosine_2 * t125 - cosine_2 * t126 + cosine_2 * t124 *
-        sine_1 + sine_2 * t127;
+        omega_i[2] * (H_5 * f_star_2 + sine_1 * g_star_2)) + cosine_2 * t128 - cosine_2 * t129 + cosine_2 * t127 *
+        sine_1 + sine_2 * t130;
 }
 
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -34,16 +34,20 @@ void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -635,19 +639,23 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -699,29 +707,29 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     const jg_real H_1 = cosine_1 * sine_0;
     phi_q[45] = H_1;
     phi_q[5] = C_i[3] * sine_1 + C_i[6] * H_1;
-    const jg_real t36 = C_i[0] * H_1 - H_0 * C_i[3];
-    phi_q[6] = -t36;
-    const jg_real t37 = cosine_0 * cosine_2;
-    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t37;
-    const jg_real t39 = cosine_2 * sine_0;
-    const jg_real H_7 = sine_1 * t39 - cosine_0 * sine_2;
+    const jg_real t39 = C_i[0] * H_1 - H_0 * C_i[3];
+    phi_q[6] = -t39;
+    const jg_real t40 = cosine_0 * cosine_2;
+    const jg_real H_6 = sine_0 * sine_2 + sine_1 * t40;
+    const jg_real t42 = cosine_2 * sine_0;
+    const jg_real H_7 = sine_1 * t42 - cosine_0 * sine_2;
     phi_q[7] = C_i[3] * H_6 - C_i[0] * H_7;
     phi_q[8] = -s_i[2];
     phi_q[10] = C_i[4] * sine_1 + C_i[7] * H_1;
-    const jg_real t41 = C_i[1] * H_1 - H_0 * C_i[4];
-    phi_q[11] = -t41;
+    const jg_real t44 = C_i[1] * H_1 - H_0 * C_i[4];
+    phi_q[11] = -t44;
     phi_q[12] = C_i[4] * H_6 - C_i[1] * H_7;
     phi_q[14] = -s_i[0];
     phi_q[15] = C_i[5] * sine_1 + C_i[8] * H_1;
-    const jg_real t42 = C_i[2] * H_1 - H_0 * C_i[5];
-    phi_q[16] = -t42;
+    const jg_real t45 = C_i[2] * H_1 - H_0 * C_i[5];
+    phi_q[16] = -t45;
     phi_q[17] = C_i[5] * H_6 - C_i[2] * H_7;
     /* C_i_H = C_i H */
     const jg_real C_i_H_6 = C_i[0] * H_6 + C_i[3] * H_7 + C_i[6] * H_8;
-    const jg_real t44 = cosine_0 * sine_1;
-    phi_q[46] = t44;
-    const jg_real H_3 = sine_2 * t44 - t39;
-    const jg_real H_4 = t37 + sine_1 * sine_0 * sine_2;
+    const jg_real t47 = cosine_0 * sine_1;
+    phi_q[46] = t47;
+    const jg_real H_3 = sine_2 * t47 - t42;
+    const jg_real H_4 = t40 + sine_1 * sine_0 * sine_2;
     const jg_real H_5 = cosine_1 * sine_2;
     phi_q[49] = H_5;
     const jg_real C_i_H_3 = C_i[0] * H_3 + C_i[3] * H_4 + C_i[6] * H_5;
@@ -768,112 +776,112 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     phi_q[42] = C_j[8] * H_3 - C_j[5] * H_6;
     phi_q[43] = C_j[8] * H_5 - C_j[5] * H_8;
     phi_q[44] = -(C_j[5] * sine_1 + C_j[2] * H_5);
-    const jg_real t65 = sine_1 * cosine_2;
-    phi_q[48] = t65;
-    const jg_real t66 = H_8 * H_3 - H_6 * H_5;
-    const jg_real t67 = t66 * lambda[4];
-    const jg_real t68 = H_8 * H_4 - H_7 * H_5;
-    const jg_real t69 = t68 * lambda[4];
-    const jg_real t70 = t68 * lambda[3];
-    const jg_real t71 = H_1 * H_5 + sine_1 * H_4;
-    const jg_real t72 = H_0 * H_5 + sine_1 * H_3;
-    const jg_real t73 = C_i[0] * t71 - C_i[3] * t72;
-    phi_q_t_lambda_q[0] = C_i[3] * t67 - C_i[0] * t69 + C_i[6] * t70 - lambda[5] * t73;
-    const jg_real t74 = C_i[1] * t71 - C_i[4] * t72;
-    phi_q_t_lambda_q[1] = C_i[4] * t67 - C_i[1] * t69 + C_i[7] * t70 - lambda[5] * t74;
-    const jg_real t75 = C_i[2] * t71 - C_i[5] * t72;
-    phi_q_t_lambda_q[2] = C_i[5] * t67 - C_i[2] * t69 + C_i[8] * t70 - lambda[5] * t75;
-    const jg_real t76 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t77 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t78 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t79 = H_3 * t76 + H_4 * t77 + H_5 * t78;
-    const jg_real t80 = H_6 * t76 + H_7 * t77 + H_8 * t78;
-    const jg_real t81 = H_8 * t79 - H_5 * t80;
-    const jg_real t82 = H_0 * t76 + H_1 * t77 - sine_1 * t78;
-    const jg_real t83 = H_8 * t82 + sine_1 * t80;
-    const jg_real t84 = H_5 * t82 + sine_1 * t79;
-    const jg_real t85 = C_j[0] * t81 - C_j[3] * t83 + C_j[6] * t84;
-    phi_q_t_lambda_q[3] = t85;
-    const jg_real t86 = C_j[1] * t81 - C_j[4] * t83 + C_j[7] * t84;
-    phi_q_t_lambda_q[4] = t86;
-    const jg_real t87 = C_j[2] * t81 - C_j[5] * t83 + C_j[8] * t84;
-    phi_q_t_lambda_q[5] = t87;
-    const jg_real t88 = sine_1 * lambda[4];
-    const jg_real t89 = H_0 * lambda[3] - t88;
-    const jg_real t90 = H_3 * lambda[3] + H_5 * lambda[4];
-    const jg_real t91 = H_5 * t89 + sine_1 * t90;
-    const jg_real t92 = H_6 * lambda[3] + H_8 * lambda[4];
-    const jg_real t93 = H_8 * t89 + sine_1 * t92;
-    phi_q_t_lambda_q[6] = s_j[1] * t87 - s_j[2] * t86 - (C_j[3] * t91 + C_j[6] * t93);
-    phi_q_t_lambda_q[7] = s_j[2] * t85 - s_j[0] * t87 - (C_j[4] * t91 + C_j[7] * t93);
-    phi_q_t_lambda_q[8] = s_j[0] * t86 - s_j[1] * t85 - (C_j[5] * t91 + C_j[8] * t93);
-    const jg_real t94 = cosine_0 * lambda[3] * cosine_1;
-    phi_q_t_lambda_q[9] = t94;
-    const jg_real t95 = -(sine_0 * lambda[3] * sine_1);
-    phi_q_t_lambda_q[10] = t95;
-    phi_q_t_lambda_q[20] = t95;
-    const jg_real t96 = sine_2 * H_4 + cosine_2 * H_7;
-    const jg_real t97 = lambda[4] * t96;
-    const jg_real t98 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t99 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t100 = lambda[3] * t99 - lambda[4] * t98;
-    const jg_real t101 = lambda[3] * t96;
-    const jg_real t102 = cosine_2 * lambda[5];
-    phi_q_t_lambda_q[11] = C_i[0] * t97 + C_i[3] * t100 - C_i[6] * t101 - t36 * t102;
-    phi_q_t_lambda_q[12] = C_i[1] * t97 + C_i[4] * t100 - C_i[7] * t101 - t41 * t102;
-    phi_q_t_lambda_q[13] = C_i[2] * t97 + C_i[5] * t100 - C_i[8] * t101 - t42 * t102;
-    const jg_real t103 = sine_2 * t79 + cosine_2 * t80;
-    const jg_real t104 = sine_2 * t82;
-    const jg_real t105 = cosine_2 * t82;
-    const jg_real t106 = C_j[3] * t104 - C_j[0] * t103 + C_j[6] * t105;
-    phi_q_t_lambda_q[14] = t106;
-    const jg_real t107 = C_j[4] * t104 - C_j[1] * t103 + C_j[7] * t105;
-    phi_q_t_lambda_q[15] = t107;
-    const jg_real t108 = C_j[5] * t104 - C_j[2] * t103 + C_j[8] * t105;
-    phi_q_t_lambda_q[16] = t108;
-    const jg_real t109 = sine_2 * t89;
-    const jg_real t110 = cosine_2 * t89;
-    const jg_real t111 = sine_1 * sine_2;
-    const jg_real t112 = C_j[0] * t111 - C_j[3] * t99;
-    phi_q_t_lambda_q[17] = s_j[1] * t108 - s_j[2] * t107 + (C_j[6] * t109 - C_j[3] * t110 + lambda[5] * t112);
-    const jg_real t113 = C_j[1] * t111 - C_j[4] * t99;
-    phi_q_t_lambda_q[18] = s_j[2] * t106 - s_j[0] * t108 + (C_j[7] * t109 - C_j[4] * t110 + lambda[5] * t113);
-    const jg_real t114 = C_j[2] * t111 - C_j[5] * t99;
-    phi_q_t_lambda_q[19] = s_j[0] * t107 - s_j[1] * t106 + (C_j[8] * t109 - C_j[5] * t110 + lambda[5] * t114);
-    const jg_real t115 = cosine_1 * lambda[5] * cosine_2;
-    phi_q_t_lambda_q[33] = t115;
-    phi_q_t_lambda_q[21] = t94 - t88 + t115;
-    const jg_real t116 = -(sine_1 * lambda[5] * sine_2);
-    phi_q_t_lambda_q[22] = t116;
-    phi_q_t_lambda_q[32] = t116;
-    const jg_real t117 = C_i[0] * H_4 - C_i[3] * H_3;
-    phi_q_t_lambda_q[23] = lambda[5] * t117;
-    const jg_real t118 = C_i[1] * H_4 - C_i[4] * H_3;
-    phi_q_t_lambda_q[24] = lambda[5] * t118;
-    const jg_real t119 = C_i[2] * H_4 - C_i[5] * H_3;
-    phi_q_t_lambda_q[25] = lambda[5] * t119;
-    const jg_real t120 = C_j[3] * t80 - C_j[6] * t79;
-    phi_q_t_lambda_q[26] = t120;
-    const jg_real t121 = C_j[4] * t80 - C_j[7] * t79;
-    phi_q_t_lambda_q[27] = t121;
-    const jg_real t122 = C_j[5] * t80 - C_j[8] * t79;
-    phi_q_t_lambda_q[28] = t122;
-    const jg_real t123 = C_j[0] * H_8;
-    phi_q_t_lambda_q[29] = s_j[1] * t122 - s_j[2] * t121 + (C_j[3] * t90 + C_j[6] * t92 - lambda[5] * t123);
-    const jg_real t124 = C_j[1] * H_8;
-    phi_q_t_lambda_q[30] = s_j[2] * t120 - s_j[0] * t122 + (C_j[4] * t90 + C_j[7] * t92 - lambda[5] * t124);
-    const jg_real t125 = C_j[2] * H_8;
-    phi_q_t_lambda_q[31] = s_j[0] * t121 - s_j[1] * t120 + (C_j[5] * t90 + C_j[8] * t92 - lambda[5] * t125);
+    const jg_real t68 = sine_1 * cosine_2;
+    phi_q[48] = t68;
+    const jg_real t69 = H_8 * H_3 - H_6 * H_5;
+    const jg_real t70 = t69 * lambda[4];
+    const jg_real t71 = H_8 * H_4 - H_7 * H_5;
+    const jg_real t72 = t71 * lambda[4];
+    const jg_real t73 = t71 * lambda[3];
+    const jg_real t74 = H_1 * H_5 + sine_1 * H_4;
+    const jg_real t75 = H_0 * H_5 + sine_1 * H_3;
+    const jg_real t76 = C_i[0] * t74 - C_i[3] * t75;
+    phi_q_t_lambda_q[0] = C_i[3] * t70 - C_i[0] * t72 + C_i[6] * t73 - lambda[5] * t76;
+    const jg_real t77 = C_i[1] * t74 - C_i[4] * t75;
+    phi_q_t_lambda_q[1] = C_i[4] * t70 - C_i[1] * t72 + C_i[7] * t73 - lambda[5] * t77;
+    const jg_real t78 = C_i[2] * t74 - C_i[5] * t75;
+    phi_q_t_lambda_q[2] = C_i[5] * t70 - C_i[2] * t72 + C_i[8] * t73 - lambda[5] * t78;
+    const jg_real t79 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t80 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t81 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t82 = H_3 * t79 + H_4 * t80 + H_5 * t81;
+    const jg_real t83 = H_6 * t79 + H_7 * t80 + H_8 * t81;
+    const jg_real t84 = H_8 * t82 - H_5 * t83;
+    const jg_real t85 = H_0 * t79 + H_1 * t80 - sine_1 * t81;
+    const jg_real t86 = H_8 * t85 + sine_1 * t83;
+    const jg_real t87 = H_5 * t85 + sine_1 * t82;
+    const jg_real t88 = C_j[0] * t84 - C_j[3] * t86 + C_j[6] * t87;
+    phi_q_t_lambda_q[3] = t88;
+    const jg_real t89 = C_j[1] * t84 - C_j[4] * t86 + C_j[7] * t87;
+    phi_q_t_lambda_q[4] = t89;
+    const jg_real t90 = C_j[2] * t84 - C_j[5] * t86 + C_j[8] * t87;
+    phi_q_t_lambda_q[5] = t90;
+    const jg_real t91 = sine_1 * lambda[4];
+    const jg_real t92 = H_0 * lambda[3] - t91;
+    const jg_real t93 = H_3 * lambda[3] + H_5 * lambda[4];
+    const jg_real t94 = H_5 * t92 + sine_1 * t93;
+    const jg_real t95 = H_6 * lambda[3] + H_8 * lambda[4];
+    const jg_real t96 = H_8 * t92 + sine_1 * t95;
+    phi_q_t_lambda_q[6] = s_j[1] * t90 - s_j[2] * t89 - (C_j[3] * t94 + C_j[6] * t96);
+    phi_q_t_lambda_q[7] = s_j[2] * t88 - s_j[0] * t90 - (C_j[4] * t94 + C_j[7] * t96);
+    phi_q_t_lambda_q[8] = s_j[0] * t89 - s_j[1] * t88 - (C_j[5] * t94 + C_j[8] * t96);
+    const jg_real t97 = cosine_0 * lambda[3] * cosine_1;
+    phi_q_t_lambda_q[9] = t97;
+    const jg_real t98 = -(sine_0 * lambda[3] * sine_1);
+    phi_q_t_lambda_q[10] = t98;
+    phi_q_t_lambda_q[20] = t98;
+    const jg_real t99 = sine_2 * H_4 + cosine_2 * H_7;
+    const jg_real t100 = lambda[4] * t99;
+    const jg_real t101 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t102 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t103 = lambda[3] * t102 - lambda[4] * t101;
+    const jg_real t104 = lambda[3] * t99;
+    const jg_real t105 = cosine_2 * lambda[5];
+    phi_q_t_lambda_q[11] = C_i[0] * t100 + C_i[3] * t103 - C_i[6] * t104 - t39 * t105;
+    phi_q_t_lambda_q[12] = C_i[1] * t100 + C_i[4] * t103 - C_i[7] * t104 - t44 * t105;
+    phi_q_t_lambda_q[13] = C_i[2] * t100 + C_i[5] * t103 - C_i[8] * t104 - t45 * t105;
+    const jg_real t106 = sine_2 * t82 + cosine_2 * t83;
+    const jg_real t107 = sine_2 * t85;
+    const jg_real t108 = cosine_2 * t85;
+    const jg_real t109 = C_j[3] * t107 - C_j[0] * t106 + C_j[6] * t108;
+    phi_q_t_lambda_q[14] = t109;
+    const jg_real t110 = C_j[4] * t107 - C_j[1] * t106 + C_j[7] * t108;
+    phi_q_t_lambda_q[15] = t110;
+    const jg_real t111 = C_j[5] * t107 - C_j[2] * t106 + C_j[8] * t108;
+    phi_q_t_lambda_q[16] = t111;
+    const jg_real t112 = sine_2 * t92;
+    const jg_real t113 = cosine_2 * t92;
+    const jg_real t114 = sine_1 * sine_2;
+    const jg_real t115 = C_j[0] * t114 - C_j[3] * t102;
+    phi_q_t_lambda_q[17] = s_j[1] * t111 - s_j[2] * t110 + (C_j[6] * t112 - C_j[3] * t113 + lambda[5] * t115);
+    const jg_real t116 = C_j[1] * t114 - C_j[4] * t102;
+    phi_q_t_lambda_q[18] = s_j[2] * t109 - s_j[0] * t111 + (C_j[7] * t112 - C_j[4] * t113 + lambda[5] * t116);
+    const jg_real t117 = C_j[2] * t114 - C_j[5] * t102;
+    phi_q_t_lambda_q[19] = s_j[0] * t110 - s_j[1] * t109 + (C_j[8] * t112 - C_j[5] * t113 + lambda[5] * t117);
+    const jg_real t118 = cosine_1 * lambda[5] * cosine_2;
+    phi_q_t_lambda_q[33] = t118;
+    phi_q_t_lambda_q[21] = t97 - t91 + t118;
+    const jg_real t119 = -(sine_1 * lambda[5] * sine_2);
+    phi_q_t_lambda_q[22] = t119;
+    phi_q_t_lambda_q[32] = t119;
+    const jg_real t120 = C_i[0] * H_4 - C_i[3] * H_3;
+    phi_q_t_lambda_q[23] = lambda[5] * t120;
+    const jg_real t121 = C_i[1] * H_4 - C_i[4] * H_3;
+    phi_q_t_lambda_q[24] = lambda[5] * t121;
+    const jg_real t122 = C_i[2] * H_4 - C_i[5] * H_3;
+    phi_q_t_lambda_q[25] = lambda[5] * t122;
+    const jg_real t123 = C_j[3] * t83 - C_j[6] * t82;
+    phi_q_t_lambda_q[26] = t123;
+    const jg_real t124 = C_j[4] * t83 - C_j[7] * t82;
+    phi_q_t_lambda_q[27] = t124;
+    const jg_real t125 = C_j[5] * t83 - C_j[8] * t82;
+    phi_q_t_lambda_q[28] = t125;
+    const jg_real t126 = C_j[0] * H_8;
+    phi_q_t_lambda_q[29] = s_j[1] * t125 - s_j[2] * t124 + (C_j[3] * t93 + C_j[6] * t95 - lambda[5] * t126);
+    const jg_real t127 = C_j[1] * H_8;
+    phi_q_t_lambda_q[30] = s_j[2] * t123 - s_j[0] * t125 + (C_j[4] * t93 + C_j[7] * t95 - lambda[5] * t127);
+    const jg_real t128 = C_j[2] * H_8;
+    phi_q_t_lambda_q[31] = s_j[0] * t124 - s_j[1] * t123 + (C_j[5] * t93 + C_j[8] * t95 - lambda[5] * t128);
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real t128 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
+    const jg_real t131 = H_8 * C_jt_v_j_0 + sine_1 * C_jt_v_j_2;
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real t130 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
-    const jg_real t131 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
-    const jg_real t132 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
-    const jg_real t133 = sine_2 * C_jt_v_j_0;
-    const jg_real t134 = cosine_2 * C_jt_v_j_0;
+    const jg_real t133 = H_5 * C_jt_v_j_2 - H_8 * C_jt_v_j_1;
+    const jg_real t134 = H_5 * C_jt_v_j_0 + sine_1 * C_jt_v_j_1;
+    const jg_real t135 = sine_2 * C_jt_v_j_1 + cosine_2 * C_jt_v_j_2;
+    const jg_real t136 = sine_2 * C_jt_v_j_0;
+    const jg_real t137 = cosine_2 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
@@ -883,14 +891,14 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
         s_j_cross_omega_j_2;
     const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
         s_j_cross_omega_j_2;
-    const jg_real t140 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t143 = H_5 * C_jt_s_j_cross_omega_j_2 - H_8 * C_jt_s_j_cross_omega_j_1;
     const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
         s_j_cross_omega_j_2;
-    const jg_real t142 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
-    const jg_real t143 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
-    const jg_real t144 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
-    const jg_real t145 = sine_2 * C_jt_s_j_cross_omega_j_0;
-    const jg_real t146 = cosine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t145 = H_8 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t146 = H_5 * C_jt_s_j_cross_omega_j_0 + sine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t147 = sine_2 * C_jt_s_j_cross_omega_j_1 + cosine_2 * C_jt_s_j_cross_omega_j_2;
+    const jg_real t148 = sine_2 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t149 = cosine_2 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -900,50 +908,50 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t130 + C_i_H_3 * t128 - C_i_H_6 * t131) +
-        alphadot[1] * (C_i_H_0 * t132 - C_i_H_3 * t133 - C_i_H_6 * t134) + alphadot[2] * (C_i_H_6 * C_jt_v_j_1 -
-        C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t140 + C_i_H_3 * t142 - C_i_H_6 * t143) - alphadot[1] *
-        (C_i_H_0 * t144 - C_i_H_3 * t145 - C_i_H_6 * t146) - alphadot[2] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 -
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t133 + C_i_H_3 * t131 - C_i_H_6 * t134) +
+        alphadot[1] * (C_i_H_0 * t135 - C_i_H_3 * t136 - C_i_H_6 * t137) + alphadot[2] * (C_i_H_6 * C_jt_v_j_1 -
+        C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t143 + C_i_H_3 * t145 - C_i_H_6 * t146) - alphadot[1] *
+        (C_i_H_0 * t147 - C_i_H_3 * t148 - C_i_H_6 * t149) - alphadot[2] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 -
         C_i_H_3 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t130 + C_i_H_4 * t128 - C_i_H_7 * t131) +
-        alphadot[1] * (C_i_H_1 * t132 - C_i_H_4 * t133 - C_i_H_7 * t134) + alphadot[2] * (C_i_H_7 * C_jt_v_j_1 -
-        C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t140 + C_i_H_4 * t142 - C_i_H_7 * t143) - alphadot[1] *
-        (C_i_H_1 * t144 - C_i_H_4 * t145 - C_i_H_7 * t146) - alphadot[2] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 -
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t133 + C_i_H_4 * t131 - C_i_H_7 * t134) +
+        alphadot[1] * (C_i_H_1 * t135 - C_i_H_4 * t136 - C_i_H_7 * t137) + alphadot[2] * (C_i_H_7 * C_jt_v_j_1 -
+        C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t143 + C_i_H_4 * t145 - C_i_H_7 * t146) - alphadot[1] *
+        (C_i_H_1 * t147 - C_i_H_4 * t148 - C_i_H_7 * t149) - alphadot[2] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 -
         C_i_H_4 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t130 + C_i_H_5 * t128 - C_i_H_8 * t131) +
-        alphadot[1] * (C_i_H_2 * t132 - C_i_H_5 * t133 - C_i_H_8 * t134) + alphadot[2] * (C_i_H_8 * C_jt_v_j_1 -
-        C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t140 + C_i_H_5 * t142 - C_i_H_8 * t143) - alphadot[1] *
-        (C_i_H_2 * t144 - C_i_H_5 * t145 - C_i_H_8 * t146) - alphadot[2] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 -
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t133 + C_i_H_5 * t131 - C_i_H_8 * t134) +
+        alphadot[1] * (C_i_H_2 * t135 - C_i_H_5 * t136 - C_i_H_8 * t137) + alphadot[2] * (C_i_H_8 * C_jt_v_j_1 -
+        C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t143 + C_i_H_5 * t145 - C_i_H_8 * t146) - alphadot[1] *
+        (C_i_H_2 * t147 - C_i_H_5 * t148 - C_i_H_8 * t149) - alphadot[2] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 -
         C_i_H_5 * C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
-    const jg_real t156 = H_0 * H_8 + sine_1 * H_6;
-    const jg_real t157 = H_0 * sine_2;
-    const jg_real t158 = H_0 * cosine_2;
-    const jg_real t159 = alphadot[1] * alphadot[1];
-    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t96 - C_i[3] * t99) + omega_i[1] * (C_i[7] * t96 - C_i[4] *
-        t99) + omega_i[2] * (C_i[8] * t96 - C_i[5] * t99)) - alphadot[0] * (C_i[6] * t68 * omega_i[0] + C_i[7] * t68
-        * omega_i[1] + C_i[8] * t68 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t72 + C_j[6] * t156) +
-        omega_j[1] * (C_j[4] * t72 + C_j[7] * t156) + omega_j[2] * (C_j[5] * t72 + C_j[8] * t156)) - alphadot[1] *
-        (omega_j[0] * (C_j[6] * t157 - C_j[3] * t158) + omega_j[1] * (C_j[7] * t157 - C_j[4] * t158) + omega_j[2] *
-        (C_j[8] * t157 - C_j[5] * t158)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_3 + C_j[6] * H_6) + omega_j[1] *
+    const jg_real t159 = H_0 * H_8 + sine_1 * H_6;
+    const jg_real t160 = H_0 * sine_2;
+    const jg_real t161 = H_0 * cosine_2;
+    const jg_real t162 = alphadot[1] * alphadot[1];
+    gamma[3] = alphadot[1] * (omega_i[0] * (C_i[6] * t99 - C_i[3] * t102) + omega_i[1] * (C_i[7] * t99 - C_i[4] *
+        t102) + omega_i[2] * (C_i[8] * t99 - C_i[5] * t102)) - alphadot[0] * (C_i[6] * t71 * omega_i[0] + C_i[7] *
+        t71 * omega_i[1] + C_i[8] * t71 * omega_i[2]) + alphadot[0] * (omega_j[0] * (C_j[3] * t75 + C_j[6] * t159) +
+        omega_j[1] * (C_j[4] * t75 + C_j[7] * t159) + omega_j[2] * (C_j[5] * t75 + C_j[8] * t159)) - alphadot[1] *
+        (omega_j[0] * (C_j[6] * t160 - C_j[3] * t161) + omega_j[1] * (C_j[7] * t160 - C_j[4] * t161) + omega_j[2] *
+        (C_j[8] * t160 - C_j[5] * t161)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_3 + C_j[6] * H_6) + omega_j[1] *
         (C_j[4] * H_3 + C_j[7] * H_6) + omega_j[2] * (C_j[5] * H_3 + C_j[8] * H_6)) - alphadot[0] * alphadot[0] *
-        cosine_0 * cosine_1 - cosine_0 * t159 * cosine_1 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_0 *
+        cosine_0 * cosine_1 - cosine_0 * t162 * cosine_1 + alphadot[0] * JG_REAL(2.0) * alphadot[1] * sine_0 *
         sine_1;
-    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t68 - C_i[3] * t66) + omega_i[1] * (C_i[1] * t68 - C_i[4] *
-        t66) + omega_i[2] * (C_i[2] * t68 - C_i[5] * t66)) + alphadot[1] * (omega_i[0] * (C_i[3] * t98 - C_i[0] *
-        t96) + omega_i[1] * (C_i[4] * t98 - C_i[1] * t96) + omega_i[2] * (C_i[5] * t98 - C_i[2] * t96)) + sine_1 *
-        t159 - alphadot[1] * (omega_j[0] * (C_j[3] * t65 - C_j[6] * t111) + omega_j[1] * (C_j[4] * t65 - C_j[7] *
-        t111) + omega_j[2] * (C_j[5] * t65 - C_j[8] * t111)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_5 + C_j[6] *
+    gamma[4] = alphadot[0] * (omega_i[0] * (C_i[0] * t71 - C_i[3] * t69) + omega_i[1] * (C_i[1] * t71 - C_i[4] *
+        t69) + omega_i[2] * (C_i[2] * t71 - C_i[5] * t69)) + alphadot[1] * (omega_i[0] * (C_i[3] * t101 - C_i[0] *
+        t99) + omega_i[1] * (C_i[4] * t101 - C_i[1] * t99) + omega_i[2] * (C_i[5] * t101 - C_i[2] * t99)) + sine_1 *
+        t162 - alphadot[1] * (omega_j[0] * (C_j[3] * t68 - C_j[6] * t114) + omega_j[1] * (C_j[4] * t68 - C_j[7] *
+        t114) + omega_j[2] * (C_j[5] * t68 - C_j[8] * t114)) - alphadot[2] * (omega_j[0] * (C_j[3] * H_5 + C_j[6] *
         H_8) + omega_j[1] * (C_j[4] * H_5 + C_j[7] * H_8) + omega_j[2] * (C_j[5] * H_5 + C_j[8] * H_8));
-    gamma[5] = alphadot[0] * (t73 * omega_i[0] + t74 * omega_i[1] + t75 * omega_i[2]) - alphadot[1] * (t112 *
-        omega_j[0] + t113 * omega_j[1] + t114 * omega_j[2]) - alphadot[2] * (t117 * omega_i[0] + t118 * omega_i[1] +
-        t119 * omega_i[2]) + alphadot[2] * (t123 * omega_j[0] + t124 * omega_j[1] + t125 * omega_j[2]) + alphadot[1]
-        * (t36 * omega_i[0] + t41 * omega_i[1] + t42 * omega_i[2]) * cosine_2 - cosine_1 * t159 * cosine_2 -
+    gamma[5] = alphadot[0] * (t76 * omega_i[0] + t77 * omega_i[1] + t78 * omega_i[2]) - alphadot[1] * (t115 *
+        omega_j[0] + t116 * omega_j[1] + t117 * omega_j[2]) - alphadot[2] * (t120 * omega_i[0] + t121 * omega_i[1] +
+        t122 * omega_i[2]) + alphadot[2] * (t126 * omega_j[0] + t127 * omega_j[1] + t128 * omega_j[2]) + alphadot[1]
+        * (t39 * omega_i[0] + t44 * omega_i[1] + t45 * omega_i[2]) * cosine_2 - cosine_1 * t162 * cosine_2 -
         alphadot[2] * alphadot[2] * cosine_1 * cosine_2 + alphadot[1] * JG_REAL(2.0) * alphadot[2] * sine_1 *
         sine_2;
 }

@@ -35,16 +35,20 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -99,23 +103,19 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[5] = -A_i_g_i_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t16 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t18 = s_i[1] + dp_ij_1;
-    phi_q[6] = C_i[1] * t16 - C_i[2] * t18;
-    phi_q[7] = C_i[4] * t16 - C_i[5] * t18;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t13 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t15 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[6] = C_i[1] * t13 - C_i[2] * t15;
+    phi_q[7] = C_i[4] * t13 - C_i[5] * t15;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -128,18 +128,18 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     phi_q[8] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[9] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t28 = s_i[0] + dp_ij_0;
-    phi_q[10] = C_i[2] * t28 - C_i[0] * t16;
-    phi_q[11] = C_i[5] * t28 - C_i[3] * t16;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t25 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[10] = C_i[2] * t25 - C_i[0] * t13;
+    phi_q[11] = C_i[5] * t25 - C_i[3] * t13;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[12] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[13] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    phi_q[14] = C_i[0] * t18 - C_i[1] * t28;
-    phi_q[15] = C_i[3] * t18 - C_i[4] * t28;
+    phi_q[14] = C_i[0] * t15 - C_i[1] * t25;
+    phi_q[15] = C_i[3] * t15 - C_i[4] * t25;
     phi_q[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[17] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     /* A_ijt_f_i = A_ij^T f_i */
@@ -185,7 +185,6 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -221,50 +220,44 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     phi_q_t_lambda_q[35] = t11;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t22 = s_i[2] + dp_ij_2;
-    const jg_real t23 = t0 * t22;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t25 = s_i[1] + dp_ij_1;
-    const jg_real t26 = t1 * t25;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t19 = t0 * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t21 = t1 * ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t31 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t32 = t31 * A_ij_h_j_2;
+    const jg_real t26 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t27 = t26 * A_ij_h_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t37 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t38 = t37 * A_ij_h_j_1;
-    phi_q_t_lambda_q[12] = -(t23 + t26 + (t32 + t38));
-    const jg_real t39 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda_q[13] = t3 * t25 + t39 * A_ij_h_j_1;
-    phi_q_t_lambda_q[14] = t3 * t22 + t39 * A_ij_h_j_2;
-    const jg_real t40 = -t2;
-    phi_q_t_lambda_q[15] = t40;
-    phi_q_t_lambda_q[45] = t40;
-    const jg_real t41 = -t6;
-    phi_q_t_lambda_q[16] = t41;
-    phi_q_t_lambda_q[48] = t41;
-    const jg_real t42 = -t9;
-    phi_q_t_lambda_q[17] = t42;
-    phi_q_t_lambda_q[51] = t42;
+    const jg_real t32 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t33 = t32 * A_ij_h_j_1;
+    phi_q_t_lambda_q[12] = -(t19 + t21 + (t27 + t33));
+    const jg_real t34 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda_q[13] = t3 * ep_ij_1 + t34 * A_ij_h_j_1;
+    phi_q_t_lambda_q[14] = t3 * ep_ij_2 + t34 * A_ij_h_j_2;
+    const jg_real t35 = -t2;
+    phi_q_t_lambda_q[15] = t35;
+    phi_q_t_lambda_q[45] = t35;
+    const jg_real t36 = -t6;
+    phi_q_t_lambda_q[16] = t36;
+    phi_q_t_lambda_q[48] = t36;
+    const jg_real t37 = -t9;
+    phi_q_t_lambda_q[17] = t37;
+    phi_q_t_lambda_q[51] = t37;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -273,84 +266,83 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t50 = t39 * A_ij_h_j_0;
-    const jg_real t51 = t38 + t50;
-    const jg_real t52 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t32 + t51);
-    const jg_real t53 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
-    const jg_real t54 = t39 * A_ij_0 + t37 * A_ij_1 + t31 * A_ij_2;
-    const jg_real t55 = A_ij_0 * t52 - A_ij_s_j_0 * t53 - A_ij_h_j_0 * t54;
-    phi_q_t_lambda_q[18] = t55;
-    phi_q_t_lambda_q[54] = t55;
-    const jg_real t56 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
-    const jg_real t57 = t39 * A_ij_3 + t37 * A_ij_4 + t31 * A_ij_5;
-    const jg_real t58 = A_ij_3 * t52 - A_ij_s_j_0 * t56 - A_ij_h_j_0 * t57;
-    phi_q_t_lambda_q[19] = t58;
-    phi_q_t_lambda_q[60] = t58;
-    const jg_real t59 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
-    const jg_real t60 = t39 * A_ij_6 + t37 * A_ij_7 + t31 * A_ij_8;
-    const jg_real t61 = A_ij_6 * t52 - A_ij_s_j_0 * t59 - A_ij_h_j_0 * t60;
-    phi_q_t_lambda_q[20] = t61;
-    phi_q_t_lambda_q[66] = t61;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t63 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[24] = t1 * t63 + t37 * A_ij_h_j_0;
-    const jg_real t64 = t3 * t63;
-    phi_q_t_lambda_q[25] = -(t23 + t64 + (t32 + t50));
-    phi_q_t_lambda_q[26] = t1 * t22 + t37 * A_ij_h_j_2;
-    const jg_real t65 = -t4;
-    phi_q_t_lambda_q[27] = t65;
-    phi_q_t_lambda_q[46] = t65;
-    const jg_real t66 = -t7;
-    phi_q_t_lambda_q[28] = t66;
-    phi_q_t_lambda_q[49] = t66;
-    const jg_real t67 = -t10;
-    phi_q_t_lambda_q[29] = t67;
-    phi_q_t_lambda_q[52] = t67;
-    const jg_real t68 = A_ij_1 * t52 - A_ij_s_j_1 * t53 - A_ij_h_j_1 * t54;
-    phi_q_t_lambda_q[30] = t68;
-    phi_q_t_lambda_q[55] = t68;
-    const jg_real t69 = A_ij_4 * t52 - A_ij_s_j_1 * t56 - A_ij_h_j_1 * t57;
-    phi_q_t_lambda_q[31] = t69;
-    phi_q_t_lambda_q[61] = t69;
-    const jg_real t70 = A_ij_7 * t52 - A_ij_s_j_1 * t59 - A_ij_h_j_1 * t60;
-    phi_q_t_lambda_q[32] = t70;
-    phi_q_t_lambda_q[67] = t70;
-    phi_q_t_lambda_q[36] = t0 * t63 + t31 * A_ij_h_j_0;
-    phi_q_t_lambda_q[37] = t0 * t25 + t31 * A_ij_h_j_1;
-    phi_q_t_lambda_q[38] = -(t26 + t64 + t51);
-    const jg_real t71 = -t5;
-    phi_q_t_lambda_q[39] = t71;
-    phi_q_t_lambda_q[47] = t71;
-    const jg_real t72 = -t8;
-    phi_q_t_lambda_q[40] = t72;
-    phi_q_t_lambda_q[50] = t72;
-    const jg_real t73 = -t11;
-    phi_q_t_lambda_q[41] = t73;
-    phi_q_t_lambda_q[53] = t73;
-    const jg_real t74 = A_ij_2 * t52 - A_ij_s_j_2 * t53 - A_ij_h_j_2 * t54;
-    phi_q_t_lambda_q[42] = t74;
-    phi_q_t_lambda_q[56] = t74;
-    const jg_real t75 = A_ij_5 * t52 - A_ij_s_j_2 * t56 - A_ij_h_j_2 * t57;
-    phi_q_t_lambda_q[43] = t75;
-    phi_q_t_lambda_q[62] = t75;
-    const jg_real t76 = A_ij_8 * t52 - A_ij_s_j_2 * t59 - A_ij_h_j_2 * t60;
-    phi_q_t_lambda_q[44] = t76;
-    phi_q_t_lambda_q[68] = t76;
-    const jg_real t77 = s_j[2] * t59;
-    const jg_real t78 = s_j[1] * t56;
-    const jg_real t79 = C_j[8] * t60;
-    const jg_real t80 = C_j[7] * t57;
-    phi_q_t_lambda_q[57] = -(t77 + t78 + (t79 + t80));
-    phi_q_t_lambda_q[58] = s_j[0] * t56 + C_j[6] * t57;
-    phi_q_t_lambda_q[59] = s_j[0] * t59 + C_j[6] * t60;
-    phi_q_t_lambda_q[63] = s_j[1] * t53 + C_j[7] * t54;
-    const jg_real t81 = s_j[0] * t53;
-    const jg_real t82 = C_j[6] * t54;
-    phi_q_t_lambda_q[64] = -(t77 + t81 + (t79 + t82));
-    phi_q_t_lambda_q[65] = s_j[1] * t59 + C_j[7] * t60;
-    phi_q_t_lambda_q[69] = s_j[2] * t53 + C_j[8] * t54;
-    phi_q_t_lambda_q[70] = s_j[2] * t56 + C_j[8] * t57;
-    phi_q_t_lambda_q[71] = -(t78 + t81 + (t80 + t82));
+    const jg_real t45 = t34 * A_ij_h_j_0;
+    const jg_real t46 = t33 + t45;
+    const jg_real t47 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t27 + t46);
+    const jg_real t48 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
+    const jg_real t49 = t34 * A_ij_0 + t32 * A_ij_1 + t26 * A_ij_2;
+    const jg_real t50 = A_ij_0 * t47 - A_ij_s_j_0 * t48 - A_ij_h_j_0 * t49;
+    phi_q_t_lambda_q[18] = t50;
+    phi_q_t_lambda_q[54] = t50;
+    const jg_real t51 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
+    const jg_real t52 = t34 * A_ij_3 + t32 * A_ij_4 + t26 * A_ij_5;
+    const jg_real t53 = A_ij_3 * t47 - A_ij_s_j_0 * t51 - A_ij_h_j_0 * t52;
+    phi_q_t_lambda_q[19] = t53;
+    phi_q_t_lambda_q[60] = t53;
+    const jg_real t54 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
+    const jg_real t55 = t34 * A_ij_6 + t32 * A_ij_7 + t26 * A_ij_8;
+    const jg_real t56 = A_ij_6 * t47 - A_ij_s_j_0 * t54 - A_ij_h_j_0 * t55;
+    phi_q_t_lambda_q[20] = t56;
+    phi_q_t_lambda_q[66] = t56;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[24] = t1 * ep_ij_0 + t32 * A_ij_h_j_0;
+    const jg_real t58 = t3 * ep_ij_0;
+    phi_q_t_lambda_q[25] = -(t19 + t58 + (t27 + t45));
+    phi_q_t_lambda_q[26] = t1 * ep_ij_2 + t32 * A_ij_h_j_2;
+    const jg_real t59 = -t4;
+    phi_q_t_lambda_q[27] = t59;
+    phi_q_t_lambda_q[46] = t59;
+    const jg_real t60 = -t7;
+    phi_q_t_lambda_q[28] = t60;
+    phi_q_t_lambda_q[49] = t60;
+    const jg_real t61 = -t10;
+    phi_q_t_lambda_q[29] = t61;
+    phi_q_t_lambda_q[52] = t61;
+    const jg_real t62 = A_ij_1 * t47 - A_ij_s_j_1 * t48 - A_ij_h_j_1 * t49;
+    phi_q_t_lambda_q[30] = t62;
+    phi_q_t_lambda_q[55] = t62;
+    const jg_real t63 = A_ij_4 * t47 - A_ij_s_j_1 * t51 - A_ij_h_j_1 * t52;
+    phi_q_t_lambda_q[31] = t63;
+    phi_q_t_lambda_q[61] = t63;
+    const jg_real t64 = A_ij_7 * t47 - A_ij_s_j_1 * t54 - A_ij_h_j_1 * t55;
+    phi_q_t_lambda_q[32] = t64;
+    phi_q_t_lambda_q[67] = t64;
+    phi_q_t_lambda_q[36] = t0 * ep_ij_0 + t26 * A_ij_h_j_0;
+    phi_q_t_lambda_q[37] = t0 * ep_ij_1 + t26 * A_ij_h_j_1;
+    phi_q_t_lambda_q[38] = -(t21 + t58 + t46);
+    const jg_real t65 = -t5;
+    phi_q_t_lambda_q[39] = t65;
+    phi_q_t_lambda_q[47] = t65;
+    const jg_real t66 = -t8;
+    phi_q_t_lambda_q[40] = t66;
+    phi_q_t_lambda_q[50] = t66;
+    const jg_real t67 = -t11;
+    phi_q_t_lambda_q[41] = t67;
+    phi_q_t_lambda_q[53] = t67;
+    const jg_real t68 = A_ij_2 * t47 - A_ij_s_j_2 * t48 - A_ij_h_j_2 * t49;
+    phi_q_t_lambda_q[42] = t68;
+    phi_q_t_lambda_q[56] = t68;
+    const jg_real t69 = A_ij_5 * t47 - A_ij_s_j_2 * t51 - A_ij_h_j_2 * t52;
+    phi_q_t_lambda_q[43] = t69;
+    phi_q_t_lambda_q[62] = t69;
+    const jg_real t70 = A_ij_8 * t47 - A_ij_s_j_2 * t54 - A_ij_h_j_2 * t55;
+    phi_q_t_lambda_q[44] = t70;
+    phi_q_t_lambda_q[68] = t70;
+    const jg_real t71 = s_j[2] * t54;
+    const jg_real t72 = s_j[1] * t51;
+    const jg_real t73 = C_j[8] * t55;
+    const jg_real t74 = C_j[7] * t52;
+    phi_q_t_lambda_q[57] = -(t71 + t72 + (t73 + t74));
+    phi_q_t_lambda_q[58] = s_j[0] * t51 + C_j[6] * t52;
+    phi_q_t_lambda_q[59] = s_j[0] * t54 + C_j[6] * t55;
+    phi_q_t_lambda_q[63] = s_j[1] * t48 + C_j[7] * t49;
+    const jg_real t75 = s_j[0] * t48;
+    const jg_real t76 = C_j[6] * t49;
+    phi_q_t_lambda_q[64] = -(t71 + t75 + (t73 + t76));
+    phi_q_t_lambda_q[65] = s_j[1] * t54 + C_j[7] * t55;
+    phi_q_t_lambda_q[69] = s_j[2] * t48 + C_j[8] * t49;
+    phi_q_t_lambda_q[70] = s_j[2] * t51 + C_j[8] * t52;
+    phi_q_t_lambda_q[71] = -(t72 + t75 + (t74 + t76));
 }
 
 void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -366,7 +358,6 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -374,70 +365,65 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
-    const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
-        omega_j_cross_s_j_1;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
-        omega_j_cross_s_j_0;
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t33 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
-        A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t11 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t16 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t17 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
+    /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
+    const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
+        omega_j_cross_s_j_1;
+    const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
+        omega_j_cross_s_j_2;
+    const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
+        omega_j_cross_s_j_0;
+    const jg_real t36 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+        A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real t37 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t41 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t38 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -455,30 +441,18 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t33 + C_i[1] * t37 + C_i[2] * t41 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t36 + C_i[1]
+        * t37 + C_i[2] * t38) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t11 + C_i[1] * t16
+        + C_i[2] * t17);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t33 + C_i[4] * t37 + C_i[5] * t41 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t36 + C_i[4]
+        * t37 + C_i[5] * t38) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t11 + C_i[4] * t16
+        + C_i[5] * t17);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -488,11 +462,11 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t65 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t67 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t68 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -500,10 +474,10 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t74 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t65 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t76 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t77 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t67 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t68 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -511,16 +485,16 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t81 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t72 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t82 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t73 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t83 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t74 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68) - (C_i[0] * t81 + C_i[1] * t82 + C_i[2] *
-        t83 + (C_i[0] * t74 + C_i[1] * t76 + C_i[2] * t77));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68) - (C_i[3] * t81 + C_i[4] * t82 + C_i[5] *
-        t83 + (C_i[3] * t74 + C_i[4] * t76 + C_i[5] * t77));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59) - (C_i[0] * t72 + C_i[1] * t73 + C_i[2] *
+        t74 + (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59) - (C_i[3] * t72 + C_i[4] * t73 + C_i[5] *
+        t74 + (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68));
 }
 
 void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -535,38 +509,6 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    /* A_it_v_i = A_i^T v_i */
-    const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
-    const jg_real A_it_v_i_1 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
-    const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
-    /* A_it_v_j = A_i^T v_j */
-    const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -588,16 +530,44 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t22 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t24 = ep_ij_1 - s_i[1];
+    const jg_real t25 = omega_i[1] * t22 - omega_i[2] * t24;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t27 = ep_ij_0 - s_i[0];
+    const jg_real t28 = omega_i[2] * t27 - omega_i[0] * t22;
+    const jg_real t29 = omega_i[0] * t24 - omega_i[1] * t27;
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    /* A_it_v_i = A_i^T v_i */
+    const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
+    const jg_real A_it_v_i_1 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
+    const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
+    /* A_it_v_j = A_i^T v_j */
+    const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
+    const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
+    const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
     phi_q_v[0] = C_i[0] * A_ij_omega_j_cross_s_j_0 + C_i[1] * A_ij_omega_j_cross_s_j_1 + C_i[2] *
         A_ij_omega_j_cross_s_j_2 + (C_i[0] * A_it_v_j_0 + C_i[1] * A_it_v_j_1 + C_i[2] * A_it_v_j_2 - (C_i[0] *
-        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * omega_i_cross_dp_ij_0 + C_i[1] *
-        omega_i_cross_dp_ij_1 + C_i[2] * omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * t25 + C_i[1] * t28 + C_i[2] * t29 +
+        (C_i[0] * omega_i_cross_s_i_0 + C_i[1] * omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
     phi_q_v[1] = C_i[3] * A_ij_omega_j_cross_s_j_0 + C_i[4] * A_ij_omega_j_cross_s_j_1 + C_i[5] *
         A_ij_omega_j_cross_s_j_2 + (C_i[3] * A_it_v_j_0 + C_i[4] * A_it_v_j_1 + C_i[5] * A_it_v_j_2 - (C_i[3] *
-        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * omega_i_cross_dp_ij_0 + C_i[4] *
-        omega_i_cross_dp_ij_1 + C_i[5] * omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * t25 + C_i[4] * t28 + C_i[5] * t29 +
+        (C_i[3] * omega_i_cross_s_i_0 + C_i[4] * omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -629,7 +599,6 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -647,52 +616,45 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     phi_q_t_lambda[2] = -t5;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t16 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t18 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t23 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t18 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t28 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    phi_q_t_lambda[3] = t1 * t16 - t2 * t18 + (A_ij_h_j_2 * t23 - A_ij_h_j_1 * t28);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t30 = s_i[0] + dp_ij_0;
+    const jg_real t23 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    phi_q_t_lambda[3] = t1 * ep_ij_2 - t2 * ep_ij_1 + (A_ij_h_j_2 * t18 - A_ij_h_j_1 * t23);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t35 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda[4] = t2 * t30 - t0 * t16 + (A_ij_h_j_0 * t28 - A_ij_h_j_2 * t35);
-    phi_q_t_lambda[5] = t0 * t18 - t1 * t30 + (A_ij_h_j_1 * t35 - A_ij_h_j_0 * t23);
-    const jg_real t36 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
-    const jg_real t37 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
-    const jg_real t38 = A_ij_6 * t35 + A_ij_7 * t23 + A_ij_8 * t28;
-    const jg_real t39 = A_ij_3 * t35 + A_ij_4 * t23 + A_ij_5 * t28;
-    phi_q_t_lambda[9] = s_j[1] * t36 - s_j[2] * t37 + (C_j[7] * t38 - C_j[8] * t39);
-    const jg_real t40 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
-    const jg_real t41 = A_ij_0 * t35 + A_ij_1 * t23 + A_ij_2 * t28;
-    phi_q_t_lambda[10] = s_j[2] * t40 - s_j[0] * t36 + (C_j[8] * t41 - C_j[6] * t38);
-    phi_q_t_lambda[11] = s_j[0] * t37 - s_j[1] * t40 + (C_j[6] * t39 - C_j[7] * t41);
+    const jg_real t29 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda[4] = t2 * ep_ij_0 - t0 * ep_ij_2 + (A_ij_h_j_0 * t23 - A_ij_h_j_2 * t29);
+    phi_q_t_lambda[5] = t0 * ep_ij_1 - t1 * ep_ij_0 + (A_ij_h_j_1 * t29 - A_ij_h_j_0 * t18);
+    const jg_real t30 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
+    const jg_real t31 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
+    const jg_real t32 = A_ij_6 * t29 + A_ij_7 * t18 + A_ij_8 * t23;
+    const jg_real t33 = A_ij_3 * t29 + A_ij_4 * t18 + A_ij_5 * t23;
+    phi_q_t_lambda[9] = s_j[1] * t30 - s_j[2] * t31 + (C_j[7] * t32 - C_j[8] * t33);
+    const jg_real t34 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
+    const jg_real t35 = A_ij_0 * t29 + A_ij_1 * t18 + A_ij_2 * t23;
+    phi_q_t_lambda[10] = s_j[2] * t34 - s_j[0] * t30 + (C_j[8] * t35 - C_j[6] * t32);
+    phi_q_t_lambda[11] = s_j[0] * t31 - s_j[1] * t34 + (C_j[6] * t33 - C_j[7] * t35);
 }
 
 void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -710,16 +672,20 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -762,19 +728,23 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_i_g_i_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     phi_q[23] = A_i_g_i_2;
     phi_q[5] = -A_i_g_i_2;
-    const jg_real t30 = s_i[2] + dp_ij_2;
-    const jg_real t31 = s_i[1] + dp_ij_1;
-    phi_q[6] = C_i[1] * t30 - C_i[2] * t31;
-    phi_q[7] = C_i[4] * t30 - C_i[5] * t31;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t34 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t36 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[6] = C_i[1] * t34 - C_i[2] * t36;
+    phi_q[7] = C_i[4] * t34 - C_i[5] * t36;
     phi_q[8] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[9] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real t32 = s_i[0] + dp_ij_0;
-    phi_q[10] = C_i[2] * t32 - C_i[0] * t30;
-    phi_q[11] = C_i[5] * t32 - C_i[3] * t30;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t38 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[10] = C_i[2] * t38 - C_i[0] * t34;
+    phi_q[11] = C_i[5] * t38 - C_i[3] * t34;
     phi_q[12] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[13] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    phi_q[14] = C_i[0] * t31 - C_i[1] * t32;
-    phi_q[15] = C_i[3] * t31 - C_i[4] * t32;
+    phi_q[14] = C_i[0] * t36 - C_i[1] * t38;
+    phi_q[15] = C_i[3] * t36 - C_i[4] * t38;
     phi_q[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[17] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     /* A_ijt_f_i = A_ij^T f_i */
@@ -805,173 +775,172 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[33] = s_j_cross_A_ijt_g_i_2;
     phi_q[34] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[35] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
-    const jg_real t45 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    const jg_real t46 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
-    const jg_real t47 = A_i[3] * t45 - A_i[6] * t46;
-    phi_q_t_lambda_q[0] = t47;
-    phi_q_t_lambda_q[9] = t47;
-    const jg_real t48 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
-    const jg_real t49 = A_i[6] * t48 - A_i[0] * t45;
-    phi_q_t_lambda_q[1] = t49;
-    phi_q_t_lambda_q[21] = t49;
-    const jg_real t50 = A_i[0] * t46 - A_i[3] * t48;
-    phi_q_t_lambda_q[2] = t50;
-    phi_q_t_lambda_q[33] = t50;
-    const jg_real t51 = A_i[4] * t45 - A_i[7] * t46;
-    phi_q_t_lambda_q[3] = t51;
-    phi_q_t_lambda_q[10] = t51;
-    const jg_real t52 = A_i[7] * t48 - A_i[1] * t45;
-    phi_q_t_lambda_q[4] = t52;
-    phi_q_t_lambda_q[22] = t52;
-    const jg_real t53 = A_i[1] * t46 - A_i[4] * t48;
-    phi_q_t_lambda_q[5] = t53;
-    phi_q_t_lambda_q[34] = t53;
-    const jg_real t54 = A_i[5] * t45 - A_i[8] * t46;
-    phi_q_t_lambda_q[6] = t54;
-    phi_q_t_lambda_q[11] = t54;
-    const jg_real t55 = A_i[8] * t48 - A_i[2] * t45;
-    phi_q_t_lambda_q[7] = t55;
-    phi_q_t_lambda_q[23] = t55;
-    const jg_real t56 = A_i[2] * t46 - A_i[5] * t48;
-    phi_q_t_lambda_q[8] = t56;
-    phi_q_t_lambda_q[35] = t56;
-    const jg_real t57 = t30 * t45;
-    const jg_real t58 = t31 * t46;
-    const jg_real t59 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t60 = A_ij_h_j_2 * t59;
-    const jg_real t61 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t62 = A_ij_h_j_1 * t61;
-    phi_q_t_lambda_q[12] = -(t57 + t58 + (t60 + t62));
-    const jg_real t63 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda_q[13] = t31 * t48 + A_ij_h_j_1 * t63;
-    phi_q_t_lambda_q[14] = t30 * t48 + A_ij_h_j_2 * t63;
-    const jg_real t64 = -t47;
-    phi_q_t_lambda_q[15] = t64;
-    phi_q_t_lambda_q[45] = t64;
-    const jg_real t65 = -t51;
-    phi_q_t_lambda_q[16] = t65;
-    phi_q_t_lambda_q[48] = t65;
-    const jg_real t66 = -t54;
-    phi_q_t_lambda_q[17] = t66;
-    phi_q_t_lambda_q[51] = t66;
+    const jg_real t51 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    const jg_real t52 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
+    const jg_real t53 = A_i[3] * t51 - A_i[6] * t52;
+    phi_q_t_lambda_q[0] = t53;
+    phi_q_t_lambda_q[9] = t53;
+    const jg_real t54 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    const jg_real t55 = A_i[6] * t54 - A_i[0] * t51;
+    phi_q_t_lambda_q[1] = t55;
+    phi_q_t_lambda_q[21] = t55;
+    const jg_real t56 = A_i[0] * t52 - A_i[3] * t54;
+    phi_q_t_lambda_q[2] = t56;
+    phi_q_t_lambda_q[33] = t56;
+    const jg_real t57 = A_i[4] * t51 - A_i[7] * t52;
+    phi_q_t_lambda_q[3] = t57;
+    phi_q_t_lambda_q[10] = t57;
+    const jg_real t58 = A_i[7] * t54 - A_i[1] * t51;
+    phi_q_t_lambda_q[4] = t58;
+    phi_q_t_lambda_q[22] = t58;
+    const jg_real t59 = A_i[1] * t52 - A_i[4] * t54;
+    phi_q_t_lambda_q[5] = t59;
+    phi_q_t_lambda_q[34] = t59;
+    const jg_real t60 = A_i[5] * t51 - A_i[8] * t52;
+    phi_q_t_lambda_q[6] = t60;
+    phi_q_t_lambda_q[11] = t60;
+    const jg_real t61 = A_i[8] * t54 - A_i[2] * t51;
+    phi_q_t_lambda_q[7] = t61;
+    phi_q_t_lambda_q[23] = t61;
+    const jg_real t62 = A_i[2] * t52 - A_i[5] * t54;
+    phi_q_t_lambda_q[8] = t62;
+    phi_q_t_lambda_q[35] = t62;
+    const jg_real t63 = ep_ij_2 * t51;
+    const jg_real t64 = ep_ij_1 * t52;
+    const jg_real t65 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t66 = A_ij_h_j_2 * t65;
+    const jg_real t67 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t68 = A_ij_h_j_1 * t67;
+    phi_q_t_lambda_q[12] = -(t63 + t64 + (t66 + t68));
+    const jg_real t69 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda_q[13] = ep_ij_1 * t54 + A_ij_h_j_1 * t69;
+    phi_q_t_lambda_q[14] = ep_ij_2 * t54 + A_ij_h_j_2 * t69;
+    const jg_real t70 = -t53;
+    phi_q_t_lambda_q[15] = t70;
+    phi_q_t_lambda_q[45] = t70;
+    const jg_real t71 = -t57;
+    phi_q_t_lambda_q[16] = t71;
+    phi_q_t_lambda_q[48] = t71;
+    const jg_real t72 = -t60;
+    phi_q_t_lambda_q[17] = t72;
+    phi_q_t_lambda_q[51] = t72;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real t70 = A_ij_h_j_0 * t63;
-    const jg_real t71 = t62 + t70;
-    const jg_real t72 = t48 * A_ij_s_j_0 + t46 * A_ij_s_j_1 + t45 * A_ij_s_j_2 + (t60 + t71);
-    const jg_real t73 = A_ij_0 * t48 + A_ij_1 * t46 + A_ij_2 * t45;
-    const jg_real t74 = A_ij_0 * t63 + A_ij_1 * t61 + A_ij_2 * t59;
-    const jg_real t75 = A_ij_0 * t72 - A_ij_s_j_0 * t73 - A_ij_h_j_0 * t74;
-    phi_q_t_lambda_q[18] = t75;
-    phi_q_t_lambda_q[54] = t75;
-    const jg_real t76 = A_ij_3 * t48 + A_ij_4 * t46 + A_ij_5 * t45;
-    const jg_real t77 = A_ij_3 * t63 + A_ij_4 * t61 + A_ij_5 * t59;
-    const jg_real t78 = A_ij_3 * t72 - A_ij_s_j_0 * t76 - A_ij_h_j_0 * t77;
-    phi_q_t_lambda_q[19] = t78;
-    phi_q_t_lambda_q[60] = t78;
-    const jg_real t79 = A_ij_6 * t48 + A_ij_7 * t46 + A_ij_8 * t45;
-    const jg_real t80 = A_ij_6 * t63 + A_ij_7 * t61 + A_ij_8 * t59;
-    const jg_real t81 = A_ij_6 * t72 - A_ij_s_j_0 * t79 - A_ij_h_j_0 * t80;
-    phi_q_t_lambda_q[20] = t81;
-    phi_q_t_lambda_q[66] = t81;
-    phi_q_t_lambda_q[24] = t32 * t46 + A_ij_h_j_0 * t61;
-    const jg_real t82 = t32 * t48;
-    phi_q_t_lambda_q[25] = -(t57 + t82 + (t60 + t70));
-    phi_q_t_lambda_q[26] = t30 * t46 + A_ij_h_j_2 * t61;
-    const jg_real t83 = -t49;
-    phi_q_t_lambda_q[27] = t83;
-    phi_q_t_lambda_q[46] = t83;
-    const jg_real t84 = -t52;
-    phi_q_t_lambda_q[28] = t84;
-    phi_q_t_lambda_q[49] = t84;
-    const jg_real t85 = -t55;
-    phi_q_t_lambda_q[29] = t85;
-    phi_q_t_lambda_q[52] = t85;
-    const jg_real t86 = A_ij_1 * t72 - A_ij_s_j_1 * t73 - A_ij_h_j_1 * t74;
-    phi_q_t_lambda_q[30] = t86;
-    phi_q_t_lambda_q[55] = t86;
-    const jg_real t87 = A_ij_4 * t72 - A_ij_s_j_1 * t76 - A_ij_h_j_1 * t77;
-    phi_q_t_lambda_q[31] = t87;
-    phi_q_t_lambda_q[61] = t87;
-    const jg_real t88 = A_ij_7 * t72 - A_ij_s_j_1 * t79 - A_ij_h_j_1 * t80;
-    phi_q_t_lambda_q[32] = t88;
-    phi_q_t_lambda_q[67] = t88;
-    phi_q_t_lambda_q[36] = t32 * t45 + A_ij_h_j_0 * t59;
-    phi_q_t_lambda_q[37] = t31 * t45 + A_ij_h_j_1 * t59;
-    phi_q_t_lambda_q[38] = -(t58 + t82 + t71);
-    const jg_real t89 = -t50;
-    phi_q_t_lambda_q[39] = t89;
-    phi_q_t_lambda_q[47] = t89;
-    const jg_real t90 = -t53;
-    phi_q_t_lambda_q[40] = t90;
-    phi_q_t_lambda_q[50] = t90;
-    const jg_real t91 = -t56;
-    phi_q_t_lambda_q[41] = t91;
-    phi_q_t_lambda_q[53] = t91;
-    const jg_real t92 = A_ij_2 * t72 - A_ij_s_j_2 * t73 - A_ij_h_j_2 * t74;
-    phi_q_t_lambda_q[42] = t92;
-    phi_q_t_lambda_q[56] = t92;
-    const jg_real t93 = A_ij_5 * t72 - A_ij_s_j_2 * t76 - A_ij_h_j_2 * t77;
-    phi_q_t_lambda_q[43] = t93;
-    phi_q_t_lambda_q[62] = t93;
-    const jg_real t94 = A_ij_8 * t72 - A_ij_s_j_2 * t79 - A_ij_h_j_2 * t80;
-    phi_q_t_lambda_q[44] = t94;
-    phi_q_t_lambda_q[68] = t94;
-    const jg_real t95 = s_j[2] * t79;
-    const jg_real t96 = s_j[1] * t76;
-    const jg_real t97 = C_j[8] * t80;
-    const jg_real t98 = C_j[7] * t77;
-    phi_q_t_lambda_q[57] = -(t95 + t96 + (t97 + t98));
-    phi_q_t_lambda_q[58] = s_j[0] * t76 + C_j[6] * t77;
-    phi_q_t_lambda_q[59] = s_j[0] * t79 + C_j[6] * t80;
-    phi_q_t_lambda_q[63] = s_j[1] * t73 + C_j[7] * t74;
-    const jg_real t99 = s_j[0] * t73;
-    const jg_real t100 = C_j[6] * t74;
-    phi_q_t_lambda_q[64] = -(t95 + t99 + (t97 + t100));
-    phi_q_t_lambda_q[65] = s_j[1] * t79 + C_j[7] * t80;
-    phi_q_t_lambda_q[69] = s_j[2] * t73 + C_j[8] * t74;
-    phi_q_t_lambda_q[70] = s_j[2] * t76 + C_j[8] * t77;
-    phi_q_t_lambda_q[71] = -(t96 + t99 + (t98 + t100));
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+    const jg_real t76 = A_ij_h_j_0 * t69;
+    const jg_real t77 = t68 + t76;
+    const jg_real t78 = t54 * A_ij_s_j_0 + t52 * A_ij_s_j_1 + t51 * A_ij_s_j_2 + (t66 + t77);
+    const jg_real t79 = A_ij_0 * t54 + A_ij_1 * t52 + A_ij_2 * t51;
+    const jg_real t80 = A_ij_0 * t69 + A_ij_1 * t67 + A_ij_2 * t65;
+    const jg_real t81 = A_ij_0 * t78 - A_ij_s_j_0 * t79 - A_ij_h_j_0 * t80;
+    phi_q_t_lambda_q[18] = t81;
+    phi_q_t_lambda_q[54] = t81;
+    const jg_real t82 = A_ij_3 * t54 + A_ij_4 * t52 + A_ij_5 * t51;
+    const jg_real t83 = A_ij_3 * t69 + A_ij_4 * t67 + A_ij_5 * t65;
+    const jg_real t84 = A_ij_3 * t78 - A_ij_s_j_0 * t82 - A_ij_h_j_0 * t83;
+    phi_q_t_lambda_q[19] = t84;
+    phi_q_t_lambda_q[60] = t84;
+    const jg_real t85 = A_ij_6 * t54 + A_ij_7 * t52 + A_ij_8 * t51;
+    const jg_real t86 = A_ij_6 * t69 + A_ij_7 * t67 + A_ij_8 * t65;
+    const jg_real t87 = A_ij_6 * t78 - A_ij_s_j_0 * t85 - A_ij_h_j_0 * t86;
+    phi_q_t_lambda_q[20] = t87;
+    phi_q_t_lambda_q[66] = t87;
+    phi_q_t_lambda_q[24] = ep_ij_0 * t52 + A_ij_h_j_0 * t67;
+    const jg_real t88 = ep_ij_0 * t54;
+    phi_q_t_lambda_q[25] = -(t63 + t88 + (t66 + t76));
+    phi_q_t_lambda_q[26] = ep_ij_2 * t52 + A_ij_h_j_2 * t67;
+    const jg_real t89 = -t55;
+    phi_q_t_lambda_q[27] = t89;
+    phi_q_t_lambda_q[46] = t89;
+    const jg_real t90 = -t58;
+    phi_q_t_lambda_q[28] = t90;
+    phi_q_t_lambda_q[49] = t90;
+    const jg_real t91 = -t61;
+    phi_q_t_lambda_q[29] = t91;
+    phi_q_t_lambda_q[52] = t91;
+    const jg_real t92 = A_ij_1 * t78 - A_ij_s_j_1 * t79 - A_ij_h_j_1 * t80;
+    phi_q_t_lambda_q[30] = t92;
+    phi_q_t_lambda_q[55] = t92;
+    const jg_real t93 = A_ij_4 * t78 - A_ij_s_j_1 * t82 - A_ij_h_j_1 * t83;
+    phi_q_t_lambda_q[31] = t93;
+    phi_q_t_lambda_q[61] = t93;
+    const jg_real t94 = A_ij_7 * t78 - A_ij_s_j_1 * t85 - A_ij_h_j_1 * t86;
+    phi_q_t_lambda_q[32] = t94;
+    phi_q_t_lambda_q[67] = t94;
+    phi_q_t_lambda_q[36] = ep_ij_0 * t51 + A_ij_h_j_0 * t65;
+    phi_q_t_lambda_q[37] = ep_ij_1 * t51 + A_ij_h_j_1 * t65;
+    phi_q_t_lambda_q[38] = -(t64 + t88 + t77);
+    const jg_real t95 = -t56;
+    phi_q_t_lambda_q[39] = t95;
+    phi_q_t_lambda_q[47] = t95;
+    const jg_real t96 = -t59;
+    phi_q_t_lambda_q[40] = t96;
+    phi_q_t_lambda_q[50] = t96;
+    const jg_real t97 = -t62;
+    phi_q_t_lambda_q[41] = t97;
+    phi_q_t_lambda_q[53] = t97;
+    const jg_real t98 = A_ij_2 * t78 - A_ij_s_j_2 * t79 - A_ij_h_j_2 * t80;
+    phi_q_t_lambda_q[42] = t98;
+    phi_q_t_lambda_q[56] = t98;
+    const jg_real t99 = A_ij_5 * t78 - A_ij_s_j_2 * t82 - A_ij_h_j_2 * t83;
+    phi_q_t_lambda_q[43] = t99;
+    phi_q_t_lambda_q[62] = t99;
+    const jg_real t100 = A_ij_8 * t78 - A_ij_s_j_2 * t85 - A_ij_h_j_2 * t86;
+    phi_q_t_lambda_q[44] = t100;
+    phi_q_t_lambda_q[68] = t100;
+    const jg_real t101 = s_j[2] * t85;
+    const jg_real t102 = s_j[1] * t82;
+    const jg_real t103 = C_j[8] * t86;
+    const jg_real t104 = C_j[7] * t83;
+    phi_q_t_lambda_q[57] = -(t101 + t102 + (t103 + t104));
+    phi_q_t_lambda_q[58] = s_j[0] * t82 + C_j[6] * t83;
+    phi_q_t_lambda_q[59] = s_j[0] * t85 + C_j[6] * t86;
+    phi_q_t_lambda_q[63] = s_j[1] * t79 + C_j[7] * t80;
+    const jg_real t105 = s_j[0] * t79;
+    const jg_real t106 = C_j[6] * t80;
+    phi_q_t_lambda_q[64] = -(t101 + t105 + (t103 + t106));
+    phi_q_t_lambda_q[65] = s_j[1] * t85 + C_j[7] * t86;
+    phi_q_t_lambda_q[69] = s_j[2] * t79 + C_j[8] * t80;
+    phi_q_t_lambda_q[70] = s_j[2] * t82 + C_j[8] * t83;
+    phi_q_t_lambda_q[71] = -(t102 + t105 + (t104 + t106));
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t112 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t114 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t115 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t119 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t125 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t120 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t126 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t121 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t127 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -989,30 +958,18 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t136 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t138 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t139 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t119 + C_i[1] * t120 + C_i[2] * t121 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t136 + C_i[1] * t138 + C_i[2] * t139);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t125 + C_i[1]
+        * t126 + C_i[2] * t127) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t112 + C_i[1] *
+        t114 + C_i[2] * t115);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t119 + C_i[4] * t120 + C_i[5] * t121 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t136 + C_i[4] * t138 + C_i[5] * t139);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t125 + C_i[4]
+        * t126 + C_i[5] * t127) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t112 + C_i[4] *
+        t114 + C_i[5] * t115);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];

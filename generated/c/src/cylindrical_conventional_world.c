@@ -35,19 +35,23 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
     const jg_real *const C_j = geometry + 15;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
     /* g_i = A_i C_i [0; 1; 0] */
@@ -93,23 +97,21 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     phi_q[5] = -g_i_2;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t9 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    /* f_i_cross_d_ij = tilde(f_i) d_ij */
-    const jg_real f_i_cross_d_ij_0 = f_i_1 * d_ij_2 - f_i_2 * d_ij_1;
+    const jg_real t13 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
-    phi_q[6] = f_i_cross_d_ij_0 - s_i_world_cross_f_i_0;
-    /* g_i_cross_d_ij = tilde(g_i) d_ij */
-    const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
+    phi_q[6] = f_i_1 * t9 - f_i_2 * t13 - s_i_world_cross_f_i_0;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = s_i_world_1 * g_i_2 - s_i_world_2 * g_i_1;
-    phi_q[7] = g_i_cross_d_ij_0 - s_i_world_cross_g_i_0;
+    phi_q[7] = t9 * g_i_1 - t13 * g_i_2 - s_i_world_cross_g_i_0;
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -120,25 +122,22 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real g_i_cross_h_j_0 = g_i_1 * h_j_2 - g_i_2 * h_j_1;
     phi_q[9] = g_i_cross_h_j_0;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real f_i_cross_d_ij_1 = f_i_2 * d_ij_0 - f_i_0 * d_ij_2;
+    const jg_real t23 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
-    phi_q[10] = f_i_cross_d_ij_1 - s_i_world_cross_f_i_1;
-    const jg_real g_i_cross_d_ij_1 = d_ij_0 * g_i_2 - d_ij_2 * g_i_0;
+    phi_q[10] = f_i_2 * t23 - f_i_0 * t9 - s_i_world_cross_f_i_1;
     const jg_real s_i_world_cross_g_i_1 = s_i_world_2 * g_i_0 - s_i_world_0 * g_i_2;
-    phi_q[11] = g_i_cross_d_ij_1 - s_i_world_cross_g_i_1;
+    phi_q[11] = t23 * g_i_2 - t9 * g_i_0 - s_i_world_cross_g_i_1;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
     phi_q[12] = f_i_cross_h_j_1;
     const jg_real g_i_cross_h_j_1 = g_i_2 * h_j_0 - g_i_0 * h_j_2;
     phi_q[13] = g_i_cross_h_j_1;
-    const jg_real f_i_cross_d_ij_2 = f_i_0 * d_ij_1 - f_i_1 * d_ij_0;
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
-    phi_q[14] = f_i_cross_d_ij_2 - s_i_world_cross_f_i_2;
-    const jg_real g_i_cross_d_ij_2 = d_ij_1 * g_i_0 - d_ij_0 * g_i_1;
+    phi_q[14] = f_i_0 * t13 - f_i_1 * t23 - s_i_world_cross_f_i_2;
     const jg_real s_i_world_cross_g_i_2 = s_i_world_0 * g_i_1 - s_i_world_1 * g_i_0;
-    phi_q[15] = g_i_cross_d_ij_2 - s_i_world_cross_g_i_2;
+    phi_q[15] = t13 * g_i_0 - t23 * g_i_1 - s_i_world_cross_g_i_2;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[16] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = g_i_0 * h_j_1 - g_i_1 * h_j_0;
@@ -178,7 +177,6 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -222,101 +220,94 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     phi_q_t_lambda_q[37] = t11;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
-    const jg_real t15 = s_i_world_2 + d_ij_2;
-    const jg_real t16 = t2 * t15;
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
+    const jg_real t14 = t2 * e_ij_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    const jg_real t20 = s_i_world_1 + d_ij_1;
-    const jg_real t21 = t6 * t20;
-    const jg_real t22 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
+    const jg_real t17 = t6 * e_ij_1;
+    const jg_real t18 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t24 = h_j_2 * t22;
-    const jg_real t25 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t20 = h_j_2 * t18;
+    const jg_real t21 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t27 = h_j_1 * t25;
-    const jg_real t28 = t24 + t27;
-    phi_q_t_lambda_q[8] = -(t16 + t21 + t28);
+    const jg_real t23 = h_j_1 * t21;
+    const jg_real t24 = t20 + t23;
+    phi_q_t_lambda_q[8] = -(t14 + t17 + t24);
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real t32 = s_i_world_0 + d_ij_0;
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t34 = h_j_0 * t25;
-    phi_q_t_lambda_q[9] = t6 * t32 + t34;
-    const jg_real t35 = h_j_0 * t22;
-    phi_q_t_lambda_q[10] = t2 * t32 + t35;
-    const jg_real t36 = lambda[0] * s_j_world_2 + h_j_2 * lambda[2];
-    const jg_real t37 = f_i_2 * t36;
-    const jg_real t38 = lambda[0] * s_j_world_1 + h_j_1 * lambda[2];
-    const jg_real t39 = f_i_1 * t38;
-    const jg_real t40 = lambda[1] * s_j_world_2 + h_j_2 * lambda[3];
-    const jg_real t41 = g_i_2 * t40;
-    const jg_real t42 = lambda[1] * s_j_world_1 + h_j_1 * lambda[3];
-    const jg_real t43 = g_i_1 * t42;
-    const jg_real t44 = t37 + t39 + (t41 + t43);
-    phi_q_t_lambda_q[13] = t44;
-    const jg_real t45 = lambda[0] * s_j_world_0 + h_j_0 * lambda[2];
-    const jg_real t46 = lambda[1] * s_j_world_0 + h_j_0 * lambda[3];
-    const jg_real t47 = f_i_1 * t45 + g_i_1 * t46;
-    phi_q_t_lambda_q[51] = t47;
-    phi_q_t_lambda_q[14] = -t47;
-    const jg_real t48 = f_i_2 * t45 + g_i_2 * t46;
-    phi_q_t_lambda_q[57] = t48;
-    phi_q_t_lambda_q[15] = -t48;
-    const jg_real t49 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    const jg_real t50 = h_j_1 * t49;
-    phi_q_t_lambda_q[18] = t9 * t20 + t50;
-    const jg_real t51 = t9 * t32;
-    const jg_real t52 = h_j_0 * t49;
-    const jg_real t53 = t24 + t52;
-    phi_q_t_lambda_q[19] = -(t16 + t51 + t53);
-    const jg_real t54 = h_j_1 * t22;
-    phi_q_t_lambda_q[20] = t2 * t20 + t54;
-    const jg_real t55 = f_i_0 * t38 + g_i_0 * t42;
-    phi_q_t_lambda_q[46] = t55;
-    phi_q_t_lambda_q[23] = -t55;
-    const jg_real t56 = f_i_0 * t45;
-    const jg_real t57 = g_i_0 * t46;
-    const jg_real t58 = t37 + t56 + (t41 + t57);
-    phi_q_t_lambda_q[24] = t58;
-    const jg_real t59 = f_i_2 * t38 + g_i_2 * t42;
-    phi_q_t_lambda_q[58] = t59;
-    phi_q_t_lambda_q[25] = -t59;
-    const jg_real t60 = h_j_2 * t49;
-    phi_q_t_lambda_q[28] = t9 * t15 + t60;
-    const jg_real t61 = h_j_2 * t25;
-    phi_q_t_lambda_q[29] = t6 * t15 + t61;
-    const jg_real t62 = t27 + t52;
-    phi_q_t_lambda_q[30] = -(t21 + t51 + t62);
-    const jg_real t63 = f_i_0 * t36 + g_i_0 * t40;
-    phi_q_t_lambda_q[47] = t63;
-    phi_q_t_lambda_q[33] = -t63;
-    const jg_real t64 = f_i_1 * t36 + g_i_1 * t40;
-    phi_q_t_lambda_q[53] = t64;
-    phi_q_t_lambda_q[34] = -t64;
-    const jg_real t65 = t39 + t56 + (t43 + t57);
-    phi_q_t_lambda_q[35] = t65;
-    const jg_real t66 = t2 * s_j_world_2;
-    const jg_real t67 = t6 * s_j_world_1;
-    phi_q_t_lambda_q[42] = t66 + t67 + t28;
-    phi_q_t_lambda_q[43] = -(t50 + t9 * s_j_world_1);
-    phi_q_t_lambda_q[44] = -(t60 + t9 * s_j_world_2);
-    phi_q_t_lambda_q[45] = -t44;
-    phi_q_t_lambda_q[48] = -(t34 + t6 * s_j_world_0);
-    const jg_real t68 = t9 * s_j_world_0;
-    phi_q_t_lambda_q[49] = t66 + t68 + t53;
-    phi_q_t_lambda_q[50] = -(t61 + t6 * s_j_world_2);
-    phi_q_t_lambda_q[52] = -t58;
-    phi_q_t_lambda_q[54] = -(t35 + t2 * s_j_world_0);
-    phi_q_t_lambda_q[55] = -(t54 + t2 * s_j_world_1);
-    phi_q_t_lambda_q[56] = t67 + t68 + t62;
-    phi_q_t_lambda_q[59] = -t65;
+    const jg_real t28 = h_j_0 * t21;
+    phi_q_t_lambda_q[9] = t6 * e_ij_0 + t28;
+    const jg_real t29 = h_j_0 * t18;
+    phi_q_t_lambda_q[10] = t2 * e_ij_0 + t29;
+    const jg_real t30 = lambda[0] * s_j_world_2 + h_j_2 * lambda[2];
+    const jg_real t31 = f_i_2 * t30;
+    const jg_real t32 = lambda[0] * s_j_world_1 + h_j_1 * lambda[2];
+    const jg_real t33 = f_i_1 * t32;
+    const jg_real t34 = lambda[1] * s_j_world_2 + h_j_2 * lambda[3];
+    const jg_real t35 = g_i_2 * t34;
+    const jg_real t36 = lambda[1] * s_j_world_1 + h_j_1 * lambda[3];
+    const jg_real t37 = g_i_1 * t36;
+    const jg_real t38 = t31 + t33 + (t35 + t37);
+    phi_q_t_lambda_q[13] = t38;
+    const jg_real t39 = lambda[0] * s_j_world_0 + h_j_0 * lambda[2];
+    const jg_real t40 = lambda[1] * s_j_world_0 + h_j_0 * lambda[3];
+    const jg_real t41 = f_i_1 * t39 + g_i_1 * t40;
+    phi_q_t_lambda_q[51] = t41;
+    phi_q_t_lambda_q[14] = -t41;
+    const jg_real t42 = f_i_2 * t39 + g_i_2 * t40;
+    phi_q_t_lambda_q[57] = t42;
+    phi_q_t_lambda_q[15] = -t42;
+    const jg_real t43 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    const jg_real t44 = h_j_1 * t43;
+    phi_q_t_lambda_q[18] = t9 * e_ij_1 + t44;
+    const jg_real t45 = t9 * e_ij_0;
+    const jg_real t46 = h_j_0 * t43;
+    const jg_real t47 = t20 + t46;
+    phi_q_t_lambda_q[19] = -(t14 + t45 + t47);
+    const jg_real t48 = h_j_1 * t18;
+    phi_q_t_lambda_q[20] = t2 * e_ij_1 + t48;
+    const jg_real t49 = f_i_0 * t32 + g_i_0 * t36;
+    phi_q_t_lambda_q[46] = t49;
+    phi_q_t_lambda_q[23] = -t49;
+    const jg_real t50 = f_i_0 * t39;
+    const jg_real t51 = g_i_0 * t40;
+    const jg_real t52 = t31 + t50 + (t35 + t51);
+    phi_q_t_lambda_q[24] = t52;
+    const jg_real t53 = f_i_2 * t32 + g_i_2 * t36;
+    phi_q_t_lambda_q[58] = t53;
+    phi_q_t_lambda_q[25] = -t53;
+    const jg_real t54 = h_j_2 * t43;
+    phi_q_t_lambda_q[28] = t9 * e_ij_2 + t54;
+    const jg_real t55 = h_j_2 * t21;
+    phi_q_t_lambda_q[29] = t6 * e_ij_2 + t55;
+    const jg_real t56 = t23 + t46;
+    phi_q_t_lambda_q[30] = -(t17 + t45 + t56);
+    const jg_real t57 = f_i_0 * t30 + g_i_0 * t34;
+    phi_q_t_lambda_q[47] = t57;
+    phi_q_t_lambda_q[33] = -t57;
+    const jg_real t58 = f_i_1 * t30 + g_i_1 * t34;
+    phi_q_t_lambda_q[53] = t58;
+    phi_q_t_lambda_q[34] = -t58;
+    const jg_real t59 = t33 + t50 + (t37 + t51);
+    phi_q_t_lambda_q[35] = t59;
+    const jg_real t60 = t2 * s_j_world_2;
+    const jg_real t61 = t6 * s_j_world_1;
+    phi_q_t_lambda_q[42] = t60 + t61 + t24;
+    phi_q_t_lambda_q[43] = -(t44 + t9 * s_j_world_1);
+    phi_q_t_lambda_q[44] = -(t54 + t9 * s_j_world_2);
+    phi_q_t_lambda_q[45] = -t38;
+    phi_q_t_lambda_q[48] = -(t28 + t6 * s_j_world_0);
+    const jg_real t62 = t9 * s_j_world_0;
+    phi_q_t_lambda_q[49] = t60 + t62 + t47;
+    phi_q_t_lambda_q[50] = -(t55 + t6 * s_j_world_2);
+    phi_q_t_lambda_q[52] = -t52;
+    phi_q_t_lambda_q[54] = -(t29 + t2 * s_j_world_0);
+    phi_q_t_lambda_q[55] = -(t48 + t2 * s_j_world_1);
+    phi_q_t_lambda_q[56] = t61 + t62 + t56;
+    phi_q_t_lambda_q[59] = -t59;
 }
 
 void jg_cylindrical_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -352,21 +343,24 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
         omega_i_cross_f_i_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t9 = e_ij_0 - s_i_world_0;
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
         omega_i_cross_f_i_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t15 = e_ij_1 - s_i_world_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_2 = omega_i[0] * omega_i_cross_f_i_1 - omega_i[1] *
         omega_i_cross_f_i_0;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t20 = e_ij_2 - s_i_world_2;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
@@ -392,13 +386,13 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     gamma[0] = f_i_0 * omega_i_cross_omega_i_cross_s_i_world_0 + f_i_1 * omega_i_cross_omega_i_cross_s_i_world_1 +
         f_i_2 * omega_i_cross_omega_i_cross_s_i_world_2 + (JG_REAL(2.0) * (omega_i_cross_f_i_0 *
         omega_i_cross_s_i_world_0 + omega_i_cross_f_i_1 * omega_i_cross_s_i_world_1 + omega_i_cross_f_i_2 *
-        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_f_i_0 * d_ij_0 + omega_i_cross_omega_i_cross_f_i_1
-        * d_ij_1 + omega_i_cross_omega_i_cross_f_i_2 * d_ij_2 + (f_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 +
-        f_i_1 * omega_j_cross_omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) +
-        JG_REAL(2.0) * (omega_i_cross_f_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_f_i_1 *
-        omega_j_cross_s_j_world_1 + omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
-        (omega_i_cross_f_i_0 * v_j[0] + omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0)
-        * (omega_i_cross_f_i_0 * v_i[0] + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
+        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_f_i_0 * t9 + omega_i_cross_omega_i_cross_f_i_1 *
+        t15 + omega_i_cross_omega_i_cross_f_i_2 * t20 + (f_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 + f_i_1 *
+        omega_j_cross_omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
+        (omega_i_cross_f_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_f_i_1 * omega_j_cross_s_j_world_1 +
+        omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) * (omega_i_cross_f_i_0 * v_j[0] +
+        omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0) * (omega_i_cross_f_i_0 * v_i[0]
+        + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
     /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -417,14 +411,13 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     gamma[1] = omega_i_cross_omega_i_cross_s_i_world_0 * g_i_0 + omega_i_cross_omega_i_cross_s_i_world_1 * g_i_1 +
         omega_i_cross_omega_i_cross_s_i_world_2 * g_i_2 + (JG_REAL(2.0) * (omega_i_cross_s_i_world_0 *
         omega_i_cross_g_i_0 + omega_i_cross_s_i_world_1 * omega_i_cross_g_i_1 + omega_i_cross_s_i_world_2 *
-        omega_i_cross_g_i_2) - (d_ij_0 * omega_i_cross_omega_i_cross_g_i_0 + d_ij_1 *
-        omega_i_cross_omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_omega_i_cross_g_i_2 +
-        (omega_j_cross_omega_j_cross_s_j_world_0 * g_i_0 + omega_j_cross_omega_j_cross_s_j_world_1 * g_i_1 +
-        omega_j_cross_omega_j_cross_s_j_world_2 * g_i_2) + JG_REAL(2.0) * (omega_j_cross_s_j_world_0 *
-        omega_i_cross_g_i_0 + omega_j_cross_s_j_world_1 * omega_i_cross_g_i_1 + omega_j_cross_s_j_world_2 *
-        omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2]
-        * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 +
-        v_i[2] * omega_i_cross_g_i_2));
+        omega_i_cross_g_i_2) - (t9 * omega_i_cross_omega_i_cross_g_i_0 + t15 * omega_i_cross_omega_i_cross_g_i_1 +
+        t20 * omega_i_cross_omega_i_cross_g_i_2 + (omega_j_cross_omega_j_cross_s_j_world_0 * g_i_0 +
+        omega_j_cross_omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_omega_j_cross_s_j_world_2 * g_i_2) +
+        JG_REAL(2.0) * (omega_j_cross_s_j_world_0 * omega_i_cross_g_i_0 + omega_j_cross_s_j_world_1 *
+        omega_i_cross_g_i_1 + omega_j_cross_s_j_world_2 * omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] *
+        omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2] * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0]
+        * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 + v_i[2] * omega_i_cross_g_i_2));
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -471,19 +464,22 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_i_cross_f_i_0 = f_i_2 * omega_i[1] - f_i_1 * omega_i[2];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t6 = e_ij_0 - s_i_world_0;
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = f_i_0 * omega_i[2] - f_i_2 * omega_i[0];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t12 = e_ij_1 - s_i_world_1;
     const jg_real omega_i_cross_f_i_2 = f_i_1 * omega_i[0] - f_i_0 * omega_i[1];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t17 = e_ij_2 - s_i_world_2;
     /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
     const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
     const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
@@ -493,8 +489,8 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     phi_q_v[0] = f_i_0 * v_j[0] + f_i_1 * v_j[1] + f_i_2 * v_j[2] + (f_i_0 * omega_j_cross_s_j_world_0 + f_i_1 *
-        omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_f_i_0 * d_ij_0 +
-        omega_i_cross_f_i_1 * d_ij_1 + omega_i_cross_f_i_2 * d_ij_2 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
+        omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_f_i_0 * t6 +
+        omega_i_cross_f_i_1 * t12 + omega_i_cross_f_i_2 * t17 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
         omega_i_cross_s_i_world_1 + f_i_2 * omega_i_cross_s_i_world_2 + (f_i_0 * v_i[0] + f_i_1 * v_i[1] + f_i_2 *
         v_i[2]))));
     /* g_i = A_i C_i [0; 1; 0] */
@@ -506,8 +502,8 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_i_cross_g_i_1 = omega_i[2] * g_i_0 - omega_i[0] * g_i_2;
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     phi_q_v[1] = v_j[0] * g_i_0 + v_j[1] * g_i_1 + v_j[2] * g_i_2 + (omega_j_cross_s_j_world_0 * g_i_0 +
-        omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_s_j_world_2 * g_i_2 + (d_ij_0 * omega_i_cross_g_i_0 +
-        d_ij_1 * omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
+        omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_s_j_world_2 * g_i_2 + (t6 * omega_i_cross_g_i_0 + t12 *
+        omega_i_cross_g_i_1 + t17 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
         omega_i_cross_s_i_world_1 * g_i_1 + omega_i_cross_s_i_world_2 * g_i_2 + (v_i[0] * g_i_0 + v_i[1] * g_i_1 +
         v_i[2] * g_i_2))));
     /* h_j = A_j C_j [0; 0; 1] */
@@ -551,46 +547,49 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
     phi_q_t_lambda[2] = -t8;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t12 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t16 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = g_i_2 * s_i_world_1 - g_i_1 * s_i_world_2;
-    const jg_real t17 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t19 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t19 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real t21 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    phi_q_t_lambda[3] = t17 * h_j_2 - t19 * h_j_1 + (t5 * d_ij_2 - t8 * d_ij_1 - (lambda[0] * s_i_world_cross_f_i_0
-        + lambda[1] * s_i_world_cross_g_i_0));
+    phi_q_t_lambda[3] = t19 * h_j_2 - t21 * h_j_1 + (t5 * t12 - t8 * t16 - (lambda[0] * s_i_world_cross_f_i_0 +
+        lambda[1] * s_i_world_cross_g_i_0));
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t26 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
     const jg_real s_i_world_cross_g_i_1 = g_i_0 * s_i_world_2 - g_i_2 * s_i_world_0;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t27 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    phi_q_t_lambda[4] = t19 * h_j_0 - t27 * h_j_2 + (t8 * d_ij_0 - t2 * d_ij_2 - (lambda[0] * s_i_world_cross_f_i_1
-        + lambda[1] * s_i_world_cross_g_i_1));
+    const jg_real t30 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    phi_q_t_lambda[4] = t21 * h_j_0 - t30 * h_j_2 + (t8 * t26 - t2 * t12 - (lambda[0] * s_i_world_cross_f_i_1 +
+        lambda[1] * s_i_world_cross_g_i_1));
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
     const jg_real s_i_world_cross_g_i_2 = g_i_1 * s_i_world_0 - g_i_0 * s_i_world_1;
-    phi_q_t_lambda[5] = t27 * h_j_1 - t17 * h_j_0 + (t2 * d_ij_1 - t5 * d_ij_0 - (lambda[0] * s_i_world_cross_f_i_2
-        + lambda[1] * s_i_world_cross_g_i_2));
-    const jg_real t30 = lambda[0] * s_j_world_1 + lambda[2] * h_j_1;
-    const jg_real t31 = lambda[0] * s_j_world_2 + lambda[2] * h_j_2;
-    const jg_real t32 = lambda[1] * s_j_world_1 + lambda[3] * h_j_1;
-    const jg_real t33 = lambda[1] * s_j_world_2 + lambda[3] * h_j_2;
-    phi_q_t_lambda[9] = f_i_2 * t30 - f_i_1 * t31 + (g_i_2 * t32 - g_i_1 * t33);
-    const jg_real t34 = lambda[0] * s_j_world_0 + lambda[2] * h_j_0;
-    const jg_real t35 = lambda[1] * s_j_world_0 + lambda[3] * h_j_0;
-    phi_q_t_lambda[10] = f_i_0 * t31 - f_i_2 * t34 + (g_i_0 * t33 - g_i_2 * t35);
-    phi_q_t_lambda[11] = f_i_1 * t34 - f_i_0 * t30 + (g_i_1 * t35 - g_i_0 * t32);
+    phi_q_t_lambda[5] = t30 * h_j_1 - t19 * h_j_0 + (t2 * t16 - t5 * t26 - (lambda[0] * s_i_world_cross_f_i_2 +
+        lambda[1] * s_i_world_cross_g_i_2));
+    const jg_real t33 = lambda[0] * s_j_world_1 + lambda[2] * h_j_1;
+    const jg_real t34 = lambda[0] * s_j_world_2 + lambda[2] * h_j_2;
+    const jg_real t35 = lambda[1] * s_j_world_1 + lambda[3] * h_j_1;
+    const jg_real t36 = lambda[1] * s_j_world_2 + lambda[3] * h_j_2;
+    phi_q_t_lambda[9] = f_i_2 * t33 - f_i_1 * t34 + (g_i_2 * t35 - g_i_1 * t36);
+    const jg_real t37 = lambda[0] * s_j_world_0 + lambda[2] * h_j_0;
+    const jg_real t38 = lambda[1] * s_j_world_0 + lambda[3] * h_j_0;
+    phi_q_t_lambda[10] = f_i_0 * t34 - f_i_2 * t37 + (g_i_0 * t36 - g_i_2 * t38);
+    phi_q_t_lambda[11] = f_i_1 * t37 - f_i_0 * t33 + (g_i_1 * t38 - g_i_0 * t35);
 }
 
 void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -608,21 +607,25 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real *const omega_j = velocity + 9;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[18] = f_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     phi_q[20] = f_i_1;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi_q[22] = f_i_2;
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
@@ -646,38 +649,30 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     phi_q[3] = -g_i_1;
     phi_q[4] = -f_i_2;
     phi_q[5] = -g_i_2;
-    /* f_i_cross_d_ij = tilde(f_i) d_ij */
-    const jg_real f_i_cross_d_ij_0 = f_i_1 * d_ij_2 - f_i_2 * d_ij_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
-    phi_q[6] = f_i_cross_d_ij_0 - s_i_world_cross_f_i_0;
-    /* g_i_cross_d_ij = tilde(g_i) d_ij */
-    const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
+    phi_q[6] = f_i_1 * d_ij_2 - f_i_2 * d_ij_1 - s_i_world_cross_f_i_0;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = s_i_world_1 * g_i_2 - s_i_world_2 * g_i_1;
-    phi_q[7] = g_i_cross_d_ij_0 - s_i_world_cross_g_i_0;
+    phi_q[7] = d_ij_2 * g_i_1 - d_ij_1 * g_i_2 - s_i_world_cross_g_i_0;
     /* f_i_cross_h_j = tilde(f_i) h_j */
     const jg_real f_i_cross_h_j_0 = f_i_1 * h_j_2 - f_i_2 * h_j_1;
     phi_q[8] = f_i_cross_h_j_0;
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = g_i_1 * h_j_2 - g_i_2 * h_j_1;
     phi_q[9] = g_i_cross_h_j_0;
-    const jg_real f_i_cross_d_ij_1 = f_i_2 * d_ij_0 - f_i_0 * d_ij_2;
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
-    phi_q[10] = f_i_cross_d_ij_1 - s_i_world_cross_f_i_1;
-    const jg_real g_i_cross_d_ij_1 = d_ij_0 * g_i_2 - d_ij_2 * g_i_0;
+    phi_q[10] = f_i_2 * d_ij_0 - f_i_0 * d_ij_2 - s_i_world_cross_f_i_1;
     const jg_real s_i_world_cross_g_i_1 = s_i_world_2 * g_i_0 - s_i_world_0 * g_i_2;
-    phi_q[11] = g_i_cross_d_ij_1 - s_i_world_cross_g_i_1;
+    phi_q[11] = d_ij_0 * g_i_2 - d_ij_2 * g_i_0 - s_i_world_cross_g_i_1;
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
     phi_q[12] = f_i_cross_h_j_1;
     const jg_real g_i_cross_h_j_1 = g_i_2 * h_j_0 - g_i_0 * h_j_2;
     phi_q[13] = g_i_cross_h_j_1;
-    const jg_real f_i_cross_d_ij_2 = f_i_0 * d_ij_1 - f_i_1 * d_ij_0;
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
-    phi_q[14] = f_i_cross_d_ij_2 - s_i_world_cross_f_i_2;
-    const jg_real g_i_cross_d_ij_2 = d_ij_1 * g_i_0 - d_ij_0 * g_i_1;
+    phi_q[14] = f_i_0 * d_ij_1 - f_i_1 * d_ij_0 - s_i_world_cross_f_i_2;
     const jg_real s_i_world_cross_g_i_2 = s_i_world_0 * g_i_1 - s_i_world_1 * g_i_0;
-    phi_q[15] = g_i_cross_d_ij_2 - s_i_world_cross_g_i_2;
+    phi_q[15] = d_ij_1 * g_i_0 - d_ij_0 * g_i_1 - s_i_world_cross_g_i_2;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[16] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = g_i_0 * h_j_1 - g_i_1 * h_j_0;
@@ -702,117 +697,114 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     phi_q[33] = s_j_world_cross_g_i_2;
     phi_q[34] = -f_i_cross_h_j_2;
     phi_q[35] = -g_i_cross_h_j_2;
-    const jg_real t42 = f_i_2 * lambda[0] + g_i_2 * lambda[1];
-    phi_q_t_lambda_q[2] = t42;
-    phi_q_t_lambda_q[6] = t42;
-    phi_q_t_lambda_q[21] = t42;
-    phi_q_t_lambda_q[36] = t42;
+    const jg_real t39 = f_i_2 * lambda[0] + g_i_2 * lambda[1];
+    phi_q_t_lambda_q[2] = t39;
+    phi_q_t_lambda_q[6] = t39;
+    phi_q_t_lambda_q[21] = t39;
+    phi_q_t_lambda_q[36] = t39;
+    const jg_real t40 = -t39;
+    phi_q_t_lambda_q[0] = t40;
+    phi_q_t_lambda_q[11] = t40;
+    phi_q_t_lambda_q[16] = t40;
+    phi_q_t_lambda_q[38] = t40;
+    const jg_real t41 = f_i_1 * lambda[0] + g_i_1 * lambda[1];
+    phi_q_t_lambda_q[1] = t41;
+    phi_q_t_lambda_q[12] = t41;
+    phi_q_t_lambda_q[26] = t41;
+    phi_q_t_lambda_q[40] = t41;
+    const jg_real t42 = f_i_0 * lambda[0] + g_i_0 * lambda[1];
+    phi_q_t_lambda_q[5] = t42;
+    phi_q_t_lambda_q[17] = t42;
+    phi_q_t_lambda_q[32] = t42;
+    phi_q_t_lambda_q[39] = t42;
     const jg_real t43 = -t42;
-    phi_q_t_lambda_q[0] = t43;
-    phi_q_t_lambda_q[11] = t43;
-    phi_q_t_lambda_q[16] = t43;
-    phi_q_t_lambda_q[38] = t43;
-    const jg_real t44 = f_i_1 * lambda[0] + g_i_1 * lambda[1];
-    phi_q_t_lambda_q[1] = t44;
-    phi_q_t_lambda_q[12] = t44;
-    phi_q_t_lambda_q[26] = t44;
-    phi_q_t_lambda_q[40] = t44;
-    const jg_real t45 = f_i_0 * lambda[0] + g_i_0 * lambda[1];
-    phi_q_t_lambda_q[5] = t45;
-    phi_q_t_lambda_q[17] = t45;
-    phi_q_t_lambda_q[32] = t45;
-    phi_q_t_lambda_q[39] = t45;
-    const jg_real t46 = -t45;
-    phi_q_t_lambda_q[3] = t46;
-    phi_q_t_lambda_q[22] = t46;
-    phi_q_t_lambda_q[27] = t46;
-    phi_q_t_lambda_q[41] = t46;
-    const jg_real t47 = -t44;
-    phi_q_t_lambda_q[4] = t47;
-    phi_q_t_lambda_q[7] = t47;
-    phi_q_t_lambda_q[31] = t47;
-    phi_q_t_lambda_q[37] = t47;
-    const jg_real t48 = s_i_world_2 + d_ij_2;
-    const jg_real t49 = t42 * t48;
-    const jg_real t50 = s_i_world_1 + d_ij_1;
-    const jg_real t51 = t44 * t50;
-    const jg_real t52 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
-    const jg_real t53 = h_j_2 * t52;
-    const jg_real t54 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
-    const jg_real t55 = h_j_1 * t54;
-    const jg_real t56 = t53 + t55;
-    phi_q_t_lambda_q[8] = -(t49 + t51 + t56);
-    const jg_real t57 = s_i_world_0 + d_ij_0;
-    const jg_real t58 = h_j_0 * t54;
-    phi_q_t_lambda_q[9] = t44 * t57 + t58;
-    const jg_real t59 = h_j_0 * t52;
-    phi_q_t_lambda_q[10] = t42 * t57 + t59;
-    const jg_real t60 = s_j_world_2 * lambda[0] + h_j_2 * lambda[2];
-    const jg_real t61 = f_i_2 * t60;
-    const jg_real t62 = s_j_world_1 * lambda[0] + h_j_1 * lambda[2];
-    const jg_real t63 = f_i_1 * t62;
-    const jg_real t64 = s_j_world_2 * lambda[1] + h_j_2 * lambda[3];
-    const jg_real t65 = g_i_2 * t64;
-    const jg_real t66 = s_j_world_1 * lambda[1] + h_j_1 * lambda[3];
-    const jg_real t67 = g_i_1 * t66;
-    const jg_real t68 = t61 + t63 + (t65 + t67);
-    phi_q_t_lambda_q[13] = t68;
-    const jg_real t69 = s_j_world_0 * lambda[0] + h_j_0 * lambda[2];
-    const jg_real t70 = s_j_world_0 * lambda[1] + h_j_0 * lambda[3];
-    const jg_real t71 = f_i_1 * t69 + g_i_1 * t70;
-    phi_q_t_lambda_q[51] = t71;
-    phi_q_t_lambda_q[14] = -t71;
-    const jg_real t72 = f_i_2 * t69 + g_i_2 * t70;
-    phi_q_t_lambda_q[57] = t72;
-    phi_q_t_lambda_q[15] = -t72;
-    const jg_real t73 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    const jg_real t74 = h_j_1 * t73;
-    phi_q_t_lambda_q[18] = t45 * t50 + t74;
-    const jg_real t75 = t45 * t57;
-    const jg_real t76 = h_j_0 * t73;
-    const jg_real t77 = t53 + t76;
-    phi_q_t_lambda_q[19] = -(t49 + t75 + t77);
-    const jg_real t78 = h_j_1 * t52;
-    phi_q_t_lambda_q[20] = t42 * t50 + t78;
-    const jg_real t79 = f_i_0 * t62 + g_i_0 * t66;
-    phi_q_t_lambda_q[46] = t79;
-    phi_q_t_lambda_q[23] = -t79;
-    const jg_real t80 = f_i_0 * t69;
-    const jg_real t81 = g_i_0 * t70;
-    const jg_real t82 = t61 + t80 + (t65 + t81);
-    phi_q_t_lambda_q[24] = t82;
-    const jg_real t83 = f_i_2 * t62 + g_i_2 * t66;
-    phi_q_t_lambda_q[58] = t83;
-    phi_q_t_lambda_q[25] = -t83;
-    const jg_real t84 = h_j_2 * t73;
-    phi_q_t_lambda_q[28] = t45 * t48 + t84;
-    const jg_real t85 = h_j_2 * t54;
-    phi_q_t_lambda_q[29] = t44 * t48 + t85;
-    const jg_real t86 = t55 + t76;
-    phi_q_t_lambda_q[30] = -(t51 + t75 + t86);
-    const jg_real t87 = f_i_0 * t60 + g_i_0 * t64;
-    phi_q_t_lambda_q[47] = t87;
-    phi_q_t_lambda_q[33] = -t87;
-    const jg_real t88 = f_i_1 * t60 + g_i_1 * t64;
-    phi_q_t_lambda_q[53] = t88;
-    phi_q_t_lambda_q[34] = -t88;
-    const jg_real t89 = t63 + t80 + (t67 + t81);
-    phi_q_t_lambda_q[35] = t89;
-    const jg_real t90 = s_j_world_2 * t42;
-    const jg_real t91 = s_j_world_1 * t44;
-    phi_q_t_lambda_q[42] = t90 + t91 + t56;
-    phi_q_t_lambda_q[43] = -(t74 + s_j_world_1 * t45);
-    phi_q_t_lambda_q[44] = -(t84 + s_j_world_2 * t45);
-    phi_q_t_lambda_q[45] = -t68;
-    phi_q_t_lambda_q[48] = -(t58 + s_j_world_0 * t44);
-    const jg_real t92 = s_j_world_0 * t45;
-    phi_q_t_lambda_q[49] = t90 + t92 + t77;
-    phi_q_t_lambda_q[50] = -(t85 + s_j_world_2 * t44);
-    phi_q_t_lambda_q[52] = -t82;
-    phi_q_t_lambda_q[54] = -(t59 + s_j_world_0 * t42);
-    phi_q_t_lambda_q[55] = -(t78 + s_j_world_1 * t42);
-    phi_q_t_lambda_q[56] = t91 + t92 + t86;
-    phi_q_t_lambda_q[59] = -t89;
+    phi_q_t_lambda_q[3] = t43;
+    phi_q_t_lambda_q[22] = t43;
+    phi_q_t_lambda_q[27] = t43;
+    phi_q_t_lambda_q[41] = t43;
+    const jg_real t44 = -t41;
+    phi_q_t_lambda_q[4] = t44;
+    phi_q_t_lambda_q[7] = t44;
+    phi_q_t_lambda_q[31] = t44;
+    phi_q_t_lambda_q[37] = t44;
+    const jg_real t45 = e_ij_2 * t39;
+    const jg_real t46 = e_ij_1 * t41;
+    const jg_real t47 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real t48 = h_j_2 * t47;
+    const jg_real t49 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t50 = h_j_1 * t49;
+    const jg_real t51 = t48 + t50;
+    phi_q_t_lambda_q[8] = -(t45 + t46 + t51);
+    const jg_real t52 = h_j_0 * t49;
+    phi_q_t_lambda_q[9] = e_ij_0 * t41 + t52;
+    const jg_real t53 = h_j_0 * t47;
+    phi_q_t_lambda_q[10] = e_ij_0 * t39 + t53;
+    const jg_real t54 = s_j_world_2 * lambda[0] + h_j_2 * lambda[2];
+    const jg_real t55 = f_i_2 * t54;
+    const jg_real t56 = s_j_world_1 * lambda[0] + h_j_1 * lambda[2];
+    const jg_real t57 = f_i_1 * t56;
+    const jg_real t58 = s_j_world_2 * lambda[1] + h_j_2 * lambda[3];
+    const jg_real t59 = g_i_2 * t58;
+    const jg_real t60 = s_j_world_1 * lambda[1] + h_j_1 * lambda[3];
+    const jg_real t61 = g_i_1 * t60;
+    const jg_real t62 = t55 + t57 + (t59 + t61);
+    phi_q_t_lambda_q[13] = t62;
+    const jg_real t63 = s_j_world_0 * lambda[0] + h_j_0 * lambda[2];
+    const jg_real t64 = s_j_world_0 * lambda[1] + h_j_0 * lambda[3];
+    const jg_real t65 = f_i_1 * t63 + g_i_1 * t64;
+    phi_q_t_lambda_q[51] = t65;
+    phi_q_t_lambda_q[14] = -t65;
+    const jg_real t66 = f_i_2 * t63 + g_i_2 * t64;
+    phi_q_t_lambda_q[57] = t66;
+    phi_q_t_lambda_q[15] = -t66;
+    const jg_real t67 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    const jg_real t68 = h_j_1 * t67;
+    phi_q_t_lambda_q[18] = e_ij_1 * t42 + t68;
+    const jg_real t69 = e_ij_0 * t42;
+    const jg_real t70 = h_j_0 * t67;
+    const jg_real t71 = t48 + t70;
+    phi_q_t_lambda_q[19] = -(t45 + t69 + t71);
+    const jg_real t72 = h_j_1 * t47;
+    phi_q_t_lambda_q[20] = e_ij_1 * t39 + t72;
+    const jg_real t73 = f_i_0 * t56 + g_i_0 * t60;
+    phi_q_t_lambda_q[46] = t73;
+    phi_q_t_lambda_q[23] = -t73;
+    const jg_real t74 = f_i_0 * t63;
+    const jg_real t75 = g_i_0 * t64;
+    const jg_real t76 = t55 + t74 + (t59 + t75);
+    phi_q_t_lambda_q[24] = t76;
+    const jg_real t77 = f_i_2 * t56 + g_i_2 * t60;
+    phi_q_t_lambda_q[58] = t77;
+    phi_q_t_lambda_q[25] = -t77;
+    const jg_real t78 = h_j_2 * t67;
+    phi_q_t_lambda_q[28] = e_ij_2 * t42 + t78;
+    const jg_real t79 = h_j_2 * t49;
+    phi_q_t_lambda_q[29] = e_ij_2 * t41 + t79;
+    const jg_real t80 = t50 + t70;
+    phi_q_t_lambda_q[30] = -(t46 + t69 + t80);
+    const jg_real t81 = f_i_0 * t54 + g_i_0 * t58;
+    phi_q_t_lambda_q[47] = t81;
+    phi_q_t_lambda_q[33] = -t81;
+    const jg_real t82 = f_i_1 * t54 + g_i_1 * t58;
+    phi_q_t_lambda_q[53] = t82;
+    phi_q_t_lambda_q[34] = -t82;
+    const jg_real t83 = t57 + t74 + (t61 + t75);
+    phi_q_t_lambda_q[35] = t83;
+    const jg_real t84 = s_j_world_2 * t39;
+    const jg_real t85 = s_j_world_1 * t41;
+    phi_q_t_lambda_q[42] = t84 + t85 + t51;
+    phi_q_t_lambda_q[43] = -(t68 + s_j_world_1 * t42);
+    phi_q_t_lambda_q[44] = -(t78 + s_j_world_2 * t42);
+    phi_q_t_lambda_q[45] = -t62;
+    phi_q_t_lambda_q[48] = -(t52 + s_j_world_0 * t41);
+    const jg_real t86 = s_j_world_0 * t42;
+    phi_q_t_lambda_q[49] = t84 + t86 + t71;
+    phi_q_t_lambda_q[50] = -(t79 + s_j_world_2 * t41);
+    phi_q_t_lambda_q[52] = -t76;
+    phi_q_t_lambda_q[54] = -(t53 + s_j_world_0 * t39);
+    phi_q_t_lambda_q[55] = -(t72 + s_j_world_1 * t39);
+    phi_q_t_lambda_q[56] = t85 + t86 + t80;
+    phi_q_t_lambda_q[59] = -t83;
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_2 = f_i_1 * omega_i[0] - f_i_0 * omega_i[1];
     const jg_real omega_i_cross_f_i_1 = f_i_0 * omega_i[2] - f_i_2 * omega_i[0];

@@ -33,16 +33,20 @@ void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - C_i[6] * alpha[0];
@@ -392,26 +396,30 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t10 = C_i[6] * alpha[0];
-    phi[0] = dp_ij_0 - t10;
+    const jg_real t13 = C_i[6] * alpha[0];
+    phi[0] = dp_ij_0 - t13;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = C_i[7] * alpha[0];
-    phi[1] = dp_ij_1 - t12;
+    const jg_real t15 = C_i[7] * alpha[0];
+    phi[1] = dp_ij_1 - t15;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t14 = C_i[8] * alpha[0];
-    phi[2] = dp_ij_2 - t14;
+    const jg_real t17 = C_i[8] * alpha[0];
+    phi[2] = dp_ij_2 - t17;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -442,20 +450,20 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t32 = s_i[2] + t14;
-    phi_q[3] = t32;
-    const jg_real t33 = s_i[1] + t12;
-    phi_q[13] = t33;
-    phi_q[4] = -t33;
+    const jg_real t35 = s_i[2] + t17;
+    phi_q[3] = t35;
+    const jg_real t36 = s_i[1] + t15;
+    phi_q[13] = t36;
+    phi_q[4] = -t36;
     phi_q[5] = -C_i[3];
     phi_q[48] = sine_0;
     phi_q[7] = C_i[6] * sine_0;
-    phi_q[8] = -t32;
-    const jg_real t34 = s_i[0] + t10;
-    phi_q[9] = t34;
+    phi_q[8] = -t35;
+    const jg_real t37 = s_i[0] + t13;
+    phi_q[9] = t37;
     phi_q[10] = -C_i[4];
     phi_q[12] = C_i[7] * sine_0;
-    phi_q[14] = -t34;
+    phi_q[14] = -t37;
     phi_q[15] = -C_i[5];
     phi_q[17] = C_i[8] * sine_0;
     /* C_i_H = C_i H */
@@ -486,26 +494,26 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q[27] = s_j[1] * A_ij_6_ - s_j[2] * A_ij_3_;
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
-    const jg_real t50 = C_j[3] * cosine_0 + C_j[0] * sine_0;
-    phi_q[30] = t50;
-    const jg_real t51 = C_j[3] * sine_0 - C_j[0] * cosine_0;
-    phi_q[31] = t51;
+    const jg_real t53 = C_j[3] * cosine_0 + C_j[0] * sine_0;
+    phi_q[30] = t53;
+    const jg_real t54 = C_j[3] * sine_0 - C_j[0] * cosine_0;
+    phi_q[31] = t54;
     phi_q[32] = -(C_j[6] * sine_0);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
-    const jg_real t52 = C_j[4] * cosine_0 + C_j[1] * sine_0;
-    phi_q[36] = t52;
-    const jg_real t53 = C_j[4] * sine_0 - C_j[1] * cosine_0;
-    phi_q[37] = t53;
+    const jg_real t55 = C_j[4] * cosine_0 + C_j[1] * sine_0;
+    phi_q[36] = t55;
+    const jg_real t56 = C_j[4] * sine_0 - C_j[1] * cosine_0;
+    phi_q[37] = t56;
     phi_q[38] = -(C_j[7] * sine_0);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
-    const jg_real t54 = C_j[5] * cosine_0 + C_j[2] * sine_0;
-    phi_q[42] = t54;
-    const jg_real t55 = C_j[5] * sine_0 - C_j[2] * cosine_0;
-    phi_q[43] = t55;
+    const jg_real t57 = C_j[5] * cosine_0 + C_j[2] * sine_0;
+    phi_q[42] = t57;
+    const jg_real t58 = C_j[5] * sine_0 - C_j[2] * cosine_0;
+    phi_q[43] = t58;
     phi_q[44] = -(C_j[8] * sine_0);
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
@@ -513,40 +521,40 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
     phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
     phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
-    const jg_real t56 = C_i[6] * cosine_0;
-    phi_q_t_lambda_q[3] = lambda[5] * t56;
-    const jg_real t57 = C_i[7] * cosine_0;
-    phi_q_t_lambda_q[4] = lambda[5] * t57;
-    const jg_real t58 = C_i[8] * cosine_0;
-    phi_q_t_lambda_q[5] = lambda[5] * t58;
-    const jg_real t59 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t60 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t61 = cosine_0 * t59 - sine_0 * t60;
-    const jg_real t62 = cosine_0 * t60 + sine_0 * t59;
-    const jg_real t63 = C_j[0] * t61 - C_j[3] * t62;
-    phi_q_t_lambda_q[6] = t63;
-    const jg_real t64 = C_j[1] * t61 - C_j[4] * t62;
-    phi_q_t_lambda_q[7] = t64;
-    const jg_real t65 = C_j[2] * t61 - C_j[5] * t62;
-    phi_q_t_lambda_q[8] = t65;
-    const jg_real t66 = cosine_0 * lambda[3];
-    const jg_real t67 = sine_0 * lambda[3];
-    const jg_real t68 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[12] = t68;
-    phi_q_t_lambda_q[9] = s_j[1] * t65 - s_j[2] * t64 + (C_j[0] * t66 - C_j[3] * t67 - C_j[6] * t68 + t50 *
+    const jg_real t59 = C_i[6] * cosine_0;
+    phi_q_t_lambda_q[3] = lambda[5] * t59;
+    const jg_real t60 = C_i[7] * cosine_0;
+    phi_q_t_lambda_q[4] = lambda[5] * t60;
+    const jg_real t61 = C_i[8] * cosine_0;
+    phi_q_t_lambda_q[5] = lambda[5] * t61;
+    const jg_real t62 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t63 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t64 = cosine_0 * t62 - sine_0 * t63;
+    const jg_real t65 = cosine_0 * t63 + sine_0 * t62;
+    const jg_real t66 = C_j[0] * t64 - C_j[3] * t65;
+    phi_q_t_lambda_q[6] = t66;
+    const jg_real t67 = C_j[1] * t64 - C_j[4] * t65;
+    phi_q_t_lambda_q[7] = t67;
+    const jg_real t68 = C_j[2] * t64 - C_j[5] * t65;
+    phi_q_t_lambda_q[8] = t68;
+    const jg_real t69 = cosine_0 * lambda[3];
+    const jg_real t70 = sine_0 * lambda[3];
+    const jg_real t71 = cosine_0 * lambda[5];
+    phi_q_t_lambda_q[12] = t71;
+    phi_q_t_lambda_q[9] = s_j[1] * t68 - s_j[2] * t67 + (C_j[0] * t69 - C_j[3] * t70 - C_j[6] * t71 + t53 *
         lambda[4]);
-    phi_q_t_lambda_q[10] = s_j[2] * t63 - s_j[0] * t65 + (C_j[1] * t66 - C_j[4] * t67 - C_j[7] * t68 + t52 *
+    phi_q_t_lambda_q[10] = s_j[2] * t66 - s_j[0] * t68 + (C_j[1] * t69 - C_j[4] * t70 - C_j[7] * t71 + t55 *
         lambda[4]);
-    phi_q_t_lambda_q[11] = s_j[0] * t64 - s_j[1] * t63 + (C_j[2] * t66 - C_j[5] * t67 - C_j[8] * t68 + t54 *
+    phi_q_t_lambda_q[11] = s_j[0] * t67 - s_j[1] * t66 + (C_j[2] * t69 - C_j[5] * t70 - C_j[8] * t71 + t57 *
         lambda[4]);
-    const jg_real t69 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t70 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t72 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t73 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t74 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
-    const jg_real t75 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t77 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t78 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -556,22 +564,22 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (C_i_H_3 * t69 - C_i_H_0 * t70) + alphadot[0] * (C_i[7] *
-        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (C_i_H_3 * t74 - C_i_H_0 * t75) + omega_i_cross_v_i_0);
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[1] * (C_i_H_3 * t72 - C_i_H_0 * t73) + alphadot[0] * (C_i[7] *
+        omega_i[2] - C_i[8] * omega_i[1]) - alphadot[1] * (C_i_H_3 * t77 - C_i_H_0 * t78) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (C_i_H_4 * t69 - C_i_H_1 * t70) + alphadot[0] * (C_i[8] *
-        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (C_i_H_4 * t74 - C_i_H_1 * t75) + omega_i_cross_v_i_1);
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[1] * (C_i_H_4 * t72 - C_i_H_1 * t73) + alphadot[0] * (C_i[8] *
+        omega_i[0] - C_i[6] * omega_i[2]) - alphadot[1] * (C_i_H_4 * t77 - C_i_H_1 * t78) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (C_i_H_5 * t69 - C_i_H_2 * t70) + alphadot[0] * (C_i[6] *
-        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (C_i_H_5 * t74 - C_i_H_2 * t75) + omega_i_cross_v_i_2);
-    gamma[3] = alphadot[1] * (t51 * omega_j[0] + t53 * omega_j[1] + t55 * omega_j[2]);
-    gamma[4] = -(alphadot[1] * (t50 * omega_j[0] + t52 * omega_j[1] + t54 * omega_j[2]));
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[1] * (C_i_H_5 * t72 - C_i_H_2 * t73) + alphadot[0] * (C_i[6] *
+        omega_i[1] - C_i[7] * omega_i[0]) - alphadot[1] * (C_i_H_5 * t77 - C_i_H_2 * t78) + omega_i_cross_v_i_2);
+    gamma[3] = alphadot[1] * (t54 * omega_j[0] + t56 * omega_j[1] + t58 * omega_j[2]);
+    gamma[4] = -(alphadot[1] * (t53 * omega_j[0] + t55 * omega_j[1] + t57 * omega_j[2]));
     gamma[5] = alphadot[1] * (C_j[6] * cosine_0 * omega_j[0] + C_j[7] * cosine_0 * omega_j[1] + C_j[8] * cosine_0 *
-        omega_j[2]) - alphadot[1] * (t56 * omega_i[0] + t57 * omega_i[1] + t58 * omega_i[2]) - alphadot[1] *
+        omega_j[2]) - alphadot[1] * (t59 * omega_i[0] + t60 * omega_i[1] + t61 * omega_i[2]) - alphadot[1] *
         alphadot[1] * cosine_0;
 }
 

@@ -51,16 +51,20 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi[1] = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -100,34 +104,30 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[4] = A_ij_h_j_2 * C_i[4] - A_ij_h_j_1 * C_i[5];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t21 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t23 = s_i[1] + dp_ij_1;
-    phi_q[5] = C_i[7] * t21 - C_i[8] * t23;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t18 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t20 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[5] = C_i[7] * t18 - C_i[8] * t20;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[6] = A_ij_h_j_0 * C_i[2] - A_ij_h_j_2 * C_i[0];
     phi_q[7] = A_ij_h_j_0 * C_i[5] - A_ij_h_j_2 * C_i[3];
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t29 = s_i[0] + dp_ij_0;
-    phi_q[8] = C_i[8] * t29 - C_i[6] * t21;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t26 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[8] = C_i[8] * t26 - C_i[6] * t18;
     phi_q[9] = A_ij_h_j_1 * C_i[0] - A_ij_h_j_0 * C_i[1];
     phi_q[10] = A_ij_h_j_1 * C_i[3] - A_ij_h_j_0 * C_i[4];
-    phi_q[11] = C_i[6] * t23 - C_i[7] * t29;
+    phi_q[11] = C_i[6] * t20 - C_i[7] * t26;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
@@ -168,7 +168,6 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -202,157 +201,150 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real t11 = A_i[2] * t1 - A_i[5] * t3;
     phi_q_t_lambda_q[8] = t11;
     phi_q_t_lambda_q[35] = t11;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t22 = lambda[2] * dp_ij_2 + lambda[2] * s_i[2];
-    const jg_real t23 = C_i[8] * t22;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t25 = lambda[2] * dp_ij_1 + lambda[2] * s_i[1];
-    const jg_real t26 = C_i[7] * t25;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t31 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    const jg_real t32 = t31 * A_ij_h_j_2;
+    const jg_real t16 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    const jg_real t17 = t16 * A_ij_h_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t37 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
-    const jg_real t38 = t37 * A_ij_h_j_1;
-    phi_q_t_lambda_q[12] = -(t32 + t38 + (t23 + t26));
-    const jg_real t39 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
-    phi_q_t_lambda_q[13] = t39 * A_ij_h_j_1 + C_i[6] * t25;
-    phi_q_t_lambda_q[14] = t39 * A_ij_h_j_2 + C_i[6] * t22;
-    const jg_real t40 = -t2;
-    phi_q_t_lambda_q[15] = t40;
-    phi_q_t_lambda_q[45] = t40;
-    const jg_real t41 = -t6;
-    phi_q_t_lambda_q[16] = t41;
-    phi_q_t_lambda_q[48] = t41;
-    const jg_real t42 = -t9;
-    phi_q_t_lambda_q[17] = t42;
-    phi_q_t_lambda_q[51] = t42;
+    const jg_real t22 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
+    const jg_real t23 = t22 * A_ij_h_j_1;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t31 = t0 * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t33 = t1 * ep_ij_1;
+    phi_q_t_lambda_q[12] = -(t17 + t23 + (t31 + t33));
+    const jg_real t34 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    phi_q_t_lambda_q[13] = t34 * A_ij_h_j_1 + t3 * ep_ij_1;
+    phi_q_t_lambda_q[14] = t34 * A_ij_h_j_2 + t3 * ep_ij_2;
+    const jg_real t35 = -t2;
+    phi_q_t_lambda_q[15] = t35;
+    phi_q_t_lambda_q[45] = t35;
+    const jg_real t36 = -t6;
+    phi_q_t_lambda_q[16] = t36;
+    phi_q_t_lambda_q[48] = t36;
+    const jg_real t37 = -t9;
+    phi_q_t_lambda_q[17] = t37;
+    phi_q_t_lambda_q[51] = t37;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t47 = t39 * A_ij_h_j_0;
-    const jg_real t48 = t38 + t47;
+    const jg_real t42 = t34 * A_ij_h_j_0;
+    const jg_real t43 = t23 + t42;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
-    const jg_real t52 = t32 + t48 + lambda[2] * (C_i[6] * A_ij_s_j_0 + C_i[7] * A_ij_s_j_1 + C_i[8] * A_ij_s_j_2);
-    const jg_real t53 = A_ij_0 * t52;
+    const jg_real t47 = t17 + t43 + lambda[2] * (C_i[6] * A_ij_s_j_0 + C_i[7] * A_ij_s_j_1 + C_i[8] * A_ij_s_j_2);
+    const jg_real t48 = A_ij_0 * t47;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    const jg_real t55 = lambda[2] * A_ijt_h_i_0;
-    const jg_real t56 = t39 * A_ij_0 + t37 * A_ij_1 + t31 * A_ij_2;
-    const jg_real t57 = A_ij_h_j_0 * t56;
-    phi_q_t_lambda_q[18] = t53 - A_ij_s_j_0 * t55 - t57;
-    const jg_real t58 = A_ij_3 * t52;
+    const jg_real t50 = lambda[2] * A_ijt_h_i_0;
+    const jg_real t51 = t34 * A_ij_0 + t22 * A_ij_1 + t16 * A_ij_2;
+    const jg_real t52 = A_ij_h_j_0 * t51;
+    phi_q_t_lambda_q[18] = t48 - A_ij_s_j_0 * t50 - t52;
+    const jg_real t53 = A_ij_3 * t47;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real t60 = lambda[2] * A_ijt_h_i_1;
-    const jg_real t61 = t39 * A_ij_3 + t37 * A_ij_4 + t31 * A_ij_5;
-    const jg_real t62 = A_ij_h_j_0 * t61;
-    phi_q_t_lambda_q[19] = t58 - A_ij_s_j_0 * t60 - t62;
-    const jg_real t63 = A_ij_6 * t52;
+    const jg_real t55 = lambda[2] * A_ijt_h_i_1;
+    const jg_real t56 = t34 * A_ij_3 + t22 * A_ij_4 + t16 * A_ij_5;
+    const jg_real t57 = A_ij_h_j_0 * t56;
+    phi_q_t_lambda_q[19] = t53 - A_ij_s_j_0 * t55 - t57;
+    const jg_real t58 = A_ij_6 * t47;
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t65 = lambda[2] * A_ijt_h_i_2;
-    const jg_real t66 = t39 * A_ij_6 + t37 * A_ij_7 + t31 * A_ij_8;
-    const jg_real t67 = A_ij_h_j_0 * t66;
-    phi_q_t_lambda_q[20] = t63 - A_ij_s_j_0 * t65 - t67;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t69 = lambda[2] * dp_ij_0 + lambda[2] * s_i[0];
-    phi_q_t_lambda_q[24] = t37 * A_ij_h_j_0 + C_i[7] * t69;
-    const jg_real t70 = C_i[6] * t69;
-    phi_q_t_lambda_q[25] = -(t32 + t47 + (t23 + t70));
-    phi_q_t_lambda_q[26] = t37 * A_ij_h_j_2 + C_i[7] * t22;
-    const jg_real t71 = -t4;
-    phi_q_t_lambda_q[27] = t71;
-    phi_q_t_lambda_q[46] = t71;
-    const jg_real t72 = -t7;
-    phi_q_t_lambda_q[28] = t72;
-    phi_q_t_lambda_q[49] = t72;
-    const jg_real t73 = -t10;
-    phi_q_t_lambda_q[29] = t73;
-    phi_q_t_lambda_q[52] = t73;
-    const jg_real t74 = A_ij_1 * t52;
-    const jg_real t75 = A_ij_h_j_1 * t56;
-    phi_q_t_lambda_q[30] = t74 - A_ij_s_j_1 * t55 - t75;
-    const jg_real t76 = A_ij_4 * t52;
-    const jg_real t77 = A_ij_h_j_1 * t61;
-    phi_q_t_lambda_q[31] = t76 - A_ij_s_j_1 * t60 - t77;
-    const jg_real t78 = A_ij_7 * t52;
-    const jg_real t79 = A_ij_h_j_1 * t66;
-    phi_q_t_lambda_q[32] = t78 - A_ij_s_j_1 * t65 - t79;
-    phi_q_t_lambda_q[36] = t31 * A_ij_h_j_0 + C_i[8] * t69;
-    phi_q_t_lambda_q[37] = t31 * A_ij_h_j_1 + C_i[8] * t25;
-    phi_q_t_lambda_q[38] = -(t26 + t70 + t48);
-    const jg_real t80 = -t5;
-    phi_q_t_lambda_q[39] = t80;
-    phi_q_t_lambda_q[47] = t80;
-    const jg_real t81 = -t8;
-    phi_q_t_lambda_q[40] = t81;
-    phi_q_t_lambda_q[50] = t81;
-    const jg_real t82 = -t11;
-    phi_q_t_lambda_q[41] = t82;
-    phi_q_t_lambda_q[53] = t82;
-    const jg_real t83 = A_ij_2 * t52;
-    const jg_real t84 = A_ij_h_j_2 * t56;
-    phi_q_t_lambda_q[42] = t83 - A_ij_s_j_2 * t55 - t84;
-    const jg_real t85 = A_ij_5 * t52;
-    const jg_real t86 = A_ij_h_j_2 * t61;
-    phi_q_t_lambda_q[43] = t85 - A_ij_s_j_2 * t60 - t86;
-    const jg_real t87 = A_ij_8 * t52;
-    const jg_real t88 = A_ij_h_j_2 * t66;
-    phi_q_t_lambda_q[44] = t87 - A_ij_s_j_2 * t65 - t88;
-    const jg_real t89 = lambda[2] * A_ij_s_j_0;
-    phi_q_t_lambda_q[54] = t53 - t57 - t89 * A_ijt_h_i_0;
-    const jg_real t90 = lambda[2] * A_ij_s_j_1;
-    phi_q_t_lambda_q[55] = t74 - t75 - t90 * A_ijt_h_i_0;
-    const jg_real t91 = lambda[2] * A_ij_s_j_2;
-    phi_q_t_lambda_q[56] = t83 - t84 - t91 * A_ijt_h_i_0;
-    const jg_real t92 = C_j[8] * t66;
-    const jg_real t93 = C_j[7] * t61;
-    const jg_real t94 = lambda[2] * s_j[2];
-    const jg_real t95 = A_ijt_h_i_2 * t94;
-    const jg_real t96 = lambda[2] * s_j[1];
-    const jg_real t97 = A_ijt_h_i_1 * t96;
-    phi_q_t_lambda_q[57] = -(t95 + t97 + (t92 + t93));
-    const jg_real t98 = lambda[2] * s_j[0];
-    phi_q_t_lambda_q[58] = A_ijt_h_i_1 * t98 + C_j[6] * t61;
-    phi_q_t_lambda_q[59] = A_ijt_h_i_2 * t98 + C_j[6] * t66;
-    phi_q_t_lambda_q[60] = t58 - t62 - t89 * A_ijt_h_i_1;
-    phi_q_t_lambda_q[61] = t76 - t77 - t90 * A_ijt_h_i_1;
-    phi_q_t_lambda_q[62] = t85 - t86 - t91 * A_ijt_h_i_1;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t96 + C_j[7] * t56;
-    const jg_real t99 = C_j[6] * t56;
-    const jg_real t100 = A_ijt_h_i_0 * t98;
-    phi_q_t_lambda_q[64] = -(t95 + t100 + (t92 + t99));
-    phi_q_t_lambda_q[65] = A_ijt_h_i_2 * t96 + C_j[7] * t66;
-    phi_q_t_lambda_q[66] = t63 - t67 - t89 * A_ijt_h_i_2;
-    phi_q_t_lambda_q[67] = t78 - t79 - t90 * A_ijt_h_i_2;
-    phi_q_t_lambda_q[68] = t87 - t88 - t91 * A_ijt_h_i_2;
-    phi_q_t_lambda_q[69] = A_ijt_h_i_0 * t94 + C_j[8] * t56;
-    phi_q_t_lambda_q[70] = A_ijt_h_i_1 * t94 + C_j[8] * t61;
-    phi_q_t_lambda_q[71] = -(t97 + t100 + (t93 + t99));
+    const jg_real t60 = lambda[2] * A_ijt_h_i_2;
+    const jg_real t61 = t34 * A_ij_6 + t22 * A_ij_7 + t16 * A_ij_8;
+    const jg_real t62 = A_ij_h_j_0 * t61;
+    phi_q_t_lambda_q[20] = t58 - A_ij_s_j_0 * t60 - t62;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[24] = t22 * A_ij_h_j_0 + t1 * ep_ij_0;
+    const jg_real t64 = t3 * ep_ij_0;
+    phi_q_t_lambda_q[25] = -(t17 + t42 + (t31 + t64));
+    phi_q_t_lambda_q[26] = t22 * A_ij_h_j_2 + t1 * ep_ij_2;
+    const jg_real t65 = -t4;
+    phi_q_t_lambda_q[27] = t65;
+    phi_q_t_lambda_q[46] = t65;
+    const jg_real t66 = -t7;
+    phi_q_t_lambda_q[28] = t66;
+    phi_q_t_lambda_q[49] = t66;
+    const jg_real t67 = -t10;
+    phi_q_t_lambda_q[29] = t67;
+    phi_q_t_lambda_q[52] = t67;
+    const jg_real t68 = A_ij_1 * t47;
+    const jg_real t69 = A_ij_h_j_1 * t51;
+    phi_q_t_lambda_q[30] = t68 - A_ij_s_j_1 * t50 - t69;
+    const jg_real t70 = A_ij_4 * t47;
+    const jg_real t71 = A_ij_h_j_1 * t56;
+    phi_q_t_lambda_q[31] = t70 - A_ij_s_j_1 * t55 - t71;
+    const jg_real t72 = A_ij_7 * t47;
+    const jg_real t73 = A_ij_h_j_1 * t61;
+    phi_q_t_lambda_q[32] = t72 - A_ij_s_j_1 * t60 - t73;
+    phi_q_t_lambda_q[36] = t16 * A_ij_h_j_0 + t0 * ep_ij_0;
+    phi_q_t_lambda_q[37] = t16 * A_ij_h_j_1 + t0 * ep_ij_1;
+    phi_q_t_lambda_q[38] = -(t33 + t64 + t43);
+    const jg_real t74 = -t5;
+    phi_q_t_lambda_q[39] = t74;
+    phi_q_t_lambda_q[47] = t74;
+    const jg_real t75 = -t8;
+    phi_q_t_lambda_q[40] = t75;
+    phi_q_t_lambda_q[50] = t75;
+    const jg_real t76 = -t11;
+    phi_q_t_lambda_q[41] = t76;
+    phi_q_t_lambda_q[53] = t76;
+    const jg_real t77 = A_ij_2 * t47;
+    const jg_real t78 = A_ij_h_j_2 * t51;
+    phi_q_t_lambda_q[42] = t77 - A_ij_s_j_2 * t50 - t78;
+    const jg_real t79 = A_ij_5 * t47;
+    const jg_real t80 = A_ij_h_j_2 * t56;
+    phi_q_t_lambda_q[43] = t79 - A_ij_s_j_2 * t55 - t80;
+    const jg_real t81 = A_ij_8 * t47;
+    const jg_real t82 = A_ij_h_j_2 * t61;
+    phi_q_t_lambda_q[44] = t81 - A_ij_s_j_2 * t60 - t82;
+    const jg_real t83 = lambda[2] * A_ij_s_j_0;
+    phi_q_t_lambda_q[54] = t48 - t52 - t83 * A_ijt_h_i_0;
+    const jg_real t84 = lambda[2] * A_ij_s_j_1;
+    phi_q_t_lambda_q[55] = t68 - t69 - t84 * A_ijt_h_i_0;
+    const jg_real t85 = lambda[2] * A_ij_s_j_2;
+    phi_q_t_lambda_q[56] = t77 - t78 - t85 * A_ijt_h_i_0;
+    const jg_real t86 = C_j[8] * t61;
+    const jg_real t87 = C_j[7] * t56;
+    const jg_real t88 = lambda[2] * s_j[2];
+    const jg_real t89 = A_ijt_h_i_2 * t88;
+    const jg_real t90 = lambda[2] * s_j[1];
+    const jg_real t91 = A_ijt_h_i_1 * t90;
+    phi_q_t_lambda_q[57] = -(t89 + t91 + (t86 + t87));
+    const jg_real t92 = lambda[2] * s_j[0];
+    phi_q_t_lambda_q[58] = A_ijt_h_i_1 * t92 + C_j[6] * t56;
+    phi_q_t_lambda_q[59] = A_ijt_h_i_2 * t92 + C_j[6] * t61;
+    phi_q_t_lambda_q[60] = t53 - t57 - t83 * A_ijt_h_i_1;
+    phi_q_t_lambda_q[61] = t70 - t71 - t84 * A_ijt_h_i_1;
+    phi_q_t_lambda_q[62] = t79 - t80 - t85 * A_ijt_h_i_1;
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t90 + C_j[7] * t51;
+    const jg_real t93 = C_j[6] * t51;
+    const jg_real t94 = A_ijt_h_i_0 * t92;
+    phi_q_t_lambda_q[64] = -(t89 + t94 + (t86 + t93));
+    phi_q_t_lambda_q[65] = A_ijt_h_i_2 * t90 + C_j[7] * t61;
+    phi_q_t_lambda_q[66] = t58 - t62 - t83 * A_ijt_h_i_2;
+    phi_q_t_lambda_q[67] = t72 - t73 - t84 * A_ijt_h_i_2;
+    phi_q_t_lambda_q[68] = t81 - t82 - t85 * A_ijt_h_i_2;
+    phi_q_t_lambda_q[69] = A_ijt_h_i_0 * t88 + C_j[8] * t51;
+    phi_q_t_lambda_q[70] = A_ijt_h_i_1 * t88 + C_j[8] * t56;
+    phi_q_t_lambda_q[71] = -(t91 + t94 + (t87 + t93));
 }
 
 void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -368,7 +360,6 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -428,51 +419,43 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
         t32 + (C_i[0] * t23 + C_i[1] * t25 + C_i[2] * t26));
     gamma[1] = JG_REAL(2.0) * (C_i[3] * t11 + C_i[4] * t16 + C_i[5] * t17) - (C_i[3] * t30 + C_i[4] * t31 + C_i[5] *
         t32 + (C_i[3] * t23 + C_i[4] * t25 + C_i[5] * t26));
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
-    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
@@ -493,26 +476,18 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
     gamma[2] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * (A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 *
-        omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 * omega_j_cross_omega_j_cross_s_j_2) + C_i[7] * (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2) + C_i[8] * (A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 *
-        omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_s_j_2) + (C_i[6] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
-        omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * (omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) +
-        C_i[7] * (omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + C_i[8] *
-        (omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0));
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[7] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[8] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[6] * (A_ij_0 *
+        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2) + C_i[7] * (A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 *
+        omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 * omega_j_cross_omega_j_cross_s_j_2) + C_i[8] * (A_ij_2 *
+        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2)) + JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_i_0 + C_i[7] *
+        omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[6] * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + C_i[7] * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + C_i[8] * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0));
 }
 
 void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -562,26 +537,32 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q_v[1] = C_i[3] * A_ij_omega_j_cross_h_j_0 + C_i[4] * A_ij_omega_j_cross_h_j_1 + C_i[5] *
         A_ij_omega_j_cross_h_j_2 - (C_i[3] * omega_i_cross_A_ij_h_j_0 + C_i[4] * omega_i_cross_A_ij_h_j_1 + C_i[5] *
         omega_i_cross_A_ij_h_j_2);
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t34 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t36 = ep_ij_1 - s_i[1];
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t38 = ep_ij_0 - s_i[0];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
@@ -594,22 +575,11 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
     const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
-    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
-    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
     phi_q_v[2] = C_i[6] * A_ij_omega_j_cross_s_j_0 + C_i[7] * A_ij_omega_j_cross_s_j_1 + C_i[8] *
         A_ij_omega_j_cross_s_j_2 + (C_i[6] * A_it_v_j_0 + C_i[7] * A_it_v_j_1 + C_i[8] * A_it_v_j_2 - (C_i[6] *
-        A_it_v_i_0 + C_i[7] * A_it_v_i_1 + C_i[8] * A_it_v_i_2 + (C_i[6] * omega_i_cross_dp_ij_0 + C_i[7] *
-        omega_i_cross_dp_ij_1 + C_i[8] * omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[7] * A_it_v_i_1 + C_i[8] * A_it_v_i_2 + (C_i[6] * (omega_i[1] * t34 - omega_i[2] * t36) +
+        C_i[7] * (omega_i[2] * t38 - omega_i[0] * t34) + C_i[8] * (omega_i[0] * t36 - omega_i[1] * t38) + (C_i[6] *
+        omega_i_cross_s_i_0 + C_i[7] * omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_s_i_2))));
 }
 
 void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -633,59 +603,55 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     const jg_real t5 = lambda[2] * A_i_h_i_2;
     phi_q_t_lambda[8] = t5;
     phi_q_t_lambda[2] = -t5;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t16 = lambda[2] * dp_ij_2 + lambda[2] * s_i[2];
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t18 = lambda[2] * dp_ij_1 + lambda[2] * s_i[1];
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t23 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
+    const jg_real t10 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t28 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    phi_q_t_lambda[3] = A_ij_h_j_2 * t23 - A_ij_h_j_1 * t28 + (C_i[7] * t16 - C_i[8] * t18);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t30 = lambda[2] * dp_ij_0 + lambda[2] * s_i[0];
+    const jg_real t15 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t23 = lambda[2] * (ep_ij_2 - s_i[2]) + lambda[2] * s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t25 = lambda[2] * (ep_ij_1 - s_i[1]) + lambda[2] * s_i[1];
+    phi_q_t_lambda[3] = A_ij_h_j_2 * t10 - A_ij_h_j_1 * t15 + (C_i[7] * t23 - C_i[8] * t25);
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t35 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
-    phi_q_t_lambda[4] = A_ij_h_j_0 * t28 - A_ij_h_j_2 * t35 + (C_i[8] * t30 - C_i[6] * t16);
-    phi_q_t_lambda[5] = A_ij_h_j_1 * t35 - A_ij_h_j_0 * t23 + (C_i[6] * t18 - C_i[7] * t30);
-    const jg_real t36 = A_ij_6 * t35 + A_ij_7 * t23 + A_ij_8 * t28;
-    const jg_real t37 = A_ij_3 * t35 + A_ij_4 * t23 + A_ij_5 * t28;
+    const jg_real t30 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t32 = lambda[2] * (ep_ij_0 - s_i[0]) + lambda[2] * s_i[0];
+    phi_q_t_lambda[4] = A_ij_h_j_0 * t15 - A_ij_h_j_2 * t30 + (C_i[8] * t32 - C_i[6] * t23);
+    phi_q_t_lambda[5] = A_ij_h_j_1 * t30 - A_ij_h_j_0 * t10 + (C_i[6] * t25 - C_i[7] * t32);
+    const jg_real t33 = A_ij_6 * t30 + A_ij_7 * t10 + A_ij_8 * t15;
+    const jg_real t34 = A_ij_3 * t30 + A_ij_4 * t10 + A_ij_5 * t15;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     /* s_j_cross_A_ijt_h_i = tilde(s_j) A_ij^T h_i */
     const jg_real s_j_cross_A_ijt_h_i_0 = s_j[1] * A_ijt_h_i_2 - s_j[2] * A_ijt_h_i_1;
-    phi_q_t_lambda[9] = C_j[7] * t36 - C_j[8] * t37 + lambda[2] * s_j_cross_A_ijt_h_i_0;
-    const jg_real t41 = A_ij_0 * t35 + A_ij_1 * t23 + A_ij_2 * t28;
+    phi_q_t_lambda[9] = C_j[7] * t33 - C_j[8] * t34 + lambda[2] * s_j_cross_A_ijt_h_i_0;
+    const jg_real t38 = A_ij_0 * t30 + A_ij_1 * t10 + A_ij_2 * t15;
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     const jg_real s_j_cross_A_ijt_h_i_1 = s_j[2] * A_ijt_h_i_0 - s_j[0] * A_ijt_h_i_2;
-    phi_q_t_lambda[10] = C_j[8] * t41 - C_j[6] * t36 + lambda[2] * s_j_cross_A_ijt_h_i_1;
+    phi_q_t_lambda[10] = C_j[8] * t38 - C_j[6] * t33 + lambda[2] * s_j_cross_A_ijt_h_i_1;
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
-    phi_q_t_lambda[11] = C_j[6] * t37 - C_j[7] * t41 + lambda[2] * s_j_cross_A_ijt_h_i_2;
+    phi_q_t_lambda[11] = C_j[6] * t34 - C_j[7] * t38 + lambda[2] * s_j_cross_A_ijt_h_i_2;
 }
 
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -719,16 +685,20 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi[1] = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -746,16 +716,20 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q[2] = -A_i_h_i_2;
     phi_q[3] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[4] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real t27 = s_i[2] + dp_ij_2;
-    const jg_real t28 = s_i[1] + dp_ij_1;
-    phi_q[5] = C_i[7] * t27 - C_i[8] * t28;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t31 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t33 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[5] = C_i[7] * t31 - C_i[8] * t33;
     phi_q[6] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[7] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    const jg_real t29 = s_i[0] + dp_ij_0;
-    phi_q[8] = C_i[8] * t29 - C_i[6] * t27;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t35 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[8] = C_i[8] * t35 - C_i[6] * t31;
     phi_q[9] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[10] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
-    phi_q[11] = C_i[6] * t28 - C_i[7] * t29;
+    phi_q[11] = C_i[6] * t33 - C_i[7] * t35;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -781,153 +755,150 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q[22] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
     phi_q[23] = s_j_cross_A_ijt_h_i_2;
-    const jg_real t42 = C_i[8] * lambda[2];
-    const jg_real t43 = C_i[7] * lambda[2];
-    const jg_real t44 = A_i[3] * t42 - A_i[6] * t43;
-    phi_q_t_lambda_q[0] = t44;
-    phi_q_t_lambda_q[9] = t44;
-    const jg_real t45 = C_i[6] * lambda[2];
-    const jg_real t46 = A_i[6] * t45 - A_i[0] * t42;
-    phi_q_t_lambda_q[1] = t46;
-    phi_q_t_lambda_q[21] = t46;
-    const jg_real t47 = A_i[0] * t43 - A_i[3] * t45;
-    phi_q_t_lambda_q[2] = t47;
-    phi_q_t_lambda_q[33] = t47;
-    const jg_real t48 = A_i[4] * t42 - A_i[7] * t43;
-    phi_q_t_lambda_q[3] = t48;
-    phi_q_t_lambda_q[10] = t48;
-    const jg_real t49 = A_i[7] * t45 - A_i[1] * t42;
-    phi_q_t_lambda_q[4] = t49;
-    phi_q_t_lambda_q[22] = t49;
-    const jg_real t50 = A_i[1] * t43 - A_i[4] * t45;
-    phi_q_t_lambda_q[5] = t50;
-    phi_q_t_lambda_q[34] = t50;
-    const jg_real t51 = A_i[5] * t42 - A_i[8] * t43;
-    phi_q_t_lambda_q[6] = t51;
-    phi_q_t_lambda_q[11] = t51;
-    const jg_real t52 = A_i[8] * t45 - A_i[2] * t42;
-    phi_q_t_lambda_q[7] = t52;
-    phi_q_t_lambda_q[23] = t52;
-    const jg_real t53 = A_i[2] * t43 - A_i[5] * t45;
-    phi_q_t_lambda_q[8] = t53;
-    phi_q_t_lambda_q[35] = t53;
-    const jg_real t54 = dp_ij_2 * lambda[2] + s_i[2] * lambda[2];
-    const jg_real t55 = C_i[8] * t54;
-    const jg_real t56 = dp_ij_1 * lambda[2] + s_i[1] * lambda[2];
-    const jg_real t57 = C_i[7] * t56;
-    const jg_real t58 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    const jg_real t59 = A_ij_h_j_2 * t58;
-    const jg_real t60 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
-    const jg_real t61 = A_ij_h_j_1 * t60;
-    phi_q_t_lambda_q[12] = -(t59 + t61 + (t55 + t57));
-    const jg_real t62 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
-    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t62 + C_i[6] * t56;
-    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t62 + C_i[6] * t54;
-    const jg_real t63 = -t44;
-    phi_q_t_lambda_q[15] = t63;
-    phi_q_t_lambda_q[45] = t63;
-    const jg_real t64 = -t48;
-    phi_q_t_lambda_q[16] = t64;
-    phi_q_t_lambda_q[48] = t64;
-    const jg_real t65 = -t51;
-    phi_q_t_lambda_q[17] = t65;
-    phi_q_t_lambda_q[51] = t65;
-    const jg_real t66 = A_ij_h_j_0 * t62;
-    const jg_real t67 = t61 + t66;
+    const jg_real t48 = C_i[8] * lambda[2];
+    const jg_real t49 = C_i[7] * lambda[2];
+    const jg_real t50 = A_i[3] * t48 - A_i[6] * t49;
+    phi_q_t_lambda_q[0] = t50;
+    phi_q_t_lambda_q[9] = t50;
+    const jg_real t51 = C_i[6] * lambda[2];
+    const jg_real t52 = A_i[6] * t51 - A_i[0] * t48;
+    phi_q_t_lambda_q[1] = t52;
+    phi_q_t_lambda_q[21] = t52;
+    const jg_real t53 = A_i[0] * t49 - A_i[3] * t51;
+    phi_q_t_lambda_q[2] = t53;
+    phi_q_t_lambda_q[33] = t53;
+    const jg_real t54 = A_i[4] * t48 - A_i[7] * t49;
+    phi_q_t_lambda_q[3] = t54;
+    phi_q_t_lambda_q[10] = t54;
+    const jg_real t55 = A_i[7] * t51 - A_i[1] * t48;
+    phi_q_t_lambda_q[4] = t55;
+    phi_q_t_lambda_q[22] = t55;
+    const jg_real t56 = A_i[1] * t49 - A_i[4] * t51;
+    phi_q_t_lambda_q[5] = t56;
+    phi_q_t_lambda_q[34] = t56;
+    const jg_real t57 = A_i[5] * t48 - A_i[8] * t49;
+    phi_q_t_lambda_q[6] = t57;
+    phi_q_t_lambda_q[11] = t57;
+    const jg_real t58 = A_i[8] * t51 - A_i[2] * t48;
+    phi_q_t_lambda_q[7] = t58;
+    phi_q_t_lambda_q[23] = t58;
+    const jg_real t59 = A_i[2] * t49 - A_i[5] * t51;
+    phi_q_t_lambda_q[8] = t59;
+    phi_q_t_lambda_q[35] = t59;
+    const jg_real t60 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    const jg_real t61 = A_ij_h_j_2 * t60;
+    const jg_real t62 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
+    const jg_real t63 = A_ij_h_j_1 * t62;
+    const jg_real t64 = ep_ij_2 * t48;
+    const jg_real t65 = ep_ij_1 * t49;
+    phi_q_t_lambda_q[12] = -(t61 + t63 + (t64 + t65));
+    const jg_real t66 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t66 + ep_ij_1 * t51;
+    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t66 + ep_ij_2 * t51;
+    const jg_real t67 = -t50;
+    phi_q_t_lambda_q[15] = t67;
+    phi_q_t_lambda_q[45] = t67;
+    const jg_real t68 = -t54;
+    phi_q_t_lambda_q[16] = t68;
+    phi_q_t_lambda_q[48] = t68;
+    const jg_real t69 = -t57;
+    phi_q_t_lambda_q[17] = t69;
+    phi_q_t_lambda_q[51] = t69;
+    const jg_real t70 = A_ij_h_j_0 * t66;
+    const jg_real t71 = t63 + t70;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
-    const jg_real t71 = t59 + t67 + lambda[2] * (C_i[6] * A_ij_s_j_0 + C_i[7] * A_ij_s_j_1 + C_i[8] * A_ij_s_j_2);
-    const jg_real t72 = A_ij_0 * t71;
-    const jg_real t73 = A_ijt_h_i_0 * lambda[2];
-    const jg_real t74 = A_ij_0 * t62 + A_ij_1 * t60 + A_ij_2 * t58;
-    const jg_real t75 = A_ij_h_j_0 * t74;
-    phi_q_t_lambda_q[18] = t72 - A_ij_s_j_0 * t73 - t75;
-    const jg_real t76 = A_ij_3 * t71;
-    const jg_real t77 = A_ijt_h_i_1 * lambda[2];
-    const jg_real t78 = A_ij_3 * t62 + A_ij_4 * t60 + A_ij_5 * t58;
+    const jg_real t75 = t61 + t71 + lambda[2] * (C_i[6] * A_ij_s_j_0 + C_i[7] * A_ij_s_j_1 + C_i[8] * A_ij_s_j_2);
+    const jg_real t76 = A_ij_0 * t75;
+    const jg_real t77 = A_ijt_h_i_0 * lambda[2];
+    const jg_real t78 = A_ij_0 * t66 + A_ij_1 * t62 + A_ij_2 * t60;
     const jg_real t79 = A_ij_h_j_0 * t78;
-    phi_q_t_lambda_q[19] = t76 - A_ij_s_j_0 * t77 - t79;
-    const jg_real t80 = A_ij_6 * t71;
-    const jg_real t81 = A_ijt_h_i_2 * lambda[2];
-    const jg_real t82 = A_ij_6 * t62 + A_ij_7 * t60 + A_ij_8 * t58;
+    phi_q_t_lambda_q[18] = t76 - A_ij_s_j_0 * t77 - t79;
+    const jg_real t80 = A_ij_3 * t75;
+    const jg_real t81 = A_ijt_h_i_1 * lambda[2];
+    const jg_real t82 = A_ij_3 * t66 + A_ij_4 * t62 + A_ij_5 * t60;
     const jg_real t83 = A_ij_h_j_0 * t82;
-    phi_q_t_lambda_q[20] = t80 - A_ij_s_j_0 * t81 - t83;
-    const jg_real t84 = dp_ij_0 * lambda[2] + s_i[0] * lambda[2];
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t60 + C_i[7] * t84;
-    const jg_real t85 = C_i[6] * t84;
-    phi_q_t_lambda_q[25] = -(t59 + t66 + (t55 + t85));
-    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t60 + C_i[7] * t54;
-    const jg_real t86 = -t46;
-    phi_q_t_lambda_q[27] = t86;
-    phi_q_t_lambda_q[46] = t86;
-    const jg_real t87 = -t49;
-    phi_q_t_lambda_q[28] = t87;
-    phi_q_t_lambda_q[49] = t87;
-    const jg_real t88 = -t52;
-    phi_q_t_lambda_q[29] = t88;
-    phi_q_t_lambda_q[52] = t88;
-    const jg_real t89 = A_ij_1 * t71;
-    const jg_real t90 = A_ij_h_j_1 * t74;
-    phi_q_t_lambda_q[30] = t89 - A_ij_s_j_1 * t73 - t90;
-    const jg_real t91 = A_ij_4 * t71;
-    const jg_real t92 = A_ij_h_j_1 * t78;
-    phi_q_t_lambda_q[31] = t91 - A_ij_s_j_1 * t77 - t92;
-    const jg_real t93 = A_ij_7 * t71;
-    const jg_real t94 = A_ij_h_j_1 * t82;
-    phi_q_t_lambda_q[32] = t93 - A_ij_s_j_1 * t81 - t94;
-    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t58 + C_i[8] * t84;
-    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t58 + C_i[8] * t56;
-    phi_q_t_lambda_q[38] = -(t57 + t85 + t67);
-    const jg_real t95 = -t47;
-    phi_q_t_lambda_q[39] = t95;
-    phi_q_t_lambda_q[47] = t95;
-    const jg_real t96 = -t50;
-    phi_q_t_lambda_q[40] = t96;
-    phi_q_t_lambda_q[50] = t96;
-    const jg_real t97 = -t53;
-    phi_q_t_lambda_q[41] = t97;
-    phi_q_t_lambda_q[53] = t97;
-    const jg_real t98 = A_ij_2 * t71;
-    const jg_real t99 = A_ij_h_j_2 * t74;
-    phi_q_t_lambda_q[42] = t98 - A_ij_s_j_2 * t73 - t99;
-    const jg_real t100 = A_ij_5 * t71;
-    const jg_real t101 = A_ij_h_j_2 * t78;
-    phi_q_t_lambda_q[43] = t100 - A_ij_s_j_2 * t77 - t101;
-    const jg_real t102 = A_ij_8 * t71;
-    const jg_real t103 = A_ij_h_j_2 * t82;
-    phi_q_t_lambda_q[44] = t102 - A_ij_s_j_2 * t81 - t103;
-    const jg_real t104 = lambda[2] * A_ij_s_j_0;
-    phi_q_t_lambda_q[54] = t72 - t75 - A_ijt_h_i_0 * t104;
-    const jg_real t105 = lambda[2] * A_ij_s_j_1;
-    phi_q_t_lambda_q[55] = t89 - t90 - A_ijt_h_i_0 * t105;
-    const jg_real t106 = lambda[2] * A_ij_s_j_2;
-    phi_q_t_lambda_q[56] = t98 - t99 - A_ijt_h_i_0 * t106;
-    const jg_real t107 = C_j[8] * t82;
-    const jg_real t108 = C_j[7] * t78;
-    const jg_real t109 = s_j[2] * lambda[2];
-    const jg_real t110 = A_ijt_h_i_2 * t109;
-    const jg_real t111 = s_j[1] * lambda[2];
-    const jg_real t112 = A_ijt_h_i_1 * t111;
-    phi_q_t_lambda_q[57] = -(t110 + t112 + (t107 + t108));
-    const jg_real t113 = s_j[0] * lambda[2];
-    phi_q_t_lambda_q[58] = A_ijt_h_i_1 * t113 + C_j[6] * t78;
-    phi_q_t_lambda_q[59] = A_ijt_h_i_2 * t113 + C_j[6] * t82;
-    phi_q_t_lambda_q[60] = t76 - t79 - A_ijt_h_i_1 * t104;
-    phi_q_t_lambda_q[61] = t91 - t92 - A_ijt_h_i_1 * t105;
-    phi_q_t_lambda_q[62] = t100 - t101 - A_ijt_h_i_1 * t106;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t111 + C_j[7] * t74;
-    const jg_real t114 = C_j[6] * t74;
-    const jg_real t115 = A_ijt_h_i_0 * t113;
-    phi_q_t_lambda_q[64] = -(t110 + t115 + (t107 + t114));
-    phi_q_t_lambda_q[65] = A_ijt_h_i_2 * t111 + C_j[7] * t82;
-    phi_q_t_lambda_q[66] = t80 - t83 - A_ijt_h_i_2 * t104;
-    phi_q_t_lambda_q[67] = t93 - t94 - A_ijt_h_i_2 * t105;
-    phi_q_t_lambda_q[68] = t102 - t103 - A_ijt_h_i_2 * t106;
-    phi_q_t_lambda_q[69] = A_ijt_h_i_0 * t109 + C_j[8] * t74;
-    phi_q_t_lambda_q[70] = A_ijt_h_i_1 * t109 + C_j[8] * t78;
-    phi_q_t_lambda_q[71] = -(t112 + t115 + (t108 + t114));
+    phi_q_t_lambda_q[19] = t80 - A_ij_s_j_0 * t81 - t83;
+    const jg_real t84 = A_ij_6 * t75;
+    const jg_real t85 = A_ijt_h_i_2 * lambda[2];
+    const jg_real t86 = A_ij_6 * t66 + A_ij_7 * t62 + A_ij_8 * t60;
+    const jg_real t87 = A_ij_h_j_0 * t86;
+    phi_q_t_lambda_q[20] = t84 - A_ij_s_j_0 * t85 - t87;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t62 + ep_ij_0 * t49;
+    const jg_real t88 = ep_ij_0 * t51;
+    phi_q_t_lambda_q[25] = -(t61 + t70 + (t64 + t88));
+    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t62 + ep_ij_2 * t49;
+    const jg_real t89 = -t52;
+    phi_q_t_lambda_q[27] = t89;
+    phi_q_t_lambda_q[46] = t89;
+    const jg_real t90 = -t55;
+    phi_q_t_lambda_q[28] = t90;
+    phi_q_t_lambda_q[49] = t90;
+    const jg_real t91 = -t58;
+    phi_q_t_lambda_q[29] = t91;
+    phi_q_t_lambda_q[52] = t91;
+    const jg_real t92 = A_ij_1 * t75;
+    const jg_real t93 = A_ij_h_j_1 * t78;
+    phi_q_t_lambda_q[30] = t92 - A_ij_s_j_1 * t77 - t93;
+    const jg_real t94 = A_ij_4 * t75;
+    const jg_real t95 = A_ij_h_j_1 * t82;
+    phi_q_t_lambda_q[31] = t94 - A_ij_s_j_1 * t81 - t95;
+    const jg_real t96 = A_ij_7 * t75;
+    const jg_real t97 = A_ij_h_j_1 * t86;
+    phi_q_t_lambda_q[32] = t96 - A_ij_s_j_1 * t85 - t97;
+    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t60 + ep_ij_0 * t48;
+    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t60 + ep_ij_1 * t48;
+    phi_q_t_lambda_q[38] = -(t65 + t88 + t71);
+    const jg_real t98 = -t53;
+    phi_q_t_lambda_q[39] = t98;
+    phi_q_t_lambda_q[47] = t98;
+    const jg_real t99 = -t56;
+    phi_q_t_lambda_q[40] = t99;
+    phi_q_t_lambda_q[50] = t99;
+    const jg_real t100 = -t59;
+    phi_q_t_lambda_q[41] = t100;
+    phi_q_t_lambda_q[53] = t100;
+    const jg_real t101 = A_ij_2 * t75;
+    const jg_real t102 = A_ij_h_j_2 * t78;
+    phi_q_t_lambda_q[42] = t101 - A_ij_s_j_2 * t77 - t102;
+    const jg_real t103 = A_ij_5 * t75;
+    const jg_real t104 = A_ij_h_j_2 * t82;
+    phi_q_t_lambda_q[43] = t103 - A_ij_s_j_2 * t81 - t104;
+    const jg_real t105 = A_ij_8 * t75;
+    const jg_real t106 = A_ij_h_j_2 * t86;
+    phi_q_t_lambda_q[44] = t105 - A_ij_s_j_2 * t85 - t106;
+    const jg_real t107 = lambda[2] * A_ij_s_j_0;
+    phi_q_t_lambda_q[54] = t76 - t79 - A_ijt_h_i_0 * t107;
+    const jg_real t108 = lambda[2] * A_ij_s_j_1;
+    phi_q_t_lambda_q[55] = t92 - t93 - A_ijt_h_i_0 * t108;
+    const jg_real t109 = lambda[2] * A_ij_s_j_2;
+    phi_q_t_lambda_q[56] = t101 - t102 - A_ijt_h_i_0 * t109;
+    const jg_real t110 = C_j[8] * t86;
+    const jg_real t111 = C_j[7] * t82;
+    const jg_real t112 = s_j[2] * lambda[2];
+    const jg_real t113 = A_ijt_h_i_2 * t112;
+    const jg_real t114 = s_j[1] * lambda[2];
+    const jg_real t115 = A_ijt_h_i_1 * t114;
+    phi_q_t_lambda_q[57] = -(t113 + t115 + (t110 + t111));
+    const jg_real t116 = s_j[0] * lambda[2];
+    phi_q_t_lambda_q[58] = A_ijt_h_i_1 * t116 + C_j[6] * t82;
+    phi_q_t_lambda_q[59] = A_ijt_h_i_2 * t116 + C_j[6] * t86;
+    phi_q_t_lambda_q[60] = t80 - t83 - A_ijt_h_i_1 * t107;
+    phi_q_t_lambda_q[61] = t94 - t95 - A_ijt_h_i_1 * t108;
+    phi_q_t_lambda_q[62] = t103 - t104 - A_ijt_h_i_1 * t109;
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t114 + C_j[7] * t78;
+    const jg_real t117 = C_j[6] * t78;
+    const jg_real t118 = A_ijt_h_i_0 * t116;
+    phi_q_t_lambda_q[64] = -(t113 + t118 + (t110 + t117));
+    phi_q_t_lambda_q[65] = A_ijt_h_i_2 * t114 + C_j[7] * t86;
+    phi_q_t_lambda_q[66] = t84 - t87 - A_ijt_h_i_2 * t107;
+    phi_q_t_lambda_q[67] = t96 - t97 - A_ijt_h_i_2 * t108;
+    phi_q_t_lambda_q[68] = t105 - t106 - A_ijt_h_i_2 * t109;
+    phi_q_t_lambda_q[69] = A_ijt_h_i_0 * t112 + C_j[8] * t78;
+    phi_q_t_lambda_q[70] = A_ijt_h_i_1 * t112 + C_j[8] * t82;
+    phi_q_t_lambda_q[71] = -(t115 + t118 + (t111 + t117));
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -937,18 +908,18 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t121 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t124 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t123 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t124 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t126 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t127 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t127 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t130 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t129 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t130 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t132 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t133 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -956,45 +927,41 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t134 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t137 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t135 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t138 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t136 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t139 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[0] = JG_REAL(2.0) * (C_i[0] * t121 + C_i[1] * t123 + C_i[2] * t124) - (C_i[0] * t134 + C_i[1] * t135 +
-        C_i[2] * t136 + (C_i[0] * t127 + C_i[1] * t129 + C_i[2] * t130));
-    gamma[1] = JG_REAL(2.0) * (C_i[3] * t121 + C_i[4] * t123 + C_i[5] * t124) - (C_i[3] * t134 + C_i[4] * t135 +
-        C_i[5] * t136 + (C_i[3] * t127 + C_i[4] * t129 + C_i[5] * t130));
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+    gamma[0] = JG_REAL(2.0) * (C_i[0] * t124 + C_i[1] * t126 + C_i[2] * t127) - (C_i[0] * t137 + C_i[1] * t138 +
+        C_i[2] * t139 + (C_i[0] * t130 + C_i[1] * t132 + C_i[2] * t133));
+    gamma[1] = JG_REAL(2.0) * (C_i[3] * t124 + C_i[4] * t126 + C_i[5] * t127) - (C_i[3] * t137 + C_i[4] * t138 +
+        C_i[5] * t139 + (C_i[3] * t130 + C_i[4] * t132 + C_i[5] * t133));
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
@@ -1015,26 +982,18 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
     gamma[2] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * (A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 *
-        omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 * omega_j_cross_omega_j_cross_s_j_2) + C_i[7] * (A_ij_1 *
-        omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2) + C_i[8] * (A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 *
-        omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_s_j_2) + (C_i[6] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
-        omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * (omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) +
-        C_i[7] * (omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + C_i[8] *
-        (omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0));
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[7] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[8] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[6] * (A_ij_0 *
+        omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_omega_j_cross_s_j_2) + C_i[7] * (A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 *
+        omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 * omega_j_cross_omega_j_cross_s_j_2) + C_i[8] * (A_ij_2 *
+        omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_omega_j_cross_s_j_2)) + JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_i_0 + C_i[7] *
+        omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[6] * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + C_i[7] * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + C_i[8] * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0));
 }
 
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

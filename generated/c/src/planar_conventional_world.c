@@ -49,19 +49,23 @@ void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_r
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     phi[2] = h_i_0 * d_ij_0 + h_i_1 * d_ij_1 + h_i_2 * d_ij_2;
 }
@@ -101,18 +105,18 @@ void jg_planar_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const
     phi_q[4] = g_i_cross_h_j_0;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t14 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    /* h_i_cross_d_ij = tilde(h_i) d_ij */
-    const jg_real h_i_cross_d_ij_0 = h_i_1 * d_ij_2 - h_i_2 * d_ij_1;
+    const jg_real t18 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = h_i_2 * s_i_world_1 - h_i_1 * s_i_world_2;
-    phi_q[5] = h_i_cross_d_ij_0 - s_i_world_cross_h_i_0;
+    phi_q[5] = h_i_1 * t14 - h_i_2 * t18 - s_i_world_cross_h_i_0;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
@@ -121,18 +125,17 @@ void jg_planar_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const
     const jg_real g_i_cross_h_j_1 = h_j_0 * g_i_2 - h_j_2 * g_i_0;
     phi_q[7] = g_i_cross_h_j_1;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real h_i_cross_d_ij_1 = h_i_2 * d_ij_0 - h_i_0 * d_ij_2;
+    const jg_real t28 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_h_i_1 = h_i_0 * s_i_world_2 - h_i_2 * s_i_world_0;
-    phi_q[8] = h_i_cross_d_ij_1 - s_i_world_cross_h_i_1;
+    phi_q[8] = h_i_2 * t28 - h_i_0 * t14 - s_i_world_cross_h_i_1;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[9] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = h_j_1 * g_i_0 - h_j_0 * g_i_1;
     phi_q[10] = g_i_cross_h_j_2;
-    const jg_real h_i_cross_d_ij_2 = h_i_0 * d_ij_1 - h_i_1 * d_ij_0;
     const jg_real s_i_world_cross_h_i_2 = h_i_1 * s_i_world_0 - h_i_0 * s_i_world_1;
-    phi_q[11] = h_i_cross_d_ij_2 - s_i_world_cross_h_i_2;
+    phi_q[11] = h_i_0 * t18 - h_i_1 * t28 - s_i_world_cross_h_i_2;
     phi_q[15] = -f_i_cross_h_j_0;
     phi_q[16] = -g_i_cross_h_j_0;
     /* s_j_world_cross_h_i = tilde(s_j_world) h_i */
@@ -201,16 +204,16 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     phi_q_t_lambda_q[37] = t8;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
-    const jg_real t12 = lambda[2] * s_i_world_2 + lambda[2] * d_ij_2;
+    const jg_real t12 = lambda[2] * s_i_world_2 + lambda[2] * (e_ij_2 - s_i_world_2);
     const jg_real t13 = h_i_2 * t12;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    const jg_real t17 = lambda[2] * s_i_world_1 + lambda[2] * d_ij_1;
+    const jg_real t17 = lambda[2] * s_i_world_1 + lambda[2] * (e_ij_1 - s_i_world_1);
     const jg_real t18 = h_i_1 * t17;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
@@ -228,9 +231,9 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     const jg_real t29 = t23 + t28;
     phi_q_t_lambda_q[8] = -(t13 + t18 + t29);
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real t33 = lambda[2] * s_i_world_0 + lambda[2] * d_ij_0;
+    const jg_real t33 = lambda[2] * s_i_world_0 + lambda[2] * (e_ij_0 - s_i_world_0);
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real t35 = h_j_0 * t26;
     phi_q_t_lambda_q[9] = h_i_1 * t33 + t35;
@@ -388,21 +391,21 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
         omega_i_cross_h_i_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
     const jg_real omega_i_cross_omega_i_cross_h_i_1 = omega_i[2] * omega_i_cross_h_i_0 - omega_i[0] *
         omega_i_cross_h_i_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real omega_i_cross_omega_i_cross_h_i_2 = omega_i[0] * omega_i_cross_h_i_1 - omega_i[1] *
         omega_i_cross_h_i_0;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
     const jg_real omega_j_cross_s_j_world_1 = omega_j[2] * s_j_world_0 - omega_j[0] * s_j_world_2;
@@ -428,13 +431,14 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
     gamma[2] = h_i_0 * omega_i_cross_omega_i_cross_s_i_world_0 + h_i_1 * omega_i_cross_omega_i_cross_s_i_world_1 +
         h_i_2 * omega_i_cross_omega_i_cross_s_i_world_2 + (JG_REAL(2.0) * (omega_i_cross_h_i_0 *
         omega_i_cross_s_i_world_0 + omega_i_cross_h_i_1 * omega_i_cross_s_i_world_1 + omega_i_cross_h_i_2 *
-        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_h_i_0 * d_ij_0 + omega_i_cross_omega_i_cross_h_i_1
-        * d_ij_1 + omega_i_cross_omega_i_cross_h_i_2 * d_ij_2 + (h_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 +
-        h_i_1 * omega_j_cross_omega_j_cross_s_j_world_1 + h_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) +
-        JG_REAL(2.0) * (omega_i_cross_h_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_h_i_1 *
-        omega_j_cross_s_j_world_1 + omega_i_cross_h_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
-        (omega_i_cross_h_i_0 * v_j[0] + omega_i_cross_h_i_1 * v_j[1] + omega_i_cross_h_i_2 * v_j[2])) + JG_REAL(2.0)
-        * (omega_i_cross_h_i_0 * v_i[0] + omega_i_cross_h_i_1 * v_i[1] + omega_i_cross_h_i_2 * v_i[2]));
+        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_h_i_0 * (e_ij_0 - s_i_world_0) +
+        omega_i_cross_omega_i_cross_h_i_1 * (e_ij_1 - s_i_world_1) + omega_i_cross_omega_i_cross_h_i_2 * (e_ij_2 -
+        s_i_world_2) + (h_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 + h_i_1 *
+        omega_j_cross_omega_j_cross_s_j_world_1 + h_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
+        (omega_i_cross_h_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_h_i_1 * omega_j_cross_s_j_world_1 +
+        omega_i_cross_h_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) * (omega_i_cross_h_i_0 * v_j[0] +
+        omega_i_cross_h_i_1 * v_j[1] + omega_i_cross_h_i_2 * v_j[2])) + JG_REAL(2.0) * (omega_i_cross_h_i_0 * v_i[0]
+        + omega_i_cross_h_i_1 * v_i[1] + omega_i_cross_h_i_2 * v_i[2]));
 }
 
 void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -484,19 +488,19 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real omega_i_cross_h_i_1 = omega_i[2] * h_i_0 - omega_i[0] * h_i_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
     const jg_real omega_i_cross_h_i_2 = omega_i[0] * h_i_1 - omega_i[1] * h_i_0;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
     /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
     const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
     const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
@@ -506,10 +510,10 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real omega_j_cross_s_j_world_1 = omega_j[2] * s_j_world_0 - omega_j[0] * s_j_world_2;
     const jg_real omega_j_cross_s_j_world_2 = omega_j[0] * s_j_world_1 - omega_j[1] * s_j_world_0;
     phi_q_v[2] = h_i_0 * v_j[0] + h_i_1 * v_j[1] + h_i_2 * v_j[2] + (h_i_0 * omega_j_cross_s_j_world_0 + h_i_1 *
-        omega_j_cross_s_j_world_1 + h_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_h_i_0 * d_ij_0 +
-        omega_i_cross_h_i_1 * d_ij_1 + omega_i_cross_h_i_2 * d_ij_2 - (h_i_0 * omega_i_cross_s_i_world_0 + h_i_1 *
-        omega_i_cross_s_i_world_1 + h_i_2 * omega_i_cross_s_i_world_2 + (h_i_0 * v_i[0] + h_i_1 * v_i[1] + h_i_2 *
-        v_i[2]))));
+        omega_j_cross_s_j_world_1 + h_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_h_i_0 * (e_ij_0 -
+        s_i_world_0) + omega_i_cross_h_i_1 * (e_ij_1 - s_i_world_1) + omega_i_cross_h_i_2 * (e_ij_2 - s_i_world_2) -
+        (h_i_0 * omega_i_cross_s_i_world_0 + h_i_1 * omega_i_cross_s_i_world_1 + h_i_2 * omega_i_cross_s_i_world_2 +
+        (h_i_0 * v_i[0] + h_i_1 * v_i[1] + h_i_2 * v_i[2]))));
 }
 
 void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -546,32 +550,33 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t17 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    /* h_i_cross_d_ij = tilde(h_i) d_ij */
-    const jg_real h_i_cross_d_ij_0 = h_i_1 * d_ij_2 - h_i_2 * d_ij_1;
+    const jg_real t21 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = h_i_2 * s_i_world_1 - h_i_1 * s_i_world_2;
-    phi_q_t_lambda[3] = t8 * h_j_2 - t12 * h_j_1 + lambda[2] * h_i_cross_d_ij_0 - lambda[2] * s_i_world_cross_h_i_0;
+    phi_q_t_lambda[3] = t8 * h_j_2 - t12 * h_j_1 + lambda[2] * (h_i_1 * t17 - h_i_2 * t21) - lambda[2] *
+        s_i_world_cross_h_i_0;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real t25 = f_i_0 * lambda[0] + g_i_0 * lambda[1];
+    const jg_real t26 = f_i_0 * lambda[0] + g_i_0 * lambda[1];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real h_i_cross_d_ij_1 = h_i_2 * d_ij_0 - h_i_0 * d_ij_2;
+    const jg_real t30 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_h_i_1 = h_i_0 * s_i_world_2 - h_i_2 * s_i_world_0;
-    phi_q_t_lambda[4] = t12 * h_j_0 - t25 * h_j_2 + lambda[2] * h_i_cross_d_ij_1 - lambda[2] *
+    phi_q_t_lambda[4] = t12 * h_j_0 - t26 * h_j_2 + lambda[2] * (h_i_2 * t30 - h_i_0 * t17) - lambda[2] *
         s_i_world_cross_h_i_1;
-    const jg_real h_i_cross_d_ij_2 = h_i_0 * d_ij_1 - h_i_1 * d_ij_0;
     const jg_real s_i_world_cross_h_i_2 = h_i_1 * s_i_world_0 - h_i_0 * s_i_world_1;
-    phi_q_t_lambda[5] = t25 * h_j_1 - t8 * h_j_0 + lambda[2] * h_i_cross_d_ij_2 - lambda[2] * s_i_world_cross_h_i_2;
+    phi_q_t_lambda[5] = t26 * h_j_1 - t8 * h_j_0 + lambda[2] * (h_i_0 * t21 - h_i_1 * t30) - lambda[2] *
+        s_i_world_cross_h_i_2;
     /* s_j_world_cross_h_i = tilde(s_j_world) h_i */
     const jg_real s_j_world_cross_h_i_0 = h_i_2 * s_j_world_1 - h_i_1 * s_j_world_2;
     /* h_j_cross_f_i = tilde(h_j) f_i */
@@ -621,21 +626,25 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
     phi[1] = h_j_0 * g_i_0 + h_j_1 * g_i_1 + h_j_2 * g_i_2;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[12] = h_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     phi_q[13] = h_i_1;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     phi_q[14] = h_i_2;
     phi[2] = h_i_0 * d_ij_0 + h_i_1 * d_ij_1 + h_i_2 * d_ij_2;
@@ -648,25 +657,21 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = h_j_2 * g_i_1 - h_j_1 * g_i_2;
     phi_q[4] = g_i_cross_h_j_0;
-    /* h_i_cross_d_ij = tilde(h_i) d_ij */
-    const jg_real h_i_cross_d_ij_0 = h_i_1 * d_ij_2 - h_i_2 * d_ij_1;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = h_i_2 * s_i_world_1 - h_i_1 * s_i_world_2;
-    phi_q[5] = h_i_cross_d_ij_0 - s_i_world_cross_h_i_0;
+    phi_q[5] = h_i_1 * d_ij_2 - h_i_2 * d_ij_1 - s_i_world_cross_h_i_0;
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
     phi_q[6] = f_i_cross_h_j_1;
     const jg_real g_i_cross_h_j_1 = h_j_0 * g_i_2 - h_j_2 * g_i_0;
     phi_q[7] = g_i_cross_h_j_1;
-    const jg_real h_i_cross_d_ij_1 = h_i_2 * d_ij_0 - h_i_0 * d_ij_2;
     const jg_real s_i_world_cross_h_i_1 = h_i_0 * s_i_world_2 - h_i_2 * s_i_world_0;
-    phi_q[8] = h_i_cross_d_ij_1 - s_i_world_cross_h_i_1;
+    phi_q[8] = h_i_2 * d_ij_0 - h_i_0 * d_ij_2 - s_i_world_cross_h_i_1;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[9] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = h_j_1 * g_i_0 - h_j_0 * g_i_1;
     phi_q[10] = g_i_cross_h_j_2;
-    const jg_real h_i_cross_d_ij_2 = h_i_0 * d_ij_1 - h_i_1 * d_ij_0;
     const jg_real s_i_world_cross_h_i_2 = h_i_1 * s_i_world_0 - h_i_0 * s_i_world_1;
-    phi_q[11] = h_i_cross_d_ij_2 - s_i_world_cross_h_i_2;
+    phi_q[11] = h_i_0 * d_ij_1 - h_i_1 * d_ij_0 - s_i_world_cross_h_i_2;
     phi_q[15] = -f_i_cross_h_j_0;
     phi_q[16] = -g_i_cross_h_j_0;
     /* s_j_world_cross_h_i = tilde(s_j_world) h_i */

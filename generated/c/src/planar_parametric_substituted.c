@@ -34,16 +34,20 @@ void jg_planar_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0 - (C_i[0] * alpha[0] + C_i[3] * alpha[1]);
@@ -421,26 +425,30 @@ void jg_planar_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t10 = C_i[0] * alpha[0] + C_i[3] * alpha[1];
-    phi[0] = dp_ij_0 - t10;
+    const jg_real t13 = C_i[0] * alpha[0] + C_i[3] * alpha[1];
+    phi[0] = dp_ij_0 - t13;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = C_i[1] * alpha[0] + C_i[4] * alpha[1];
-    phi[1] = dp_ij_1 - t12;
+    const jg_real t15 = C_i[1] * alpha[0] + C_i[4] * alpha[1];
+    phi[1] = dp_ij_1 - t15;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t14 = C_i[2] * alpha[0] + C_i[5] * alpha[1];
-    phi[2] = dp_ij_2 - t14;
+    const jg_real t17 = C_i[2] * alpha[0] + C_i[5] * alpha[1];
+    phi[2] = dp_ij_2 - t17;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -489,15 +497,15 @@ void jg_planar_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const 
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t41 = s_i[2] + t14;
-    phi_q[3] = t41;
-    const jg_real t42 = s_i[1] + t12;
-    phi_q[13] = t42;
-    phi_q[4] = -t42;
-    phi_q[8] = -t41;
-    const jg_real t43 = s_i[0] + t10;
-    phi_q[9] = t43;
-    phi_q[14] = -t43;
+    const jg_real t44 = s_i[2] + t17;
+    phi_q[3] = t44;
+    const jg_real t45 = s_i[1] + t15;
+    phi_q[13] = t45;
+    phi_q[4] = -t45;
+    phi_q[8] = -t44;
+    const jg_real t46 = s_i[0] + t13;
+    phi_q[9] = t46;
+    phi_q[14] = -t46;
     const jg_real A_ij_0_ = C_j[0] * f_star_0 + g_star_0 * C_j[3] + C_i[6] * C_j[6];
     phi_q[18] = A_ij_0_;
     const jg_real A_ij_1_ = C_j[0] * f_star_1 + g_star_1 * C_j[3] + C_i[7] * C_j[6];
@@ -550,27 +558,27 @@ void jg_planar_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const 
     phi_q_t_lambda_q[6] = g_star_0 * lambda[3] - f_star_0 * lambda[4];
     phi_q_t_lambda_q[7] = g_star_1 * lambda[3] - f_star_1 * lambda[4];
     phi_q_t_lambda_q[8] = g_star_2 * lambda[3] - f_star_2 * lambda[4];
-    const jg_real t53 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t54 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t55 = cosine_0 * t53 - sine_0 * t54;
-    const jg_real t56 = cosine_0 * t54 + sine_0 * t53;
-    const jg_real t57 = C_j[0] * t55 - C_j[3] * t56;
-    phi_q_t_lambda_q[9] = t57;
-    const jg_real t58 = C_j[1] * t55 - C_j[4] * t56;
-    phi_q_t_lambda_q[10] = t58;
-    const jg_real t59 = C_j[2] * t55 - C_j[5] * t56;
-    phi_q_t_lambda_q[11] = t59;
-    phi_q_t_lambda_q[12] = s_j[1] * t59 - s_j[2] * t58;
-    phi_q_t_lambda_q[13] = s_j[2] * t57 - s_j[0] * t59;
-    phi_q_t_lambda_q[14] = s_j[0] * t58 - s_j[1] * t57;
-    const jg_real t60 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t61 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t56 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t57 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t58 = cosine_0 * t56 - sine_0 * t57;
+    const jg_real t59 = cosine_0 * t57 + sine_0 * t56;
+    const jg_real t60 = C_j[0] * t58 - C_j[3] * t59;
+    phi_q_t_lambda_q[9] = t60;
+    const jg_real t61 = C_j[1] * t58 - C_j[4] * t59;
+    phi_q_t_lambda_q[10] = t61;
+    const jg_real t62 = C_j[2] * t58 - C_j[5] * t59;
+    phi_q_t_lambda_q[11] = t62;
+    phi_q_t_lambda_q[12] = s_j[1] * t62 - s_j[2] * t61;
+    phi_q_t_lambda_q[13] = s_j[2] * t60 - s_j[0] * t62;
+    phi_q_t_lambda_q[14] = s_j[0] * t61 - s_j[1] * t60;
+    const jg_real t63 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t64 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t65 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
-    const jg_real t66 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t68 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t69 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -580,21 +588,21 @@ void jg_planar_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const 
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[2] * (g_star_0 * t60 - f_star_0 * t61) + alphadot[0] * (C_i[1] *
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[2] * (g_star_0 * t63 - f_star_0 * t64) + alphadot[0] * (C_i[1] *
         omega_i[2] - C_i[2] * omega_i[1]) + alphadot[1] * (C_i[4] * omega_i[2] - C_i[5] * omega_i[1]) - alphadot[2]
-        * (g_star_0 * t65 - f_star_0 * t66) + omega_i_cross_v_i_0);
+        * (g_star_0 * t68 - f_star_0 * t69) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[2] * (g_star_1 * t60 - f_star_1 * t61) + alphadot[0] * (C_i[2] *
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[2] * (g_star_1 * t63 - f_star_1 * t64) + alphadot[0] * (C_i[2] *
         omega_i[0] - C_i[0] * omega_i[2]) + alphadot[1] * (C_i[5] * omega_i[0] - C_i[3] * omega_i[2]) - alphadot[2]
-        * (g_star_1 * t65 - f_star_1 * t66) + omega_i_cross_v_i_1);
+        * (g_star_1 * t68 - f_star_1 * t69) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[2] * (g_star_2 * t60 - f_star_2 * t61) + alphadot[0] * (C_i[0] *
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[2] * (g_star_2 * t63 - f_star_2 * t64) + alphadot[0] * (C_i[0] *
         omega_i[1] - C_i[1] * omega_i[0]) + alphadot[1] * (C_i[3] * omega_i[1] - C_i[4] * omega_i[0]) - alphadot[2]
-        * (g_star_2 * t65 - f_star_2 * t66) + omega_i_cross_v_i_2);
+        * (g_star_2 * t68 - f_star_2 * t69) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[2] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]));
     gamma[4] = alphadot[2] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
     gamma[5] = JG_REAL(0.0);

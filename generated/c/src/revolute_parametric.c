@@ -35,16 +35,20 @@ void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -94,7 +98,6 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -103,24 +106,18 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -155,10 +152,9 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t32 = s_i[0] + dp_ij_0;
-    phi_q[9] = t32;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -173,7 +169,7 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t32;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -224,7 +220,6 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -234,25 +229,6 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real t11 = lambda[2] * t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t13 = s_i[1] + dp_ij_1;
-    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -264,218 +240,230 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t22 = g_star_2 * lambda[3];
-    const jg_real t23 = A_ij_h_j_2 * t22;
+    const jg_real t7 = g_star_2 * lambda[3];
+    const jg_real t8 = A_ij_h_j_2 * t7;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    const jg_real t29 = g_star_1 * lambda[3];
-    const jg_real t30 = A_ij_h_j_1 * t29;
+    const jg_real t14 = g_star_1 * lambda[3];
+    const jg_real t15 = A_ij_h_j_1 * t14;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t32 = C_i[8] * lambda[4];
-    const jg_real t33 = A_ij_f_j_2 * t32;
+    const jg_real t17 = C_i[8] * lambda[4];
+    const jg_real t18 = A_ij_f_j_2 * t17;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t35 = C_i[7] * lambda[4];
-    const jg_real t36 = A_ij_f_j_1 * t35;
+    const jg_real t20 = C_i[7] * lambda[4];
+    const jg_real t21 = A_ij_f_j_1 * t20;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t39 = f_star_2 * lambda[5];
-    const jg_real t40 = A_ij_g_j_2 * t39;
+    const jg_real t24 = f_star_2 * lambda[5];
+    const jg_real t25 = A_ij_g_j_2 * t24;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real t43 = f_star_1 * lambda[5];
-    const jg_real t44 = A_ij_g_j_1 * t43;
-    phi_q_t_lambda_q[6] = -(t11 + t14 + (t40 + t44 + (t23 + t30 + (t33 + t36))));
+    const jg_real t28 = f_star_1 * lambda[5];
+    const jg_real t29 = A_ij_g_j_1 * t28;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t37 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t39 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t37 + t39 + (t25 + t29 + (t8 + t15 + (t18 + t21))));
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real t46 = g_star_0 * lambda[3];
-    const jg_real t47 = C_i[6] * lambda[4];
+    const jg_real t41 = g_star_0 * lambda[3];
+    const jg_real t42 = C_i[6] * lambda[4];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real t49 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t46 + A_ij_f_j_1 * t47 + A_ij_g_j_1 * t49 + lambda[0] * t13;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t46 + A_ij_f_j_2 * t47 + A_ij_g_j_2 * t49 + lambda[0] * t10;
-    const jg_real t50 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t50;
-    phi_q_t_lambda_q[36] = t50;
-    const jg_real t51 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t51;
-    phi_q_t_lambda_q[39] = t51;
-    const jg_real t52 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t52;
-    phi_q_t_lambda_q[42] = t52;
+    const jg_real t44 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t41 + A_ij_f_j_1 * t42 + A_ij_g_j_1 * t44 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t41 + A_ij_f_j_2 * t42 + A_ij_g_j_2 * t44 + lambda[0] * ep_ij_2;
+    const jg_real t45 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t45;
+    phi_q_t_lambda_q[36] = t45;
+    const jg_real t46 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t46;
+    phi_q_t_lambda_q[39] = t46;
+    const jg_real t47 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t47;
+    phi_q_t_lambda_q[42] = t47;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t57 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
+    const jg_real t52 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2);
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t60 = lambda[5] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2);
-    const jg_real t61 = t57 + lambda[4] * (C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2) + t60;
-    const jg_real t62 = A_ij_0 * t61;
+    const jg_real t55 = lambda[5] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2);
+    const jg_real t56 = t52 + lambda[4] * (C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2) + t55;
+    const jg_real t57 = A_ij_0 * t56;
     /* A_ijt_g_star = A_ij^T g_star */
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
-    const jg_real t64 = lambda[3] * A_ijt_g_star_0;
+    const jg_real t59 = lambda[3] * A_ijt_g_star_0;
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    const jg_real t66 = lambda[4] * A_ijt_h_star_0;
+    const jg_real t61 = lambda[4] * A_ijt_h_star_0;
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    const jg_real t68 = lambda[5] * A_ijt_f_star_0;
-    const jg_real t69 = s_j[1] * t52 - s_j[2] * t51;
-    phi_q_t_lambda_q[12] = t62 - A_ij_h_j_0 * t64 - A_ij_f_j_0 * t66 - A_ij_g_j_0 * t68 + t69;
-    const jg_real t70 = A_ij_3 * t61;
+    const jg_real t63 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t64 = s_j[1] * t47 - s_j[2] * t46;
+    phi_q_t_lambda_q[12] = t57 - A_ij_h_j_0 * t59 - A_ij_f_j_0 * t61 - A_ij_g_j_0 * t63 + t64;
+    const jg_real t65 = A_ij_3 * t56;
     const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t72 = lambda[3] * A_ijt_g_star_1;
+    const jg_real t67 = lambda[3] * A_ijt_g_star_1;
     const jg_real A_ijt_h_star_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real t74 = lambda[4] * A_ijt_h_star_1;
+    const jg_real t69 = lambda[4] * A_ijt_h_star_1;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t76 = lambda[5] * A_ijt_f_star_1;
-    const jg_real t77 = s_j[2] * t50 - s_j[0] * t52;
-    phi_q_t_lambda_q[13] = t70 - A_ij_h_j_0 * t72 - A_ij_f_j_0 * t74 - A_ij_g_j_0 * t76 + t77;
-    const jg_real t78 = A_ij_6 * t61;
+    const jg_real t71 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t72 = s_j[2] * t45 - s_j[0] * t47;
+    phi_q_t_lambda_q[13] = t65 - A_ij_h_j_0 * t67 - A_ij_f_j_0 * t69 - A_ij_g_j_0 * t71 + t72;
+    const jg_real t73 = A_ij_6 * t56;
     const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t80 = lambda[3] * A_ijt_g_star_2;
+    const jg_real t75 = lambda[3] * A_ijt_g_star_2;
     const jg_real A_ijt_h_star_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t82 = lambda[4] * A_ijt_h_star_2;
+    const jg_real t77 = lambda[4] * A_ijt_h_star_2;
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t84 = lambda[5] * A_ijt_f_star_2;
-    const jg_real t85 = s_j[0] * t51 - s_j[1] * t50;
-    phi_q_t_lambda_q[14] = t78 - A_ij_h_j_0 * t80 - A_ij_f_j_0 * t82 - A_ij_g_j_0 * t84 + t85;
-    const jg_real t86 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
+    const jg_real t79 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t80 = s_j[0] * t46 - s_j[1] * t45;
+    phi_q_t_lambda_q[14] = t73 - A_ij_h_j_0 * t75 - A_ij_f_j_0 * t77 - A_ij_g_j_0 * t79 + t80;
+    const jg_real t81 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
         A_ij_g_j_1 - g_star_1 * A_ij_g_j_2);
-    phi_q_t_lambda_q[15] = t86;
-    phi_q_t_lambda_q[72] = t86;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t88 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t29 + A_ij_f_j_0 * t35 + A_ij_g_j_0 * t43 + lambda[1] * t88;
-    const jg_real t89 = lambda[0] * t88;
-    const jg_real t90 = A_ij_h_j_0 * t46;
-    const jg_real t91 = A_ij_f_j_0 * t47;
-    const jg_real t92 = A_ij_g_j_0 * t49;
-    phi_q_t_lambda_q[17] = -(t11 + t89 + (t40 + t92 + (t23 + t90 + (t33 + t91))));
-    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t29 + A_ij_f_j_2 * t35 + A_ij_g_j_2 * t43 + lambda[1] * t10;
-    const jg_real t93 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[19] = t93;
-    phi_q_t_lambda_q[37] = t93;
-    const jg_real t94 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[20] = t94;
-    phi_q_t_lambda_q[40] = t94;
-    const jg_real t95 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[21] = t95;
-    phi_q_t_lambda_q[43] = t95;
-    const jg_real t96 = A_ij_1 * t61;
-    const jg_real t97 = s_j[1] * t95 - s_j[2] * t94;
-    phi_q_t_lambda_q[22] = t96 - A_ij_h_j_1 * t64 - A_ij_f_j_1 * t66 - A_ij_g_j_1 * t68 + t97;
-    const jg_real t98 = A_ij_4 * t61;
-    const jg_real t99 = s_j[2] * t93 - s_j[0] * t95;
-    phi_q_t_lambda_q[23] = t98 - A_ij_h_j_1 * t72 - A_ij_f_j_1 * t74 - A_ij_g_j_1 * t76 + t99;
-    const jg_real t100 = A_ij_7 * t61;
-    const jg_real t101 = s_j[0] * t94 - s_j[1] * t93;
-    phi_q_t_lambda_q[24] = t100 - A_ij_h_j_1 * t80 - A_ij_f_j_1 * t82 - A_ij_g_j_1 * t84 + t101;
-    const jg_real t102 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
+    phi_q_t_lambda_q[15] = t81;
+    phi_q_t_lambda_q[72] = t81;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t14 + A_ij_f_j_0 * t20 + A_ij_g_j_0 * t28 + lambda[1] * ep_ij_0;
+    const jg_real t83 = A_ij_h_j_0 * t41;
+    const jg_real t84 = A_ij_f_j_0 * t42;
+    const jg_real t85 = A_ij_g_j_0 * t44;
+    const jg_real t86 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[17] = -(t37 + t86 + (t25 + t85 + (t8 + t83 + (t18 + t84))));
+    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t14 + A_ij_f_j_2 * t20 + A_ij_g_j_2 * t28 + lambda[1] * ep_ij_2;
+    const jg_real t87 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[19] = t87;
+    phi_q_t_lambda_q[37] = t87;
+    const jg_real t88 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[20] = t88;
+    phi_q_t_lambda_q[40] = t88;
+    const jg_real t89 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[21] = t89;
+    phi_q_t_lambda_q[43] = t89;
+    const jg_real t90 = A_ij_1 * t56;
+    const jg_real t91 = s_j[1] * t89 - s_j[2] * t88;
+    phi_q_t_lambda_q[22] = t90 - A_ij_h_j_1 * t59 - A_ij_f_j_1 * t61 - A_ij_g_j_1 * t63 + t91;
+    const jg_real t92 = A_ij_4 * t56;
+    const jg_real t93 = s_j[2] * t87 - s_j[0] * t89;
+    phi_q_t_lambda_q[23] = t92 - A_ij_h_j_1 * t67 - A_ij_f_j_1 * t69 - A_ij_g_j_1 * t71 + t93;
+    const jg_real t94 = A_ij_7 * t56;
+    const jg_real t95 = s_j[0] * t88 - s_j[1] * t87;
+    phi_q_t_lambda_q[24] = t94 - A_ij_h_j_1 * t75 - A_ij_f_j_1 * t77 - A_ij_g_j_1 * t79 + t95;
+    const jg_real t96 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
         A_ij_g_j_2 - g_star_2 * A_ij_g_j_0);
-    phi_q_t_lambda_q[25] = t102;
-    phi_q_t_lambda_q[73] = t102;
-    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t22 + A_ij_f_j_0 * t32 + A_ij_g_j_0 * t39 + lambda[2] * t88;
-    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t22 + A_ij_f_j_1 * t32 + A_ij_g_j_1 * t39 + lambda[2] * t13;
-    phi_q_t_lambda_q[28] = -(t14 + t89 + (t44 + t92 + (t30 + t90 + (t36 + t91))));
-    const jg_real t103 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[29] = t103;
-    phi_q_t_lambda_q[38] = t103;
-    const jg_real t104 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[30] = t104;
-    phi_q_t_lambda_q[41] = t104;
-    const jg_real t105 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[31] = t105;
-    phi_q_t_lambda_q[44] = t105;
-    const jg_real t106 = A_ij_2 * t61;
-    const jg_real t107 = s_j[1] * t105 - s_j[2] * t104;
-    phi_q_t_lambda_q[32] = t106 - A_ij_h_j_2 * t64 - A_ij_f_j_2 * t66 - A_ij_g_j_2 * t68 + t107;
-    const jg_real t108 = A_ij_5 * t61;
-    const jg_real t109 = s_j[2] * t103 - s_j[0] * t105;
-    phi_q_t_lambda_q[33] = t108 - A_ij_h_j_2 * t72 - A_ij_f_j_2 * t74 - A_ij_g_j_2 * t76 + t109;
-    const jg_real t110 = A_ij_8 * t61;
-    const jg_real t111 = s_j[0] * t104 - s_j[1] * t103;
-    phi_q_t_lambda_q[34] = t110 - A_ij_h_j_2 * t80 - A_ij_f_j_2 * t82 - A_ij_g_j_2 * t84 + t111;
-    const jg_real t112 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
+    phi_q_t_lambda_q[25] = t96;
+    phi_q_t_lambda_q[73] = t96;
+    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t7 + A_ij_f_j_0 * t17 + A_ij_g_j_0 * t24 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t7 + A_ij_f_j_1 * t17 + A_ij_g_j_1 * t24 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[28] = -(t39 + t86 + (t29 + t85 + (t15 + t83 + (t21 + t84))));
+    const jg_real t97 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[29] = t97;
+    phi_q_t_lambda_q[38] = t97;
+    const jg_real t98 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[30] = t98;
+    phi_q_t_lambda_q[41] = t98;
+    const jg_real t99 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[31] = t99;
+    phi_q_t_lambda_q[44] = t99;
+    const jg_real t100 = A_ij_2 * t56;
+    const jg_real t101 = s_j[1] * t99 - s_j[2] * t98;
+    phi_q_t_lambda_q[32] = t100 - A_ij_h_j_2 * t59 - A_ij_f_j_2 * t61 - A_ij_g_j_2 * t63 + t101;
+    const jg_real t102 = A_ij_5 * t56;
+    const jg_real t103 = s_j[2] * t97 - s_j[0] * t99;
+    phi_q_t_lambda_q[33] = t102 - A_ij_h_j_2 * t67 - A_ij_f_j_2 * t69 - A_ij_g_j_2 * t71 + t103;
+    const jg_real t104 = A_ij_8 * t56;
+    const jg_real t105 = s_j[0] * t98 - s_j[1] * t97;
+    phi_q_t_lambda_q[34] = t104 - A_ij_h_j_2 * t75 - A_ij_f_j_2 * t77 - A_ij_g_j_2 * t79 + t105;
+    const jg_real t106 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
         A_ij_g_j_0 - g_star_0 * A_ij_g_j_1);
-    phi_q_t_lambda_q[35] = t112;
-    phi_q_t_lambda_q[74] = t112;
-    const jg_real t113 = A_ij_h_j_0 * lambda[3];
-    const jg_real t114 = A_ij_f_j_0 * lambda[4];
-    const jg_real t115 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[45] = t62 - t113 * A_ijt_g_star_0 - t114 * A_ijt_h_star_0 - t115 * A_ijt_f_star_0 + t69;
-    const jg_real t116 = A_ij_h_j_1 * lambda[3];
-    const jg_real t117 = A_ij_f_j_1 * lambda[4];
-    const jg_real t118 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[46] = t96 - t116 * A_ijt_g_star_0 - t117 * A_ijt_h_star_0 - t118 * A_ijt_f_star_0 + t97;
-    const jg_real t119 = A_ij_h_j_2 * lambda[3];
-    const jg_real t120 = A_ij_f_j_2 * lambda[4];
-    const jg_real t121 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[47] = t106 - t119 * A_ijt_g_star_0 - t120 * A_ijt_h_star_0 - t121 * A_ijt_f_star_0 + t107;
-    const jg_real t122 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[48] = t122;
-    const jg_real t123 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[66] = t123;
-    phi_q_t_lambda_q[49] = -t123;
-    const jg_real t124 = C_j[5] * lambda[5];
-    const jg_real t125 = A_ijt_f_star_2 * t124;
-    const jg_real t126 = C_j[4] * lambda[5];
-    const jg_real t127 = A_ijt_f_star_1 * t126;
-    const jg_real t128 = C_j[8] * lambda[3];
-    const jg_real t129 = A_ijt_g_star_2 * t128;
-    const jg_real t130 = C_j[7] * lambda[3];
-    const jg_real t131 = A_ijt_g_star_1 * t130;
-    const jg_real t132 = C_j[2] * lambda[4];
-    const jg_real t133 = A_ijt_h_star_2 * t132;
-    const jg_real t134 = C_j[1] * lambda[4];
-    const jg_real t135 = A_ijt_h_star_1 * t134;
-    const jg_real t136 = s_j[2] * t122;
-    const jg_real t137 = s_j[1] * t123;
-    phi_q_t_lambda_q[50] = -(t136 + t137 + (t125 + t127 + (t129 + t131 + (t133 + t135))));
-    const jg_real t138 = C_j[3] * lambda[5];
-    const jg_real t139 = C_j[6] * lambda[3];
-    const jg_real t140 = C_j[0] * lambda[4];
-    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t139 + A_ijt_h_star_1 * t140 + A_ijt_f_star_1 * t138 + s_j[0] * t123;
-    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t139 + A_ijt_h_star_2 * t140 + A_ijt_f_star_2 * t138 + s_j[0] * t122;
-    const jg_real t141 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
+    phi_q_t_lambda_q[35] = t106;
+    phi_q_t_lambda_q[74] = t106;
+    const jg_real t107 = A_ij_h_j_0 * lambda[3];
+    const jg_real t108 = A_ij_f_j_0 * lambda[4];
+    const jg_real t109 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[45] = t57 - t107 * A_ijt_g_star_0 - t108 * A_ijt_h_star_0 - t109 * A_ijt_f_star_0 + t64;
+    const jg_real t110 = A_ij_h_j_1 * lambda[3];
+    const jg_real t111 = A_ij_f_j_1 * lambda[4];
+    const jg_real t112 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[46] = t90 - t110 * A_ijt_g_star_0 - t111 * A_ijt_h_star_0 - t112 * A_ijt_f_star_0 + t91;
+    const jg_real t113 = A_ij_h_j_2 * lambda[3];
+    const jg_real t114 = A_ij_f_j_2 * lambda[4];
+    const jg_real t115 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[47] = t100 - t113 * A_ijt_g_star_0 - t114 * A_ijt_h_star_0 - t115 * A_ijt_f_star_0 + t101;
+    const jg_real t116 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[48] = t116;
+    const jg_real t117 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[66] = t117;
+    phi_q_t_lambda_q[49] = -t117;
+    const jg_real t118 = C_j[5] * lambda[5];
+    const jg_real t119 = A_ijt_f_star_2 * t118;
+    const jg_real t120 = C_j[4] * lambda[5];
+    const jg_real t121 = A_ijt_f_star_1 * t120;
+    const jg_real t122 = C_j[8] * lambda[3];
+    const jg_real t123 = A_ijt_g_star_2 * t122;
+    const jg_real t124 = C_j[7] * lambda[3];
+    const jg_real t125 = A_ijt_g_star_1 * t124;
+    const jg_real t126 = C_j[2] * lambda[4];
+    const jg_real t127 = A_ijt_h_star_2 * t126;
+    const jg_real t128 = C_j[1] * lambda[4];
+    const jg_real t129 = A_ijt_h_star_1 * t128;
+    const jg_real t130 = s_j[2] * t116;
+    const jg_real t131 = s_j[1] * t117;
+    phi_q_t_lambda_q[50] = -(t130 + t131 + (t119 + t121 + (t123 + t125 + (t127 + t129))));
+    const jg_real t132 = C_j[3] * lambda[5];
+    const jg_real t133 = C_j[6] * lambda[3];
+    const jg_real t134 = C_j[0] * lambda[4];
+    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t133 + A_ijt_h_star_1 * t134 + A_ijt_f_star_1 * t132 + s_j[0] * t117;
+    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t133 + A_ijt_h_star_2 * t134 + A_ijt_f_star_2 * t132 + s_j[0] * t116;
+    const jg_real t135 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
         A_ijt_f_star_2 - C_j[8] * A_ijt_f_star_1);
-    phi_q_t_lambda_q[53] = t141;
-    phi_q_t_lambda_q[75] = t141;
-    phi_q_t_lambda_q[54] = t70 - t113 * A_ijt_g_star_1 - t114 * A_ijt_h_star_1 - t115 * A_ijt_f_star_1 + t77;
-    phi_q_t_lambda_q[55] = t98 - t116 * A_ijt_g_star_1 - t117 * A_ijt_h_star_1 - t118 * A_ijt_f_star_1 + t99;
-    phi_q_t_lambda_q[56] = t108 - t119 * A_ijt_g_star_1 - t120 * A_ijt_h_star_1 - t121 * A_ijt_f_star_1 + t109;
-    phi_q_t_lambda_q[57] = -t122;
-    const jg_real t142 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[58] = t142;
-    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t130 + A_ijt_h_star_0 * t134 + A_ijt_f_star_0 * t126 + s_j[1] * t142;
-    const jg_real t143 = A_ijt_f_star_0 * t138;
-    const jg_real t144 = A_ijt_g_star_0 * t139;
-    const jg_real t145 = A_ijt_h_star_0 * t140;
-    const jg_real t146 = s_j[0] * t142;
-    phi_q_t_lambda_q[60] = -(t136 + t146 + (t125 + t143 + (t129 + t144 + (t133 + t145))));
-    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t130 + A_ijt_h_star_2 * t134 + A_ijt_f_star_2 * t126 + s_j[1] * t122;
-    const jg_real t147 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
+    phi_q_t_lambda_q[53] = t135;
+    phi_q_t_lambda_q[75] = t135;
+    phi_q_t_lambda_q[54] = t65 - t107 * A_ijt_g_star_1 - t108 * A_ijt_h_star_1 - t109 * A_ijt_f_star_1 + t72;
+    phi_q_t_lambda_q[55] = t92 - t110 * A_ijt_g_star_1 - t111 * A_ijt_h_star_1 - t112 * A_ijt_f_star_1 + t93;
+    phi_q_t_lambda_q[56] = t102 - t113 * A_ijt_g_star_1 - t114 * A_ijt_h_star_1 - t115 * A_ijt_f_star_1 + t103;
+    phi_q_t_lambda_q[57] = -t116;
+    const jg_real t136 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[58] = t136;
+    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t124 + A_ijt_h_star_0 * t128 + A_ijt_f_star_0 * t120 + s_j[1] * t136;
+    const jg_real t137 = A_ijt_f_star_0 * t132;
+    const jg_real t138 = A_ijt_g_star_0 * t133;
+    const jg_real t139 = A_ijt_h_star_0 * t134;
+    const jg_real t140 = s_j[0] * t136;
+    phi_q_t_lambda_q[60] = -(t130 + t140 + (t119 + t137 + (t123 + t138 + (t127 + t139))));
+    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t124 + A_ijt_h_star_2 * t128 + A_ijt_f_star_2 * t120 + s_j[1] * t116;
+    const jg_real t141 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
         A_ijt_f_star_0 - C_j[6] * A_ijt_f_star_2);
-    phi_q_t_lambda_q[62] = t147;
-    phi_q_t_lambda_q[76] = t147;
-    phi_q_t_lambda_q[63] = t78 - t113 * A_ijt_g_star_2 - t114 * A_ijt_h_star_2 - t115 * A_ijt_f_star_2 + t85;
-    phi_q_t_lambda_q[64] = t100 - t116 * A_ijt_g_star_2 - t117 * A_ijt_h_star_2 - t118 * A_ijt_f_star_2 + t101;
-    phi_q_t_lambda_q[65] = t110 - t119 * A_ijt_g_star_2 - t120 * A_ijt_h_star_2 - t121 * A_ijt_f_star_2 + t111;
-    phi_q_t_lambda_q[67] = -t142;
-    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t128 + A_ijt_h_star_0 * t132 + A_ijt_f_star_0 * t124 + s_j[2] * t142;
-    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t128 + A_ijt_h_star_1 * t132 + A_ijt_f_star_1 * t124 + s_j[2] * t123;
-    phi_q_t_lambda_q[70] = -(t137 + t146 + (t127 + t143 + (t131 + t144 + (t135 + t145))));
-    const jg_real t148 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
+    phi_q_t_lambda_q[62] = t141;
+    phi_q_t_lambda_q[76] = t141;
+    phi_q_t_lambda_q[63] = t73 - t107 * A_ijt_g_star_2 - t108 * A_ijt_h_star_2 - t109 * A_ijt_f_star_2 + t80;
+    phi_q_t_lambda_q[64] = t94 - t110 * A_ijt_g_star_2 - t111 * A_ijt_h_star_2 - t112 * A_ijt_f_star_2 + t95;
+    phi_q_t_lambda_q[65] = t104 - t113 * A_ijt_g_star_2 - t114 * A_ijt_h_star_2 - t115 * A_ijt_f_star_2 + t105;
+    phi_q_t_lambda_q[67] = -t136;
+    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t122 + A_ijt_h_star_0 * t126 + A_ijt_f_star_0 * t118 + s_j[2] * t136;
+    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t122 + A_ijt_h_star_1 * t126 + A_ijt_f_star_1 * t118 + s_j[2] * t117;
+    phi_q_t_lambda_q[70] = -(t131 + t140 + (t121 + t137 + (t125 + t138 + (t129 + t139))));
+    const jg_real t142 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
         A_ijt_f_star_1 - C_j[7] * A_ijt_f_star_0);
-    phi_q_t_lambda_q[71] = t148;
-    phi_q_t_lambda_q[77] = t148;
-    phi_q_t_lambda_q[78] = -(t57 + t60);
+    phi_q_t_lambda_q[71] = t142;
+    phi_q_t_lambda_q[77] = t142;
+    phi_q_t_lambda_q[78] = -(t52 + t55);
 }
 
 void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -491,7 +479,6 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -502,26 +489,22 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -538,12 +521,6 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -562,34 +539,29 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -623,12 +595,12 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t71 = alphadot * alphadot;
+    const jg_real t62 = alphadot * alphadot;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t75 = JG_REAL(2.0) * alphadot;
+    const jg_real t66 = JG_REAL(2.0) * alphadot;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -639,9 +611,9 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t71 * (g_star_0 * A_ij_h_j_0 +
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t62 * (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) - (omega_i_cross_A_ij_h_j_0 * f_star_0 +
-        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * t75 + t75 *
+        omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 * f_star_2) * t66 + t66 *
         (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 * f_star_1 + A_ij_omega_j_cross_h_j_2 *
         f_star_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
@@ -717,9 +689,9 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t71 * (f_star_0 * A_ij_g_j_0 +
-        f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2) - t75 * (g_star_0 * A_ij_omega_j_cross_g_j_0 + g_star_1 *
-        A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t75 * (g_star_0 * omega_i_cross_A_ij_g_j_0
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t62 * (f_star_0 * A_ij_g_j_0 +
+        f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2) - t66 * (g_star_0 * A_ij_omega_j_cross_g_j_0 + g_star_1 *
+        A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t66 * (g_star_0 * omega_i_cross_A_ij_g_j_0
         + g_star_1 * omega_i_cross_A_ij_g_j_1 + g_star_2 * omega_i_cross_A_ij_g_j_2);
 }
 
@@ -736,58 +708,56 @@ void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - (omega_i[1] * t14 - omega_i[2] * t16) + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t24 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - (omega_i[2] * t24 - omega_i[0] * t14) + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - (omega_i[0] * t16 - omega_i[1] * t24) + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -873,7 +843,6 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -882,21 +851,15 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -922,11 +885,10 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
-        g_star_1) - lambda[4] * (C_i[8] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_2) - lambda[5] * (A_ij_g_j_1 * f_star_2 -
+    phi_q_t_lambda[3] = lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2
+        * g_star_1) - lambda[4] * (C_i[8] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_2) - lambda[5] * (A_ij_g_j_1 * f_star_2 -
         A_ij_g_j_2 * f_star_1);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t32 = s_i[0] + dp_ij_0;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -935,18 +897,18 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    phi_q_t_lambda[4] = lambda[2] * t32 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
-        g_star_2) - lambda[4] * (C_i[6] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_0) - lambda[5] * (A_ij_g_j_2 * f_star_0 -
+    phi_q_t_lambda[4] = lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0
+        * g_star_2) - lambda[4] * (C_i[6] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_0) - lambda[5] * (A_ij_g_j_2 * f_star_0 -
         A_ij_g_j_0 * f_star_2);
-    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t32 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
-        g_star_0) - lambda[4] * (C_i[7] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_1) - lambda[5] * (A_ij_g_j_0 * f_star_1 -
+    phi_q_t_lambda[5] = lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1
+        * g_star_0) - lambda[4] * (C_i[7] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_1) - lambda[5] * (A_ij_g_j_0 * f_star_1 -
         A_ij_g_j_1 * f_star_0);
-    const jg_real t41 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t41;
-    const jg_real t42 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t42;
-    const jg_real t43 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t43;
+    const jg_real t35 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t35;
+    const jg_real t36 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t36;
+    const jg_real t37 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t37;
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
@@ -956,16 +918,16 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real A_ijt_h_star_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    phi_q_t_lambda[9] = s_j[1] * t43 - s_j[2] * t42 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+    phi_q_t_lambda[9] = s_j[1] * t37 - s_j[2] * t36 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
         A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
         A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
     const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
     const jg_real A_ijt_h_star_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    phi_q_t_lambda[10] = s_j[2] * t41 - s_j[0] * t43 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+    phi_q_t_lambda[10] = s_j[2] * t35 - s_j[0] * t37 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
         A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
         A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
-    phi_q_t_lambda[11] = s_j[0] * t42 - s_j[1] * t41 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+    phi_q_t_lambda[11] = s_j[0] * t36 - s_j[1] * t35 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
         A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
         A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
     phi_q_t_lambda[12] = lambda[5] * (g_star_0 * A_ij_g_j_0 + g_star_1 * A_ij_g_j_1 + g_star_2 * A_ij_g_j_2) -
@@ -989,16 +951,20 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -1036,14 +1002,14 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t29 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t29;
+    const jg_real t32 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t32;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t33 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
-    phi[4] = t33;
+    const jg_real t36 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
+    phi[4] = t36;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
@@ -1052,26 +1018,27 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t40 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t40;
+    const jg_real t43 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t43;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t41 = s_i[2] + dp_ij_2;
-    phi_q[3] = t41;
-    const jg_real t42 = s_i[1] + dp_ij_1;
-    phi_q[13] = t42;
-    phi_q[4] = -t42;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t41;
-    const jg_real t43 = s_i[0] + dp_ij_0;
-    phi_q[9] = t43;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t43;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1113,190 +1080,190 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t53 = t41 * lambda[2];
-    const jg_real t54 = t42 * lambda[1];
-    const jg_real t55 = g_star_2 * lambda[3];
-    const jg_real t56 = A_ij_h_j_2 * t55;
-    const jg_real t57 = g_star_1 * lambda[3];
-    const jg_real t58 = A_ij_h_j_1 * t57;
-    const jg_real t59 = C_i[8] * lambda[4];
-    const jg_real t60 = A_ij_f_j_2 * t59;
-    const jg_real t61 = C_i[7] * lambda[4];
-    const jg_real t62 = A_ij_f_j_1 * t61;
-    const jg_real t63 = f_star_2 * lambda[5];
-    const jg_real t64 = A_ij_g_j_2 * t63;
-    const jg_real t65 = f_star_1 * lambda[5];
-    const jg_real t66 = A_ij_g_j_1 * t65;
-    phi_q_t_lambda_q[6] = -(t53 + t54 + (t64 + t66 + (t56 + t58 + (t60 + t62))));
-    const jg_real t67 = g_star_0 * lambda[3];
-    const jg_real t68 = C_i[6] * lambda[4];
-    const jg_real t69 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t67 + A_ij_f_j_1 * t68 + A_ij_g_j_1 * t69 + t42 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t67 + A_ij_f_j_2 * t68 + A_ij_g_j_2 * t69 + t41 * lambda[0];
-    const jg_real t70 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t70;
-    phi_q_t_lambda_q[36] = t70;
-    const jg_real t71 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t71;
-    phi_q_t_lambda_q[39] = t71;
-    const jg_real t72 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t72;
-    phi_q_t_lambda_q[42] = t72;
-    const jg_real t73 = t29 * lambda[3];
-    const jg_real t74 = t40 * lambda[5];
-    const jg_real t75 = t73 + t33 * lambda[4] + t74;
-    const jg_real t76 = A_ij_0 * t75;
-    const jg_real t77 = A_ijt_g_star_0 * lambda[3];
-    const jg_real t78 = A_ijt_h_star_0 * lambda[4];
-    const jg_real t79 = A_ijt_f_star_0 * lambda[5];
-    const jg_real t80 = s_j[1] * t72 - s_j[2] * t71;
-    phi_q_t_lambda_q[12] = t76 - A_ij_h_j_0 * t77 - A_ij_f_j_0 * t78 - A_ij_g_j_0 * t79 + t80;
-    const jg_real t81 = A_ij_3 * t75;
-    const jg_real t82 = A_ijt_g_star_1 * lambda[3];
-    const jg_real t83 = A_ijt_h_star_1 * lambda[4];
-    const jg_real t84 = A_ijt_f_star_1 * lambda[5];
-    const jg_real t85 = s_j[2] * t70 - s_j[0] * t72;
-    phi_q_t_lambda_q[13] = t81 - A_ij_h_j_0 * t82 - A_ij_f_j_0 * t83 - A_ij_g_j_0 * t84 + t85;
-    const jg_real t86 = A_ij_6 * t75;
-    const jg_real t87 = A_ijt_g_star_2 * lambda[3];
-    const jg_real t88 = A_ijt_h_star_2 * lambda[4];
-    const jg_real t89 = A_ijt_f_star_2 * lambda[5];
-    const jg_real t90 = s_j[0] * t71 - s_j[1] * t70;
-    phi_q_t_lambda_q[14] = t86 - A_ij_h_j_0 * t87 - A_ij_f_j_0 * t88 - A_ij_g_j_0 * t89 + t90;
-    const jg_real t91 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
+    const jg_real t56 = g_star_2 * lambda[3];
+    const jg_real t57 = A_ij_h_j_2 * t56;
+    const jg_real t58 = g_star_1 * lambda[3];
+    const jg_real t59 = A_ij_h_j_1 * t58;
+    const jg_real t60 = C_i[8] * lambda[4];
+    const jg_real t61 = A_ij_f_j_2 * t60;
+    const jg_real t62 = C_i[7] * lambda[4];
+    const jg_real t63 = A_ij_f_j_1 * t62;
+    const jg_real t64 = f_star_2 * lambda[5];
+    const jg_real t65 = A_ij_g_j_2 * t64;
+    const jg_real t66 = f_star_1 * lambda[5];
+    const jg_real t67 = A_ij_g_j_1 * t66;
+    const jg_real t68 = ep_ij_2 * lambda[2];
+    const jg_real t69 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t68 + t69 + (t65 + t67 + (t57 + t59 + (t61 + t63))));
+    const jg_real t70 = g_star_0 * lambda[3];
+    const jg_real t71 = C_i[6] * lambda[4];
+    const jg_real t72 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t70 + A_ij_f_j_1 * t71 + A_ij_g_j_1 * t72 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t70 + A_ij_f_j_2 * t71 + A_ij_g_j_2 * t72 + ep_ij_2 * lambda[0];
+    const jg_real t73 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t73;
+    phi_q_t_lambda_q[36] = t73;
+    const jg_real t74 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t74;
+    phi_q_t_lambda_q[39] = t74;
+    const jg_real t75 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t75;
+    phi_q_t_lambda_q[42] = t75;
+    const jg_real t76 = t32 * lambda[3];
+    const jg_real t77 = t43 * lambda[5];
+    const jg_real t78 = t76 + t36 * lambda[4] + t77;
+    const jg_real t79 = A_ij_0 * t78;
+    const jg_real t80 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t81 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t82 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t83 = s_j[1] * t75 - s_j[2] * t74;
+    phi_q_t_lambda_q[12] = t79 - A_ij_h_j_0 * t80 - A_ij_f_j_0 * t81 - A_ij_g_j_0 * t82 + t83;
+    const jg_real t84 = A_ij_3 * t78;
+    const jg_real t85 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t86 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t87 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t88 = s_j[2] * t73 - s_j[0] * t75;
+    phi_q_t_lambda_q[13] = t84 - A_ij_h_j_0 * t85 - A_ij_f_j_0 * t86 - A_ij_g_j_0 * t87 + t88;
+    const jg_real t89 = A_ij_6 * t78;
+    const jg_real t90 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t91 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t92 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t93 = s_j[0] * t74 - s_j[1] * t73;
+    phi_q_t_lambda_q[14] = t89 - A_ij_h_j_0 * t90 - A_ij_f_j_0 * t91 - A_ij_g_j_0 * t92 + t93;
+    const jg_real t94 = lambda[3] * (A_ij_h_j_1 * f_star_2 - A_ij_h_j_2 * f_star_1) - lambda[5] * (g_star_2 *
         A_ij_g_j_1 - g_star_1 * A_ij_g_j_2);
-    phi_q_t_lambda_q[15] = t91;
-    phi_q_t_lambda_q[72] = t91;
-    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t57 + A_ij_f_j_0 * t61 + A_ij_g_j_0 * t65 + t43 * lambda[1];
-    const jg_real t92 = t43 * lambda[0];
-    const jg_real t93 = A_ij_h_j_0 * t67;
-    const jg_real t94 = A_ij_f_j_0 * t68;
-    const jg_real t95 = A_ij_g_j_0 * t69;
-    phi_q_t_lambda_q[17] = -(t53 + t92 + (t64 + t95 + (t56 + t93 + (t60 + t94))));
-    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t57 + A_ij_f_j_2 * t61 + A_ij_g_j_2 * t65 + t41 * lambda[1];
-    const jg_real t96 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[19] = t96;
-    phi_q_t_lambda_q[37] = t96;
-    const jg_real t97 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[20] = t97;
-    phi_q_t_lambda_q[40] = t97;
-    const jg_real t98 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[21] = t98;
-    phi_q_t_lambda_q[43] = t98;
-    const jg_real t99 = A_ij_1 * t75;
-    const jg_real t100 = s_j[1] * t98 - s_j[2] * t97;
-    phi_q_t_lambda_q[22] = t99 - A_ij_h_j_1 * t77 - A_ij_f_j_1 * t78 - A_ij_g_j_1 * t79 + t100;
-    const jg_real t101 = A_ij_4 * t75;
-    const jg_real t102 = s_j[2] * t96 - s_j[0] * t98;
-    phi_q_t_lambda_q[23] = t101 - A_ij_h_j_1 * t82 - A_ij_f_j_1 * t83 - A_ij_g_j_1 * t84 + t102;
-    const jg_real t103 = A_ij_7 * t75;
-    const jg_real t104 = s_j[0] * t97 - s_j[1] * t96;
-    phi_q_t_lambda_q[24] = t103 - A_ij_h_j_1 * t87 - A_ij_f_j_1 * t88 - A_ij_g_j_1 * t89 + t104;
-    const jg_real t105 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
+    phi_q_t_lambda_q[15] = t94;
+    phi_q_t_lambda_q[72] = t94;
+    phi_q_t_lambda_q[16] = A_ij_h_j_0 * t58 + A_ij_f_j_0 * t62 + A_ij_g_j_0 * t66 + ep_ij_0 * lambda[1];
+    const jg_real t95 = A_ij_h_j_0 * t70;
+    const jg_real t96 = A_ij_f_j_0 * t71;
+    const jg_real t97 = A_ij_g_j_0 * t72;
+    const jg_real t98 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[17] = -(t68 + t98 + (t65 + t97 + (t57 + t95 + (t61 + t96))));
+    phi_q_t_lambda_q[18] = A_ij_h_j_2 * t58 + A_ij_f_j_2 * t62 + A_ij_g_j_2 * t66 + ep_ij_2 * lambda[1];
+    const jg_real t99 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[19] = t99;
+    phi_q_t_lambda_q[37] = t99;
+    const jg_real t100 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[20] = t100;
+    phi_q_t_lambda_q[40] = t100;
+    const jg_real t101 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[21] = t101;
+    phi_q_t_lambda_q[43] = t101;
+    const jg_real t102 = A_ij_1 * t78;
+    const jg_real t103 = s_j[1] * t101 - s_j[2] * t100;
+    phi_q_t_lambda_q[22] = t102 - A_ij_h_j_1 * t80 - A_ij_f_j_1 * t81 - A_ij_g_j_1 * t82 + t103;
+    const jg_real t104 = A_ij_4 * t78;
+    const jg_real t105 = s_j[2] * t99 - s_j[0] * t101;
+    phi_q_t_lambda_q[23] = t104 - A_ij_h_j_1 * t85 - A_ij_f_j_1 * t86 - A_ij_g_j_1 * t87 + t105;
+    const jg_real t106 = A_ij_7 * t78;
+    const jg_real t107 = s_j[0] * t100 - s_j[1] * t99;
+    phi_q_t_lambda_q[24] = t106 - A_ij_h_j_1 * t90 - A_ij_f_j_1 * t91 - A_ij_g_j_1 * t92 + t107;
+    const jg_real t108 = lambda[3] * (A_ij_h_j_2 * f_star_0 - A_ij_h_j_0 * f_star_2) - lambda[5] * (g_star_0 *
         A_ij_g_j_2 - g_star_2 * A_ij_g_j_0);
-    phi_q_t_lambda_q[25] = t105;
-    phi_q_t_lambda_q[73] = t105;
-    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t55 + A_ij_f_j_0 * t59 + A_ij_g_j_0 * t63 + t43 * lambda[2];
-    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t55 + A_ij_f_j_1 * t59 + A_ij_g_j_1 * t63 + t42 * lambda[2];
-    phi_q_t_lambda_q[28] = -(t54 + t92 + (t66 + t95 + (t58 + t93 + (t62 + t94))));
-    const jg_real t106 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[29] = t106;
-    phi_q_t_lambda_q[38] = t106;
-    const jg_real t107 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[30] = t107;
-    phi_q_t_lambda_q[41] = t107;
-    const jg_real t108 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[31] = t108;
-    phi_q_t_lambda_q[44] = t108;
-    const jg_real t109 = A_ij_2 * t75;
-    const jg_real t110 = s_j[1] * t108 - s_j[2] * t107;
-    phi_q_t_lambda_q[32] = t109 - A_ij_h_j_2 * t77 - A_ij_f_j_2 * t78 - A_ij_g_j_2 * t79 + t110;
-    const jg_real t111 = A_ij_5 * t75;
-    const jg_real t112 = s_j[2] * t106 - s_j[0] * t108;
-    phi_q_t_lambda_q[33] = t111 - A_ij_h_j_2 * t82 - A_ij_f_j_2 * t83 - A_ij_g_j_2 * t84 + t112;
-    const jg_real t113 = A_ij_8 * t75;
-    const jg_real t114 = s_j[0] * t107 - s_j[1] * t106;
-    phi_q_t_lambda_q[34] = t113 - A_ij_h_j_2 * t87 - A_ij_f_j_2 * t88 - A_ij_g_j_2 * t89 + t114;
-    const jg_real t115 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
+    phi_q_t_lambda_q[25] = t108;
+    phi_q_t_lambda_q[73] = t108;
+    phi_q_t_lambda_q[26] = A_ij_h_j_0 * t56 + A_ij_f_j_0 * t60 + A_ij_g_j_0 * t64 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[27] = A_ij_h_j_1 * t56 + A_ij_f_j_1 * t60 + A_ij_g_j_1 * t64 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[28] = -(t69 + t98 + (t67 + t97 + (t59 + t95 + (t63 + t96))));
+    const jg_real t109 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[29] = t109;
+    phi_q_t_lambda_q[38] = t109;
+    const jg_real t110 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[30] = t110;
+    phi_q_t_lambda_q[41] = t110;
+    const jg_real t111 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[31] = t111;
+    phi_q_t_lambda_q[44] = t111;
+    const jg_real t112 = A_ij_2 * t78;
+    const jg_real t113 = s_j[1] * t111 - s_j[2] * t110;
+    phi_q_t_lambda_q[32] = t112 - A_ij_h_j_2 * t80 - A_ij_f_j_2 * t81 - A_ij_g_j_2 * t82 + t113;
+    const jg_real t114 = A_ij_5 * t78;
+    const jg_real t115 = s_j[2] * t109 - s_j[0] * t111;
+    phi_q_t_lambda_q[33] = t114 - A_ij_h_j_2 * t85 - A_ij_f_j_2 * t86 - A_ij_g_j_2 * t87 + t115;
+    const jg_real t116 = A_ij_8 * t78;
+    const jg_real t117 = s_j[0] * t110 - s_j[1] * t109;
+    phi_q_t_lambda_q[34] = t116 - A_ij_h_j_2 * t90 - A_ij_f_j_2 * t91 - A_ij_g_j_2 * t92 + t117;
+    const jg_real t118 = lambda[3] * (A_ij_h_j_0 * f_star_1 - A_ij_h_j_1 * f_star_0) - lambda[5] * (g_star_1 *
         A_ij_g_j_0 - g_star_0 * A_ij_g_j_1);
-    phi_q_t_lambda_q[35] = t115;
-    phi_q_t_lambda_q[74] = t115;
-    const jg_real t116 = A_ij_h_j_0 * lambda[3];
-    const jg_real t117 = A_ij_f_j_0 * lambda[4];
-    const jg_real t118 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[45] = t76 - A_ijt_g_star_0 * t116 - A_ijt_h_star_0 * t117 - A_ijt_f_star_0 * t118 + t80;
-    const jg_real t119 = A_ij_h_j_1 * lambda[3];
-    const jg_real t120 = A_ij_f_j_1 * lambda[4];
-    const jg_real t121 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[46] = t99 - A_ijt_g_star_0 * t119 - A_ijt_h_star_0 * t120 - A_ijt_f_star_0 * t121 + t100;
-    const jg_real t122 = A_ij_h_j_2 * lambda[3];
-    const jg_real t123 = A_ij_f_j_2 * lambda[4];
-    const jg_real t124 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[47] = t109 - A_ijt_g_star_0 * t122 - A_ijt_h_star_0 * t123 - A_ijt_f_star_0 * t124 + t110;
-    const jg_real t125 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[48] = t125;
-    const jg_real t126 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[66] = t126;
-    phi_q_t_lambda_q[49] = -t126;
-    const jg_real t127 = C_j[5] * lambda[5];
-    const jg_real t128 = A_ijt_f_star_2 * t127;
-    const jg_real t129 = C_j[4] * lambda[5];
-    const jg_real t130 = A_ijt_f_star_1 * t129;
-    const jg_real t131 = C_j[8] * lambda[3];
-    const jg_real t132 = A_ijt_g_star_2 * t131;
-    const jg_real t133 = C_j[7] * lambda[3];
-    const jg_real t134 = A_ijt_g_star_1 * t133;
-    const jg_real t135 = C_j[2] * lambda[4];
-    const jg_real t136 = A_ijt_h_star_2 * t135;
-    const jg_real t137 = C_j[1] * lambda[4];
-    const jg_real t138 = A_ijt_h_star_1 * t137;
-    const jg_real t139 = s_j[2] * t125;
-    const jg_real t140 = s_j[1] * t126;
-    phi_q_t_lambda_q[50] = -(t139 + t140 + (t128 + t130 + (t132 + t134 + (t136 + t138))));
-    const jg_real t141 = C_j[3] * lambda[5];
-    const jg_real t142 = C_j[6] * lambda[3];
-    const jg_real t143 = C_j[0] * lambda[4];
-    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t142 + A_ijt_h_star_1 * t143 + A_ijt_f_star_1 * t141 + s_j[0] * t126;
-    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t142 + A_ijt_h_star_2 * t143 + A_ijt_f_star_2 * t141 + s_j[0] * t125;
-    const jg_real t144 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
+    phi_q_t_lambda_q[35] = t118;
+    phi_q_t_lambda_q[74] = t118;
+    const jg_real t119 = A_ij_h_j_0 * lambda[3];
+    const jg_real t120 = A_ij_f_j_0 * lambda[4];
+    const jg_real t121 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[45] = t79 - A_ijt_g_star_0 * t119 - A_ijt_h_star_0 * t120 - A_ijt_f_star_0 * t121 + t83;
+    const jg_real t122 = A_ij_h_j_1 * lambda[3];
+    const jg_real t123 = A_ij_f_j_1 * lambda[4];
+    const jg_real t124 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[46] = t102 - A_ijt_g_star_0 * t122 - A_ijt_h_star_0 * t123 - A_ijt_f_star_0 * t124 + t103;
+    const jg_real t125 = A_ij_h_j_2 * lambda[3];
+    const jg_real t126 = A_ij_f_j_2 * lambda[4];
+    const jg_real t127 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[47] = t112 - A_ijt_g_star_0 * t125 - A_ijt_h_star_0 * t126 - A_ijt_f_star_0 * t127 + t113;
+    const jg_real t128 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[48] = t128;
+    const jg_real t129 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[66] = t129;
+    phi_q_t_lambda_q[49] = -t129;
+    const jg_real t130 = C_j[5] * lambda[5];
+    const jg_real t131 = A_ijt_f_star_2 * t130;
+    const jg_real t132 = C_j[4] * lambda[5];
+    const jg_real t133 = A_ijt_f_star_1 * t132;
+    const jg_real t134 = C_j[8] * lambda[3];
+    const jg_real t135 = A_ijt_g_star_2 * t134;
+    const jg_real t136 = C_j[7] * lambda[3];
+    const jg_real t137 = A_ijt_g_star_1 * t136;
+    const jg_real t138 = C_j[2] * lambda[4];
+    const jg_real t139 = A_ijt_h_star_2 * t138;
+    const jg_real t140 = C_j[1] * lambda[4];
+    const jg_real t141 = A_ijt_h_star_1 * t140;
+    const jg_real t142 = s_j[2] * t128;
+    const jg_real t143 = s_j[1] * t129;
+    phi_q_t_lambda_q[50] = -(t142 + t143 + (t131 + t133 + (t135 + t137 + (t139 + t141))));
+    const jg_real t144 = C_j[3] * lambda[5];
+    const jg_real t145 = C_j[6] * lambda[3];
+    const jg_real t146 = C_j[0] * lambda[4];
+    phi_q_t_lambda_q[51] = A_ijt_g_star_1 * t145 + A_ijt_h_star_1 * t146 + A_ijt_f_star_1 * t144 + s_j[0] * t129;
+    phi_q_t_lambda_q[52] = A_ijt_g_star_2 * t145 + A_ijt_h_star_2 * t146 + A_ijt_f_star_2 * t144 + s_j[0] * t128;
+    const jg_real t147 = lambda[5] * (C_j[4] * A_ijt_g_star_2 - C_j[5] * A_ijt_g_star_1) - lambda[3] * (C_j[7] *
         A_ijt_f_star_2 - C_j[8] * A_ijt_f_star_1);
-    phi_q_t_lambda_q[53] = t144;
-    phi_q_t_lambda_q[75] = t144;
-    phi_q_t_lambda_q[54] = t81 - A_ijt_g_star_1 * t116 - A_ijt_h_star_1 * t117 - A_ijt_f_star_1 * t118 + t85;
-    phi_q_t_lambda_q[55] = t101 - A_ijt_g_star_1 * t119 - A_ijt_h_star_1 * t120 - A_ijt_f_star_1 * t121 + t102;
-    phi_q_t_lambda_q[56] = t111 - A_ijt_g_star_1 * t122 - A_ijt_h_star_1 * t123 - A_ijt_f_star_1 * t124 + t112;
-    phi_q_t_lambda_q[57] = -t125;
-    const jg_real t145 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[58] = t145;
-    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t133 + A_ijt_h_star_0 * t137 + A_ijt_f_star_0 * t129 + s_j[1] * t145;
-    const jg_real t146 = A_ijt_f_star_0 * t141;
-    const jg_real t147 = A_ijt_g_star_0 * t142;
-    const jg_real t148 = A_ijt_h_star_0 * t143;
-    const jg_real t149 = s_j[0] * t145;
-    phi_q_t_lambda_q[60] = -(t139 + t149 + (t128 + t146 + (t132 + t147 + (t136 + t148))));
-    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t133 + A_ijt_h_star_2 * t137 + A_ijt_f_star_2 * t129 + s_j[1] * t125;
-    const jg_real t150 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
+    phi_q_t_lambda_q[53] = t147;
+    phi_q_t_lambda_q[75] = t147;
+    phi_q_t_lambda_q[54] = t84 - A_ijt_g_star_1 * t119 - A_ijt_h_star_1 * t120 - A_ijt_f_star_1 * t121 + t88;
+    phi_q_t_lambda_q[55] = t104 - A_ijt_g_star_1 * t122 - A_ijt_h_star_1 * t123 - A_ijt_f_star_1 * t124 + t105;
+    phi_q_t_lambda_q[56] = t114 - A_ijt_g_star_1 * t125 - A_ijt_h_star_1 * t126 - A_ijt_f_star_1 * t127 + t115;
+    phi_q_t_lambda_q[57] = -t128;
+    const jg_real t148 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[58] = t148;
+    phi_q_t_lambda_q[59] = A_ijt_g_star_0 * t136 + A_ijt_h_star_0 * t140 + A_ijt_f_star_0 * t132 + s_j[1] * t148;
+    const jg_real t149 = A_ijt_f_star_0 * t144;
+    const jg_real t150 = A_ijt_g_star_0 * t145;
+    const jg_real t151 = A_ijt_h_star_0 * t146;
+    const jg_real t152 = s_j[0] * t148;
+    phi_q_t_lambda_q[60] = -(t142 + t152 + (t131 + t149 + (t135 + t150 + (t139 + t151))));
+    phi_q_t_lambda_q[61] = A_ijt_g_star_2 * t136 + A_ijt_h_star_2 * t140 + A_ijt_f_star_2 * t132 + s_j[1] * t128;
+    const jg_real t153 = lambda[5] * (C_j[5] * A_ijt_g_star_0 - C_j[3] * A_ijt_g_star_2) - lambda[3] * (C_j[8] *
         A_ijt_f_star_0 - C_j[6] * A_ijt_f_star_2);
-    phi_q_t_lambda_q[62] = t150;
-    phi_q_t_lambda_q[76] = t150;
-    phi_q_t_lambda_q[63] = t86 - A_ijt_g_star_2 * t116 - A_ijt_h_star_2 * t117 - A_ijt_f_star_2 * t118 + t90;
-    phi_q_t_lambda_q[64] = t103 - A_ijt_g_star_2 * t119 - A_ijt_h_star_2 * t120 - A_ijt_f_star_2 * t121 + t104;
-    phi_q_t_lambda_q[65] = t113 - A_ijt_g_star_2 * t122 - A_ijt_h_star_2 * t123 - A_ijt_f_star_2 * t124 + t114;
-    phi_q_t_lambda_q[67] = -t145;
-    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t131 + A_ijt_h_star_0 * t135 + A_ijt_f_star_0 * t127 + s_j[2] * t145;
-    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t131 + A_ijt_h_star_1 * t135 + A_ijt_f_star_1 * t127 + s_j[2] * t126;
-    phi_q_t_lambda_q[70] = -(t140 + t149 + (t130 + t146 + (t134 + t147 + (t138 + t148))));
-    const jg_real t151 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
+    phi_q_t_lambda_q[62] = t153;
+    phi_q_t_lambda_q[76] = t153;
+    phi_q_t_lambda_q[63] = t89 - A_ijt_g_star_2 * t119 - A_ijt_h_star_2 * t120 - A_ijt_f_star_2 * t121 + t93;
+    phi_q_t_lambda_q[64] = t106 - A_ijt_g_star_2 * t122 - A_ijt_h_star_2 * t123 - A_ijt_f_star_2 * t124 + t107;
+    phi_q_t_lambda_q[65] = t116 - A_ijt_g_star_2 * t125 - A_ijt_h_star_2 * t126 - A_ijt_f_star_2 * t127 + t117;
+    phi_q_t_lambda_q[67] = -t148;
+    phi_q_t_lambda_q[68] = A_ijt_g_star_0 * t134 + A_ijt_h_star_0 * t138 + A_ijt_f_star_0 * t130 + s_j[2] * t148;
+    phi_q_t_lambda_q[69] = A_ijt_g_star_1 * t134 + A_ijt_h_star_1 * t138 + A_ijt_f_star_1 * t130 + s_j[2] * t129;
+    phi_q_t_lambda_q[70] = -(t143 + t152 + (t133 + t149 + (t137 + t150 + (t141 + t151))));
+    const jg_real t154 = lambda[5] * (C_j[3] * A_ijt_g_star_1 - C_j[4] * A_ijt_g_star_0) - lambda[3] * (C_j[6] *
         A_ijt_f_star_1 - C_j[7] * A_ijt_f_star_0);
-    phi_q_t_lambda_q[71] = t151;
-    phi_q_t_lambda_q[77] = t151;
-    phi_q_t_lambda_q[78] = -(t73 + t74);
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    phi_q_t_lambda_q[71] = t154;
+    phi_q_t_lambda_q[77] = t154;
+    phi_q_t_lambda_q[78] = -(t76 + t77);
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -1306,12 +1273,6 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -1327,34 +1288,29 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1377,8 +1333,8 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t194 = alphadot * alphadot;
-    const jg_real t195 = JG_REAL(2.0) * alphadot;
+    const jg_real t191 = alphadot * alphadot;
+    const jg_real t192 = JG_REAL(2.0) * alphadot;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1389,9 +1345,9 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t29 * t194 - (f_star_0 *
-        omega_i_cross_A_ij_h_j_0 + f_star_1 * omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t195
-        + t195 * (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 *
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t32 * t191 - (f_star_0 *
+        omega_i_cross_A_ij_h_j_0 + f_star_1 * omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t192
+        + t192 * (f_star_0 * A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 *
         A_ij_omega_j_cross_h_j_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
@@ -1458,8 +1414,8 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t40 * t194 - t195 * (g_star_0 *
-        A_ij_omega_j_cross_g_j_0 + g_star_1 * A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t195
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) + t43 * t191 - t192 * (g_star_0 *
+        A_ij_omega_j_cross_g_j_0 + g_star_1 * A_ij_omega_j_cross_g_j_1 + g_star_2 * A_ij_omega_j_cross_g_j_2) + t192
         * (g_star_0 * omega_i_cross_A_ij_g_j_0 + g_star_1 * omega_i_cross_A_ij_g_j_1 + g_star_2 *
         omega_i_cross_A_ij_g_j_2);
 }

@@ -33,16 +33,20 @@ void jg_revolute_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -395,19 +399,23 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -506,27 +514,27 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
     phi_q_t_lambda_q[0] = g_star_0 * lambda[3] - f_star_0 * lambda[4];
     phi_q_t_lambda_q[1] = g_star_1 * lambda[3] - f_star_1 * lambda[4];
     phi_q_t_lambda_q[2] = g_star_2 * lambda[3] - f_star_2 * lambda[4];
-    const jg_real t47 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t48 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t49 = cosine_0 * t47 - sine_0 * t48;
-    const jg_real t50 = cosine_0 * t48 + sine_0 * t47;
-    const jg_real t51 = C_j[0] * t49 - C_j[3] * t50;
-    phi_q_t_lambda_q[3] = t51;
-    const jg_real t52 = C_j[1] * t49 - C_j[4] * t50;
-    phi_q_t_lambda_q[4] = t52;
-    const jg_real t53 = C_j[2] * t49 - C_j[5] * t50;
-    phi_q_t_lambda_q[5] = t53;
-    phi_q_t_lambda_q[6] = s_j[1] * t53 - s_j[2] * t52;
-    phi_q_t_lambda_q[7] = s_j[2] * t51 - s_j[0] * t53;
-    phi_q_t_lambda_q[8] = s_j[0] * t52 - s_j[1] * t51;
-    const jg_real t54 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t55 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t50 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t51 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t52 = cosine_0 * t50 - sine_0 * t51;
+    const jg_real t53 = cosine_0 * t51 + sine_0 * t50;
+    const jg_real t54 = C_j[0] * t52 - C_j[3] * t53;
+    phi_q_t_lambda_q[3] = t54;
+    const jg_real t55 = C_j[1] * t52 - C_j[4] * t53;
+    phi_q_t_lambda_q[4] = t55;
+    const jg_real t56 = C_j[2] * t52 - C_j[5] * t53;
+    phi_q_t_lambda_q[5] = t56;
+    phi_q_t_lambda_q[6] = s_j[1] * t56 - s_j[2] * t55;
+    phi_q_t_lambda_q[7] = s_j[2] * t54 - s_j[0] * t56;
+    phi_q_t_lambda_q[8] = s_j[0] * t55 - s_j[1] * t54;
+    const jg_real t57 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t58 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t59 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
-    const jg_real t60 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t62 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t63 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -536,18 +544,18 @@ void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, cons
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (g_star_0 * t54 - f_star_0 * t55) - alphadot * (g_star_0 * t59
-        - f_star_0 * t60) + omega_i_cross_v_i_0);
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (g_star_0 * t57 - f_star_0 * t58) - alphadot * (g_star_0 * t62
+        - f_star_0 * t63) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (g_star_1 * t54 - f_star_1 * t55) - alphadot * (g_star_1 * t59
-        - f_star_1 * t60) + omega_i_cross_v_i_1);
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (g_star_1 * t57 - f_star_1 * t58) - alphadot * (g_star_1 * t62
+        - f_star_1 * t63) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (g_star_2 * t54 - f_star_2 * t55) - alphadot * (g_star_2 * t59
-        - f_star_2 * t60) + omega_i_cross_v_i_2);
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (g_star_2 * t57 - f_star_2 * t58) - alphadot * (g_star_2 * t62
+        - f_star_2 * t63) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]));
     gamma[4] = alphadot * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
     gamma[5] = JG_REAL(0.0);

@@ -33,16 +33,20 @@ void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -371,19 +375,23 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -459,60 +467,60 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
     phi_q[27] = s_j[1] * A_ij_6_ - s_j[2] * A_ij_3_;
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
-    const jg_real t44 = C_j[3] * cosine_0 + C_j[0] * sine_0;
-    phi_q[30] = t44;
-    const jg_real t45 = C_j[3] * sine_0 - C_j[0] * cosine_0;
-    phi_q[31] = t45;
+    const jg_real t47 = C_j[3] * cosine_0 + C_j[0] * sine_0;
+    phi_q[30] = t47;
+    const jg_real t48 = C_j[3] * sine_0 - C_j[0] * cosine_0;
+    phi_q[31] = t48;
     phi_q[32] = -(C_j[6] * sine_0);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
-    const jg_real t46 = C_j[4] * cosine_0 + C_j[1] * sine_0;
-    phi_q[36] = t46;
-    const jg_real t47 = C_j[4] * sine_0 - C_j[1] * cosine_0;
-    phi_q[37] = t47;
+    const jg_real t49 = C_j[4] * cosine_0 + C_j[1] * sine_0;
+    phi_q[36] = t49;
+    const jg_real t50 = C_j[4] * sine_0 - C_j[1] * cosine_0;
+    phi_q[37] = t50;
     phi_q[38] = -(C_j[7] * sine_0);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
-    const jg_real t48 = C_j[5] * cosine_0 + C_j[2] * sine_0;
-    phi_q[42] = t48;
-    const jg_real t49 = C_j[5] * sine_0 - C_j[2] * cosine_0;
-    phi_q[43] = t49;
+    const jg_real t51 = C_j[5] * cosine_0 + C_j[2] * sine_0;
+    phi_q[42] = t51;
+    const jg_real t52 = C_j[5] * sine_0 - C_j[2] * cosine_0;
+    phi_q[43] = t52;
     phi_q[44] = -(C_j[8] * sine_0);
-    const jg_real t50 = C_i[6] * cosine_0;
-    phi_q_t_lambda_q[0] = lambda[5] * t50;
-    const jg_real t51 = C_i[7] * cosine_0;
-    phi_q_t_lambda_q[1] = lambda[5] * t51;
-    const jg_real t52 = C_i[8] * cosine_0;
-    phi_q_t_lambda_q[2] = lambda[5] * t52;
-    const jg_real t53 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t54 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t55 = cosine_0 * t53 - sine_0 * t54;
-    const jg_real t56 = cosine_0 * t54 + sine_0 * t53;
-    const jg_real t57 = C_j[0] * t55 - C_j[3] * t56;
-    phi_q_t_lambda_q[3] = t57;
-    const jg_real t58 = C_j[1] * t55 - C_j[4] * t56;
-    phi_q_t_lambda_q[4] = t58;
-    const jg_real t59 = C_j[2] * t55 - C_j[5] * t56;
-    phi_q_t_lambda_q[5] = t59;
-    const jg_real t60 = cosine_0 * lambda[3] + sine_0 * lambda[4];
-    const jg_real t61 = cosine_0 * lambda[4] - sine_0 * lambda[3];
-    const jg_real t62 = C_j[6] * cosine_0;
-    phi_q_t_lambda_q[6] = s_j[1] * t59 - s_j[2] * t58 + (C_j[0] * t60 + C_j[3] * t61 - lambda[5] * t62);
-    const jg_real t63 = C_j[7] * cosine_0;
-    phi_q_t_lambda_q[7] = s_j[2] * t57 - s_j[0] * t59 + (C_j[1] * t60 + C_j[4] * t61 - lambda[5] * t63);
-    const jg_real t64 = C_j[8] * cosine_0;
-    phi_q_t_lambda_q[8] = s_j[0] * t58 - s_j[1] * t57 + (C_j[2] * t60 + C_j[5] * t61 - lambda[5] * t64);
+    const jg_real t53 = C_i[6] * cosine_0;
+    phi_q_t_lambda_q[0] = lambda[5] * t53;
+    const jg_real t54 = C_i[7] * cosine_0;
+    phi_q_t_lambda_q[1] = lambda[5] * t54;
+    const jg_real t55 = C_i[8] * cosine_0;
+    phi_q_t_lambda_q[2] = lambda[5] * t55;
+    const jg_real t56 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t57 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t58 = cosine_0 * t56 - sine_0 * t57;
+    const jg_real t59 = cosine_0 * t57 + sine_0 * t56;
+    const jg_real t60 = C_j[0] * t58 - C_j[3] * t59;
+    phi_q_t_lambda_q[3] = t60;
+    const jg_real t61 = C_j[1] * t58 - C_j[4] * t59;
+    phi_q_t_lambda_q[4] = t61;
+    const jg_real t62 = C_j[2] * t58 - C_j[5] * t59;
+    phi_q_t_lambda_q[5] = t62;
+    const jg_real t63 = cosine_0 * lambda[3] + sine_0 * lambda[4];
+    const jg_real t64 = cosine_0 * lambda[4] - sine_0 * lambda[3];
+    const jg_real t65 = C_j[6] * cosine_0;
+    phi_q_t_lambda_q[6] = s_j[1] * t62 - s_j[2] * t61 + (C_j[0] * t63 + C_j[3] * t64 - lambda[5] * t65);
+    const jg_real t66 = C_j[7] * cosine_0;
+    phi_q_t_lambda_q[7] = s_j[2] * t60 - s_j[0] * t62 + (C_j[1] * t63 + C_j[4] * t64 - lambda[5] * t66);
+    const jg_real t67 = C_j[8] * cosine_0;
+    phi_q_t_lambda_q[8] = s_j[0] * t61 - s_j[1] * t60 + (C_j[2] * t63 + C_j[5] * t64 - lambda[5] * t67);
     phi_q_t_lambda_q[9] = cosine_0 * lambda[5];
-    const jg_real t65 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t66 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t68 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real t69 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real t70 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
-    const jg_real t71 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
+    const jg_real t73 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] * s_j_cross_omega_j_2;
+    const jg_real t74 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] * s_j_cross_omega_j_2;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -522,22 +530,22 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (C_i_H_3 * t65 - C_i_H_0 * t66) - alphadot * (C_i_H_3 * t70 -
-        C_i_H_0 * t71) + omega_i_cross_v_i_0);
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot * (C_i_H_3 * t68 - C_i_H_0 * t69) - alphadot * (C_i_H_3 * t73 -
+        C_i_H_0 * t74) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (C_i_H_4 * t65 - C_i_H_1 * t66) - alphadot * (C_i_H_4 * t70 -
-        C_i_H_1 * t71) + omega_i_cross_v_i_1);
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot * (C_i_H_4 * t68 - C_i_H_1 * t69) - alphadot * (C_i_H_4 * t73 -
+        C_i_H_1 * t74) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (C_i_H_5 * t65 - C_i_H_2 * t66) - alphadot * (C_i_H_5 * t70 -
-        C_i_H_2 * t71) + omega_i_cross_v_i_2);
-    gamma[3] = alphadot * (t45 * omega_j[0] + t47 * omega_j[1] + t49 * omega_j[2]);
-    gamma[4] = -(alphadot * (t44 * omega_j[0] + t46 * omega_j[1] + t48 * omega_j[2]));
-    gamma[5] = alphadot * (t62 * omega_j[0] + t63 * omega_j[1] + t64 * omega_j[2]) - alphadot * (t50 * omega_i[0] +
-        t51 * omega_i[1] + t52 * omega_i[2]) - alphadot * alphadot * cosine_0;
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot * (C_i_H_5 * t68 - C_i_H_2 * t69) - alphadot * (C_i_H_5 * t73 -
+        C_i_H_2 * t74) + omega_i_cross_v_i_2);
+    gamma[3] = alphadot * (t48 * omega_j[0] + t50 * omega_j[1] + t52 * omega_j[2]);
+    gamma[4] = -(alphadot * (t47 * omega_j[0] + t49 * omega_j[1] + t51 * omega_j[2]));
+    gamma[5] = alphadot * (t65 * omega_j[0] + t66 * omega_j[1] + t67 * omega_j[2]) - alphadot * (t53 * omega_i[0] +
+        t54 * omega_i[1] + t55 * omega_i[2]) - alphadot * alphadot * cosine_0;
 }
 
 void jg_revolute_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -35,16 +35,20 @@ void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -83,7 +87,6 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -92,24 +95,18 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -135,10 +132,9 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     phi_q[7] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t26 = s_i[0] + dp_ij_0;
-    phi_q[9] = t26;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -151,7 +147,7 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     phi_q[12] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    phi_q[14] = -t26;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = A_ij_h_j_1 * C_i[3] - A_ij_h_j_0 * C_i[4];
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
@@ -200,7 +196,6 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -210,212 +205,205 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real t11 = lambda[2] * t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t13 = s_i[1] + dp_ij_1;
-    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t19 = C_i[5] * lambda[3];
-    const jg_real t20 = A_ij_h_j_2 * t19;
+    const jg_real t4 = C_i[5] * lambda[3];
+    const jg_real t5 = A_ij_h_j_2 * t4;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t25 = C_i[4] * lambda[3];
-    const jg_real t26 = A_ij_h_j_1 * t25;
+    const jg_real t10 = C_i[4] * lambda[3];
+    const jg_real t11 = A_ij_h_j_1 * t10;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t28 = C_i[8] * lambda[4];
-    const jg_real t29 = A_ij_f_j_2 * t28;
+    const jg_real t13 = C_i[8] * lambda[4];
+    const jg_real t14 = A_ij_f_j_2 * t13;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t31 = C_i[7] * lambda[4];
-    const jg_real t32 = A_ij_f_j_1 * t31;
+    const jg_real t16 = C_i[7] * lambda[4];
+    const jg_real t17 = A_ij_f_j_1 * t16;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t34 = C_i[2] * lambda[5];
-    const jg_real t35 = A_ij_g_j_2 * t34;
+    const jg_real t19 = C_i[2] * lambda[5];
+    const jg_real t20 = A_ij_g_j_2 * t19;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t37 = C_i[1] * lambda[5];
-    const jg_real t38 = A_ij_g_j_1 * t37;
-    phi_q_t_lambda_q[6] = -(t11 + t14 + (t35 + t38 + (t20 + t26 + (t29 + t32))));
-    const jg_real t39 = C_i[3] * lambda[3];
-    const jg_real t40 = C_i[6] * lambda[4];
-    const jg_real t41 = C_i[0] * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t39 + A_ij_f_j_1 * t40 + A_ij_g_j_1 * t41 + lambda[0] * t13;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t39 + A_ij_f_j_2 * t40 + A_ij_g_j_2 * t41 + lambda[0] * t10;
-    const jg_real t42 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t42;
-    phi_q_t_lambda_q[33] = t42;
-    const jg_real t43 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t43;
-    phi_q_t_lambda_q[36] = t43;
-    const jg_real t44 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t44;
-    phi_q_t_lambda_q[39] = t44;
+    const jg_real t22 = C_i[1] * lambda[5];
+    const jg_real t23 = A_ij_g_j_1 * t22;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t31 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t33 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t31 + t33 + (t20 + t23 + (t5 + t11 + (t14 + t17))));
+    const jg_real t34 = C_i[3] * lambda[3];
+    const jg_real t35 = C_i[6] * lambda[4];
+    const jg_real t36 = C_i[0] * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t34 + A_ij_f_j_1 * t35 + A_ij_g_j_1 * t36 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t34 + A_ij_f_j_2 * t35 + A_ij_g_j_2 * t36 + lambda[0] * ep_ij_2;
+    const jg_real t37 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t37;
+    phi_q_t_lambda_q[33] = t37;
+    const jg_real t38 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t38;
+    phi_q_t_lambda_q[36] = t38;
+    const jg_real t39 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t39;
+    phi_q_t_lambda_q[39] = t39;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t51 = lambda[3] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2) + lambda[4] *
+    const jg_real t46 = lambda[3] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2) + lambda[4] *
         (C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2) + lambda[5] * (C_i[0] * A_ij_g_j_0 +
         C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2);
-    const jg_real t52 = A_ij_0 * t51;
+    const jg_real t47 = A_ij_0 * t46;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
-    const jg_real t54 = lambda[3] * A_ijt_g_i_0;
+    const jg_real t49 = lambda[3] * A_ijt_g_i_0;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    const jg_real t56 = lambda[4] * A_ijt_h_i_0;
+    const jg_real t51 = lambda[4] * A_ijt_h_i_0;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t58 = lambda[5] * A_ijt_f_i_0;
-    const jg_real t59 = s_j[1] * t44 - s_j[2] * t43;
-    phi_q_t_lambda_q[12] = t52 - A_ij_h_j_0 * t54 - A_ij_f_j_0 * t56 - A_ij_g_j_0 * t58 + t59;
-    const jg_real t60 = A_ij_3 * t51;
+    const jg_real t53 = lambda[5] * A_ijt_f_i_0;
+    const jg_real t54 = s_j[1] * t39 - s_j[2] * t38;
+    phi_q_t_lambda_q[12] = t47 - A_ij_h_j_0 * t49 - A_ij_f_j_0 * t51 - A_ij_g_j_0 * t53 + t54;
+    const jg_real t55 = A_ij_3 * t46;
     const jg_real A_ijt_g_i_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
-    const jg_real t62 = lambda[3] * A_ijt_g_i_1;
+    const jg_real t57 = lambda[3] * A_ijt_g_i_1;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real t64 = lambda[4] * A_ijt_h_i_1;
+    const jg_real t59 = lambda[4] * A_ijt_h_i_1;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t66 = lambda[5] * A_ijt_f_i_1;
-    const jg_real t67 = s_j[2] * t42 - s_j[0] * t44;
-    phi_q_t_lambda_q[13] = t60 - A_ij_h_j_0 * t62 - A_ij_f_j_0 * t64 - A_ij_g_j_0 * t66 + t67;
-    const jg_real t68 = A_ij_6 * t51;
+    const jg_real t61 = lambda[5] * A_ijt_f_i_1;
+    const jg_real t62 = s_j[2] * t37 - s_j[0] * t39;
+    phi_q_t_lambda_q[13] = t55 - A_ij_h_j_0 * t57 - A_ij_f_j_0 * t59 - A_ij_g_j_0 * t61 + t62;
+    const jg_real t63 = A_ij_6 * t46;
     const jg_real A_ijt_g_i_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real t70 = lambda[3] * A_ijt_g_i_2;
+    const jg_real t65 = lambda[3] * A_ijt_g_i_2;
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t72 = lambda[4] * A_ijt_h_i_2;
+    const jg_real t67 = lambda[4] * A_ijt_h_i_2;
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t74 = lambda[5] * A_ijt_f_i_2;
-    const jg_real t75 = s_j[0] * t43 - s_j[1] * t42;
-    phi_q_t_lambda_q[14] = t68 - A_ij_h_j_0 * t70 - A_ij_f_j_0 * t72 - A_ij_g_j_0 * t74 + t75;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t77 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t25 + A_ij_f_j_0 * t31 + A_ij_g_j_0 * t37 + lambda[1] * t77;
-    const jg_real t78 = lambda[0] * t77;
-    const jg_real t79 = A_ij_h_j_0 * t39;
-    const jg_real t80 = A_ij_f_j_0 * t40;
-    const jg_real t81 = A_ij_g_j_0 * t41;
-    phi_q_t_lambda_q[16] = -(t11 + t78 + (t35 + t81 + (t20 + t79 + (t29 + t80))));
-    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t25 + A_ij_f_j_2 * t31 + A_ij_g_j_2 * t37 + lambda[1] * t10;
-    const jg_real t82 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t82;
-    phi_q_t_lambda_q[34] = t82;
-    const jg_real t83 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t83;
-    phi_q_t_lambda_q[37] = t83;
-    const jg_real t84 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t84;
-    phi_q_t_lambda_q[40] = t84;
-    const jg_real t85 = A_ij_1 * t51;
-    const jg_real t86 = s_j[1] * t84 - s_j[2] * t83;
-    phi_q_t_lambda_q[21] = t85 - A_ij_h_j_1 * t54 - A_ij_f_j_1 * t56 - A_ij_g_j_1 * t58 + t86;
-    const jg_real t87 = A_ij_4 * t51;
-    const jg_real t88 = s_j[2] * t82 - s_j[0] * t84;
-    phi_q_t_lambda_q[22] = t87 - A_ij_h_j_1 * t62 - A_ij_f_j_1 * t64 - A_ij_g_j_1 * t66 + t88;
-    const jg_real t89 = A_ij_7 * t51;
-    const jg_real t90 = s_j[0] * t83 - s_j[1] * t82;
-    phi_q_t_lambda_q[23] = t89 - A_ij_h_j_1 * t70 - A_ij_f_j_1 * t72 - A_ij_g_j_1 * t74 + t90;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t19 + A_ij_f_j_0 * t28 + A_ij_g_j_0 * t34 + lambda[2] * t77;
-    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t19 + A_ij_f_j_1 * t28 + A_ij_g_j_1 * t34 + lambda[2] * t13;
-    phi_q_t_lambda_q[26] = -(t14 + t78 + (t38 + t81 + (t26 + t79 + (t32 + t80))));
-    const jg_real t91 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t91;
-    phi_q_t_lambda_q[35] = t91;
-    const jg_real t92 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t92;
-    phi_q_t_lambda_q[38] = t92;
-    const jg_real t93 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t93;
-    phi_q_t_lambda_q[41] = t93;
-    const jg_real t94 = A_ij_2 * t51;
-    const jg_real t95 = s_j[1] * t93 - s_j[2] * t92;
-    phi_q_t_lambda_q[30] = t94 - A_ij_h_j_2 * t54 - A_ij_f_j_2 * t56 - A_ij_g_j_2 * t58 + t95;
-    const jg_real t96 = A_ij_5 * t51;
-    const jg_real t97 = s_j[2] * t91 - s_j[0] * t93;
-    phi_q_t_lambda_q[31] = t96 - A_ij_h_j_2 * t62 - A_ij_f_j_2 * t64 - A_ij_g_j_2 * t66 + t97;
-    const jg_real t98 = A_ij_8 * t51;
-    const jg_real t99 = s_j[0] * t92 - s_j[1] * t91;
-    phi_q_t_lambda_q[32] = t98 - A_ij_h_j_2 * t70 - A_ij_f_j_2 * t72 - A_ij_g_j_2 * t74 + t99;
-    const jg_real t100 = A_ij_h_j_0 * lambda[3];
-    const jg_real t101 = A_ij_f_j_0 * lambda[4];
-    const jg_real t102 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[42] = t52 - t100 * A_ijt_g_i_0 - t101 * A_ijt_h_i_0 - t102 * A_ijt_f_i_0 + t59;
-    const jg_real t103 = A_ij_h_j_1 * lambda[3];
-    const jg_real t104 = A_ij_f_j_1 * lambda[4];
-    const jg_real t105 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[43] = t85 - t103 * A_ijt_g_i_0 - t104 * A_ijt_h_i_0 - t105 * A_ijt_f_i_0 + t86;
-    const jg_real t106 = A_ij_h_j_2 * lambda[3];
-    const jg_real t107 = A_ij_f_j_2 * lambda[4];
-    const jg_real t108 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[44] = t94 - t106 * A_ijt_g_i_0 - t107 * A_ijt_h_i_0 - t108 * A_ijt_f_i_0 + t95;
-    const jg_real t109 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = t109;
-    const jg_real t110 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = t110;
-    phi_q_t_lambda_q[46] = -t110;
-    const jg_real t111 = C_j[8] * lambda[3];
-    const jg_real t112 = A_ijt_g_i_2 * t111;
-    const jg_real t113 = C_j[7] * lambda[3];
-    const jg_real t114 = A_ijt_g_i_1 * t113;
-    const jg_real t115 = C_j[2] * lambda[4];
-    const jg_real t116 = A_ijt_h_i_2 * t115;
-    const jg_real t117 = C_j[1] * lambda[4];
-    const jg_real t118 = A_ijt_h_i_1 * t117;
-    const jg_real t119 = C_j[5] * lambda[5];
-    const jg_real t120 = A_ijt_f_i_2 * t119;
-    const jg_real t121 = C_j[4] * lambda[5];
-    const jg_real t122 = A_ijt_f_i_1 * t121;
-    const jg_real t123 = s_j[2] * t109;
-    const jg_real t124 = s_j[1] * t110;
-    phi_q_t_lambda_q[47] = -(t123 + t124 + (t120 + t122 + (t112 + t114 + (t116 + t118))));
-    const jg_real t125 = C_j[6] * lambda[3];
-    const jg_real t126 = C_j[0] * lambda[4];
-    const jg_real t127 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t125 + A_ijt_h_i_1 * t126 + A_ijt_f_i_1 * t127 + s_j[0] * t110;
-    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t125 + A_ijt_h_i_2 * t126 + A_ijt_f_i_2 * t127 + s_j[0] * t109;
-    phi_q_t_lambda_q[50] = t60 - t100 * A_ijt_g_i_1 - t101 * A_ijt_h_i_1 - t102 * A_ijt_f_i_1 + t67;
-    phi_q_t_lambda_q[51] = t87 - t103 * A_ijt_g_i_1 - t104 * A_ijt_h_i_1 - t105 * A_ijt_f_i_1 + t88;
-    phi_q_t_lambda_q[52] = t96 - t106 * A_ijt_g_i_1 - t107 * A_ijt_h_i_1 - t108 * A_ijt_f_i_1 + t97;
-    phi_q_t_lambda_q[53] = -t109;
-    const jg_real t128 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = t128;
-    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t113 + A_ijt_h_i_0 * t117 + A_ijt_f_i_0 * t121 + s_j[1] * t128;
-    const jg_real t129 = A_ijt_g_i_0 * t125;
-    const jg_real t130 = A_ijt_h_i_0 * t126;
-    const jg_real t131 = A_ijt_f_i_0 * t127;
-    const jg_real t132 = s_j[0] * t128;
-    phi_q_t_lambda_q[56] = -(t123 + t132 + (t120 + t131 + (t112 + t129 + (t116 + t130))));
-    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t113 + A_ijt_h_i_2 * t117 + A_ijt_f_i_2 * t121 + s_j[1] * t109;
-    phi_q_t_lambda_q[58] = t68 - t100 * A_ijt_g_i_2 - t101 * A_ijt_h_i_2 - t102 * A_ijt_f_i_2 + t75;
-    phi_q_t_lambda_q[59] = t89 - t103 * A_ijt_g_i_2 - t104 * A_ijt_h_i_2 - t105 * A_ijt_f_i_2 + t90;
-    phi_q_t_lambda_q[60] = t98 - t106 * A_ijt_g_i_2 - t107 * A_ijt_h_i_2 - t108 * A_ijt_f_i_2 + t99;
-    phi_q_t_lambda_q[62] = -t128;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t111 + A_ijt_h_i_0 * t115 + A_ijt_f_i_0 * t119 + s_j[2] * t128;
-    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t111 + A_ijt_h_i_1 * t115 + A_ijt_f_i_1 * t119 + s_j[2] * t110;
-    phi_q_t_lambda_q[65] = -(t124 + t132 + (t122 + t131 + (t114 + t129 + (t118 + t130))));
+    const jg_real t69 = lambda[5] * A_ijt_f_i_2;
+    const jg_real t70 = s_j[0] * t38 - s_j[1] * t37;
+    phi_q_t_lambda_q[14] = t63 - A_ij_h_j_0 * t65 - A_ij_f_j_0 * t67 - A_ij_g_j_0 * t69 + t70;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t10 + A_ij_f_j_0 * t16 + A_ij_g_j_0 * t22 + lambda[1] * ep_ij_0;
+    const jg_real t72 = A_ij_h_j_0 * t34;
+    const jg_real t73 = A_ij_f_j_0 * t35;
+    const jg_real t74 = A_ij_g_j_0 * t36;
+    const jg_real t75 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[16] = -(t31 + t75 + (t20 + t74 + (t5 + t72 + (t14 + t73))));
+    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t10 + A_ij_f_j_2 * t16 + A_ij_g_j_2 * t22 + lambda[1] * ep_ij_2;
+    const jg_real t76 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[18] = t76;
+    phi_q_t_lambda_q[34] = t76;
+    const jg_real t77 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[19] = t77;
+    phi_q_t_lambda_q[37] = t77;
+    const jg_real t78 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[20] = t78;
+    phi_q_t_lambda_q[40] = t78;
+    const jg_real t79 = A_ij_1 * t46;
+    const jg_real t80 = s_j[1] * t78 - s_j[2] * t77;
+    phi_q_t_lambda_q[21] = t79 - A_ij_h_j_1 * t49 - A_ij_f_j_1 * t51 - A_ij_g_j_1 * t53 + t80;
+    const jg_real t81 = A_ij_4 * t46;
+    const jg_real t82 = s_j[2] * t76 - s_j[0] * t78;
+    phi_q_t_lambda_q[22] = t81 - A_ij_h_j_1 * t57 - A_ij_f_j_1 * t59 - A_ij_g_j_1 * t61 + t82;
+    const jg_real t83 = A_ij_7 * t46;
+    const jg_real t84 = s_j[0] * t77 - s_j[1] * t76;
+    phi_q_t_lambda_q[23] = t83 - A_ij_h_j_1 * t65 - A_ij_f_j_1 * t67 - A_ij_g_j_1 * t69 + t84;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t4 + A_ij_f_j_0 * t13 + A_ij_g_j_0 * t19 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t4 + A_ij_f_j_1 * t13 + A_ij_g_j_1 * t19 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[26] = -(t33 + t75 + (t23 + t74 + (t11 + t72 + (t17 + t73))));
+    const jg_real t85 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[27] = t85;
+    phi_q_t_lambda_q[35] = t85;
+    const jg_real t86 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[28] = t86;
+    phi_q_t_lambda_q[38] = t86;
+    const jg_real t87 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[29] = t87;
+    phi_q_t_lambda_q[41] = t87;
+    const jg_real t88 = A_ij_2 * t46;
+    const jg_real t89 = s_j[1] * t87 - s_j[2] * t86;
+    phi_q_t_lambda_q[30] = t88 - A_ij_h_j_2 * t49 - A_ij_f_j_2 * t51 - A_ij_g_j_2 * t53 + t89;
+    const jg_real t90 = A_ij_5 * t46;
+    const jg_real t91 = s_j[2] * t85 - s_j[0] * t87;
+    phi_q_t_lambda_q[31] = t90 - A_ij_h_j_2 * t57 - A_ij_f_j_2 * t59 - A_ij_g_j_2 * t61 + t91;
+    const jg_real t92 = A_ij_8 * t46;
+    const jg_real t93 = s_j[0] * t86 - s_j[1] * t85;
+    phi_q_t_lambda_q[32] = t92 - A_ij_h_j_2 * t65 - A_ij_f_j_2 * t67 - A_ij_g_j_2 * t69 + t93;
+    const jg_real t94 = A_ij_h_j_0 * lambda[3];
+    const jg_real t95 = A_ij_f_j_0 * lambda[4];
+    const jg_real t96 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t47 - t94 * A_ijt_g_i_0 - t95 * A_ijt_h_i_0 - t96 * A_ijt_f_i_0 + t54;
+    const jg_real t97 = A_ij_h_j_1 * lambda[3];
+    const jg_real t98 = A_ij_f_j_1 * lambda[4];
+    const jg_real t99 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t79 - t97 * A_ijt_g_i_0 - t98 * A_ijt_h_i_0 - t99 * A_ijt_f_i_0 + t80;
+    const jg_real t100 = A_ij_h_j_2 * lambda[3];
+    const jg_real t101 = A_ij_f_j_2 * lambda[4];
+    const jg_real t102 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t88 - t100 * A_ijt_g_i_0 - t101 * A_ijt_h_i_0 - t102 * A_ijt_f_i_0 + t89;
+    const jg_real t103 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[45] = t103;
+    const jg_real t104 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[61] = t104;
+    phi_q_t_lambda_q[46] = -t104;
+    const jg_real t105 = C_j[8] * lambda[3];
+    const jg_real t106 = A_ijt_g_i_2 * t105;
+    const jg_real t107 = C_j[7] * lambda[3];
+    const jg_real t108 = A_ijt_g_i_1 * t107;
+    const jg_real t109 = C_j[2] * lambda[4];
+    const jg_real t110 = A_ijt_h_i_2 * t109;
+    const jg_real t111 = C_j[1] * lambda[4];
+    const jg_real t112 = A_ijt_h_i_1 * t111;
+    const jg_real t113 = C_j[5] * lambda[5];
+    const jg_real t114 = A_ijt_f_i_2 * t113;
+    const jg_real t115 = C_j[4] * lambda[5];
+    const jg_real t116 = A_ijt_f_i_1 * t115;
+    const jg_real t117 = s_j[2] * t103;
+    const jg_real t118 = s_j[1] * t104;
+    phi_q_t_lambda_q[47] = -(t117 + t118 + (t114 + t116 + (t106 + t108 + (t110 + t112))));
+    const jg_real t119 = C_j[6] * lambda[3];
+    const jg_real t120 = C_j[0] * lambda[4];
+    const jg_real t121 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t119 + A_ijt_h_i_1 * t120 + A_ijt_f_i_1 * t121 + s_j[0] * t104;
+    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t119 + A_ijt_h_i_2 * t120 + A_ijt_f_i_2 * t121 + s_j[0] * t103;
+    phi_q_t_lambda_q[50] = t55 - t94 * A_ijt_g_i_1 - t95 * A_ijt_h_i_1 - t96 * A_ijt_f_i_1 + t62;
+    phi_q_t_lambda_q[51] = t81 - t97 * A_ijt_g_i_1 - t98 * A_ijt_h_i_1 - t99 * A_ijt_f_i_1 + t82;
+    phi_q_t_lambda_q[52] = t90 - t100 * A_ijt_g_i_1 - t101 * A_ijt_h_i_1 - t102 * A_ijt_f_i_1 + t91;
+    phi_q_t_lambda_q[53] = -t103;
+    const jg_real t122 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[54] = t122;
+    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t107 + A_ijt_h_i_0 * t111 + A_ijt_f_i_0 * t115 + s_j[1] * t122;
+    const jg_real t123 = A_ijt_g_i_0 * t119;
+    const jg_real t124 = A_ijt_h_i_0 * t120;
+    const jg_real t125 = A_ijt_f_i_0 * t121;
+    const jg_real t126 = s_j[0] * t122;
+    phi_q_t_lambda_q[56] = -(t117 + t126 + (t114 + t125 + (t106 + t123 + (t110 + t124))));
+    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t107 + A_ijt_h_i_2 * t111 + A_ijt_f_i_2 * t115 + s_j[1] * t103;
+    phi_q_t_lambda_q[58] = t63 - t94 * A_ijt_g_i_2 - t95 * A_ijt_h_i_2 - t96 * A_ijt_f_i_2 + t70;
+    phi_q_t_lambda_q[59] = t83 - t97 * A_ijt_g_i_2 - t98 * A_ijt_h_i_2 - t99 * A_ijt_f_i_2 + t84;
+    phi_q_t_lambda_q[60] = t92 - t100 * A_ijt_g_i_2 - t101 * A_ijt_h_i_2 - t102 * A_ijt_f_i_2 + t93;
+    phi_q_t_lambda_q[62] = -t122;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t105 + A_ijt_h_i_0 * t109 + A_ijt_f_i_0 * t113 + s_j[2] * t122;
+    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t105 + A_ijt_h_i_1 * t109 + A_ijt_f_i_1 * t113 + s_j[2] * t104;
+    phi_q_t_lambda_q[65] = -(t118 + t126 + (t116 + t125 + (t108 + t123 + (t112 + t124))));
 }
 
 void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -431,7 +419,6 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -441,26 +428,22 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -477,12 +460,6 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -501,34 +478,29 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -654,58 +626,56 @@ void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - (omega_i[1] * t14 - omega_i[2] * t16) + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t24 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - (omega_i[2] * t24 - omega_i[0] * t14) + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - (omega_i[0] * t16 - omega_i[1] * t24) + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -778,7 +748,6 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -787,21 +756,15 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -818,29 +781,28 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * C_i[5] - A_ij_h_j_2 * C_i[4])
-        - lambda[4] * (C_i[8] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_2) - lambda[5] * (C_i[2] * A_ij_g_j_1 - C_i[1] *
-        A_ij_g_j_2);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t26 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda[3] = lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 - lambda[3] * (A_ij_h_j_1 * C_i[5] - A_ij_h_j_2 *
+        C_i[4]) - lambda[4] * (C_i[8] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_2) - lambda[5] * (C_i[2] * A_ij_g_j_1 -
+        C_i[1] * A_ij_g_j_2);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    phi_q_t_lambda[4] = lambda[2] * t26 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * C_i[3] - A_ij_h_j_0 * C_i[5])
-        - lambda[4] * (C_i[6] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_0) - lambda[5] * (C_i[0] * A_ij_g_j_2 - C_i[2] *
-        A_ij_g_j_0);
-    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t26 - lambda[3] * (A_ij_h_j_0 * C_i[4] - A_ij_h_j_1 * C_i[3])
-        - lambda[4] * (C_i[7] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_1) - lambda[5] * (C_i[1] * A_ij_g_j_0 - C_i[0] *
-        A_ij_g_j_1);
-    const jg_real t33 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t33;
-    const jg_real t34 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t34;
-    const jg_real t35 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t35;
+    phi_q_t_lambda[4] = lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 - lambda[3] * (A_ij_h_j_2 * C_i[3] - A_ij_h_j_0 *
+        C_i[5]) - lambda[4] * (C_i[6] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_0) - lambda[5] * (C_i[0] * A_ij_g_j_2 -
+        C_i[2] * A_ij_g_j_0);
+    phi_q_t_lambda[5] = lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 - lambda[3] * (A_ij_h_j_0 * C_i[4] - A_ij_h_j_1 *
+        C_i[3]) - lambda[4] * (C_i[7] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_1) - lambda[5] * (C_i[1] * A_ij_g_j_0 -
+        C_i[0] * A_ij_g_j_1);
+    const jg_real t27 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t27;
+    const jg_real t28 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t28;
+    const jg_real t29 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t29;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
     const jg_real A_ijt_g_i_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
@@ -850,16 +812,16 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    phi_q_t_lambda[9] = s_j[1] * t35 - s_j[2] * t34 + (lambda[3] * (C_j[7] * A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1) +
+    phi_q_t_lambda[9] = s_j[1] * t29 - s_j[2] * t28 + (lambda[3] * (C_j[7] * A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1) +
         lambda[4] * (C_j[1] * A_ijt_h_i_2 - C_j[2] * A_ijt_h_i_1) + lambda[5] * (C_j[4] * A_ijt_f_i_2 - C_j[5] *
         A_ijt_f_i_1));
     const jg_real A_ijt_g_i_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     const jg_real A_ijt_f_i_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    phi_q_t_lambda[10] = s_j[2] * t33 - s_j[0] * t35 + (lambda[3] * (C_j[8] * A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2) +
+    phi_q_t_lambda[10] = s_j[2] * t27 - s_j[0] * t29 + (lambda[3] * (C_j[8] * A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2) +
         lambda[4] * (C_j[2] * A_ijt_h_i_0 - C_j[0] * A_ijt_h_i_2) + lambda[5] * (C_j[5] * A_ijt_f_i_0 - C_j[3] *
         A_ijt_f_i_2));
-    phi_q_t_lambda[11] = s_j[0] * t34 - s_j[1] * t33 + (lambda[3] * (C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0) +
+    phi_q_t_lambda[11] = s_j[0] * t28 - s_j[1] * t27 + (lambda[3] * (C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0) +
         lambda[4] * (C_j[0] * A_ijt_h_i_1 - C_j[1] * A_ijt_h_i_0) + lambda[5] * (C_j[3] * A_ijt_f_i_1 - C_j[4] *
         A_ijt_f_i_0));
 }
@@ -879,16 +841,20 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -919,38 +885,39 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t24 = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
-    phi[3] = t24;
+    const jg_real t27 = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
+    phi[3] = t27;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t28 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
-    phi[4] = t28;
+    const jg_real t31 = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2;
+    phi[4] = t31;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t32 = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
-    phi[5] = t32;
+    const jg_real t35 = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
+    phi[5] = t35;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t33 = s_i[2] + dp_ij_2;
-    phi_q[3] = t33;
-    const jg_real t34 = s_i[1] + dp_ij_1;
-    phi_q[13] = t34;
-    phi_q[4] = -t34;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
     phi_q[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     phi_q[7] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
-    phi_q[8] = -t33;
-    const jg_real t35 = s_i[0] + dp_ij_0;
-    phi_q[9] = t35;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
     phi_q[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     phi_q[12] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    phi_q[14] = -t35;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     phi_q[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[17] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
@@ -990,163 +957,163 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t45 = t33 * lambda[2];
-    const jg_real t46 = t34 * lambda[1];
-    const jg_real t47 = C_i[5] * lambda[3];
-    const jg_real t48 = A_ij_h_j_2 * t47;
-    const jg_real t49 = C_i[4] * lambda[3];
-    const jg_real t50 = A_ij_h_j_1 * t49;
-    const jg_real t51 = C_i[8] * lambda[4];
-    const jg_real t52 = A_ij_f_j_2 * t51;
-    const jg_real t53 = C_i[7] * lambda[4];
-    const jg_real t54 = A_ij_f_j_1 * t53;
-    const jg_real t55 = C_i[2] * lambda[5];
-    const jg_real t56 = A_ij_g_j_2 * t55;
-    const jg_real t57 = C_i[1] * lambda[5];
-    const jg_real t58 = A_ij_g_j_1 * t57;
-    phi_q_t_lambda_q[6] = -(t45 + t46 + (t56 + t58 + (t48 + t50 + (t52 + t54))));
-    const jg_real t59 = C_i[3] * lambda[3];
-    const jg_real t60 = C_i[6] * lambda[4];
-    const jg_real t61 = C_i[0] * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t59 + A_ij_f_j_1 * t60 + A_ij_g_j_1 * t61 + t34 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t59 + A_ij_f_j_2 * t60 + A_ij_g_j_2 * t61 + t33 * lambda[0];
-    const jg_real t62 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t62;
-    phi_q_t_lambda_q[33] = t62;
-    const jg_real t63 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t63;
-    phi_q_t_lambda_q[36] = t63;
-    const jg_real t64 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t64;
-    phi_q_t_lambda_q[39] = t64;
-    const jg_real t65 = t24 * lambda[3] + t28 * lambda[4] + t32 * lambda[5];
-    const jg_real t66 = A_ij_0 * t65;
-    const jg_real t67 = A_ijt_g_i_0 * lambda[3];
-    const jg_real t68 = A_ijt_h_i_0 * lambda[4];
-    const jg_real t69 = A_ijt_f_i_0 * lambda[5];
-    const jg_real t70 = s_j[1] * t64 - s_j[2] * t63;
-    phi_q_t_lambda_q[12] = t66 - A_ij_h_j_0 * t67 - A_ij_f_j_0 * t68 - A_ij_g_j_0 * t69 + t70;
-    const jg_real t71 = A_ij_3 * t65;
-    const jg_real t72 = A_ijt_g_i_1 * lambda[3];
-    const jg_real t73 = A_ijt_h_i_1 * lambda[4];
-    const jg_real t74 = A_ijt_f_i_1 * lambda[5];
-    const jg_real t75 = s_j[2] * t62 - s_j[0] * t64;
-    phi_q_t_lambda_q[13] = t71 - A_ij_h_j_0 * t72 - A_ij_f_j_0 * t73 - A_ij_g_j_0 * t74 + t75;
-    const jg_real t76 = A_ij_6 * t65;
-    const jg_real t77 = A_ijt_g_i_2 * lambda[3];
-    const jg_real t78 = A_ijt_h_i_2 * lambda[4];
-    const jg_real t79 = A_ijt_f_i_2 * lambda[5];
-    const jg_real t80 = s_j[0] * t63 - s_j[1] * t62;
-    phi_q_t_lambda_q[14] = t76 - A_ij_h_j_0 * t77 - A_ij_f_j_0 * t78 - A_ij_g_j_0 * t79 + t80;
-    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t49 + A_ij_f_j_0 * t53 + A_ij_g_j_0 * t57 + t35 * lambda[1];
-    const jg_real t81 = t35 * lambda[0];
-    const jg_real t82 = A_ij_h_j_0 * t59;
-    const jg_real t83 = A_ij_f_j_0 * t60;
-    const jg_real t84 = A_ij_g_j_0 * t61;
-    phi_q_t_lambda_q[16] = -(t45 + t81 + (t56 + t84 + (t48 + t82 + (t52 + t83))));
-    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t49 + A_ij_f_j_2 * t53 + A_ij_g_j_2 * t57 + t33 * lambda[1];
-    const jg_real t85 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t85;
-    phi_q_t_lambda_q[34] = t85;
-    const jg_real t86 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t86;
-    phi_q_t_lambda_q[37] = t86;
-    const jg_real t87 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t87;
-    phi_q_t_lambda_q[40] = t87;
-    const jg_real t88 = A_ij_1 * t65;
-    const jg_real t89 = s_j[1] * t87 - s_j[2] * t86;
-    phi_q_t_lambda_q[21] = t88 - A_ij_h_j_1 * t67 - A_ij_f_j_1 * t68 - A_ij_g_j_1 * t69 + t89;
-    const jg_real t90 = A_ij_4 * t65;
-    const jg_real t91 = s_j[2] * t85 - s_j[0] * t87;
-    phi_q_t_lambda_q[22] = t90 - A_ij_h_j_1 * t72 - A_ij_f_j_1 * t73 - A_ij_g_j_1 * t74 + t91;
-    const jg_real t92 = A_ij_7 * t65;
-    const jg_real t93 = s_j[0] * t86 - s_j[1] * t85;
-    phi_q_t_lambda_q[23] = t92 - A_ij_h_j_1 * t77 - A_ij_f_j_1 * t78 - A_ij_g_j_1 * t79 + t93;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t47 + A_ij_f_j_0 * t51 + A_ij_g_j_0 * t55 + t35 * lambda[2];
-    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t47 + A_ij_f_j_1 * t51 + A_ij_g_j_1 * t55 + t34 * lambda[2];
-    phi_q_t_lambda_q[26] = -(t46 + t81 + (t58 + t84 + (t50 + t82 + (t54 + t83))));
-    const jg_real t94 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t94;
-    phi_q_t_lambda_q[35] = t94;
-    const jg_real t95 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t95;
-    phi_q_t_lambda_q[38] = t95;
-    const jg_real t96 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t96;
-    phi_q_t_lambda_q[41] = t96;
-    const jg_real t97 = A_ij_2 * t65;
-    const jg_real t98 = s_j[1] * t96 - s_j[2] * t95;
-    phi_q_t_lambda_q[30] = t97 - A_ij_h_j_2 * t67 - A_ij_f_j_2 * t68 - A_ij_g_j_2 * t69 + t98;
-    const jg_real t99 = A_ij_5 * t65;
-    const jg_real t100 = s_j[2] * t94 - s_j[0] * t96;
-    phi_q_t_lambda_q[31] = t99 - A_ij_h_j_2 * t72 - A_ij_f_j_2 * t73 - A_ij_g_j_2 * t74 + t100;
-    const jg_real t101 = A_ij_8 * t65;
-    const jg_real t102 = s_j[0] * t95 - s_j[1] * t94;
-    phi_q_t_lambda_q[32] = t101 - A_ij_h_j_2 * t77 - A_ij_f_j_2 * t78 - A_ij_g_j_2 * t79 + t102;
-    const jg_real t103 = A_ij_h_j_0 * lambda[3];
-    const jg_real t104 = A_ij_f_j_0 * lambda[4];
-    const jg_real t105 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[42] = t66 - A_ijt_g_i_0 * t103 - A_ijt_h_i_0 * t104 - A_ijt_f_i_0 * t105 + t70;
-    const jg_real t106 = A_ij_h_j_1 * lambda[3];
-    const jg_real t107 = A_ij_f_j_1 * lambda[4];
-    const jg_real t108 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[43] = t88 - A_ijt_g_i_0 * t106 - A_ijt_h_i_0 * t107 - A_ijt_f_i_0 * t108 + t89;
-    const jg_real t109 = A_ij_h_j_2 * lambda[3];
-    const jg_real t110 = A_ij_f_j_2 * lambda[4];
-    const jg_real t111 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[44] = t97 - A_ijt_g_i_0 * t109 - A_ijt_h_i_0 * t110 - A_ijt_f_i_0 * t111 + t98;
-    const jg_real t112 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = t112;
-    const jg_real t113 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = t113;
-    phi_q_t_lambda_q[46] = -t113;
-    const jg_real t114 = C_j[8] * lambda[3];
-    const jg_real t115 = A_ijt_g_i_2 * t114;
-    const jg_real t116 = C_j[7] * lambda[3];
-    const jg_real t117 = A_ijt_g_i_1 * t116;
-    const jg_real t118 = C_j[2] * lambda[4];
-    const jg_real t119 = A_ijt_h_i_2 * t118;
-    const jg_real t120 = C_j[1] * lambda[4];
-    const jg_real t121 = A_ijt_h_i_1 * t120;
-    const jg_real t122 = C_j[5] * lambda[5];
-    const jg_real t123 = A_ijt_f_i_2 * t122;
-    const jg_real t124 = C_j[4] * lambda[5];
-    const jg_real t125 = A_ijt_f_i_1 * t124;
-    const jg_real t126 = s_j[2] * t112;
-    const jg_real t127 = s_j[1] * t113;
-    phi_q_t_lambda_q[47] = -(t126 + t127 + (t123 + t125 + (t115 + t117 + (t119 + t121))));
-    const jg_real t128 = C_j[6] * lambda[3];
-    const jg_real t129 = C_j[0] * lambda[4];
-    const jg_real t130 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t128 + A_ijt_h_i_1 * t129 + A_ijt_f_i_1 * t130 + s_j[0] * t113;
-    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t128 + A_ijt_h_i_2 * t129 + A_ijt_f_i_2 * t130 + s_j[0] * t112;
-    phi_q_t_lambda_q[50] = t71 - A_ijt_g_i_1 * t103 - A_ijt_h_i_1 * t104 - A_ijt_f_i_1 * t105 + t75;
-    phi_q_t_lambda_q[51] = t90 - A_ijt_g_i_1 * t106 - A_ijt_h_i_1 * t107 - A_ijt_f_i_1 * t108 + t91;
-    phi_q_t_lambda_q[52] = t99 - A_ijt_g_i_1 * t109 - A_ijt_h_i_1 * t110 - A_ijt_f_i_1 * t111 + t100;
-    phi_q_t_lambda_q[53] = -t112;
-    const jg_real t131 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = t131;
-    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t116 + A_ijt_h_i_0 * t120 + A_ijt_f_i_0 * t124 + s_j[1] * t131;
-    const jg_real t132 = A_ijt_g_i_0 * t128;
-    const jg_real t133 = A_ijt_h_i_0 * t129;
-    const jg_real t134 = A_ijt_f_i_0 * t130;
-    const jg_real t135 = s_j[0] * t131;
-    phi_q_t_lambda_q[56] = -(t126 + t135 + (t123 + t134 + (t115 + t132 + (t119 + t133))));
-    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t116 + A_ijt_h_i_2 * t120 + A_ijt_f_i_2 * t124 + s_j[1] * t112;
-    phi_q_t_lambda_q[58] = t76 - A_ijt_g_i_2 * t103 - A_ijt_h_i_2 * t104 - A_ijt_f_i_2 * t105 + t80;
-    phi_q_t_lambda_q[59] = t92 - A_ijt_g_i_2 * t106 - A_ijt_h_i_2 * t107 - A_ijt_f_i_2 * t108 + t93;
-    phi_q_t_lambda_q[60] = t101 - A_ijt_g_i_2 * t109 - A_ijt_h_i_2 * t110 - A_ijt_f_i_2 * t111 + t102;
-    phi_q_t_lambda_q[62] = -t131;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t114 + A_ijt_h_i_0 * t118 + A_ijt_f_i_0 * t122 + s_j[2] * t131;
-    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t114 + A_ijt_h_i_1 * t118 + A_ijt_f_i_1 * t122 + s_j[2] * t113;
-    phi_q_t_lambda_q[65] = -(t127 + t135 + (t125 + t134 + (t117 + t132 + (t121 + t133))));
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real t48 = C_i[5] * lambda[3];
+    const jg_real t49 = A_ij_h_j_2 * t48;
+    const jg_real t50 = C_i[4] * lambda[3];
+    const jg_real t51 = A_ij_h_j_1 * t50;
+    const jg_real t52 = C_i[8] * lambda[4];
+    const jg_real t53 = A_ij_f_j_2 * t52;
+    const jg_real t54 = C_i[7] * lambda[4];
+    const jg_real t55 = A_ij_f_j_1 * t54;
+    const jg_real t56 = C_i[2] * lambda[5];
+    const jg_real t57 = A_ij_g_j_2 * t56;
+    const jg_real t58 = C_i[1] * lambda[5];
+    const jg_real t59 = A_ij_g_j_1 * t58;
+    const jg_real t60 = ep_ij_2 * lambda[2];
+    const jg_real t61 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t60 + t61 + (t57 + t59 + (t49 + t51 + (t53 + t55))));
+    const jg_real t62 = C_i[3] * lambda[3];
+    const jg_real t63 = C_i[6] * lambda[4];
+    const jg_real t64 = C_i[0] * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t62 + A_ij_f_j_1 * t63 + A_ij_g_j_1 * t64 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t62 + A_ij_f_j_2 * t63 + A_ij_g_j_2 * t64 + ep_ij_2 * lambda[0];
+    const jg_real t65 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t65;
+    phi_q_t_lambda_q[33] = t65;
+    const jg_real t66 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t66;
+    phi_q_t_lambda_q[36] = t66;
+    const jg_real t67 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t67;
+    phi_q_t_lambda_q[39] = t67;
+    const jg_real t68 = t27 * lambda[3] + t31 * lambda[4] + t35 * lambda[5];
+    const jg_real t69 = A_ij_0 * t68;
+    const jg_real t70 = A_ijt_g_i_0 * lambda[3];
+    const jg_real t71 = A_ijt_h_i_0 * lambda[4];
+    const jg_real t72 = A_ijt_f_i_0 * lambda[5];
+    const jg_real t73 = s_j[1] * t67 - s_j[2] * t66;
+    phi_q_t_lambda_q[12] = t69 - A_ij_h_j_0 * t70 - A_ij_f_j_0 * t71 - A_ij_g_j_0 * t72 + t73;
+    const jg_real t74 = A_ij_3 * t68;
+    const jg_real t75 = A_ijt_g_i_1 * lambda[3];
+    const jg_real t76 = A_ijt_h_i_1 * lambda[4];
+    const jg_real t77 = A_ijt_f_i_1 * lambda[5];
+    const jg_real t78 = s_j[2] * t65 - s_j[0] * t67;
+    phi_q_t_lambda_q[13] = t74 - A_ij_h_j_0 * t75 - A_ij_f_j_0 * t76 - A_ij_g_j_0 * t77 + t78;
+    const jg_real t79 = A_ij_6 * t68;
+    const jg_real t80 = A_ijt_g_i_2 * lambda[3];
+    const jg_real t81 = A_ijt_h_i_2 * lambda[4];
+    const jg_real t82 = A_ijt_f_i_2 * lambda[5];
+    const jg_real t83 = s_j[0] * t66 - s_j[1] * t65;
+    phi_q_t_lambda_q[14] = t79 - A_ij_h_j_0 * t80 - A_ij_f_j_0 * t81 - A_ij_g_j_0 * t82 + t83;
+    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t50 + A_ij_f_j_0 * t54 + A_ij_g_j_0 * t58 + ep_ij_0 * lambda[1];
+    const jg_real t84 = A_ij_h_j_0 * t62;
+    const jg_real t85 = A_ij_f_j_0 * t63;
+    const jg_real t86 = A_ij_g_j_0 * t64;
+    const jg_real t87 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[16] = -(t60 + t87 + (t57 + t86 + (t49 + t84 + (t53 + t85))));
+    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t50 + A_ij_f_j_2 * t54 + A_ij_g_j_2 * t58 + ep_ij_2 * lambda[1];
+    const jg_real t88 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[18] = t88;
+    phi_q_t_lambda_q[34] = t88;
+    const jg_real t89 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[19] = t89;
+    phi_q_t_lambda_q[37] = t89;
+    const jg_real t90 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[20] = t90;
+    phi_q_t_lambda_q[40] = t90;
+    const jg_real t91 = A_ij_1 * t68;
+    const jg_real t92 = s_j[1] * t90 - s_j[2] * t89;
+    phi_q_t_lambda_q[21] = t91 - A_ij_h_j_1 * t70 - A_ij_f_j_1 * t71 - A_ij_g_j_1 * t72 + t92;
+    const jg_real t93 = A_ij_4 * t68;
+    const jg_real t94 = s_j[2] * t88 - s_j[0] * t90;
+    phi_q_t_lambda_q[22] = t93 - A_ij_h_j_1 * t75 - A_ij_f_j_1 * t76 - A_ij_g_j_1 * t77 + t94;
+    const jg_real t95 = A_ij_7 * t68;
+    const jg_real t96 = s_j[0] * t89 - s_j[1] * t88;
+    phi_q_t_lambda_q[23] = t95 - A_ij_h_j_1 * t80 - A_ij_f_j_1 * t81 - A_ij_g_j_1 * t82 + t96;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t48 + A_ij_f_j_0 * t52 + A_ij_g_j_0 * t56 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t48 + A_ij_f_j_1 * t52 + A_ij_g_j_1 * t56 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[26] = -(t61 + t87 + (t59 + t86 + (t51 + t84 + (t55 + t85))));
+    const jg_real t97 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[27] = t97;
+    phi_q_t_lambda_q[35] = t97;
+    const jg_real t98 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[28] = t98;
+    phi_q_t_lambda_q[38] = t98;
+    const jg_real t99 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[29] = t99;
+    phi_q_t_lambda_q[41] = t99;
+    const jg_real t100 = A_ij_2 * t68;
+    const jg_real t101 = s_j[1] * t99 - s_j[2] * t98;
+    phi_q_t_lambda_q[30] = t100 - A_ij_h_j_2 * t70 - A_ij_f_j_2 * t71 - A_ij_g_j_2 * t72 + t101;
+    const jg_real t102 = A_ij_5 * t68;
+    const jg_real t103 = s_j[2] * t97 - s_j[0] * t99;
+    phi_q_t_lambda_q[31] = t102 - A_ij_h_j_2 * t75 - A_ij_f_j_2 * t76 - A_ij_g_j_2 * t77 + t103;
+    const jg_real t104 = A_ij_8 * t68;
+    const jg_real t105 = s_j[0] * t98 - s_j[1] * t97;
+    phi_q_t_lambda_q[32] = t104 - A_ij_h_j_2 * t80 - A_ij_f_j_2 * t81 - A_ij_g_j_2 * t82 + t105;
+    const jg_real t106 = A_ij_h_j_0 * lambda[3];
+    const jg_real t107 = A_ij_f_j_0 * lambda[4];
+    const jg_real t108 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t69 - A_ijt_g_i_0 * t106 - A_ijt_h_i_0 * t107 - A_ijt_f_i_0 * t108 + t73;
+    const jg_real t109 = A_ij_h_j_1 * lambda[3];
+    const jg_real t110 = A_ij_f_j_1 * lambda[4];
+    const jg_real t111 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t91 - A_ijt_g_i_0 * t109 - A_ijt_h_i_0 * t110 - A_ijt_f_i_0 * t111 + t92;
+    const jg_real t112 = A_ij_h_j_2 * lambda[3];
+    const jg_real t113 = A_ij_f_j_2 * lambda[4];
+    const jg_real t114 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t100 - A_ijt_g_i_0 * t112 - A_ijt_h_i_0 * t113 - A_ijt_f_i_0 * t114 + t101;
+    const jg_real t115 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[45] = t115;
+    const jg_real t116 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[61] = t116;
+    phi_q_t_lambda_q[46] = -t116;
+    const jg_real t117 = C_j[8] * lambda[3];
+    const jg_real t118 = A_ijt_g_i_2 * t117;
+    const jg_real t119 = C_j[7] * lambda[3];
+    const jg_real t120 = A_ijt_g_i_1 * t119;
+    const jg_real t121 = C_j[2] * lambda[4];
+    const jg_real t122 = A_ijt_h_i_2 * t121;
+    const jg_real t123 = C_j[1] * lambda[4];
+    const jg_real t124 = A_ijt_h_i_1 * t123;
+    const jg_real t125 = C_j[5] * lambda[5];
+    const jg_real t126 = A_ijt_f_i_2 * t125;
+    const jg_real t127 = C_j[4] * lambda[5];
+    const jg_real t128 = A_ijt_f_i_1 * t127;
+    const jg_real t129 = s_j[2] * t115;
+    const jg_real t130 = s_j[1] * t116;
+    phi_q_t_lambda_q[47] = -(t129 + t130 + (t126 + t128 + (t118 + t120 + (t122 + t124))));
+    const jg_real t131 = C_j[6] * lambda[3];
+    const jg_real t132 = C_j[0] * lambda[4];
+    const jg_real t133 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t131 + A_ijt_h_i_1 * t132 + A_ijt_f_i_1 * t133 + s_j[0] * t116;
+    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t131 + A_ijt_h_i_2 * t132 + A_ijt_f_i_2 * t133 + s_j[0] * t115;
+    phi_q_t_lambda_q[50] = t74 - A_ijt_g_i_1 * t106 - A_ijt_h_i_1 * t107 - A_ijt_f_i_1 * t108 + t78;
+    phi_q_t_lambda_q[51] = t93 - A_ijt_g_i_1 * t109 - A_ijt_h_i_1 * t110 - A_ijt_f_i_1 * t111 + t94;
+    phi_q_t_lambda_q[52] = t102 - A_ijt_g_i_1 * t112 - A_ijt_h_i_1 * t113 - A_ijt_f_i_1 * t114 + t103;
+    phi_q_t_lambda_q[53] = -t115;
+    const jg_real t134 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[54] = t134;
+    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t119 + A_ijt_h_i_0 * t123 + A_ijt_f_i_0 * t127 + s_j[1] * t134;
+    const jg_real t135 = A_ijt_g_i_0 * t131;
+    const jg_real t136 = A_ijt_h_i_0 * t132;
+    const jg_real t137 = A_ijt_f_i_0 * t133;
+    const jg_real t138 = s_j[0] * t134;
+    phi_q_t_lambda_q[56] = -(t129 + t138 + (t126 + t137 + (t118 + t135 + (t122 + t136))));
+    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t119 + A_ijt_h_i_2 * t123 + A_ijt_f_i_2 * t127 + s_j[1] * t115;
+    phi_q_t_lambda_q[58] = t79 - A_ijt_g_i_2 * t106 - A_ijt_h_i_2 * t107 - A_ijt_f_i_2 * t108 + t83;
+    phi_q_t_lambda_q[59] = t95 - A_ijt_g_i_2 * t109 - A_ijt_h_i_2 * t110 - A_ijt_f_i_2 * t111 + t96;
+    phi_q_t_lambda_q[60] = t104 - A_ijt_g_i_2 * t112 - A_ijt_h_i_2 * t113 - A_ijt_f_i_2 * t114 + t105;
+    phi_q_t_lambda_q[62] = -t134;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t117 + A_ijt_h_i_0 * t121 + A_ijt_f_i_0 * t125 + s_j[2] * t134;
+    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t117 + A_ijt_h_i_1 * t121 + A_ijt_f_i_1 * t125 + s_j[2] * t116;
+    phi_q_t_lambda_q[65] = -(t130 + t138 + (t128 + t137 + (t120 + t135 + (t124 + t136))));
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -1156,12 +1123,6 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -1177,34 +1138,29 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];

@@ -38,16 +38,20 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real revolutions = geometry[26];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -125,23 +129,19 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[8] = -A_i_h_i_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t19 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t21 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t19 - C_i[2] * t21;
-    phi_q[10] = C_i[4] * t19 - C_i[5] * t21;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t16 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t18 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[9] = C_i[1] * t16 - C_i[2] * t18;
+    phi_q[10] = C_i[4] * t16 - C_i[5] * t18;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -165,28 +165,28 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real cosine_theta = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2;
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
-    const jg_real t38 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t35 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t38;
-    const jg_real t40 = pitch * theta_sine;
-    const jg_real t41 = sine_theta * t38 * pitch;
-    const jg_real t42 = C_i[5] * t40 - C_i[2] * t41;
-    const jg_real t43 = C_i[4] * t40 - C_i[1] * t41;
-    phi_q[13] = C_i[7] * t19 - C_i[8] * t21 + (A_ij_f_j_1 * t42 - A_ij_f_j_2 * t43);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t45 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t45 - C_i[0] * t19;
-    phi_q[15] = C_i[5] * t45 - C_i[3] * t19;
+    const jg_real theta_sine = cosine_theta * t35;
+    const jg_real t37 = pitch * theta_sine;
+    const jg_real t38 = sine_theta * t35 * pitch;
+    const jg_real t39 = C_i[5] * t37 - C_i[2] * t38;
+    const jg_real t40 = C_i[4] * t37 - C_i[1] * t38;
+    phi_q[13] = C_i[7] * t16 - C_i[8] * t18 + (A_ij_f_j_1 * t39 - A_ij_f_j_2 * t40);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t42 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[14] = C_i[2] * t42 - C_i[0] * t16;
+    phi_q[15] = C_i[5] * t42 - C_i[3] * t16;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[16] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[17] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    const jg_real t47 = C_i[3] * t40 - C_i[0] * t41;
-    phi_q[18] = C_i[8] * t45 - C_i[6] * t19 + (A_ij_f_j_2 * t47 - A_ij_f_j_0 * t42);
-    phi_q[19] = C_i[0] * t21 - C_i[1] * t45;
-    phi_q[20] = C_i[3] * t21 - C_i[4] * t45;
+    const jg_real t44 = C_i[3] * t37 - C_i[0] * t38;
+    phi_q[18] = C_i[8] * t42 - C_i[6] * t16 + (A_ij_f_j_2 * t44 - A_ij_f_j_0 * t39);
+    phi_q[19] = C_i[0] * t18 - C_i[1] * t42;
+    phi_q[20] = C_i[3] * t18 - C_i[4] * t42;
     phi_q[21] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[22] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
-    phi_q[23] = C_i[6] * t21 - C_i[7] * t45 + (A_ij_f_j_0 * t43 - A_ij_f_j_1 * t47);
+    phi_q[23] = C_i[6] * t18 - C_i[7] * t42 + (A_ij_f_j_0 * t40 - A_ij_f_j_1 * t44);
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -201,14 +201,14 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[34] = s_j_cross_A_ijt_g_i_0;
     phi_q[35] = A_ijt_f_i_2 * C_j[7] - A_ijt_f_i_1 * C_j[8];
     phi_q[36] = A_ijt_g_i_2 * C_j[7] - A_ijt_g_i_1 * C_j[8];
-    const jg_real t54 = A_ij_3 * t47 + A_ij_4 * t43 + A_ij_5 * t42;
-    const jg_real t55 = A_ij_6 * t47 + A_ij_7 * t43 + A_ij_8 * t42;
+    const jg_real t51 = A_ij_3 * t44 + A_ij_4 * t40 + A_ij_5 * t39;
+    const jg_real t52 = A_ij_6 * t44 + A_ij_7 * t40 + A_ij_8 * t39;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     /* s_j_cross_A_ijt_h_i = tilde(s_j) A_ij^T h_i */
     const jg_real s_j_cross_A_ijt_h_i_0 = s_j[1] * A_ijt_h_i_2 - s_j[2] * A_ijt_h_i_1;
-    phi_q[37] = C_j[2] * t54 - C_j[1] * t55 + s_j_cross_A_ijt_h_i_0;
+    phi_q[37] = C_j[2] * t51 - C_j[1] * t52 + s_j_cross_A_ijt_h_i_0;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
     const jg_real s_j_cross_A_ijt_f_i_1 = s_j[2] * A_ijt_f_i_0 - s_j[0] * A_ijt_f_i_2;
     phi_q[38] = s_j_cross_A_ijt_f_i_1;
@@ -217,10 +217,10 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[39] = s_j_cross_A_ijt_g_i_1;
     phi_q[40] = A_ijt_f_i_0 * C_j[8] - A_ijt_f_i_2 * C_j[6];
     phi_q[41] = A_ijt_g_i_0 * C_j[8] - A_ijt_g_i_2 * C_j[6];
-    const jg_real t63 = A_ij_0 * t47 + A_ij_1 * t43 + A_ij_2 * t42;
+    const jg_real t60 = A_ij_0 * t44 + A_ij_1 * t40 + A_ij_2 * t39;
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     const jg_real s_j_cross_A_ijt_h_i_1 = s_j[2] * A_ijt_h_i_0 - s_j[0] * A_ijt_h_i_2;
-    phi_q[42] = C_j[0] * t55 - C_j[2] * t63 + s_j_cross_A_ijt_h_i_1;
+    phi_q[42] = C_j[0] * t52 - C_j[2] * t60 + s_j_cross_A_ijt_h_i_1;
     const jg_real s_j_cross_A_ijt_f_i_2 = s_j[0] * A_ijt_f_i_1 - s_j[1] * A_ijt_f_i_0;
     phi_q[43] = s_j_cross_A_ijt_f_i_2;
     const jg_real s_j_cross_A_ijt_g_i_2 = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
@@ -228,7 +228,7 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[45] = A_ijt_f_i_1 * C_j[6] - A_ijt_f_i_0 * C_j[7];
     phi_q[46] = A_ijt_g_i_1 * C_j[6] - A_ijt_g_i_0 * C_j[7];
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
-    phi_q[47] = C_j[1] * t63 - C_j[0] * t54 + s_j_cross_A_ijt_h_i_2;
+    phi_q[47] = C_j[1] * t60 - C_j[0] * t51 + s_j_cross_A_ijt_h_i_2;
 }
 
 void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -244,7 +244,6 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -318,238 +317,231 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real t43 = t41 * t33;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t54 = s_i[2] + dp_ij_2;
-    const jg_real t55 = t0 * t54;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t57 = s_i[1] + dp_ij_1;
-    const jg_real t58 = t1 * t57;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t51 = t0 * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t53 = t1 * ep_ij_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t60 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t61 = t60 * A_ij_h_j_2;
+    const jg_real t55 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t56 = t55 * A_ij_h_j_2;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t63 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t64 = t63 * A_ij_h_j_1;
-    const jg_real t65 = t30 * t27;
-    const jg_real t66 = t30 * theta_sine;
-    const jg_real t67 = C_i[2] * t65 - C_i[5] * t66;
-    const jg_real t68 = A_ij_f_j_2 * t67;
-    const jg_real t69 = C_i[1] * t65 - C_i[4] * t66;
-    const jg_real t70 = A_ij_f_j_1 * t69;
-    phi_q_t_lambda_q[12] = t39 * t40 + t42 * t35 + t35 * t34 - t40 * t43 - (t55 + t58) - (t61 + t64) - (t68 + t70);
-    const jg_real t71 = C_i[3] * t30;
-    const jg_real t72 = A_ij_f_j_2 * t71 - A_ij_f_j_0 * t31;
-    const jg_real t73 = t29 * t72;
-    const jg_real t74 = C_i[0] * t30;
-    const jg_real t75 = A_ij_f_j_2 * t74 - A_ij_f_j_0 * t36;
-    const jg_real t76 = t29 * t75;
-    const jg_real t77 = t75 * t41;
-    const jg_real t78 = t41 * t72;
-    const jg_real t79 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real t80 = C_i[0] * t65 - C_i[3] * t66;
-    phi_q_t_lambda_q[13] = t76 * t40 + t77 * t35 + t35 * t73 - t40 * t78 + t3 * t57 + t79 * A_ij_h_j_1 + A_ij_f_j_1
-        * t80;
-    const jg_real t81 = A_ij_f_j_0 * t32 - A_ij_f_j_1 * t71;
-    const jg_real t82 = t29 * t81;
-    const jg_real t83 = A_ij_f_j_0 * t37 - A_ij_f_j_1 * t74;
-    const jg_real t84 = t29 * t83;
-    const jg_real t85 = t83 * t41;
-    const jg_real t86 = t41 * t81;
-    phi_q_t_lambda_q[14] = t84 * t40 + t85 * t35 + t35 * t82 - t40 * t86 + t3 * t54 + t79 * A_ij_h_j_2 + A_ij_f_j_2
-        * t80;
-    const jg_real t87 = -t2;
-    phi_q_t_lambda_q[15] = t87;
-    phi_q_t_lambda_q[45] = t87;
-    const jg_real t88 = -t6;
-    phi_q_t_lambda_q[16] = t88;
-    phi_q_t_lambda_q[48] = t88;
-    const jg_real t89 = -t9;
-    phi_q_t_lambda_q[17] = t89;
-    phi_q_t_lambda_q[51] = t89;
-    const jg_real t90 = A_ij_3 * t71 + A_ij_4 * t32 + A_ij_5 * t31;
-    const jg_real t91 = A_ij_6 * t71 + A_ij_7 * t32 + A_ij_8 * t31;
-    const jg_real t92 = C_j[2] * t90 - C_j[1] * t91;
-    const jg_real t93 = t29 * t92;
-    const jg_real t94 = A_ij_3 * t74 + A_ij_4 * t37 + A_ij_5 * t36;
-    const jg_real t95 = A_ij_6 * t74 + A_ij_7 * t37 + A_ij_8 * t36;
-    const jg_real t96 = C_j[2] * t94 - C_j[1] * t95;
-    const jg_real t97 = t29 * t96;
-    const jg_real t98 = t41 * t96;
-    const jg_real t99 = t41 * t92;
-    const jg_real t100 = A_ij_0 * t80 + A_ij_1 * t69 + A_ij_2 * t67;
-    const jg_real t101 = A_ij_f_j_0 * t100;
-    const jg_real t102 = A_ij_f_j_0 * t80;
-    const jg_real t103 = t70 + t102;
+    const jg_real t58 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t59 = t58 * A_ij_h_j_1;
+    const jg_real t60 = t30 * t27;
+    const jg_real t61 = t30 * theta_sine;
+    const jg_real t62 = C_i[2] * t60 - C_i[5] * t61;
+    const jg_real t63 = A_ij_f_j_2 * t62;
+    const jg_real t64 = C_i[1] * t60 - C_i[4] * t61;
+    const jg_real t65 = A_ij_f_j_1 * t64;
+    phi_q_t_lambda_q[12] = t39 * t40 + t42 * t35 + t35 * t34 - t40 * t43 - (t51 + t53) - (t56 + t59) - (t63 + t65);
+    const jg_real t66 = C_i[3] * t30;
+    const jg_real t67 = A_ij_f_j_2 * t66 - A_ij_f_j_0 * t31;
+    const jg_real t68 = t29 * t67;
+    const jg_real t69 = C_i[0] * t30;
+    const jg_real t70 = A_ij_f_j_2 * t69 - A_ij_f_j_0 * t36;
+    const jg_real t71 = t29 * t70;
+    const jg_real t72 = t70 * t41;
+    const jg_real t73 = t41 * t67;
+    const jg_real t74 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real t75 = C_i[0] * t60 - C_i[3] * t61;
+    phi_q_t_lambda_q[13] = t71 * t40 + t72 * t35 + t35 * t68 - t40 * t73 + t3 * ep_ij_1 + t74 * A_ij_h_j_1 +
+        A_ij_f_j_1 * t75;
+    const jg_real t76 = A_ij_f_j_0 * t32 - A_ij_f_j_1 * t66;
+    const jg_real t77 = t29 * t76;
+    const jg_real t78 = A_ij_f_j_0 * t37 - A_ij_f_j_1 * t69;
+    const jg_real t79 = t29 * t78;
+    const jg_real t80 = t78 * t41;
+    const jg_real t81 = t41 * t76;
+    phi_q_t_lambda_q[14] = t79 * t40 + t80 * t35 + t35 * t77 - t40 * t81 + t3 * ep_ij_2 + t74 * A_ij_h_j_2 +
+        A_ij_f_j_2 * t75;
+    const jg_real t82 = -t2;
+    phi_q_t_lambda_q[15] = t82;
+    phi_q_t_lambda_q[45] = t82;
+    const jg_real t83 = -t6;
+    phi_q_t_lambda_q[16] = t83;
+    phi_q_t_lambda_q[48] = t83;
+    const jg_real t84 = -t9;
+    phi_q_t_lambda_q[17] = t84;
+    phi_q_t_lambda_q[51] = t84;
+    const jg_real t85 = A_ij_3 * t66 + A_ij_4 * t32 + A_ij_5 * t31;
+    const jg_real t86 = A_ij_6 * t66 + A_ij_7 * t32 + A_ij_8 * t31;
+    const jg_real t87 = C_j[2] * t85 - C_j[1] * t86;
+    const jg_real t88 = t29 * t87;
+    const jg_real t89 = A_ij_3 * t69 + A_ij_4 * t37 + A_ij_5 * t36;
+    const jg_real t90 = A_ij_6 * t69 + A_ij_7 * t37 + A_ij_8 * t36;
+    const jg_real t91 = C_j[2] * t89 - C_j[1] * t90;
+    const jg_real t92 = t29 * t91;
+    const jg_real t93 = t41 * t91;
+    const jg_real t94 = t41 * t87;
+    const jg_real t95 = A_ij_0 * t75 + A_ij_1 * t64 + A_ij_2 * t62;
+    const jg_real t96 = A_ij_f_j_0 * t95;
+    const jg_real t97 = A_ij_f_j_0 * t75;
+    const jg_real t98 = t65 + t97;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t108 = t79 * A_ij_h_j_0;
-    const jg_real t109 = t64 + t108;
-    const jg_real t110 = t68 + t103 + (t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t61 + t109));
-    const jg_real t111 = A_ij_0 * t110;
-    const jg_real t112 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
-    const jg_real t113 = A_ij_s_j_0 * t112;
-    const jg_real t114 = A_ij_0 * t79 + A_ij_1 * t63 + A_ij_2 * t60;
-    const jg_real t115 = A_ij_h_j_0 * t114;
-    phi_q_t_lambda_q[18] = t40 * t97 + t35 * t98 + t35 * t93 - t40 * t99 - t101 + t111 - t113 - t115;
-    const jg_real t116 = A_ij_0 * t71 + A_ij_1 * t32 + A_ij_2 * t31;
-    const jg_real t117 = C_j[0] * t91 - C_j[2] * t116;
-    const jg_real t118 = t29 * t117;
-    const jg_real t119 = A_ij_0 * t74 + A_ij_1 * t37 + A_ij_2 * t36;
-    const jg_real t120 = C_j[0] * t95 - C_j[2] * t119;
-    const jg_real t121 = t29 * t120;
-    const jg_real t122 = t41 * t120;
-    const jg_real t123 = t41 * t117;
-    const jg_real t124 = A_ij_3 * t80 + A_ij_4 * t69 + A_ij_5 * t67;
-    const jg_real t125 = A_ij_f_j_0 * t124;
-    const jg_real t126 = A_ij_3 * t110;
-    const jg_real t127 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
-    const jg_real t128 = A_ij_s_j_0 * t127;
-    const jg_real t129 = A_ij_3 * t79 + A_ij_4 * t63 + A_ij_5 * t60;
-    const jg_real t130 = A_ij_h_j_0 * t129;
-    phi_q_t_lambda_q[19] = t40 * t121 + t35 * t122 + t35 * t118 - t40 * t123 - t125 + t126 - t128 - t130;
-    const jg_real t131 = C_j[1] * t116 - C_j[0] * t90;
-    const jg_real t132 = t29 * t131;
-    const jg_real t133 = C_j[1] * t119 - C_j[0] * t94;
-    const jg_real t134 = t29 * t133;
-    const jg_real t135 = t41 * t133;
-    const jg_real t136 = t41 * t131;
-    const jg_real t137 = A_ij_6 * t80 + A_ij_7 * t69 + A_ij_8 * t67;
-    const jg_real t138 = A_ij_f_j_0 * t137;
-    const jg_real t139 = A_ij_6 * t110;
-    const jg_real t140 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
-    const jg_real t141 = A_ij_s_j_0 * t140;
-    const jg_real t142 = A_ij_6 * t79 + A_ij_7 * t63 + A_ij_8 * t60;
-    const jg_real t143 = A_ij_h_j_0 * t142;
-    phi_q_t_lambda_q[20] = t40 * t134 + t35 * t135 + t35 * t132 - t40 * t136 - t138 + t139 - t141 - t143;
-    const jg_real t144 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
-    const jg_real t145 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t147 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[24] = t39 * t145 + t42 * t144 + t144 * t34 - t145 * t43 + t1 * t147 + t63 * A_ij_h_j_0 +
-        A_ij_f_j_0 * t69;
-    const jg_real t148 = t3 * t147;
-    phi_q_t_lambda_q[25] = t76 * t145 + t77 * t144 + t144 * t73 - t145 * t78 - (t55 + t148) - (t61 + t108) - (t68 +
-        t102);
-    phi_q_t_lambda_q[26] = t84 * t145 + t85 * t144 + t144 * t82 - t145 * t86 + t1 * t54 + t63 * A_ij_h_j_2 +
-        A_ij_f_j_2 * t69;
-    const jg_real t149 = -t4;
-    phi_q_t_lambda_q[27] = t149;
-    phi_q_t_lambda_q[46] = t149;
-    const jg_real t150 = -t7;
-    phi_q_t_lambda_q[28] = t150;
-    phi_q_t_lambda_q[49] = t150;
-    const jg_real t151 = -t10;
-    phi_q_t_lambda_q[29] = t151;
-    phi_q_t_lambda_q[52] = t151;
-    const jg_real t152 = A_ij_f_j_1 * t100;
-    const jg_real t153 = A_ij_1 * t110;
-    const jg_real t154 = A_ij_s_j_1 * t112;
-    const jg_real t155 = A_ij_h_j_1 * t114;
-    phi_q_t_lambda_q[30] = t145 * t97 + t144 * t98 + t144 * t93 - t145 * t99 - t152 + t153 - t154 - t155;
-    const jg_real t156 = A_ij_f_j_1 * t124;
-    const jg_real t157 = A_ij_4 * t110;
-    const jg_real t158 = A_ij_s_j_1 * t127;
-    const jg_real t159 = A_ij_h_j_1 * t129;
-    phi_q_t_lambda_q[31] = t145 * t121 + t144 * t122 + t144 * t118 - t145 * t123 - t156 + t157 - t158 - t159;
-    const jg_real t160 = A_ij_f_j_1 * t137;
-    const jg_real t161 = A_ij_7 * t110;
-    const jg_real t162 = A_ij_s_j_1 * t140;
-    const jg_real t163 = A_ij_h_j_1 * t142;
-    phi_q_t_lambda_q[32] = t145 * t134 + t144 * t135 + t144 * t132 - t145 * t136 - t160 + t161 - t162 - t163;
-    const jg_real t164 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
-    const jg_real t165 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
-    phi_q_t_lambda_q[36] = t39 * t165 + t42 * t164 + t164 * t34 - t165 * t43 + t0 * t147 + t60 * A_ij_h_j_0 +
-        A_ij_f_j_0 * t67;
-    phi_q_t_lambda_q[37] = t76 * t165 + t77 * t164 + t164 * t73 - t165 * t78 + t0 * t57 + t60 * A_ij_h_j_1 +
-        A_ij_f_j_1 * t67;
-    phi_q_t_lambda_q[38] = t84 * t165 + t85 * t164 + t164 * t82 - t165 * t86 - (t58 + t148) - t109 - t103;
-    const jg_real t166 = -t5;
-    phi_q_t_lambda_q[39] = t166;
-    phi_q_t_lambda_q[47] = t166;
-    const jg_real t167 = -t8;
-    phi_q_t_lambda_q[40] = t167;
-    phi_q_t_lambda_q[50] = t167;
-    const jg_real t168 = -t11;
-    phi_q_t_lambda_q[41] = t168;
-    phi_q_t_lambda_q[53] = t168;
-    const jg_real t169 = A_ij_f_j_2 * t100;
-    const jg_real t170 = A_ij_2 * t110;
-    const jg_real t171 = A_ij_s_j_2 * t112;
-    const jg_real t172 = A_ij_h_j_2 * t114;
-    phi_q_t_lambda_q[42] = t165 * t97 + t164 * t98 + t164 * t93 - t165 * t99 - t169 + t170 - t171 - t172;
-    const jg_real t173 = A_ij_f_j_2 * t124;
-    const jg_real t174 = A_ij_5 * t110;
-    const jg_real t175 = A_ij_s_j_2 * t127;
-    const jg_real t176 = A_ij_h_j_2 * t129;
-    phi_q_t_lambda_q[43] = t165 * t121 + t164 * t122 + t164 * t118 - t165 * t123 - t173 + t174 - t175 - t176;
-    const jg_real t177 = A_ij_f_j_2 * t137;
-    const jg_real t178 = A_ij_8 * t110;
-    const jg_real t179 = A_ij_s_j_2 * t140;
-    const jg_real t180 = A_ij_h_j_2 * t142;
-    phi_q_t_lambda_q[44] = t165 * t134 + t164 * t135 + t164 * t132 - t165 * t136 - t177 + t178 - t179 - t180;
-    const jg_real t181 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t182 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t183 = C_j[2] * t181 - C_j[1] * t182;
-    const jg_real t184 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
-    const jg_real t185 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real t186 = C_j[2] * t184 - C_j[1] * t185;
-    phi_q_t_lambda_q[54] = t43 * t186 - (t39 * t186 + t42 * t183 + t34 * t183) - t113 + t111 - t115 - t101;
-    phi_q_t_lambda_q[55] = t78 * t186 - (t76 * t186 + t77 * t183 + t73 * t183) - t154 + t153 - t155 - t152;
-    phi_q_t_lambda_q[56] = t86 * t186 - (t84 * t186 + t85 * t183 + t82 * t183) - t171 + t170 - t172 - t169;
-    const jg_real t187 = C_j[2] * t137;
-    const jg_real t188 = C_j[1] * t124;
-    const jg_real t189 = s_j[2] * t140;
-    const jg_real t190 = s_j[1] * t127;
-    const jg_real t191 = C_j[8] * t142;
-    const jg_real t192 = C_j[7] * t129;
-    phi_q_t_lambda_q[57] = t186 * t99 - (t186 * t97 + t183 * t98 + t183 * t93) - (t187 + t188) - (t189 + t190) -
-        (t191 + t192);
-    phi_q_t_lambda_q[58] = t186 * t123 - (t186 * t121 + t183 * t122 + t183 * t118) + C_j[0] * t124 + s_j[0] * t127 +
-        C_j[6] * t129;
-    phi_q_t_lambda_q[59] = t186 * t136 - (t186 * t134 + t183 * t135 + t183 * t132) + C_j[0] * t137 + s_j[0] * t140 +
-        C_j[6] * t142;
-    const jg_real t193 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t194 = C_j[0] * t182 - C_j[2] * t193;
-    const jg_real t195 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
-    const jg_real t196 = C_j[0] * t185 - C_j[2] * t195;
-    phi_q_t_lambda_q[60] = t43 * t196 - (t39 * t196 + t42 * t194 + t34 * t194) - t128 + t126 - t130 - t125;
-    phi_q_t_lambda_q[61] = t78 * t196 - (t76 * t196 + t77 * t194 + t73 * t194) - t158 + t157 - t159 - t156;
-    phi_q_t_lambda_q[62] = t86 * t196 - (t84 * t196 + t85 * t194 + t82 * t194) - t175 + t174 - t176 - t173;
-    phi_q_t_lambda_q[63] = t196 * t99 - (t196 * t97 + t194 * t98 + t194 * t93) + C_j[1] * t100 + s_j[1] * t112 +
-        C_j[7] * t114;
-    const jg_real t197 = C_j[0] * t100;
-    const jg_real t198 = s_j[0] * t112;
-    const jg_real t199 = C_j[6] * t114;
-    phi_q_t_lambda_q[64] = t196 * t123 - (t196 * t121 + t194 * t122 + t194 * t118) - (t187 + t197) - (t189 + t198) -
-        (t191 + t199);
-    phi_q_t_lambda_q[65] = t196 * t136 - (t196 * t134 + t194 * t135 + t194 * t132) + C_j[1] * t137 + s_j[1] * t140 +
-        C_j[7] * t142;
-    const jg_real t200 = C_j[1] * t193 - C_j[0] * t181;
-    const jg_real t201 = C_j[1] * t195 - C_j[0] * t184;
-    phi_q_t_lambda_q[66] = t43 * t201 - (t39 * t201 + t42 * t200 + t34 * t200) - t141 + t139 - t143 - t138;
-    phi_q_t_lambda_q[67] = t78 * t201 - (t76 * t201 + t77 * t200 + t73 * t200) - t162 + t161 - t163 - t160;
-    phi_q_t_lambda_q[68] = t86 * t201 - (t84 * t201 + t85 * t200 + t82 * t200) - t179 + t178 - t180 - t177;
-    phi_q_t_lambda_q[69] = t201 * t99 - (t201 * t97 + t200 * t98 + t200 * t93) + C_j[2] * t100 + s_j[2] * t112 +
-        C_j[8] * t114;
-    phi_q_t_lambda_q[70] = t201 * t123 - (t201 * t121 + t200 * t122 + t200 * t118) + C_j[2] * t124 + s_j[2] * t127 +
-        C_j[8] * t129;
-    phi_q_t_lambda_q[71] = t201 * t136 - (t201 * t134 + t200 * t135 + t200 * t132) - (t188 + t197) - (t190 + t198) -
-        (t192 + t199);
+    const jg_real t103 = t74 * A_ij_h_j_0;
+    const jg_real t104 = t59 + t103;
+    const jg_real t105 = t63 + t98 + (t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2 + (t56 + t104));
+    const jg_real t106 = A_ij_0 * t105;
+    const jg_real t107 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
+    const jg_real t108 = A_ij_s_j_0 * t107;
+    const jg_real t109 = A_ij_0 * t74 + A_ij_1 * t58 + A_ij_2 * t55;
+    const jg_real t110 = A_ij_h_j_0 * t109;
+    phi_q_t_lambda_q[18] = t40 * t92 + t35 * t93 + t35 * t88 - t40 * t94 - t96 + t106 - t108 - t110;
+    const jg_real t111 = A_ij_0 * t66 + A_ij_1 * t32 + A_ij_2 * t31;
+    const jg_real t112 = C_j[0] * t86 - C_j[2] * t111;
+    const jg_real t113 = t29 * t112;
+    const jg_real t114 = A_ij_0 * t69 + A_ij_1 * t37 + A_ij_2 * t36;
+    const jg_real t115 = C_j[0] * t90 - C_j[2] * t114;
+    const jg_real t116 = t29 * t115;
+    const jg_real t117 = t41 * t115;
+    const jg_real t118 = t41 * t112;
+    const jg_real t119 = A_ij_3 * t75 + A_ij_4 * t64 + A_ij_5 * t62;
+    const jg_real t120 = A_ij_f_j_0 * t119;
+    const jg_real t121 = A_ij_3 * t105;
+    const jg_real t122 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
+    const jg_real t123 = A_ij_s_j_0 * t122;
+    const jg_real t124 = A_ij_3 * t74 + A_ij_4 * t58 + A_ij_5 * t55;
+    const jg_real t125 = A_ij_h_j_0 * t124;
+    phi_q_t_lambda_q[19] = t40 * t116 + t35 * t117 + t35 * t113 - t40 * t118 - t120 + t121 - t123 - t125;
+    const jg_real t126 = C_j[1] * t111 - C_j[0] * t85;
+    const jg_real t127 = t29 * t126;
+    const jg_real t128 = C_j[1] * t114 - C_j[0] * t89;
+    const jg_real t129 = t29 * t128;
+    const jg_real t130 = t41 * t128;
+    const jg_real t131 = t41 * t126;
+    const jg_real t132 = A_ij_6 * t75 + A_ij_7 * t64 + A_ij_8 * t62;
+    const jg_real t133 = A_ij_f_j_0 * t132;
+    const jg_real t134 = A_ij_6 * t105;
+    const jg_real t135 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
+    const jg_real t136 = A_ij_s_j_0 * t135;
+    const jg_real t137 = A_ij_6 * t74 + A_ij_7 * t58 + A_ij_8 * t55;
+    const jg_real t138 = A_ij_h_j_0 * t137;
+    phi_q_t_lambda_q[20] = t40 * t129 + t35 * t130 + t35 * t127 - t40 * t131 - t133 + t134 - t136 - t138;
+    const jg_real t139 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
+    const jg_real t140 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[24] = t39 * t140 + t42 * t139 + t139 * t34 - t140 * t43 + t1 * ep_ij_0 + t58 * A_ij_h_j_0 +
+        A_ij_f_j_0 * t64;
+    const jg_real t142 = t3 * ep_ij_0;
+    phi_q_t_lambda_q[25] = t71 * t140 + t72 * t139 + t139 * t68 - t140 * t73 - (t51 + t142) - (t56 + t103) - (t63 +
+        t97);
+    phi_q_t_lambda_q[26] = t79 * t140 + t80 * t139 + t139 * t77 - t140 * t81 + t1 * ep_ij_2 + t58 * A_ij_h_j_2 +
+        A_ij_f_j_2 * t64;
+    const jg_real t143 = -t4;
+    phi_q_t_lambda_q[27] = t143;
+    phi_q_t_lambda_q[46] = t143;
+    const jg_real t144 = -t7;
+    phi_q_t_lambda_q[28] = t144;
+    phi_q_t_lambda_q[49] = t144;
+    const jg_real t145 = -t10;
+    phi_q_t_lambda_q[29] = t145;
+    phi_q_t_lambda_q[52] = t145;
+    const jg_real t146 = A_ij_f_j_1 * t95;
+    const jg_real t147 = A_ij_1 * t105;
+    const jg_real t148 = A_ij_s_j_1 * t107;
+    const jg_real t149 = A_ij_h_j_1 * t109;
+    phi_q_t_lambda_q[30] = t140 * t92 + t139 * t93 + t139 * t88 - t140 * t94 - t146 + t147 - t148 - t149;
+    const jg_real t150 = A_ij_f_j_1 * t119;
+    const jg_real t151 = A_ij_4 * t105;
+    const jg_real t152 = A_ij_s_j_1 * t122;
+    const jg_real t153 = A_ij_h_j_1 * t124;
+    phi_q_t_lambda_q[31] = t140 * t116 + t139 * t117 + t139 * t113 - t140 * t118 - t150 + t151 - t152 - t153;
+    const jg_real t154 = A_ij_f_j_1 * t132;
+    const jg_real t155 = A_ij_7 * t105;
+    const jg_real t156 = A_ij_s_j_1 * t135;
+    const jg_real t157 = A_ij_h_j_1 * t137;
+    phi_q_t_lambda_q[32] = t140 * t129 + t139 * t130 + t139 * t127 - t140 * t131 - t154 + t155 - t156 - t157;
+    const jg_real t158 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
+    const jg_real t159 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
+    phi_q_t_lambda_q[36] = t39 * t159 + t42 * t158 + t158 * t34 - t159 * t43 + t0 * ep_ij_0 + t55 * A_ij_h_j_0 +
+        A_ij_f_j_0 * t62;
+    phi_q_t_lambda_q[37] = t71 * t159 + t72 * t158 + t158 * t68 - t159 * t73 + t0 * ep_ij_1 + t55 * A_ij_h_j_1 +
+        A_ij_f_j_1 * t62;
+    phi_q_t_lambda_q[38] = t79 * t159 + t80 * t158 + t158 * t77 - t159 * t81 - (t53 + t142) - t104 - t98;
+    const jg_real t160 = -t5;
+    phi_q_t_lambda_q[39] = t160;
+    phi_q_t_lambda_q[47] = t160;
+    const jg_real t161 = -t8;
+    phi_q_t_lambda_q[40] = t161;
+    phi_q_t_lambda_q[50] = t161;
+    const jg_real t162 = -t11;
+    phi_q_t_lambda_q[41] = t162;
+    phi_q_t_lambda_q[53] = t162;
+    const jg_real t163 = A_ij_f_j_2 * t95;
+    const jg_real t164 = A_ij_2 * t105;
+    const jg_real t165 = A_ij_s_j_2 * t107;
+    const jg_real t166 = A_ij_h_j_2 * t109;
+    phi_q_t_lambda_q[42] = t159 * t92 + t158 * t93 + t158 * t88 - t159 * t94 - t163 + t164 - t165 - t166;
+    const jg_real t167 = A_ij_f_j_2 * t119;
+    const jg_real t168 = A_ij_5 * t105;
+    const jg_real t169 = A_ij_s_j_2 * t122;
+    const jg_real t170 = A_ij_h_j_2 * t124;
+    phi_q_t_lambda_q[43] = t159 * t116 + t158 * t117 + t158 * t113 - t159 * t118 - t167 + t168 - t169 - t170;
+    const jg_real t171 = A_ij_f_j_2 * t132;
+    const jg_real t172 = A_ij_8 * t105;
+    const jg_real t173 = A_ij_s_j_2 * t135;
+    const jg_real t174 = A_ij_h_j_2 * t137;
+    phi_q_t_lambda_q[44] = t159 * t129 + t158 * t130 + t158 * t127 - t159 * t131 - t171 + t172 - t173 - t174;
+    const jg_real t175 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
+    const jg_real t176 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
+    const jg_real t177 = C_j[2] * t175 - C_j[1] * t176;
+    const jg_real t178 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
+    const jg_real t179 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
+    const jg_real t180 = C_j[2] * t178 - C_j[1] * t179;
+    phi_q_t_lambda_q[54] = t43 * t180 - (t39 * t180 + t42 * t177 + t34 * t177) - t108 + t106 - t110 - t96;
+    phi_q_t_lambda_q[55] = t73 * t180 - (t71 * t180 + t72 * t177 + t68 * t177) - t148 + t147 - t149 - t146;
+    phi_q_t_lambda_q[56] = t81 * t180 - (t79 * t180 + t80 * t177 + t77 * t177) - t165 + t164 - t166 - t163;
+    const jg_real t181 = C_j[2] * t132;
+    const jg_real t182 = C_j[1] * t119;
+    const jg_real t183 = s_j[2] * t135;
+    const jg_real t184 = s_j[1] * t122;
+    const jg_real t185 = C_j[8] * t137;
+    const jg_real t186 = C_j[7] * t124;
+    phi_q_t_lambda_q[57] = t180 * t94 - (t180 * t92 + t177 * t93 + t177 * t88) - (t181 + t182) - (t183 + t184) -
+        (t185 + t186);
+    phi_q_t_lambda_q[58] = t180 * t118 - (t180 * t116 + t177 * t117 + t177 * t113) + C_j[0] * t119 + s_j[0] * t122 +
+        C_j[6] * t124;
+    phi_q_t_lambda_q[59] = t180 * t131 - (t180 * t129 + t177 * t130 + t177 * t127) + C_j[0] * t132 + s_j[0] * t135 +
+        C_j[6] * t137;
+    const jg_real t187 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
+    const jg_real t188 = C_j[0] * t176 - C_j[2] * t187;
+    const jg_real t189 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
+    const jg_real t190 = C_j[0] * t179 - C_j[2] * t189;
+    phi_q_t_lambda_q[60] = t43 * t190 - (t39 * t190 + t42 * t188 + t34 * t188) - t123 + t121 - t125 - t120;
+    phi_q_t_lambda_q[61] = t73 * t190 - (t71 * t190 + t72 * t188 + t68 * t188) - t152 + t151 - t153 - t150;
+    phi_q_t_lambda_q[62] = t81 * t190 - (t79 * t190 + t80 * t188 + t77 * t188) - t169 + t168 - t170 - t167;
+    phi_q_t_lambda_q[63] = t190 * t94 - (t190 * t92 + t188 * t93 + t188 * t88) + C_j[1] * t95 + s_j[1] * t107 +
+        C_j[7] * t109;
+    const jg_real t191 = C_j[0] * t95;
+    const jg_real t192 = s_j[0] * t107;
+    const jg_real t193 = C_j[6] * t109;
+    phi_q_t_lambda_q[64] = t190 * t118 - (t190 * t116 + t188 * t117 + t188 * t113) - (t181 + t191) - (t183 + t192) -
+        (t185 + t193);
+    phi_q_t_lambda_q[65] = t190 * t131 - (t190 * t129 + t188 * t130 + t188 * t127) + C_j[1] * t132 + s_j[1] * t135 +
+        C_j[7] * t137;
+    const jg_real t194 = C_j[1] * t187 - C_j[0] * t175;
+    const jg_real t195 = C_j[1] * t189 - C_j[0] * t178;
+    phi_q_t_lambda_q[66] = t43 * t195 - (t39 * t195 + t42 * t194 + t34 * t194) - t136 + t134 - t138 - t133;
+    phi_q_t_lambda_q[67] = t73 * t195 - (t71 * t195 + t72 * t194 + t68 * t194) - t156 + t155 - t157 - t154;
+    phi_q_t_lambda_q[68] = t81 * t195 - (t79 * t195 + t80 * t194 + t77 * t194) - t173 + t172 - t174 - t171;
+    phi_q_t_lambda_q[69] = t195 * t94 - (t195 * t92 + t194 * t93 + t194 * t88) + C_j[2] * t95 + s_j[2] * t107 +
+        C_j[8] * t109;
+    phi_q_t_lambda_q[70] = t195 * t118 - (t195 * t116 + t194 * t117 + t194 * t113) + C_j[2] * t119 + s_j[2] * t122 +
+        C_j[8] * t124;
+    phi_q_t_lambda_q[71] = t195 * t131 - (t195 * t129 + t194 * t130 + t194 * t127) - (t182 + t191) - (t184 + t192) -
+        (t186 + t193);
 }
 
 void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -565,7 +557,6 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -574,70 +565,65 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
-    const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
-        omega_j_cross_s_j_1;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
-        omega_j_cross_s_j_0;
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t33 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
-        A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t11 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t16 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t17 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
+    /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
+    const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
+        omega_j_cross_s_j_1;
+    const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
+        omega_j_cross_s_j_2;
+    const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
+        omega_j_cross_s_j_0;
+    const jg_real t36 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+        A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
     const jg_real t37 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t41 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t38 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -655,30 +641,18 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t33 + C_i[1] * t37 + C_i[2] * t41 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t36 + C_i[1]
+        * t37 + C_i[2] * t38) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t11 + C_i[1] * t16
+        + C_i[2] * t17);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t33 + C_i[4] * t37 + C_i[5] * t41 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t36 + C_i[4]
+        * t37 + C_i[5] * t38) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t11 + C_i[4] * t16
+        + C_i[5] * t17);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -688,11 +662,11 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t65 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t67 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t68 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -700,10 +674,10 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t74 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t65 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t76 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t77 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t67 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t68 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -711,16 +685,16 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t81 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t72 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t82 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t73 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t83 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t74 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[2] = JG_REAL(2.0) * (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68) - (C_i[0] * t81 + C_i[1] * t82 + C_i[2] *
-        t83 + (C_i[0] * t74 + C_i[1] * t76 + C_i[2] * t77));
-    gamma[3] = JG_REAL(2.0) * (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68) - (C_i[3] * t81 + C_i[4] * t82 + C_i[5] *
-        t83 + (C_i[3] * t74 + C_i[4] * t76 + C_i[5] * t77));
+    gamma[2] = JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59) - (C_i[0] * t72 + C_i[1] * t73 + C_i[2] *
+        t74 + (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68));
+    gamma[3] = JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59) - (C_i[3] * t72 + C_i[4] * t73 + C_i[5] *
+        t74 + (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68));
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -729,9 +703,9 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real cosine_theta = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2;
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
-    const jg_real t89 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t90 = sine_theta * t89;
-    const jg_real t91 = pitch * t90;
+    const jg_real t80 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t81 = sine_theta * t80;
+    const jg_real t82 = pitch * t81;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -743,63 +717,61 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t98 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t89 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t99 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t90 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t100 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t91 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    const jg_real t103 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t94 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    const jg_real t105 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t106 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t96 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t97 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t89;
-    const jg_real t108 = pitch * theta_sine;
+    const jg_real theta_sine = cosine_theta * t80;
+    const jg_real t99 = pitch * theta_sine;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t111 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t102 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t113 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t114 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
-    const jg_real t115 = JG_REAL(2.0) * pitch;
-    const jg_real t116 = t90 * t115;
-    const jg_real t117 = theta_sine * t116;
-    const jg_real t118 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
+    const jg_real t104 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t105 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t106 = JG_REAL(2.0) * pitch;
+    const jg_real t107 = t81 * t106;
+    const jg_real t108 = theta_sine * t107;
+    const jg_real t109 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t119 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
+    const jg_real t110 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t120 = t90 * t90 * t115;
-    const jg_real t121 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
+    const jg_real t111 = t81 * t81 * t106;
+    const jg_real t112 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
         A_ij_omega_j_cross_f_j_2;
-    const jg_real t122 = t121 * t120;
-    const jg_real t123 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
+    const jg_real t113 = t112 * t111;
+    const jg_real t114 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t124 = t120 * t123;
-    const jg_real t125 = theta_sine * theta_sine * t115;
-    const jg_real t126 = t121 * t125;
-    const jg_real t127 = t123 * t125;
-    const jg_real t128 = pitch * JG_REAL(4.0) * t90 * theta_sine;
+    const jg_real t115 = t111 * t114;
+    const jg_real t116 = theta_sine * theta_sine * t106;
+    const jg_real t117 = t112 * t116;
+    const jg_real t118 = t114 * t116;
+    const jg_real t119 = pitch * JG_REAL(4.0) * t81 * theta_sine;
     gamma[4] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * t33 + C_i[7] * t37 + C_i[8] * t41 + (C_i[6] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
-        omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * t56 + C_i[7] * t58 + C_i[8] * t59) - (C_i[0] * t98 + C_i[1] * t99 + C_i[2] * t100)
-        * t91 - t91 * (C_i[0] * t103 + C_i[1] * t105 + C_i[2] * t106) + (C_i[3] * t98 + C_i[4] * t99 + C_i[5] *
-        t100) * t108 + t108 * (C_i[3] * t103 + C_i[4] * t105 + C_i[5] * t106) + (C_i[0] * t111 + C_i[1] * t113 +
-        C_i[2] * t114) * t116 - (C_i[3] * t111 + C_i[4] * t113 + C_i[5] * t114) * (theta_sine * t115) + t118 * t118
-        * t117 + t119 * t119 * t117 - t119 * t122 - t118 * t124 - t118 * t126 - t119 * t127 - t121 * t121 * t117 -
-        t123 * t123 * t117 + t118 * t122 + t119 * t124 + t119 * t126 + t118 * t127 + t121 * t128 * t123 - t118 *
-        t128 * t119;
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[7] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[8] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[6] * t36 + C_i[7]
+        * t37 + C_i[8] * t38) + JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_i_0 + C_i[7] *
+        omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[6] * t11 + C_i[7] * t16
+        + C_i[8] * t17) - (C_i[0] * t89 + C_i[1] * t90 + C_i[2] * t91) * t82 - t82 * (C_i[0] * t94 + C_i[1] * t96 +
+        C_i[2] * t97) + (C_i[3] * t89 + C_i[4] * t90 + C_i[5] * t91) * t99 + t99 * (C_i[3] * t94 + C_i[4] * t96 +
+        C_i[5] * t97) + (C_i[0] * t102 + C_i[1] * t104 + C_i[2] * t105) * t107 - (C_i[3] * t102 + C_i[4] * t104 +
+        C_i[5] * t105) * (theta_sine * t106) + t109 * t109 * t108 + t110 * t110 * t108 - t110 * t113 - t109 * t115 -
+        t109 * t117 - t110 * t118 - t112 * t112 * t108 - t114 * t114 * t108 + t109 * t113 + t110 * t115 + t110 *
+        t117 + t109 * t118 + t112 * t119 * t114 - t109 * t119 * t110;
 }
 
 void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -815,38 +787,6 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    /* A_it_v_i = A_i^T v_i */
-    const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
-    const jg_real A_it_v_i_1 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
-    const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
-    /* A_it_v_j = A_i^T v_j */
-    const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -868,16 +808,44 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t22 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t24 = ep_ij_1 - s_i[1];
+    const jg_real t25 = omega_i[1] * t22 - omega_i[2] * t24;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t27 = ep_ij_0 - s_i[0];
+    const jg_real t28 = omega_i[2] * t27 - omega_i[0] * t22;
+    const jg_real t29 = omega_i[0] * t24 - omega_i[1] * t27;
+    /* omega_i_cross_s_i = tilde(omega_i) s_i */
+    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
+    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
+    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
+    /* A_it_v_i = A_i^T v_i */
+    const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
+    const jg_real A_it_v_i_1 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
+    const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
+    /* A_it_v_j = A_i^T v_j */
+    const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
+    const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
+    const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
     phi_q_v[0] = C_i[0] * A_ij_omega_j_cross_s_j_0 + C_i[1] * A_ij_omega_j_cross_s_j_1 + C_i[2] *
         A_ij_omega_j_cross_s_j_2 + (C_i[0] * A_it_v_j_0 + C_i[1] * A_it_v_j_1 + C_i[2] * A_it_v_j_2 - (C_i[0] *
-        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * omega_i_cross_dp_ij_0 + C_i[1] *
-        omega_i_cross_dp_ij_1 + C_i[2] * omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * t25 + C_i[1] * t28 + C_i[2] * t29 +
+        (C_i[0] * omega_i_cross_s_i_0 + C_i[1] * omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
     phi_q_v[1] = C_i[3] * A_ij_omega_j_cross_s_j_0 + C_i[4] * A_ij_omega_j_cross_s_j_1 + C_i[5] *
         A_ij_omega_j_cross_s_j_2 + (C_i[3] * A_it_v_j_0 + C_i[4] * A_it_v_j_1 + C_i[5] * A_it_v_j_2 - (C_i[3] *
-        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * omega_i_cross_dp_ij_0 + C_i[4] *
-        omega_i_cross_dp_ij_1 + C_i[5] * omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * t25 + C_i[4] * t28 + C_i[5] * t29 +
+        (C_i[3] * omega_i_cross_s_i_0 + C_i[4] * omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -912,14 +880,14 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     /* sine_theta = g_i . A_ij f_j */
     const jg_real sine_theta = C_i[3] * A_ij_f_j_0 + C_i[4] * A_ij_f_j_1 + C_i[5] * A_ij_f_j_2;
     const jg_real t56 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t57 = sine_theta * t56 * pitch;
+    /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
+    const jg_real theta_sine = cosine_theta * t56;
+    const jg_real t58 = pitch * theta_sine;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t56;
-    const jg_real t62 = pitch * theta_sine;
+    const jg_real t62 = sine_theta * t56 * pitch;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -933,21 +901,19 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_f_j_2;
     phi_q_v[4] = C_i[6] * A_ij_omega_j_cross_s_j_0 + C_i[7] * A_ij_omega_j_cross_s_j_1 + C_i[8] *
         A_ij_omega_j_cross_s_j_2 + (C_i[6] * A_it_v_j_0 + C_i[7] * A_it_v_j_1 + C_i[8] * A_it_v_j_2 + ((C_i[3] *
-        omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] * omega_i_cross_A_ij_f_j_2) * t62 -
-        (C_i[6] * A_it_v_i_0 + C_i[7] * A_it_v_i_1 + C_i[8] * A_it_v_i_2 + (C_i[6] * omega_i_cross_dp_ij_0 + C_i[7]
-        * omega_i_cross_dp_ij_1 + C_i[8] * omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_s_i_2)) + (C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] *
-        omega_i_cross_A_ij_f_j_1 + C_i[2] * omega_i_cross_A_ij_f_j_2) * t57) + t57 * (C_i[0] *
-        A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] * A_ij_omega_j_cross_f_j_2) - t62 *
-        (C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
-        A_ij_omega_j_cross_f_j_2)));
+        omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] * omega_i_cross_A_ij_f_j_2) * t58 -
+        (C_i[6] * A_it_v_i_0 + C_i[7] * A_it_v_i_1 + C_i[8] * A_it_v_i_2 + (C_i[6] * t25 + C_i[7] * t28 + C_i[8] *
+        t29 + (C_i[6] * omega_i_cross_s_i_0 + C_i[7] * omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_s_i_2)) +
+        (C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] * omega_i_cross_A_ij_f_j_2)
+        * t62) + t62 * (C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
+        A_ij_omega_j_cross_f_j_2) - t58 * (C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 +
+        C_i[5] * A_ij_omega_j_cross_f_j_2)));
 }
 
 void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -992,51 +958,44 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real t26 = C_i[4] * t23 - C_i[1] * t24;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t37 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t39 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t41 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t36 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t43 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    phi_q_t_lambda[3] = A_ij_f_j_1 * t25 - A_ij_f_j_2 * t26 + (t1 * t37 - t2 * t39 + (A_ij_h_j_2 * t41 - A_ij_h_j_1
-        * t43));
-    const jg_real t44 = C_i[3] * t23 - C_i[0] * t24;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t46 = s_i[0] + dp_ij_0;
+    const jg_real t38 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    phi_q_t_lambda[3] = A_ij_f_j_1 * t25 - A_ij_f_j_2 * t26 + (t1 * ep_ij_2 - t2 * ep_ij_1 + (A_ij_h_j_2 * t36 -
+        A_ij_h_j_1 * t38));
+    const jg_real t39 = C_i[3] * t23 - C_i[0] * t24;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t48 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    phi_q_t_lambda[4] = A_ij_f_j_2 * t44 - A_ij_f_j_0 * t25 + (t2 * t46 - t0 * t37 + (A_ij_h_j_0 * t43 - A_ij_h_j_2
-        * t48));
-    phi_q_t_lambda[5] = A_ij_f_j_0 * t26 - A_ij_f_j_1 * t44 + (t0 * t39 - t1 * t46 + (A_ij_h_j_1 * t48 - A_ij_h_j_0
-        * t41));
-    const jg_real t49 = A_ij_3 * t44 + A_ij_4 * t26 + A_ij_5 * t25;
-    const jg_real t50 = A_ij_6 * t44 + A_ij_7 * t26 + A_ij_8 * t25;
-    const jg_real t51 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
-    const jg_real t52 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
-    const jg_real t53 = A_ij_6 * t48 + A_ij_7 * t41 + A_ij_8 * t43;
-    const jg_real t54 = A_ij_3 * t48 + A_ij_4 * t41 + A_ij_5 * t43;
-    phi_q_t_lambda[9] = C_j[7] * t53 - C_j[8] * t54 + (C_j[2] * t49 - C_j[1] * t50 + (s_j[1] * t51 - s_j[2] * t52));
-    const jg_real t55 = A_ij_0 * t44 + A_ij_1 * t26 + A_ij_2 * t25;
-    const jg_real t56 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
-    const jg_real t57 = A_ij_0 * t48 + A_ij_1 * t41 + A_ij_2 * t43;
-    phi_q_t_lambda[10] = C_j[8] * t57 - C_j[6] * t53 + (C_j[0] * t50 - C_j[2] * t55 + (s_j[2] * t56 - s_j[0] *
-        t51));
-    phi_q_t_lambda[11] = C_j[6] * t54 - C_j[7] * t57 + (C_j[1] * t55 - C_j[0] * t49 + (s_j[0] * t52 - s_j[1] *
-        t56));
+    const jg_real t42 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    phi_q_t_lambda[4] = A_ij_f_j_2 * t39 - A_ij_f_j_0 * t25 + (t2 * ep_ij_0 - t0 * ep_ij_2 + (A_ij_h_j_0 * t38 -
+        A_ij_h_j_2 * t42));
+    phi_q_t_lambda[5] = A_ij_f_j_0 * t26 - A_ij_f_j_1 * t39 + (t0 * ep_ij_1 - t1 * ep_ij_0 + (A_ij_h_j_1 * t42 -
+        A_ij_h_j_0 * t36));
+    const jg_real t43 = A_ij_3 * t39 + A_ij_4 * t26 + A_ij_5 * t25;
+    const jg_real t44 = A_ij_6 * t39 + A_ij_7 * t26 + A_ij_8 * t25;
+    const jg_real t45 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
+    const jg_real t46 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
+    const jg_real t47 = A_ij_6 * t42 + A_ij_7 * t36 + A_ij_8 * t38;
+    const jg_real t48 = A_ij_3 * t42 + A_ij_4 * t36 + A_ij_5 * t38;
+    phi_q_t_lambda[9] = C_j[7] * t47 - C_j[8] * t48 + (C_j[2] * t43 - C_j[1] * t44 + (s_j[1] * t45 - s_j[2] * t46));
+    const jg_real t49 = A_ij_0 * t39 + A_ij_1 * t26 + A_ij_2 * t25;
+    const jg_real t50 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
+    const jg_real t51 = A_ij_0 * t42 + A_ij_1 * t36 + A_ij_2 * t38;
+    phi_q_t_lambda[10] = C_j[8] * t51 - C_j[6] * t47 + (C_j[0] * t44 - C_j[2] * t49 + (s_j[2] * t50 - s_j[0] *
+        t45));
+    phi_q_t_lambda[11] = C_j[6] * t48 - C_j[7] * t51 + (C_j[1] * t49 - C_j[0] * t43 + (s_j[0] * t46 - s_j[1] *
+        t50));
 }
 
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1057,16 +1016,20 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const omega_j = velocity + 9;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -1131,33 +1094,37 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_i_h_i_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
     phi_q[32] = A_i_h_i_2;
     phi_q[8] = -A_i_h_i_2;
-    const jg_real t39 = s_i[2] + dp_ij_2;
-    const jg_real t40 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t39 - C_i[2] * t40;
-    phi_q[10] = C_i[4] * t39 - C_i[5] * t40;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t43 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t45 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[9] = C_i[1] * t43 - C_i[2] * t45;
+    phi_q[10] = C_i[4] * t43 - C_i[5] * t45;
     phi_q[11] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[12] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
-    const jg_real t41 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t46 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t41;
-    const jg_real t43 = pitch * theta_sine;
-    const jg_real t44 = sine_theta * t41;
-    const jg_real t45 = pitch * t44;
-    const jg_real t46 = C_i[5] * t43 - C_i[2] * t45;
-    const jg_real t47 = C_i[4] * t43 - C_i[1] * t45;
-    phi_q[13] = C_i[7] * t39 - C_i[8] * t40 + (A_ij_f_j_1 * t46 - A_ij_f_j_2 * t47);
-    const jg_real t48 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t48 - C_i[0] * t39;
-    phi_q[15] = C_i[5] * t48 - C_i[3] * t39;
+    const jg_real theta_sine = cosine_theta * t46;
+    const jg_real t48 = pitch * theta_sine;
+    const jg_real t49 = sine_theta * t46;
+    const jg_real t50 = pitch * t49;
+    const jg_real t51 = C_i[5] * t48 - C_i[2] * t50;
+    const jg_real t52 = C_i[4] * t48 - C_i[1] * t50;
+    phi_q[13] = C_i[7] * t43 - C_i[8] * t45 + (A_ij_f_j_1 * t51 - A_ij_f_j_2 * t52);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t54 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[14] = C_i[2] * t54 - C_i[0] * t43;
+    phi_q[15] = C_i[5] * t54 - C_i[3] * t43;
     phi_q[16] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[17] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
-    const jg_real t49 = C_i[3] * t43 - C_i[0] * t45;
-    phi_q[18] = C_i[8] * t48 - C_i[6] * t39 + (A_ij_f_j_2 * t49 - A_ij_f_j_0 * t46);
-    phi_q[19] = C_i[0] * t40 - C_i[1] * t48;
-    phi_q[20] = C_i[3] * t40 - C_i[4] * t48;
+    const jg_real t55 = C_i[3] * t48 - C_i[0] * t50;
+    phi_q[18] = C_i[8] * t54 - C_i[6] * t43 + (A_ij_f_j_2 * t55 - A_ij_f_j_0 * t51);
+    phi_q[19] = C_i[0] * t45 - C_i[1] * t54;
+    phi_q[20] = C_i[3] * t45 - C_i[4] * t54;
     phi_q[21] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[22] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
-    phi_q[23] = C_i[6] * t40 - C_i[7] * t48 + (A_ij_f_j_0 * t47 - A_ij_f_j_1 * t49);
+    phi_q[23] = C_i[6] * t45 - C_i[7] * t54 + (A_ij_f_j_0 * t52 - A_ij_f_j_1 * t55);
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -1172,14 +1139,14 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[34] = s_j_cross_A_ijt_g_i_0;
     phi_q[35] = C_j[7] * A_ijt_f_i_2 - C_j[8] * A_ijt_f_i_1;
     phi_q[36] = C_j[7] * A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1;
-    const jg_real t56 = A_ij_3 * t49 + A_ij_4 * t47 + A_ij_5 * t46;
-    const jg_real t57 = A_ij_6 * t49 + A_ij_7 * t47 + A_ij_8 * t46;
+    const jg_real t62 = A_ij_3 * t55 + A_ij_4 * t52 + A_ij_5 * t51;
+    const jg_real t63 = A_ij_6 * t55 + A_ij_7 * t52 + A_ij_8 * t51;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     /* s_j_cross_A_ijt_h_i = tilde(s_j) A_ij^T h_i */
     const jg_real s_j_cross_A_ijt_h_i_0 = s_j[1] * A_ijt_h_i_2 - s_j[2] * A_ijt_h_i_1;
-    phi_q[37] = C_j[2] * t56 - C_j[1] * t57 + s_j_cross_A_ijt_h_i_0;
+    phi_q[37] = C_j[2] * t62 - C_j[1] * t63 + s_j_cross_A_ijt_h_i_0;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
     const jg_real s_j_cross_A_ijt_f_i_1 = s_j[2] * A_ijt_f_i_0 - s_j[0] * A_ijt_f_i_2;
     phi_q[38] = s_j_cross_A_ijt_f_i_1;
@@ -1188,10 +1155,10 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[39] = s_j_cross_A_ijt_g_i_1;
     phi_q[40] = C_j[8] * A_ijt_f_i_0 - C_j[6] * A_ijt_f_i_2;
     phi_q[41] = C_j[8] * A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2;
-    const jg_real t65 = A_ij_0 * t49 + A_ij_1 * t47 + A_ij_2 * t46;
+    const jg_real t71 = A_ij_0 * t55 + A_ij_1 * t52 + A_ij_2 * t51;
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     const jg_real s_j_cross_A_ijt_h_i_1 = s_j[2] * A_ijt_h_i_0 - s_j[0] * A_ijt_h_i_2;
-    phi_q[42] = C_j[0] * t57 - C_j[2] * t65 + s_j_cross_A_ijt_h_i_1;
+    phi_q[42] = C_j[0] * t63 - C_j[2] * t71 + s_j_cross_A_ijt_h_i_1;
     const jg_real s_j_cross_A_ijt_f_i_2 = s_j[0] * A_ijt_f_i_1 - s_j[1] * A_ijt_f_i_0;
     phi_q[43] = s_j_cross_A_ijt_f_i_2;
     const jg_real s_j_cross_A_ijt_g_i_2 = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
@@ -1199,298 +1166,297 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     phi_q[45] = C_j[6] * A_ijt_f_i_1 - C_j[7] * A_ijt_f_i_0;
     phi_q[46] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
     const jg_real s_j_cross_A_ijt_h_i_2 = s_j[0] * A_ijt_h_i_1 - s_j[1] * A_ijt_h_i_0;
-    phi_q[47] = C_j[1] * t65 - C_j[0] * t56 + s_j_cross_A_ijt_h_i_2;
-    const jg_real t71 = C_i[2] * lambda[0] + C_i[5] * lambda[1] + C_i[8] * lambda[4];
-    const jg_real t72 = C_i[1] * lambda[0] + C_i[4] * lambda[1] + C_i[7] * lambda[4];
-    const jg_real t73 = A_i[3] * t71 - A_i[6] * t72;
-    phi_q_t_lambda_q[0] = t73;
-    phi_q_t_lambda_q[9] = t73;
-    const jg_real t74 = C_i[0] * lambda[0] + C_i[3] * lambda[1] + C_i[6] * lambda[4];
-    const jg_real t75 = A_i[6] * t74 - A_i[0] * t71;
-    phi_q_t_lambda_q[1] = t75;
-    phi_q_t_lambda_q[21] = t75;
-    const jg_real t76 = A_i[0] * t72 - A_i[3] * t74;
-    phi_q_t_lambda_q[2] = t76;
-    phi_q_t_lambda_q[33] = t76;
-    const jg_real t77 = A_i[4] * t71 - A_i[7] * t72;
-    phi_q_t_lambda_q[3] = t77;
-    phi_q_t_lambda_q[10] = t77;
-    const jg_real t78 = A_i[7] * t74 - A_i[1] * t71;
-    phi_q_t_lambda_q[4] = t78;
-    phi_q_t_lambda_q[22] = t78;
-    const jg_real t79 = A_i[1] * t72 - A_i[4] * t74;
-    phi_q_t_lambda_q[5] = t79;
-    phi_q_t_lambda_q[34] = t79;
-    const jg_real t80 = A_i[5] * t71 - A_i[8] * t72;
-    phi_q_t_lambda_q[6] = t80;
-    phi_q_t_lambda_q[11] = t80;
-    const jg_real t81 = A_i[8] * t74 - A_i[2] * t71;
-    phi_q_t_lambda_q[7] = t81;
-    phi_q_t_lambda_q[23] = t81;
-    const jg_real t82 = A_i[2] * t72 - A_i[5] * t74;
-    phi_q_t_lambda_q[8] = t82;
-    phi_q_t_lambda_q[35] = t82;
-    const jg_real t83 = t44 * t44;
-    const jg_real t84 = theta_sine * theta_sine;
-    const jg_real t85 = t83 - t84;
-    const jg_real t86 = pitch * lambda[4];
-    const jg_real t87 = C_i[5] * t86;
-    const jg_real t88 = C_i[4] * t86;
-    const jg_real t89 = A_ij_f_j_1 * t87 - A_ij_f_j_2 * t88;
-    const jg_real t90 = t85 * t89;
-    const jg_real t91 = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
-    const jg_real t92 = C_i[2] * t86;
-    const jg_real t93 = C_i[1] * t86;
-    const jg_real t94 = A_ij_f_j_1 * t92 - A_ij_f_j_2 * t93;
-    const jg_real t95 = t85 * t94;
-    const jg_real t96 = C_i[4] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_1;
-    const jg_real t97 = JG_REAL(2.0) * t44 * theta_sine;
-    const jg_real t98 = t94 * t97;
-    const jg_real t99 = t97 * t89;
-    const jg_real t100 = t39 * t71;
-    const jg_real t101 = t40 * t72;
-    const jg_real t102 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t103 = A_ij_h_j_2 * t102;
-    const jg_real t104 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t105 = A_ij_h_j_1 * t104;
-    const jg_real t106 = t44 * t86;
-    const jg_real t107 = theta_sine * t86;
-    const jg_real t108 = C_i[2] * t106 - C_i[5] * t107;
-    const jg_real t109 = A_ij_f_j_2 * t108;
-    const jg_real t110 = C_i[1] * t106 - C_i[4] * t107;
-    const jg_real t111 = A_ij_f_j_1 * t110;
-    phi_q_t_lambda_q[12] = t95 * t96 + t98 * t91 + t91 * t90 - t96 * t99 - (t100 + t101) - (t103 + t105) - (t109 +
-        t111);
-    const jg_real t112 = C_i[3] * t86;
-    const jg_real t113 = A_ij_f_j_2 * t112 - A_ij_f_j_0 * t87;
-    const jg_real t114 = t85 * t113;
-    const jg_real t115 = C_i[0] * t86;
-    const jg_real t116 = A_ij_f_j_2 * t115 - A_ij_f_j_0 * t92;
-    const jg_real t117 = t85 * t116;
-    const jg_real t118 = t116 * t97;
-    const jg_real t119 = t97 * t113;
-    const jg_real t120 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real t121 = C_i[0] * t106 - C_i[3] * t107;
-    phi_q_t_lambda_q[13] = t117 * t96 + t118 * t91 + t91 * t114 - t96 * t119 + t40 * t74 + A_ij_h_j_1 * t120 +
-        A_ij_f_j_1 * t121;
-    const jg_real t122 = A_ij_f_j_0 * t88 - A_ij_f_j_1 * t112;
-    const jg_real t123 = t85 * t122;
-    const jg_real t124 = A_ij_f_j_0 * t93 - A_ij_f_j_1 * t115;
-    const jg_real t125 = t85 * t124;
-    const jg_real t126 = t124 * t97;
-    const jg_real t127 = t97 * t122;
-    phi_q_t_lambda_q[14] = t125 * t96 + t126 * t91 + t91 * t123 - t96 * t127 + t39 * t74 + A_ij_h_j_2 * t120 +
-        A_ij_f_j_2 * t121;
-    const jg_real t128 = -t73;
-    phi_q_t_lambda_q[15] = t128;
-    phi_q_t_lambda_q[45] = t128;
-    const jg_real t129 = -t77;
-    phi_q_t_lambda_q[16] = t129;
-    phi_q_t_lambda_q[48] = t129;
-    const jg_real t130 = -t80;
-    phi_q_t_lambda_q[17] = t130;
-    phi_q_t_lambda_q[51] = t130;
-    const jg_real t131 = A_ij_3 * t112 + A_ij_4 * t88 + A_ij_5 * t87;
-    const jg_real t132 = A_ij_6 * t112 + A_ij_7 * t88 + A_ij_8 * t87;
-    const jg_real t133 = C_j[2] * t131 - C_j[1] * t132;
-    const jg_real t134 = t85 * t133;
-    const jg_real t135 = A_ij_3 * t115 + A_ij_4 * t93 + A_ij_5 * t92;
-    const jg_real t136 = A_ij_6 * t115 + A_ij_7 * t93 + A_ij_8 * t92;
-    const jg_real t137 = C_j[2] * t135 - C_j[1] * t136;
-    const jg_real t138 = t85 * t137;
-    const jg_real t139 = t97 * t137;
-    const jg_real t140 = t97 * t133;
-    const jg_real t141 = A_ij_0 * t121 + A_ij_1 * t110 + A_ij_2 * t108;
-    const jg_real t142 = A_ij_f_j_0 * t141;
-    const jg_real t143 = A_ij_f_j_0 * t121;
-    const jg_real t144 = t111 + t143;
+    phi_q[47] = C_j[1] * t71 - C_j[0] * t62 + s_j_cross_A_ijt_h_i_2;
+    const jg_real t77 = C_i[2] * lambda[0] + C_i[5] * lambda[1] + C_i[8] * lambda[4];
+    const jg_real t78 = C_i[1] * lambda[0] + C_i[4] * lambda[1] + C_i[7] * lambda[4];
+    const jg_real t79 = A_i[3] * t77 - A_i[6] * t78;
+    phi_q_t_lambda_q[0] = t79;
+    phi_q_t_lambda_q[9] = t79;
+    const jg_real t80 = C_i[0] * lambda[0] + C_i[3] * lambda[1] + C_i[6] * lambda[4];
+    const jg_real t81 = A_i[6] * t80 - A_i[0] * t77;
+    phi_q_t_lambda_q[1] = t81;
+    phi_q_t_lambda_q[21] = t81;
+    const jg_real t82 = A_i[0] * t78 - A_i[3] * t80;
+    phi_q_t_lambda_q[2] = t82;
+    phi_q_t_lambda_q[33] = t82;
+    const jg_real t83 = A_i[4] * t77 - A_i[7] * t78;
+    phi_q_t_lambda_q[3] = t83;
+    phi_q_t_lambda_q[10] = t83;
+    const jg_real t84 = A_i[7] * t80 - A_i[1] * t77;
+    phi_q_t_lambda_q[4] = t84;
+    phi_q_t_lambda_q[22] = t84;
+    const jg_real t85 = A_i[1] * t78 - A_i[4] * t80;
+    phi_q_t_lambda_q[5] = t85;
+    phi_q_t_lambda_q[34] = t85;
+    const jg_real t86 = A_i[5] * t77 - A_i[8] * t78;
+    phi_q_t_lambda_q[6] = t86;
+    phi_q_t_lambda_q[11] = t86;
+    const jg_real t87 = A_i[8] * t80 - A_i[2] * t77;
+    phi_q_t_lambda_q[7] = t87;
+    phi_q_t_lambda_q[23] = t87;
+    const jg_real t88 = A_i[2] * t78 - A_i[5] * t80;
+    phi_q_t_lambda_q[8] = t88;
+    phi_q_t_lambda_q[35] = t88;
+    const jg_real t89 = t49 * t49;
+    const jg_real t90 = theta_sine * theta_sine;
+    const jg_real t91 = t89 - t90;
+    const jg_real t92 = pitch * lambda[4];
+    const jg_real t93 = C_i[5] * t92;
+    const jg_real t94 = C_i[4] * t92;
+    const jg_real t95 = A_ij_f_j_1 * t93 - A_ij_f_j_2 * t94;
+    const jg_real t96 = t91 * t95;
+    const jg_real t97 = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
+    const jg_real t98 = C_i[2] * t92;
+    const jg_real t99 = C_i[1] * t92;
+    const jg_real t100 = A_ij_f_j_1 * t98 - A_ij_f_j_2 * t99;
+    const jg_real t101 = t91 * t100;
+    const jg_real t102 = C_i[4] * A_ij_f_j_2 - C_i[5] * A_ij_f_j_1;
+    const jg_real t103 = JG_REAL(2.0) * t49 * theta_sine;
+    const jg_real t104 = t100 * t103;
+    const jg_real t105 = t103 * t95;
+    const jg_real t106 = ep_ij_2 * t77;
+    const jg_real t107 = ep_ij_1 * t78;
+    const jg_real t108 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t109 = A_ij_h_j_2 * t108;
+    const jg_real t110 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t111 = A_ij_h_j_1 * t110;
+    const jg_real t112 = t49 * t92;
+    const jg_real t113 = theta_sine * t92;
+    const jg_real t114 = C_i[2] * t112 - C_i[5] * t113;
+    const jg_real t115 = A_ij_f_j_2 * t114;
+    const jg_real t116 = C_i[1] * t112 - C_i[4] * t113;
+    const jg_real t117 = A_ij_f_j_1 * t116;
+    phi_q_t_lambda_q[12] = t101 * t102 + t104 * t97 + t97 * t96 - t102 * t105 - (t106 + t107) - (t109 + t111) -
+        (t115 + t117);
+    const jg_real t118 = C_i[3] * t92;
+    const jg_real t119 = A_ij_f_j_2 * t118 - A_ij_f_j_0 * t93;
+    const jg_real t120 = t91 * t119;
+    const jg_real t121 = C_i[0] * t92;
+    const jg_real t122 = A_ij_f_j_2 * t121 - A_ij_f_j_0 * t98;
+    const jg_real t123 = t91 * t122;
+    const jg_real t124 = t122 * t103;
+    const jg_real t125 = t103 * t119;
+    const jg_real t126 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real t127 = C_i[0] * t112 - C_i[3] * t113;
+    phi_q_t_lambda_q[13] = t123 * t102 + t124 * t97 + t97 * t120 - t102 * t125 + ep_ij_1 * t80 + A_ij_h_j_1 * t126 +
+        A_ij_f_j_1 * t127;
+    const jg_real t128 = A_ij_f_j_0 * t94 - A_ij_f_j_1 * t118;
+    const jg_real t129 = t91 * t128;
+    const jg_real t130 = A_ij_f_j_0 * t99 - A_ij_f_j_1 * t121;
+    const jg_real t131 = t91 * t130;
+    const jg_real t132 = t130 * t103;
+    const jg_real t133 = t103 * t128;
+    phi_q_t_lambda_q[14] = t131 * t102 + t132 * t97 + t97 * t129 - t102 * t133 + ep_ij_2 * t80 + A_ij_h_j_2 * t126 +
+        A_ij_f_j_2 * t127;
+    const jg_real t134 = -t79;
+    phi_q_t_lambda_q[15] = t134;
+    phi_q_t_lambda_q[45] = t134;
+    const jg_real t135 = -t83;
+    phi_q_t_lambda_q[16] = t135;
+    phi_q_t_lambda_q[48] = t135;
+    const jg_real t136 = -t86;
+    phi_q_t_lambda_q[17] = t136;
+    phi_q_t_lambda_q[51] = t136;
+    const jg_real t137 = A_ij_3 * t118 + A_ij_4 * t94 + A_ij_5 * t93;
+    const jg_real t138 = A_ij_6 * t118 + A_ij_7 * t94 + A_ij_8 * t93;
+    const jg_real t139 = C_j[2] * t137 - C_j[1] * t138;
+    const jg_real t140 = t91 * t139;
+    const jg_real t141 = A_ij_3 * t121 + A_ij_4 * t99 + A_ij_5 * t98;
+    const jg_real t142 = A_ij_6 * t121 + A_ij_7 * t99 + A_ij_8 * t98;
+    const jg_real t143 = C_j[2] * t141 - C_j[1] * t142;
+    const jg_real t144 = t91 * t143;
+    const jg_real t145 = t103 * t143;
+    const jg_real t146 = t103 * t139;
+    const jg_real t147 = A_ij_0 * t127 + A_ij_1 * t116 + A_ij_2 * t114;
+    const jg_real t148 = A_ij_f_j_0 * t147;
+    const jg_real t149 = A_ij_f_j_0 * t127;
+    const jg_real t150 = t117 + t149;
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real A_ij_s_j_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     const jg_real A_ij_s_j_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real t148 = A_ij_h_j_0 * t120;
-    const jg_real t149 = t105 + t148;
-    const jg_real t150 = t109 + t144 + (t74 * A_ij_s_j_0 + t72 * A_ij_s_j_1 + t71 * A_ij_s_j_2 + (t103 + t149));
-    const jg_real t151 = A_ij_0 * t150;
-    const jg_real t152 = A_ij_0 * t74 + A_ij_1 * t72 + A_ij_2 * t71;
-    const jg_real t153 = A_ij_s_j_0 * t152;
-    const jg_real t154 = A_ij_0 * t120 + A_ij_1 * t104 + A_ij_2 * t102;
-    const jg_real t155 = A_ij_h_j_0 * t154;
-    phi_q_t_lambda_q[18] = t96 * t138 + t91 * t139 + t91 * t134 - t96 * t140 - t142 + t151 - t153 - t155;
-    const jg_real t156 = A_ij_0 * t112 + A_ij_1 * t88 + A_ij_2 * t87;
-    const jg_real t157 = C_j[0] * t132 - C_j[2] * t156;
-    const jg_real t158 = t85 * t157;
-    const jg_real t159 = A_ij_0 * t115 + A_ij_1 * t93 + A_ij_2 * t92;
-    const jg_real t160 = C_j[0] * t136 - C_j[2] * t159;
-    const jg_real t161 = t85 * t160;
-    const jg_real t162 = t97 * t160;
-    const jg_real t163 = t97 * t157;
-    const jg_real t164 = A_ij_3 * t121 + A_ij_4 * t110 + A_ij_5 * t108;
-    const jg_real t165 = A_ij_f_j_0 * t164;
-    const jg_real t166 = A_ij_3 * t150;
-    const jg_real t167 = A_ij_3 * t74 + A_ij_4 * t72 + A_ij_5 * t71;
-    const jg_real t168 = A_ij_s_j_0 * t167;
-    const jg_real t169 = A_ij_3 * t120 + A_ij_4 * t104 + A_ij_5 * t102;
-    const jg_real t170 = A_ij_h_j_0 * t169;
-    phi_q_t_lambda_q[19] = t96 * t161 + t91 * t162 + t91 * t158 - t96 * t163 - t165 + t166 - t168 - t170;
-    const jg_real t171 = C_j[1] * t156 - C_j[0] * t131;
-    const jg_real t172 = t85 * t171;
-    const jg_real t173 = C_j[1] * t159 - C_j[0] * t135;
-    const jg_real t174 = t85 * t173;
-    const jg_real t175 = t97 * t173;
-    const jg_real t176 = t97 * t171;
-    const jg_real t177 = A_ij_6 * t121 + A_ij_7 * t110 + A_ij_8 * t108;
-    const jg_real t178 = A_ij_f_j_0 * t177;
-    const jg_real t179 = A_ij_6 * t150;
-    const jg_real t180 = A_ij_6 * t74 + A_ij_7 * t72 + A_ij_8 * t71;
-    const jg_real t181 = A_ij_s_j_0 * t180;
-    const jg_real t182 = A_ij_6 * t120 + A_ij_7 * t104 + A_ij_8 * t102;
-    const jg_real t183 = A_ij_h_j_0 * t182;
-    phi_q_t_lambda_q[20] = t96 * t174 + t91 * t175 + t91 * t172 - t96 * t176 - t178 + t179 - t181 - t183;
-    const jg_real t184 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
-    const jg_real t185 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
-    phi_q_t_lambda_q[24] = t95 * t185 + t98 * t184 + t184 * t90 - t185 * t99 + t48 * t72 + A_ij_h_j_0 * t104 +
-        A_ij_f_j_0 * t110;
-    const jg_real t186 = t48 * t74;
-    phi_q_t_lambda_q[25] = t117 * t185 + t118 * t184 + t184 * t114 - t185 * t119 - (t100 + t186) - (t103 + t148) -
-        (t109 + t143);
-    phi_q_t_lambda_q[26] = t125 * t185 + t126 * t184 + t184 * t123 - t185 * t127 + t39 * t72 + A_ij_h_j_2 * t104 +
-        A_ij_f_j_2 * t110;
-    const jg_real t187 = -t75;
-    phi_q_t_lambda_q[27] = t187;
-    phi_q_t_lambda_q[46] = t187;
-    const jg_real t188 = -t78;
-    phi_q_t_lambda_q[28] = t188;
-    phi_q_t_lambda_q[49] = t188;
-    const jg_real t189 = -t81;
-    phi_q_t_lambda_q[29] = t189;
-    phi_q_t_lambda_q[52] = t189;
-    const jg_real t190 = A_ij_f_j_1 * t141;
-    const jg_real t191 = A_ij_1 * t150;
-    const jg_real t192 = A_ij_s_j_1 * t152;
-    const jg_real t193 = A_ij_h_j_1 * t154;
-    phi_q_t_lambda_q[30] = t185 * t138 + t184 * t139 + t184 * t134 - t185 * t140 - t190 + t191 - t192 - t193;
-    const jg_real t194 = A_ij_f_j_1 * t164;
-    const jg_real t195 = A_ij_4 * t150;
-    const jg_real t196 = A_ij_s_j_1 * t167;
-    const jg_real t197 = A_ij_h_j_1 * t169;
-    phi_q_t_lambda_q[31] = t185 * t161 + t184 * t162 + t184 * t158 - t185 * t163 - t194 + t195 - t196 - t197;
-    const jg_real t198 = A_ij_f_j_1 * t177;
-    const jg_real t199 = A_ij_7 * t150;
-    const jg_real t200 = A_ij_s_j_1 * t180;
-    const jg_real t201 = A_ij_h_j_1 * t182;
-    phi_q_t_lambda_q[32] = t185 * t174 + t184 * t175 + t184 * t172 - t185 * t176 - t198 + t199 - t200 - t201;
-    const jg_real t202 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
-    const jg_real t203 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
-    phi_q_t_lambda_q[36] = t95 * t203 + t98 * t202 + t202 * t90 - t203 * t99 + t48 * t71 + A_ij_h_j_0 * t102 +
-        A_ij_f_j_0 * t108;
-    phi_q_t_lambda_q[37] = t117 * t203 + t118 * t202 + t202 * t114 - t203 * t119 + t40 * t71 + A_ij_h_j_1 * t102 +
-        A_ij_f_j_1 * t108;
-    phi_q_t_lambda_q[38] = t125 * t203 + t126 * t202 + t202 * t123 - t203 * t127 - (t101 + t186) - t149 - t144;
-    const jg_real t204 = -t76;
-    phi_q_t_lambda_q[39] = t204;
-    phi_q_t_lambda_q[47] = t204;
-    const jg_real t205 = -t79;
-    phi_q_t_lambda_q[40] = t205;
-    phi_q_t_lambda_q[50] = t205;
-    const jg_real t206 = -t82;
-    phi_q_t_lambda_q[41] = t206;
-    phi_q_t_lambda_q[53] = t206;
-    const jg_real t207 = A_ij_f_j_2 * t141;
-    const jg_real t208 = A_ij_2 * t150;
-    const jg_real t209 = A_ij_s_j_2 * t152;
-    const jg_real t210 = A_ij_h_j_2 * t154;
-    phi_q_t_lambda_q[42] = t203 * t138 + t202 * t139 + t202 * t134 - t203 * t140 - t207 + t208 - t209 - t210;
-    const jg_real t211 = A_ij_f_j_2 * t164;
-    const jg_real t212 = A_ij_5 * t150;
-    const jg_real t213 = A_ij_s_j_2 * t167;
-    const jg_real t214 = A_ij_h_j_2 * t169;
-    phi_q_t_lambda_q[43] = t203 * t161 + t202 * t162 + t202 * t158 - t203 * t163 - t211 + t212 - t213 - t214;
-    const jg_real t215 = A_ij_f_j_2 * t177;
-    const jg_real t216 = A_ij_8 * t150;
-    const jg_real t217 = A_ij_s_j_2 * t180;
-    const jg_real t218 = A_ij_h_j_2 * t182;
-    phi_q_t_lambda_q[44] = t203 * t174 + t202 * t175 + t202 * t172 - t203 * t176 - t215 + t216 - t217 - t218;
-    const jg_real t219 = C_j[2] * A_ijt_f_i_1 - C_j[1] * A_ijt_f_i_2;
-    const jg_real t220 = C_j[2] * A_ijt_g_i_1 - C_j[1] * A_ijt_g_i_2;
-    phi_q_t_lambda_q[54] = t99 * t220 - (t95 * t220 + t98 * t219 + t90 * t219) - t153 + t151 - t155 - t142;
-    phi_q_t_lambda_q[55] = t119 * t220 - (t117 * t220 + t118 * t219 + t114 * t219) - t192 + t191 - t193 - t190;
-    phi_q_t_lambda_q[56] = t127 * t220 - (t125 * t220 + t126 * t219 + t123 * t219) - t209 + t208 - t210 - t207;
-    const jg_real t221 = C_j[2] * t177;
-    const jg_real t222 = C_j[1] * t164;
-    const jg_real t223 = s_j[2] * t180;
-    const jg_real t224 = s_j[1] * t167;
-    const jg_real t225 = C_j[8] * t182;
-    const jg_real t226 = C_j[7] * t169;
-    phi_q_t_lambda_q[57] = t220 * t140 - (t220 * t138 + t219 * t139 + t219 * t134) - (t221 + t222) - (t223 + t224) -
-        (t225 + t226);
-    phi_q_t_lambda_q[58] = t220 * t163 - (t220 * t161 + t219 * t162 + t219 * t158) + C_j[0] * t164 + s_j[0] * t167 +
-        C_j[6] * t169;
-    phi_q_t_lambda_q[59] = t220 * t176 - (t220 * t174 + t219 * t175 + t219 * t172) + C_j[0] * t177 + s_j[0] * t180 +
-        C_j[6] * t182;
-    const jg_real t227 = C_j[0] * A_ijt_f_i_2 - C_j[2] * A_ijt_f_i_0;
-    const jg_real t228 = C_j[0] * A_ijt_g_i_2 - C_j[2] * A_ijt_g_i_0;
-    phi_q_t_lambda_q[60] = t99 * t228 - (t95 * t228 + t98 * t227 + t90 * t227) - t168 + t166 - t170 - t165;
-    phi_q_t_lambda_q[61] = t119 * t228 - (t117 * t228 + t118 * t227 + t114 * t227) - t196 + t195 - t197 - t194;
-    phi_q_t_lambda_q[62] = t127 * t228 - (t125 * t228 + t126 * t227 + t123 * t227) - t213 + t212 - t214 - t211;
-    phi_q_t_lambda_q[63] = t228 * t140 - (t228 * t138 + t227 * t139 + t227 * t134) + C_j[1] * t141 + s_j[1] * t152 +
-        C_j[7] * t154;
-    const jg_real t229 = C_j[0] * t141;
-    const jg_real t230 = s_j[0] * t152;
-    const jg_real t231 = C_j[6] * t154;
-    phi_q_t_lambda_q[64] = t228 * t163 - (t228 * t161 + t227 * t162 + t227 * t158) - (t221 + t229) - (t223 + t230) -
-        (t225 + t231);
-    phi_q_t_lambda_q[65] = t228 * t176 - (t228 * t174 + t227 * t175 + t227 * t172) + C_j[1] * t177 + s_j[1] * t180 +
-        C_j[7] * t182;
-    const jg_real t232 = C_j[1] * A_ijt_f_i_0 - C_j[0] * A_ijt_f_i_1;
-    const jg_real t233 = C_j[1] * A_ijt_g_i_0 - C_j[0] * A_ijt_g_i_1;
-    phi_q_t_lambda_q[66] = t99 * t233 - (t95 * t233 + t98 * t232 + t90 * t232) - t181 + t179 - t183 - t178;
-    phi_q_t_lambda_q[67] = t119 * t233 - (t117 * t233 + t118 * t232 + t114 * t232) - t200 + t199 - t201 - t198;
-    phi_q_t_lambda_q[68] = t127 * t233 - (t125 * t233 + t126 * t232 + t123 * t232) - t217 + t216 - t218 - t215;
-    phi_q_t_lambda_q[69] = t233 * t140 - (t233 * t138 + t232 * t139 + t232 * t134) + C_j[2] * t141 + s_j[2] * t152 +
-        C_j[8] * t154;
-    phi_q_t_lambda_q[70] = t233 * t163 - (t233 * t161 + t232 * t162 + t232 * t158) + C_j[2] * t164 + s_j[2] * t167 +
-        C_j[8] * t169;
-    phi_q_t_lambda_q[71] = t233 * t176 - (t233 * t174 + t232 * t175 + t232 * t172) - (t222 + t229) - (t224 + t230) -
-        (t226 + t231);
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+    const jg_real t154 = A_ij_h_j_0 * t126;
+    const jg_real t155 = t111 + t154;
+    const jg_real t156 = t115 + t150 + (t80 * A_ij_s_j_0 + t78 * A_ij_s_j_1 + t77 * A_ij_s_j_2 + (t109 + t155));
+    const jg_real t157 = A_ij_0 * t156;
+    const jg_real t158 = A_ij_0 * t80 + A_ij_1 * t78 + A_ij_2 * t77;
+    const jg_real t159 = A_ij_s_j_0 * t158;
+    const jg_real t160 = A_ij_0 * t126 + A_ij_1 * t110 + A_ij_2 * t108;
+    const jg_real t161 = A_ij_h_j_0 * t160;
+    phi_q_t_lambda_q[18] = t102 * t144 + t97 * t145 + t97 * t140 - t102 * t146 - t148 + t157 - t159 - t161;
+    const jg_real t162 = A_ij_0 * t118 + A_ij_1 * t94 + A_ij_2 * t93;
+    const jg_real t163 = C_j[0] * t138 - C_j[2] * t162;
+    const jg_real t164 = t91 * t163;
+    const jg_real t165 = A_ij_0 * t121 + A_ij_1 * t99 + A_ij_2 * t98;
+    const jg_real t166 = C_j[0] * t142 - C_j[2] * t165;
+    const jg_real t167 = t91 * t166;
+    const jg_real t168 = t103 * t166;
+    const jg_real t169 = t103 * t163;
+    const jg_real t170 = A_ij_3 * t127 + A_ij_4 * t116 + A_ij_5 * t114;
+    const jg_real t171 = A_ij_f_j_0 * t170;
+    const jg_real t172 = A_ij_3 * t156;
+    const jg_real t173 = A_ij_3 * t80 + A_ij_4 * t78 + A_ij_5 * t77;
+    const jg_real t174 = A_ij_s_j_0 * t173;
+    const jg_real t175 = A_ij_3 * t126 + A_ij_4 * t110 + A_ij_5 * t108;
+    const jg_real t176 = A_ij_h_j_0 * t175;
+    phi_q_t_lambda_q[19] = t102 * t167 + t97 * t168 + t97 * t164 - t102 * t169 - t171 + t172 - t174 - t176;
+    const jg_real t177 = C_j[1] * t162 - C_j[0] * t137;
+    const jg_real t178 = t91 * t177;
+    const jg_real t179 = C_j[1] * t165 - C_j[0] * t141;
+    const jg_real t180 = t91 * t179;
+    const jg_real t181 = t103 * t179;
+    const jg_real t182 = t103 * t177;
+    const jg_real t183 = A_ij_6 * t127 + A_ij_7 * t116 + A_ij_8 * t114;
+    const jg_real t184 = A_ij_f_j_0 * t183;
+    const jg_real t185 = A_ij_6 * t156;
+    const jg_real t186 = A_ij_6 * t80 + A_ij_7 * t78 + A_ij_8 * t77;
+    const jg_real t187 = A_ij_s_j_0 * t186;
+    const jg_real t188 = A_ij_6 * t126 + A_ij_7 * t110 + A_ij_8 * t108;
+    const jg_real t189 = A_ij_h_j_0 * t188;
+    phi_q_t_lambda_q[20] = t102 * t180 + t97 * t181 + t97 * t178 - t102 * t182 - t184 + t185 - t187 - t189;
+    const jg_real t190 = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
+    const jg_real t191 = C_i[5] * A_ij_f_j_0 - C_i[3] * A_ij_f_j_2;
+    phi_q_t_lambda_q[24] = t101 * t191 + t104 * t190 + t190 * t96 - t191 * t105 + ep_ij_0 * t78 + A_ij_h_j_0 * t110
+        + A_ij_f_j_0 * t116;
+    const jg_real t192 = ep_ij_0 * t80;
+    phi_q_t_lambda_q[25] = t123 * t191 + t124 * t190 + t190 * t120 - t191 * t125 - (t106 + t192) - (t109 + t154) -
+        (t115 + t149);
+    phi_q_t_lambda_q[26] = t131 * t191 + t132 * t190 + t190 * t129 - t191 * t133 + ep_ij_2 * t78 + A_ij_h_j_2 * t110
+        + A_ij_f_j_2 * t116;
+    const jg_real t193 = -t81;
+    phi_q_t_lambda_q[27] = t193;
+    phi_q_t_lambda_q[46] = t193;
+    const jg_real t194 = -t84;
+    phi_q_t_lambda_q[28] = t194;
+    phi_q_t_lambda_q[49] = t194;
+    const jg_real t195 = -t87;
+    phi_q_t_lambda_q[29] = t195;
+    phi_q_t_lambda_q[52] = t195;
+    const jg_real t196 = A_ij_f_j_1 * t147;
+    const jg_real t197 = A_ij_1 * t156;
+    const jg_real t198 = A_ij_s_j_1 * t158;
+    const jg_real t199 = A_ij_h_j_1 * t160;
+    phi_q_t_lambda_q[30] = t191 * t144 + t190 * t145 + t190 * t140 - t191 * t146 - t196 + t197 - t198 - t199;
+    const jg_real t200 = A_ij_f_j_1 * t170;
+    const jg_real t201 = A_ij_4 * t156;
+    const jg_real t202 = A_ij_s_j_1 * t173;
+    const jg_real t203 = A_ij_h_j_1 * t175;
+    phi_q_t_lambda_q[31] = t191 * t167 + t190 * t168 + t190 * t164 - t191 * t169 - t200 + t201 - t202 - t203;
+    const jg_real t204 = A_ij_f_j_1 * t183;
+    const jg_real t205 = A_ij_7 * t156;
+    const jg_real t206 = A_ij_s_j_1 * t186;
+    const jg_real t207 = A_ij_h_j_1 * t188;
+    phi_q_t_lambda_q[32] = t191 * t180 + t190 * t181 + t190 * t178 - t191 * t182 - t204 + t205 - t206 - t207;
+    const jg_real t208 = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
+    const jg_real t209 = C_i[3] * A_ij_f_j_1 - C_i[4] * A_ij_f_j_0;
+    phi_q_t_lambda_q[36] = t101 * t209 + t104 * t208 + t208 * t96 - t209 * t105 + ep_ij_0 * t77 + A_ij_h_j_0 * t108
+        + A_ij_f_j_0 * t114;
+    phi_q_t_lambda_q[37] = t123 * t209 + t124 * t208 + t208 * t120 - t209 * t125 + ep_ij_1 * t77 + A_ij_h_j_1 * t108
+        + A_ij_f_j_1 * t114;
+    phi_q_t_lambda_q[38] = t131 * t209 + t132 * t208 + t208 * t129 - t209 * t133 - (t107 + t192) - t155 - t150;
+    const jg_real t210 = -t82;
+    phi_q_t_lambda_q[39] = t210;
+    phi_q_t_lambda_q[47] = t210;
+    const jg_real t211 = -t85;
+    phi_q_t_lambda_q[40] = t211;
+    phi_q_t_lambda_q[50] = t211;
+    const jg_real t212 = -t88;
+    phi_q_t_lambda_q[41] = t212;
+    phi_q_t_lambda_q[53] = t212;
+    const jg_real t213 = A_ij_f_j_2 * t147;
+    const jg_real t214 = A_ij_2 * t156;
+    const jg_real t215 = A_ij_s_j_2 * t158;
+    const jg_real t216 = A_ij_h_j_2 * t160;
+    phi_q_t_lambda_q[42] = t209 * t144 + t208 * t145 + t208 * t140 - t209 * t146 - t213 + t214 - t215 - t216;
+    const jg_real t217 = A_ij_f_j_2 * t170;
+    const jg_real t218 = A_ij_5 * t156;
+    const jg_real t219 = A_ij_s_j_2 * t173;
+    const jg_real t220 = A_ij_h_j_2 * t175;
+    phi_q_t_lambda_q[43] = t209 * t167 + t208 * t168 + t208 * t164 - t209 * t169 - t217 + t218 - t219 - t220;
+    const jg_real t221 = A_ij_f_j_2 * t183;
+    const jg_real t222 = A_ij_8 * t156;
+    const jg_real t223 = A_ij_s_j_2 * t186;
+    const jg_real t224 = A_ij_h_j_2 * t188;
+    phi_q_t_lambda_q[44] = t209 * t180 + t208 * t181 + t208 * t178 - t209 * t182 - t221 + t222 - t223 - t224;
+    const jg_real t225 = C_j[2] * A_ijt_f_i_1 - C_j[1] * A_ijt_f_i_2;
+    const jg_real t226 = C_j[2] * A_ijt_g_i_1 - C_j[1] * A_ijt_g_i_2;
+    phi_q_t_lambda_q[54] = t105 * t226 - (t101 * t226 + t104 * t225 + t96 * t225) - t159 + t157 - t161 - t148;
+    phi_q_t_lambda_q[55] = t125 * t226 - (t123 * t226 + t124 * t225 + t120 * t225) - t198 + t197 - t199 - t196;
+    phi_q_t_lambda_q[56] = t133 * t226 - (t131 * t226 + t132 * t225 + t129 * t225) - t215 + t214 - t216 - t213;
+    const jg_real t227 = C_j[2] * t183;
+    const jg_real t228 = C_j[1] * t170;
+    const jg_real t229 = s_j[2] * t186;
+    const jg_real t230 = s_j[1] * t173;
+    const jg_real t231 = C_j[8] * t188;
+    const jg_real t232 = C_j[7] * t175;
+    phi_q_t_lambda_q[57] = t226 * t146 - (t226 * t144 + t225 * t145 + t225 * t140) - (t227 + t228) - (t229 + t230) -
+        (t231 + t232);
+    phi_q_t_lambda_q[58] = t226 * t169 - (t226 * t167 + t225 * t168 + t225 * t164) + C_j[0] * t170 + s_j[0] * t173 +
+        C_j[6] * t175;
+    phi_q_t_lambda_q[59] = t226 * t182 - (t226 * t180 + t225 * t181 + t225 * t178) + C_j[0] * t183 + s_j[0] * t186 +
+        C_j[6] * t188;
+    const jg_real t233 = C_j[0] * A_ijt_f_i_2 - C_j[2] * A_ijt_f_i_0;
+    const jg_real t234 = C_j[0] * A_ijt_g_i_2 - C_j[2] * A_ijt_g_i_0;
+    phi_q_t_lambda_q[60] = t105 * t234 - (t101 * t234 + t104 * t233 + t96 * t233) - t174 + t172 - t176 - t171;
+    phi_q_t_lambda_q[61] = t125 * t234 - (t123 * t234 + t124 * t233 + t120 * t233) - t202 + t201 - t203 - t200;
+    phi_q_t_lambda_q[62] = t133 * t234 - (t131 * t234 + t132 * t233 + t129 * t233) - t219 + t218 - t220 - t217;
+    phi_q_t_lambda_q[63] = t234 * t146 - (t234 * t144 + t233 * t145 + t233 * t140) + C_j[1] * t147 + s_j[1] * t158 +
+        C_j[7] * t160;
+    const jg_real t235 = C_j[0] * t147;
+    const jg_real t236 = s_j[0] * t158;
+    const jg_real t237 = C_j[6] * t160;
+    phi_q_t_lambda_q[64] = t234 * t169 - (t234 * t167 + t233 * t168 + t233 * t164) - (t227 + t235) - (t229 + t236) -
+        (t231 + t237);
+    phi_q_t_lambda_q[65] = t234 * t182 - (t234 * t180 + t233 * t181 + t233 * t178) + C_j[1] * t183 + s_j[1] * t186 +
+        C_j[7] * t188;
+    const jg_real t238 = C_j[1] * A_ijt_f_i_0 - C_j[0] * A_ijt_f_i_1;
+    const jg_real t239 = C_j[1] * A_ijt_g_i_0 - C_j[0] * A_ijt_g_i_1;
+    phi_q_t_lambda_q[66] = t105 * t239 - (t101 * t239 + t104 * t238 + t96 * t238) - t187 + t185 - t189 - t184;
+    phi_q_t_lambda_q[67] = t125 * t239 - (t123 * t239 + t124 * t238 + t120 * t238) - t206 + t205 - t207 - t204;
+    phi_q_t_lambda_q[68] = t133 * t239 - (t131 * t239 + t132 * t238 + t129 * t238) - t223 + t222 - t224 - t221;
+    phi_q_t_lambda_q[69] = t239 * t146 - (t239 * t144 + t238 * t145 + t238 * t140) + C_j[2] * t147 + s_j[2] * t158 +
+        C_j[8] * t160;
+    phi_q_t_lambda_q[70] = t239 * t169 - (t239 * t167 + t238 * t168 + t238 * t164) + C_j[2] * t170 + s_j[2] * t173 +
+        C_j[8] * t175;
+    phi_q_t_lambda_q[71] = t239 * t182 - (t239 * t180 + t238 * t181 + t238 * t178) - (t228 + t235) - (t230 + t236) -
+        (t232 + t237);
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t245 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t247 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t248 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t252 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t258 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t253 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t259 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t254 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t260 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -1508,30 +1474,18 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t269 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t271 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t272 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[0] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t252 + C_i[1] * t253 + C_i[2] * t254 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t269 + C_i[1] * t271 + C_i[2] * t272);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t258 + C_i[1]
+        * t259 + C_i[2] * t260) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t245 + C_i[1] *
+        t247 + C_i[2] * t248);
     gamma[1] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t252 + C_i[4] * t253 + C_i[5] * t254 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t269 + C_i[4] * t271 + C_i[5] * t272);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t258 + C_i[4]
+        * t259 + C_i[5] * t260) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t245 + C_i[4] *
+        t247 + C_i[5] * t248);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1605,36 +1559,34 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real t313 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
     const jg_real t314 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
     const jg_real t315 = pitch * JG_REAL(2.0);
-    const jg_real t316 = t44 * t315;
+    const jg_real t316 = t49 * t315;
     const jg_real t317 = theta_sine * t316;
     const jg_real t318 = C_i[0] * A_ij_omega_j_cross_f_j_0 + C_i[1] * A_ij_omega_j_cross_f_j_1 + C_i[2] *
         A_ij_omega_j_cross_f_j_2;
     const jg_real t319 = C_i[0] * omega_i_cross_A_ij_f_j_0 + C_i[1] * omega_i_cross_A_ij_f_j_1 + C_i[2] *
         omega_i_cross_A_ij_f_j_2;
-    const jg_real t320 = t83 * t315;
+    const jg_real t320 = t89 * t315;
     const jg_real t321 = C_i[3] * A_ij_omega_j_cross_f_j_0 + C_i[4] * A_ij_omega_j_cross_f_j_1 + C_i[5] *
         A_ij_omega_j_cross_f_j_2;
     const jg_real t322 = t321 * t320;
     const jg_real t323 = C_i[3] * omega_i_cross_A_ij_f_j_0 + C_i[4] * omega_i_cross_A_ij_f_j_1 + C_i[5] *
         omega_i_cross_A_ij_f_j_2;
     const jg_real t324 = t320 * t323;
-    const jg_real t325 = t84 * t315;
+    const jg_real t325 = t90 * t315;
     const jg_real t326 = t321 * t325;
     const jg_real t327 = t323 * t325;
-    const jg_real t328 = pitch * JG_REAL(4.0) * t44 * theta_sine;
+    const jg_real t328 = pitch * JG_REAL(4.0) * t49 * theta_sine;
     gamma[4] = JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_j_0 + C_i[7] * omega_i_cross_A_it_v_j_1 + C_i[8] *
-        omega_i_cross_A_it_v_j_2) - (C_i[6] * t252 + C_i[7] * t253 + C_i[8] * t254 + (C_i[6] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[7] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[8] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[6] * omega_i_cross_omega_i_cross_s_i_0 + C_i[7] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[8] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[6] *
-        omega_i_cross_A_it_v_i_0 + C_i[7] * omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[6] * t269 + C_i[7] * t271 + C_i[8] * t272) - t45 * (C_i[0] * t300 + C_i[1] * t301 +
-        C_i[2] * t302) - t45 * (C_i[0] * t305 + C_i[1] * t307 + C_i[2] * t308) + t43 * (C_i[3] * t300 + C_i[4] *
-        t301 + C_i[5] * t302) + t43 * (C_i[3] * t305 + C_i[4] * t307 + C_i[5] * t308) + (C_i[0] * t311 + C_i[1] *
-        t313 + C_i[2] * t314) * t316 - (C_i[3] * t311 + C_i[4] * t313 + C_i[5] * t314) * (theta_sine * t315) + t318
-        * t318 * t317 + t319 * t319 * t317 - t319 * t322 - t318 * t324 - t318 * t326 - t319 * t327 - t321 * t321 *
-        t317 - t323 * t323 * t317 + t318 * t322 + t319 * t324 + t319 * t326 + t318 * t327 + t321 * t328 * t323 -
-        t318 * t328 * t319;
+        omega_i_cross_A_it_v_j_2) - (C_i[6] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[7] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[8] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[6] * t258 + C_i[7]
+        * t259 + C_i[8] * t260) + JG_REAL(2.0) * (C_i[6] * omega_i_cross_A_it_v_i_0 + C_i[7] *
+        omega_i_cross_A_it_v_i_1 + C_i[8] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[6] * t245 + C_i[7] *
+        t247 + C_i[8] * t248) - t50 * (C_i[0] * t300 + C_i[1] * t301 + C_i[2] * t302) - t50 * (C_i[0] * t305 +
+        C_i[1] * t307 + C_i[2] * t308) + t48 * (C_i[3] * t300 + C_i[4] * t301 + C_i[5] * t302) + t48 * (C_i[3] *
+        t305 + C_i[4] * t307 + C_i[5] * t308) + (C_i[0] * t311 + C_i[1] * t313 + C_i[2] * t314) * t316 - (C_i[3] *
+        t311 + C_i[4] * t313 + C_i[5] * t314) * (theta_sine * t315) + t318 * t318 * t317 + t319 * t319 * t317 - t319
+        * t322 - t318 * t324 - t318 * t326 - t319 * t327 - t321 * t321 * t317 - t323 * t323 * t317 + t318 * t322 +
+        t319 * t324 + t319 * t326 + t318 * t327 + t321 * t328 * t323 - t318 * t328 * t319;
 }
 
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -38,19 +38,23 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real revolutions = geometry[26];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
     /* g_i = A_i C_i [0; 1; 0] */
@@ -123,23 +127,21 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[8] = -h_i_2;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t12 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    /* f_i_cross_d_ij = tilde(f_i) d_ij */
-    const jg_real f_i_cross_d_ij_0 = f_i_1 * d_ij_2 - f_i_2 * d_ij_1;
+    const jg_real t16 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
-    phi_q[9] = f_i_cross_d_ij_0 - s_i_world_cross_f_i_0;
-    /* g_i_cross_d_ij = tilde(g_i) d_ij */
-    const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
+    phi_q[9] = f_i_1 * t12 - f_i_2 * t16 - s_i_world_cross_f_i_0;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = s_i_world_1 * g_i_2 - s_i_world_2 * g_i_1;
-    phi_q[10] = g_i_cross_d_ij_0 - s_i_world_cross_g_i_0;
+    phi_q[10] = t12 * g_i_1 - t16 * g_i_2 - s_i_world_cross_g_i_0;
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -166,40 +168,33 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real t33 = f_i_2 * t29 - g_i_2 * t31;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = s_i_world_1 * h_i_2 - s_i_world_2 * h_i_1;
-    /* h_i_cross_d_ij = tilde(h_i) d_ij */
-    const jg_real h_i_cross_d_ij_0 = d_ij_2 * h_i_1 - d_ij_1 * h_i_2;
-    phi_q[13] = f_j_2 * t32 - f_j_1 * t33 - s_i_world_cross_h_i_0 + h_i_cross_d_ij_0;
+    phi_q[13] = t12 * h_i_1 - t16 * h_i_2 + (f_j_2 * t32 - f_j_1 * t33 - s_i_world_cross_h_i_0);
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real f_i_cross_d_ij_1 = f_i_2 * d_ij_0 - f_i_0 * d_ij_2;
+    const jg_real t38 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
-    phi_q[14] = f_i_cross_d_ij_1 - s_i_world_cross_f_i_1;
-    const jg_real g_i_cross_d_ij_1 = d_ij_0 * g_i_2 - d_ij_2 * g_i_0;
+    phi_q[14] = f_i_2 * t38 - f_i_0 * t12 - s_i_world_cross_f_i_1;
     const jg_real s_i_world_cross_g_i_1 = s_i_world_2 * g_i_0 - s_i_world_0 * g_i_2;
-    phi_q[15] = g_i_cross_d_ij_1 - s_i_world_cross_g_i_1;
+    phi_q[15] = t38 * g_i_2 - t12 * g_i_0 - s_i_world_cross_g_i_1;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
     phi_q[16] = f_i_cross_h_j_1;
     const jg_real g_i_cross_h_j_1 = g_i_2 * h_j_0 - g_i_0 * h_j_2;
     phi_q[17] = g_i_cross_h_j_1;
-    const jg_real t46 = f_i_0 * t29 - g_i_0 * t31;
+    const jg_real t44 = f_i_0 * t29 - g_i_0 * t31;
     const jg_real s_i_world_cross_h_i_1 = s_i_world_2 * h_i_0 - s_i_world_0 * h_i_2;
-    const jg_real h_i_cross_d_ij_1 = d_ij_0 * h_i_2 - d_ij_2 * h_i_0;
-    phi_q[18] = f_j_0 * t33 - f_j_2 * t46 - s_i_world_cross_h_i_1 + h_i_cross_d_ij_1;
-    const jg_real f_i_cross_d_ij_2 = f_i_0 * d_ij_1 - f_i_1 * d_ij_0;
+    phi_q[18] = t38 * h_i_2 - t12 * h_i_0 + (f_j_0 * t33 - f_j_2 * t44 - s_i_world_cross_h_i_1);
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
-    phi_q[19] = f_i_cross_d_ij_2 - s_i_world_cross_f_i_2;
-    const jg_real g_i_cross_d_ij_2 = d_ij_1 * g_i_0 - d_ij_0 * g_i_1;
+    phi_q[19] = f_i_0 * t16 - f_i_1 * t38 - s_i_world_cross_f_i_2;
     const jg_real s_i_world_cross_g_i_2 = s_i_world_0 * g_i_1 - s_i_world_1 * g_i_0;
-    phi_q[20] = g_i_cross_d_ij_2 - s_i_world_cross_g_i_2;
+    phi_q[20] = t16 * g_i_0 - t38 * g_i_1 - s_i_world_cross_g_i_2;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[21] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = g_i_0 * h_j_1 - g_i_1 * h_j_0;
     phi_q[22] = g_i_cross_h_j_2;
     const jg_real s_i_world_cross_h_i_2 = s_i_world_0 * h_i_1 - s_i_world_1 * h_i_0;
-    const jg_real h_i_cross_d_ij_2 = d_ij_1 * h_i_0 - d_ij_0 * h_i_1;
-    phi_q[23] = f_j_1 * t46 - f_j_0 * t32 - s_i_world_cross_h_i_2 + h_i_cross_d_ij_2;
+    phi_q[23] = t16 * h_i_0 - t38 * h_i_1 + (f_j_1 * t44 - f_j_0 * t32 - s_i_world_cross_h_i_2);
     /* s_j_world_cross_f_i = tilde(s_j_world) f_i */
     const jg_real s_j_world_cross_f_i_0 = f_i_2 * s_j_world_1 - f_i_1 * s_j_world_2;
     phi_q[33] = s_j_world_cross_f_i_0;
@@ -250,7 +245,6 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -329,183 +323,176 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real t38 = f_i_cross_f_j_0 * t36;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_i_world = A_i s_i */
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
-    const jg_real t42 = s_i_world_2 + d_ij_2;
-    const jg_real t43 = t4 * t42;
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
+    const jg_real t41 = t4 * e_ij_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
-    const jg_real t47 = s_i_world_1 + d_ij_1;
-    const jg_real t48 = t10 * t47;
-    const jg_real t49 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
+    const jg_real t44 = t10 * e_ij_1;
+    const jg_real t45 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t51 = h_j_2 * t49;
-    const jg_real t52 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t47 = h_j_2 * t45;
+    const jg_real t48 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t54 = h_j_1 * t52;
-    const jg_real t55 = t51 + t54;
-    const jg_real t56 = t24 * t25;
-    const jg_real t57 = t25 * theta_sine;
-    const jg_real t58 = f_i_2 * t56 - g_i_2 * t57;
-    const jg_real t59 = f_j_2 * t58;
-    const jg_real t60 = f_i_1 * t56 - g_i_1 * t57;
-    const jg_real t61 = f_j_1 * t60;
-    const jg_real t62 = t59 + t61;
-    phi_q_t_lambda_q[8] = t38 - (t43 + t48) + t33 - t55 - t62;
+    const jg_real t50 = h_j_1 * t48;
+    const jg_real t51 = t47 + t50;
+    const jg_real t52 = t24 * t25;
+    const jg_real t53 = t25 * theta_sine;
+    const jg_real t54 = f_i_2 * t52 - g_i_2 * t53;
+    const jg_real t55 = f_j_2 * t54;
+    const jg_real t56 = f_i_1 * t52 - g_i_1 * t53;
+    const jg_real t57 = f_j_1 * t56;
+    const jg_real t58 = t55 + t57;
+    phi_q_t_lambda_q[8] = t38 - (t41 + t44) + t33 - t51 - t58;
     const jg_real g_i_cross_f_j_1 = g_i_2 * f_j_0 - g_i_0 * f_j_2;
-    const jg_real t64 = g_i_cross_f_j_1 * t31;
+    const jg_real t60 = g_i_cross_f_j_1 * t31;
     const jg_real f_i_cross_f_j_1 = f_i_2 * f_j_0 - f_i_0 * f_j_2;
-    const jg_real t66 = f_i_cross_f_j_1 * t36;
+    const jg_real t62 = f_i_cross_f_j_1 * t36;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
-    const jg_real t70 = s_i_world_0 + d_ij_0;
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t72 = h_j_0 * t52;
-    const jg_real t73 = f_j_0 * t60;
-    phi_q_t_lambda_q[9] = t10 * t70 + t66 + t64 + t72 + t73;
+    const jg_real t66 = h_j_0 * t48;
+    const jg_real t67 = f_j_0 * t56;
+    phi_q_t_lambda_q[9] = t10 * e_ij_0 + t62 + t60 + t66 + t67;
     const jg_real g_i_cross_f_j_2 = g_i_0 * f_j_1 - g_i_1 * f_j_0;
-    const jg_real t75 = g_i_cross_f_j_2 * t31;
+    const jg_real t69 = g_i_cross_f_j_2 * t31;
     const jg_real f_i_cross_f_j_2 = f_i_0 * f_j_1 - f_i_1 * f_j_0;
-    const jg_real t77 = f_i_cross_f_j_2 * t36;
-    const jg_real t78 = h_j_0 * t49;
-    const jg_real t79 = f_j_0 * t58;
-    phi_q_t_lambda_q[10] = t4 * t70 + t77 + t75 + t78 + t79;
-    const jg_real t80 = f_j_2 * t56 + h_j_2 * lambda[2] + lambda[0] * s_j_world_2;
-    const jg_real t81 = f_i_2 * t80;
-    const jg_real t82 = f_j_1 * t56 + h_j_1 * lambda[2] + lambda[0] * s_j_world_1;
-    const jg_real t83 = f_i_1 * t82;
-    const jg_real t84 = t81 + t83;
-    const jg_real t85 = h_j_2 * lambda[3] - f_j_2 * t57 + lambda[1] * s_j_world_2;
-    const jg_real t86 = g_i_2 * t85;
-    const jg_real t87 = h_j_1 * lambda[3] - f_j_1 * t57 + lambda[1] * s_j_world_1;
-    const jg_real t88 = g_i_1 * t87;
-    const jg_real t89 = t86 + t88;
-    const jg_real t90 = lambda[4] * s_j_world_2;
-    const jg_real t91 = h_i_2 * t90;
-    const jg_real t92 = lambda[4] * s_j_world_1;
-    const jg_real t93 = h_i_1 * t92;
-    phi_q_t_lambda_q[13] = t91 + t93 + (t84 - t38 - t33 + t89);
-    const jg_real t94 = f_j_0 * t56 + h_j_0 * lambda[2] + lambda[0] * s_j_world_0;
-    const jg_real t95 = f_i_1 * t94;
-    const jg_real t96 = h_j_0 * lambda[3] - f_j_0 * t57 + lambda[1] * s_j_world_0;
-    const jg_real t97 = g_i_1 * t96;
-    const jg_real t98 = lambda[4] * s_j_world_0;
-    phi_q_t_lambda_q[14] = -(t66 + t95 + t64 + t97 + h_i_1 * t98);
-    const jg_real t99 = f_i_2 * t94;
-    const jg_real t100 = g_i_2 * t96;
-    phi_q_t_lambda_q[15] = -(t77 + t99 + t75 + t100 + h_i_2 * t98);
-    const jg_real t101 = f_i_0 * t27 - g_i_0 * t28;
-    const jg_real t102 = f_j_2 * t101 - f_j_0 * t29;
-    const jg_real t103 = g_i_cross_f_j_0 * t102;
-    const jg_real t104 = g_i_0 * t27 + f_i_0 * t28;
-    const jg_real t105 = f_j_2 * t104 - f_j_0 * t34;
-    const jg_real t106 = f_i_cross_f_j_0 * t105;
-    const jg_real t107 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    const jg_real t108 = h_j_1 * t107;
-    const jg_real t109 = f_i_0 * t56 - g_i_0 * t57;
-    const jg_real t110 = f_j_1 * t109;
-    phi_q_t_lambda_q[18] = t15 * t47 + t106 + t103 + t108 + t110;
-    const jg_real t111 = g_i_cross_f_j_1 * t102;
-    const jg_real t112 = f_i_cross_f_j_1 * t105;
-    const jg_real t113 = t15 * t70;
-    const jg_real t114 = h_j_0 * t107;
-    const jg_real t115 = t51 + t114;
-    const jg_real t116 = f_j_0 * t109;
-    const jg_real t117 = t59 + t116;
-    phi_q_t_lambda_q[19] = t112 - (t43 + t113) + t111 - t115 - t117;
-    const jg_real t118 = g_i_cross_f_j_2 * t102;
-    const jg_real t119 = f_i_cross_f_j_2 * t105;
-    const jg_real t120 = h_j_1 * t49;
-    const jg_real t121 = f_j_1 * t58;
-    phi_q_t_lambda_q[20] = t4 * t47 + t119 + t118 + t120 + t121;
-    const jg_real t122 = f_i_0 * t82;
-    const jg_real t123 = g_i_0 * t87;
-    phi_q_t_lambda_q[23] = -(t106 + t122 + t103 + t123 + h_i_0 * t92);
-    const jg_real t124 = f_i_0 * t94;
-    const jg_real t125 = t81 + t124;
-    const jg_real t126 = g_i_0 * t96;
-    const jg_real t127 = t86 + t126;
-    const jg_real t128 = h_i_0 * t98;
-    phi_q_t_lambda_q[24] = t91 + t128 + (t125 - t112 - t111 + t127);
-    const jg_real t129 = f_i_2 * t82;
-    const jg_real t130 = g_i_2 * t87;
-    phi_q_t_lambda_q[25] = -(t119 + t129 + t118 + t130 + h_i_2 * t92);
-    const jg_real t131 = f_j_0 * t30 - f_j_1 * t101;
-    const jg_real t132 = g_i_cross_f_j_0 * t131;
-    const jg_real t133 = f_j_0 * t35 - f_j_1 * t104;
-    const jg_real t134 = f_i_cross_f_j_0 * t133;
-    const jg_real t135 = h_j_2 * t107;
-    const jg_real t136 = f_j_2 * t109;
-    phi_q_t_lambda_q[28] = t15 * t42 + t134 + t132 + t135 + t136;
-    const jg_real t137 = g_i_cross_f_j_1 * t131;
-    const jg_real t138 = f_i_cross_f_j_1 * t133;
-    const jg_real t139 = h_j_2 * t52;
-    const jg_real t140 = f_j_2 * t60;
-    phi_q_t_lambda_q[29] = t10 * t42 + t138 + t137 + t139 + t140;
-    const jg_real t141 = g_i_cross_f_j_2 * t131;
-    const jg_real t142 = f_i_cross_f_j_2 * t133;
-    const jg_real t143 = t54 + t114;
-    const jg_real t144 = t61 + t116;
-    phi_q_t_lambda_q[30] = t142 - (t48 + t113) + t141 - t143 - t144;
-    const jg_real t145 = f_i_0 * t80;
-    const jg_real t146 = g_i_0 * t85;
-    phi_q_t_lambda_q[33] = -(t134 + t145 + t132 + t146 + h_i_0 * t90);
-    const jg_real t147 = f_i_1 * t80;
-    const jg_real t148 = g_i_1 * t85;
-    phi_q_t_lambda_q[34] = -(t138 + t147 + t137 + t148 + h_i_1 * t90);
-    const jg_real t149 = t83 + t124;
-    const jg_real t150 = t88 + t126;
-    phi_q_t_lambda_q[35] = t93 + t128 + (t149 - t142 - t141 + t150);
-    const jg_real t151 = t4 * s_j_world_2;
-    const jg_real t152 = t10 * s_j_world_1;
-    phi_q_t_lambda_q[42] = t151 + t152 + t55 - t33 - t38 + t62;
-    phi_q_t_lambda_q[43] = -(t108 + t15 * s_j_world_1 + t103 + t106 + t110);
-    phi_q_t_lambda_q[44] = -(t135 + t15 * s_j_world_2 + t132 + t134 + t136);
-    const jg_real t153 = t27 * g_i_cross_f_j_0;
-    const jg_real t154 = t27 * f_i_cross_f_j_0;
-    const jg_real t155 = t28 * f_i_cross_f_j_0;
-    const jg_real t156 = t28 * g_i_cross_f_j_0;
-    const jg_real t157 = t3 * s_j_world_2;
-    const jg_real t158 = t9 * s_j_world_1;
-    phi_q_t_lambda_q[45] = g_i_cross_f_j_0 * t156 - (g_i_cross_f_j_0 * t154 + f_i_cross_f_j_0 * t155 +
-        f_i_cross_f_j_0 * t153) - t84 - t89 - (t157 + t158);
-    const jg_real t159 = t27 * g_i_cross_f_j_1;
-    const jg_real t160 = t27 * f_i_cross_f_j_1;
-    const jg_real t161 = t28 * f_i_cross_f_j_1;
-    const jg_real t162 = t28 * g_i_cross_f_j_1;
-    phi_q_t_lambda_q[46] = g_i_cross_f_j_0 * t162 - (g_i_cross_f_j_0 * t160 + f_i_cross_f_j_0 * t161 +
-        f_i_cross_f_j_0 * t159) + t122 + t123 + t14 * s_j_world_1;
-    const jg_real t163 = t27 * g_i_cross_f_j_2;
-    const jg_real t164 = t27 * f_i_cross_f_j_2;
-    const jg_real t165 = t28 * f_i_cross_f_j_2;
-    const jg_real t166 = t28 * g_i_cross_f_j_2;
-    phi_q_t_lambda_q[47] = g_i_cross_f_j_0 * t166 - (g_i_cross_f_j_0 * t164 + f_i_cross_f_j_0 * t165 +
-        f_i_cross_f_j_0 * t163) + t145 + t146 + t14 * s_j_world_2;
-    phi_q_t_lambda_q[48] = -(t72 + t10 * s_j_world_0 + t64 + t66 + t73);
-    const jg_real t167 = t15 * s_j_world_0;
-    phi_q_t_lambda_q[49] = t151 + t167 + t115 - t111 - t112 + t117;
-    phi_q_t_lambda_q[50] = -(t139 + t10 * s_j_world_2 + t137 + t138 + t140);
-    phi_q_t_lambda_q[51] = g_i_cross_f_j_1 * t156 - (g_i_cross_f_j_1 * t154 + f_i_cross_f_j_1 * t155 +
-        f_i_cross_f_j_1 * t153) + t95 + t97 + t9 * s_j_world_0;
-    const jg_real t168 = t14 * s_j_world_0;
-    phi_q_t_lambda_q[52] = g_i_cross_f_j_1 * t162 - (g_i_cross_f_j_1 * t160 + f_i_cross_f_j_1 * t161 +
-        f_i_cross_f_j_1 * t159) - t125 - t127 - (t157 + t168);
-    phi_q_t_lambda_q[53] = g_i_cross_f_j_1 * t166 - (g_i_cross_f_j_1 * t164 + f_i_cross_f_j_1 * t165 +
-        f_i_cross_f_j_1 * t163) + t147 + t148 + t9 * s_j_world_2;
-    phi_q_t_lambda_q[54] = -(t78 + t4 * s_j_world_0 + t75 + t77 + t79);
-    phi_q_t_lambda_q[55] = -(t120 + t4 * s_j_world_1 + t118 + t119 + t121);
-    phi_q_t_lambda_q[56] = t152 + t167 + t143 - t141 - t142 + t144;
-    phi_q_t_lambda_q[57] = g_i_cross_f_j_2 * t156 - (g_i_cross_f_j_2 * t154 + f_i_cross_f_j_2 * t155 +
-        f_i_cross_f_j_2 * t153) + t99 + t100 + t3 * s_j_world_0;
-    phi_q_t_lambda_q[58] = g_i_cross_f_j_2 * t162 - (g_i_cross_f_j_2 * t160 + f_i_cross_f_j_2 * t161 +
-        f_i_cross_f_j_2 * t159) + t129 + t130 + t3 * s_j_world_1;
-    phi_q_t_lambda_q[59] = g_i_cross_f_j_2 * t166 - (g_i_cross_f_j_2 * t164 + f_i_cross_f_j_2 * t165 +
-        f_i_cross_f_j_2 * t163) - t149 - t150 - (t158 + t168);
+    const jg_real t71 = f_i_cross_f_j_2 * t36;
+    const jg_real t72 = h_j_0 * t45;
+    const jg_real t73 = f_j_0 * t54;
+    phi_q_t_lambda_q[10] = t4 * e_ij_0 + t71 + t69 + t72 + t73;
+    const jg_real t74 = f_j_2 * t52 + h_j_2 * lambda[2] + lambda[0] * s_j_world_2;
+    const jg_real t75 = f_i_2 * t74;
+    const jg_real t76 = f_j_1 * t52 + h_j_1 * lambda[2] + lambda[0] * s_j_world_1;
+    const jg_real t77 = f_i_1 * t76;
+    const jg_real t78 = t75 + t77;
+    const jg_real t79 = h_j_2 * lambda[3] - f_j_2 * t53 + lambda[1] * s_j_world_2;
+    const jg_real t80 = g_i_2 * t79;
+    const jg_real t81 = h_j_1 * lambda[3] - f_j_1 * t53 + lambda[1] * s_j_world_1;
+    const jg_real t82 = g_i_1 * t81;
+    const jg_real t83 = t80 + t82;
+    const jg_real t84 = lambda[4] * s_j_world_2;
+    const jg_real t85 = h_i_2 * t84;
+    const jg_real t86 = lambda[4] * s_j_world_1;
+    const jg_real t87 = h_i_1 * t86;
+    phi_q_t_lambda_q[13] = t85 + t87 + (t78 - t38 - t33 + t83);
+    const jg_real t88 = f_j_0 * t52 + h_j_0 * lambda[2] + lambda[0] * s_j_world_0;
+    const jg_real t89 = f_i_1 * t88;
+    const jg_real t90 = h_j_0 * lambda[3] - f_j_0 * t53 + lambda[1] * s_j_world_0;
+    const jg_real t91 = g_i_1 * t90;
+    const jg_real t92 = lambda[4] * s_j_world_0;
+    phi_q_t_lambda_q[14] = -(t62 + t89 + t60 + t91 + h_i_1 * t92);
+    const jg_real t93 = f_i_2 * t88;
+    const jg_real t94 = g_i_2 * t90;
+    phi_q_t_lambda_q[15] = -(t71 + t93 + t69 + t94 + h_i_2 * t92);
+    const jg_real t95 = f_i_0 * t27 - g_i_0 * t28;
+    const jg_real t96 = f_j_2 * t95 - f_j_0 * t29;
+    const jg_real t97 = g_i_cross_f_j_0 * t96;
+    const jg_real t98 = g_i_0 * t27 + f_i_0 * t28;
+    const jg_real t99 = f_j_2 * t98 - f_j_0 * t34;
+    const jg_real t100 = f_i_cross_f_j_0 * t99;
+    const jg_real t101 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    const jg_real t102 = h_j_1 * t101;
+    const jg_real t103 = f_i_0 * t52 - g_i_0 * t53;
+    const jg_real t104 = f_j_1 * t103;
+    phi_q_t_lambda_q[18] = t15 * e_ij_1 + t100 + t97 + t102 + t104;
+    const jg_real t105 = g_i_cross_f_j_1 * t96;
+    const jg_real t106 = f_i_cross_f_j_1 * t99;
+    const jg_real t107 = t15 * e_ij_0;
+    const jg_real t108 = h_j_0 * t101;
+    const jg_real t109 = t47 + t108;
+    const jg_real t110 = f_j_0 * t103;
+    const jg_real t111 = t55 + t110;
+    phi_q_t_lambda_q[19] = t106 - (t41 + t107) + t105 - t109 - t111;
+    const jg_real t112 = g_i_cross_f_j_2 * t96;
+    const jg_real t113 = f_i_cross_f_j_2 * t99;
+    const jg_real t114 = h_j_1 * t45;
+    const jg_real t115 = f_j_1 * t54;
+    phi_q_t_lambda_q[20] = t4 * e_ij_1 + t113 + t112 + t114 + t115;
+    const jg_real t116 = f_i_0 * t76;
+    const jg_real t117 = g_i_0 * t81;
+    phi_q_t_lambda_q[23] = -(t100 + t116 + t97 + t117 + h_i_0 * t86);
+    const jg_real t118 = f_i_0 * t88;
+    const jg_real t119 = t75 + t118;
+    const jg_real t120 = g_i_0 * t90;
+    const jg_real t121 = t80 + t120;
+    const jg_real t122 = h_i_0 * t92;
+    phi_q_t_lambda_q[24] = t85 + t122 + (t119 - t106 - t105 + t121);
+    const jg_real t123 = f_i_2 * t76;
+    const jg_real t124 = g_i_2 * t81;
+    phi_q_t_lambda_q[25] = -(t113 + t123 + t112 + t124 + h_i_2 * t86);
+    const jg_real t125 = f_j_0 * t30 - f_j_1 * t95;
+    const jg_real t126 = g_i_cross_f_j_0 * t125;
+    const jg_real t127 = f_j_0 * t35 - f_j_1 * t98;
+    const jg_real t128 = f_i_cross_f_j_0 * t127;
+    const jg_real t129 = h_j_2 * t101;
+    const jg_real t130 = f_j_2 * t103;
+    phi_q_t_lambda_q[28] = t15 * e_ij_2 + t128 + t126 + t129 + t130;
+    const jg_real t131 = g_i_cross_f_j_1 * t125;
+    const jg_real t132 = f_i_cross_f_j_1 * t127;
+    const jg_real t133 = h_j_2 * t48;
+    const jg_real t134 = f_j_2 * t56;
+    phi_q_t_lambda_q[29] = t10 * e_ij_2 + t132 + t131 + t133 + t134;
+    const jg_real t135 = g_i_cross_f_j_2 * t125;
+    const jg_real t136 = f_i_cross_f_j_2 * t127;
+    const jg_real t137 = t50 + t108;
+    const jg_real t138 = t57 + t110;
+    phi_q_t_lambda_q[30] = t136 - (t44 + t107) + t135 - t137 - t138;
+    const jg_real t139 = f_i_0 * t74;
+    const jg_real t140 = g_i_0 * t79;
+    phi_q_t_lambda_q[33] = -(t128 + t139 + t126 + t140 + h_i_0 * t84);
+    const jg_real t141 = f_i_1 * t74;
+    const jg_real t142 = g_i_1 * t79;
+    phi_q_t_lambda_q[34] = -(t132 + t141 + t131 + t142 + h_i_1 * t84);
+    const jg_real t143 = t77 + t118;
+    const jg_real t144 = t82 + t120;
+    phi_q_t_lambda_q[35] = t87 + t122 + (t143 - t136 - t135 + t144);
+    const jg_real t145 = t4 * s_j_world_2;
+    const jg_real t146 = t10 * s_j_world_1;
+    phi_q_t_lambda_q[42] = t145 + t146 + t51 - t33 - t38 + t58;
+    phi_q_t_lambda_q[43] = -(t102 + t15 * s_j_world_1 + t97 + t100 + t104);
+    phi_q_t_lambda_q[44] = -(t129 + t15 * s_j_world_2 + t126 + t128 + t130);
+    const jg_real t147 = t27 * g_i_cross_f_j_0;
+    const jg_real t148 = t27 * f_i_cross_f_j_0;
+    const jg_real t149 = t28 * f_i_cross_f_j_0;
+    const jg_real t150 = t28 * g_i_cross_f_j_0;
+    const jg_real t151 = t3 * s_j_world_2;
+    const jg_real t152 = t9 * s_j_world_1;
+    phi_q_t_lambda_q[45] = g_i_cross_f_j_0 * t150 - (g_i_cross_f_j_0 * t148 + f_i_cross_f_j_0 * t149 +
+        f_i_cross_f_j_0 * t147) - t78 - t83 - (t151 + t152);
+    const jg_real t153 = t27 * g_i_cross_f_j_1;
+    const jg_real t154 = t27 * f_i_cross_f_j_1;
+    const jg_real t155 = t28 * f_i_cross_f_j_1;
+    const jg_real t156 = t28 * g_i_cross_f_j_1;
+    phi_q_t_lambda_q[46] = g_i_cross_f_j_0 * t156 - (g_i_cross_f_j_0 * t154 + f_i_cross_f_j_0 * t155 +
+        f_i_cross_f_j_0 * t153) + t116 + t117 + t14 * s_j_world_1;
+    const jg_real t157 = t27 * g_i_cross_f_j_2;
+    const jg_real t158 = t27 * f_i_cross_f_j_2;
+    const jg_real t159 = t28 * f_i_cross_f_j_2;
+    const jg_real t160 = t28 * g_i_cross_f_j_2;
+    phi_q_t_lambda_q[47] = g_i_cross_f_j_0 * t160 - (g_i_cross_f_j_0 * t158 + f_i_cross_f_j_0 * t159 +
+        f_i_cross_f_j_0 * t157) + t139 + t140 + t14 * s_j_world_2;
+    phi_q_t_lambda_q[48] = -(t66 + t10 * s_j_world_0 + t60 + t62 + t67);
+    const jg_real t161 = t15 * s_j_world_0;
+    phi_q_t_lambda_q[49] = t145 + t161 + t109 - t105 - t106 + t111;
+    phi_q_t_lambda_q[50] = -(t133 + t10 * s_j_world_2 + t131 + t132 + t134);
+    phi_q_t_lambda_q[51] = g_i_cross_f_j_1 * t150 - (g_i_cross_f_j_1 * t148 + f_i_cross_f_j_1 * t149 +
+        f_i_cross_f_j_1 * t147) + t89 + t91 + t9 * s_j_world_0;
+    const jg_real t162 = t14 * s_j_world_0;
+    phi_q_t_lambda_q[52] = g_i_cross_f_j_1 * t156 - (g_i_cross_f_j_1 * t154 + f_i_cross_f_j_1 * t155 +
+        f_i_cross_f_j_1 * t153) - t119 - t121 - (t151 + t162);
+    phi_q_t_lambda_q[53] = g_i_cross_f_j_1 * t160 - (g_i_cross_f_j_1 * t158 + f_i_cross_f_j_1 * t159 +
+        f_i_cross_f_j_1 * t157) + t141 + t142 + t9 * s_j_world_2;
+    phi_q_t_lambda_q[54] = -(t72 + t4 * s_j_world_0 + t69 + t71 + t73);
+    phi_q_t_lambda_q[55] = -(t114 + t4 * s_j_world_1 + t112 + t113 + t115);
+    phi_q_t_lambda_q[56] = t146 + t161 + t137 - t135 - t136 + t138;
+    phi_q_t_lambda_q[57] = g_i_cross_f_j_2 * t150 - (g_i_cross_f_j_2 * t148 + f_i_cross_f_j_2 * t149 +
+        f_i_cross_f_j_2 * t147) + t93 + t94 + t3 * s_j_world_0;
+    phi_q_t_lambda_q[58] = g_i_cross_f_j_2 * t156 - (g_i_cross_f_j_2 * t154 + f_i_cross_f_j_2 * t155 +
+        f_i_cross_f_j_2 * t153) + t123 + t124 + t3 * s_j_world_1;
+    phi_q_t_lambda_q[59] = g_i_cross_f_j_2 * t160 - (g_i_cross_f_j_2 * t158 + f_i_cross_f_j_2 * t159 +
+        f_i_cross_f_j_2 * t157) - t143 - t144 - (t152 + t162);
 }
 
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -542,21 +529,24 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_i_cross_f_i_1;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t9 = e_ij_0 - s_i_world_0;
     const jg_real omega_i_cross_f_i_0 = omega_i[1] * f_i_2 - omega_i[2] * f_i_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_1 = omega_i[2] * omega_i_cross_f_i_0 - omega_i[0] *
         omega_i_cross_f_i_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t15 = e_ij_1 - s_i_world_1;
     const jg_real omega_i_cross_omega_i_cross_f_i_2 = omega_i[0] * omega_i_cross_f_i_1 - omega_i[1] *
         omega_i_cross_f_i_0;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t20 = e_ij_2 - s_i_world_2;
     /* omega_j_cross_s_j_world = tilde(omega_j) s_j_world */
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
@@ -582,13 +572,13 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     gamma[0] = f_i_0 * omega_i_cross_omega_i_cross_s_i_world_0 + f_i_1 * omega_i_cross_omega_i_cross_s_i_world_1 +
         f_i_2 * omega_i_cross_omega_i_cross_s_i_world_2 + (JG_REAL(2.0) * (omega_i_cross_f_i_0 *
         omega_i_cross_s_i_world_0 + omega_i_cross_f_i_1 * omega_i_cross_s_i_world_1 + omega_i_cross_f_i_2 *
-        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_f_i_0 * d_ij_0 + omega_i_cross_omega_i_cross_f_i_1
-        * d_ij_1 + omega_i_cross_omega_i_cross_f_i_2 * d_ij_2 + (f_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 +
-        f_i_1 * omega_j_cross_omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) +
-        JG_REAL(2.0) * (omega_i_cross_f_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_f_i_1 *
-        omega_j_cross_s_j_world_1 + omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
-        (omega_i_cross_f_i_0 * v_j[0] + omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0)
-        * (omega_i_cross_f_i_0 * v_i[0] + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
+        omega_i_cross_s_i_world_2) - (omega_i_cross_omega_i_cross_f_i_0 * t9 + omega_i_cross_omega_i_cross_f_i_1 *
+        t15 + omega_i_cross_omega_i_cross_f_i_2 * t20 + (f_i_0 * omega_j_cross_omega_j_cross_s_j_world_0 + f_i_1 *
+        omega_j_cross_omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_omega_j_cross_s_j_world_2) + JG_REAL(2.0) *
+        (omega_i_cross_f_i_0 * omega_j_cross_s_j_world_0 + omega_i_cross_f_i_1 * omega_j_cross_s_j_world_1 +
+        omega_i_cross_f_i_2 * omega_j_cross_s_j_world_2) + JG_REAL(2.0) * (omega_i_cross_f_i_0 * v_j[0] +
+        omega_i_cross_f_i_1 * v_j[1] + omega_i_cross_f_i_2 * v_j[2])) + JG_REAL(2.0) * (omega_i_cross_f_i_0 * v_i[0]
+        + omega_i_cross_f_i_1 * v_i[1] + omega_i_cross_f_i_2 * v_i[2]));
     /* g_i = A_i C_i [0; 1; 0] */
     const jg_real g_i_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -607,14 +597,13 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     gamma[1] = omega_i_cross_omega_i_cross_s_i_world_0 * g_i_0 + omega_i_cross_omega_i_cross_s_i_world_1 * g_i_1 +
         omega_i_cross_omega_i_cross_s_i_world_2 * g_i_2 + (JG_REAL(2.0) * (omega_i_cross_s_i_world_0 *
         omega_i_cross_g_i_0 + omega_i_cross_s_i_world_1 * omega_i_cross_g_i_1 + omega_i_cross_s_i_world_2 *
-        omega_i_cross_g_i_2) - (d_ij_0 * omega_i_cross_omega_i_cross_g_i_0 + d_ij_1 *
-        omega_i_cross_omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_omega_i_cross_g_i_2 +
-        (omega_j_cross_omega_j_cross_s_j_world_0 * g_i_0 + omega_j_cross_omega_j_cross_s_j_world_1 * g_i_1 +
-        omega_j_cross_omega_j_cross_s_j_world_2 * g_i_2) + JG_REAL(2.0) * (omega_j_cross_s_j_world_0 *
-        omega_i_cross_g_i_0 + omega_j_cross_s_j_world_1 * omega_i_cross_g_i_1 + omega_j_cross_s_j_world_2 *
-        omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2]
-        * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 +
-        v_i[2] * omega_i_cross_g_i_2));
+        omega_i_cross_g_i_2) - (t9 * omega_i_cross_omega_i_cross_g_i_0 + t15 * omega_i_cross_omega_i_cross_g_i_1 +
+        t20 * omega_i_cross_omega_i_cross_g_i_2 + (omega_j_cross_omega_j_cross_s_j_world_0 * g_i_0 +
+        omega_j_cross_omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_omega_j_cross_s_j_world_2 * g_i_2) +
+        JG_REAL(2.0) * (omega_j_cross_s_j_world_0 * omega_i_cross_g_i_0 + omega_j_cross_s_j_world_1 *
+        omega_i_cross_g_i_1 + omega_j_cross_s_j_world_2 * omega_i_cross_g_i_2) + JG_REAL(2.0) * (v_j[0] *
+        omega_i_cross_g_i_0 + v_j[1] * omega_i_cross_g_i_1 + v_j[2] * omega_i_cross_g_i_2)) + JG_REAL(2.0) * (v_i[0]
+        * omega_i_cross_g_i_0 + v_i[1] * omega_i_cross_g_i_1 + v_i[2] * omega_i_cross_g_i_2));
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -648,14 +637,14 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real cosine_theta = f_i_0 * f_j_0 + f_i_1 * f_j_1 + f_i_2 * f_j_2;
     /* sine_theta = g_i . f_j */
     const jg_real sine_theta = g_i_0 * f_j_0 + g_i_1 * f_j_1 + g_i_2 * f_j_2;
-    const jg_real t53 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t56 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t53;
-    const jg_real t55 = sine_theta * t53;
-    const jg_real t56 = JG_REAL(2.0) * pitch;
-    const jg_real t57 = t55 * t56;
-    const jg_real t58 = theta_sine * t57;
-    const jg_real t59 = omega_i_cross_f_i_0 * f_j_0 + omega_i_cross_f_i_1 * f_j_1 + omega_i_cross_f_i_2 * f_j_2;
+    const jg_real theta_sine = cosine_theta * t56;
+    const jg_real t58 = sine_theta * t56;
+    const jg_real t59 = JG_REAL(2.0) * pitch;
+    const jg_real t60 = t58 * t59;
+    const jg_real t61 = theta_sine * t60;
+    const jg_real t62 = omega_i_cross_f_i_0 * f_j_0 + omega_i_cross_f_i_1 * f_j_1 + omega_i_cross_f_i_2 * f_j_2;
     /* h_i = A_i C_i [0; 0; 1] */
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
@@ -671,7 +660,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_i_cross_h_i_2;
     const jg_real omega_i_cross_omega_i_cross_h_i_2 = omega_i[0] * omega_i_cross_h_i_1 - omega_i[1] *
         omega_i_cross_h_i_0;
-    const jg_real t69 = pitch * t55;
+    const jg_real t72 = pitch * t58;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * f_j_1 - omega_j[1] * f_j_0;
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * f_j_0 - omega_j[0] * f_j_2;
@@ -683,37 +672,36 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t76 = pitch * theta_sine;
-    const jg_real t77 = f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_f_j_2;
-    const jg_real t78 = theta_sine * theta_sine * t56;
-    const jg_real t79 = t59 * t78;
-    const jg_real t80 = omega_i_cross_g_i_0 * f_j_0 + omega_i_cross_g_i_1 * f_j_1 + omega_i_cross_g_i_2 * f_j_2;
-    const jg_real t81 = g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_f_j_2;
-    const jg_real t82 = t55 * t55 * t56;
-    const jg_real t83 = t59 * t82;
-    const jg_real t84 = pitch * JG_REAL(4.0) * t55 * theta_sine;
+    const jg_real t79 = pitch * theta_sine;
+    const jg_real t80 = f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_f_j_2;
+    const jg_real t81 = theta_sine * theta_sine * t59;
+    const jg_real t82 = t62 * t81;
+    const jg_real t83 = omega_i_cross_g_i_0 * f_j_0 + omega_i_cross_g_i_1 * f_j_1 + omega_i_cross_g_i_2 * f_j_2;
+    const jg_real t84 = g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_f_j_2;
+    const jg_real t85 = t58 * t58 * t59;
+    const jg_real t86 = t62 * t85;
+    const jg_real t87 = pitch * JG_REAL(4.0) * t58 * theta_sine;
     gamma[4] = omega_i_cross_omega_i_cross_s_i_world_0 * h_i_0 + omega_i_cross_omega_i_cross_s_i_world_1 * h_i_1 +
         omega_i_cross_omega_i_cross_s_i_world_2 * h_i_2 + (JG_REAL(2.0) * (omega_i_cross_s_i_world_0 *
         omega_i_cross_h_i_0 + omega_i_cross_s_i_world_1 * omega_i_cross_h_i_1 + omega_i_cross_s_i_world_2 *
-        omega_i_cross_h_i_2) - (d_ij_0 * omega_i_cross_omega_i_cross_h_i_0 + d_ij_1 *
-        omega_i_cross_omega_i_cross_h_i_1 + d_ij_2 * omega_i_cross_omega_i_cross_h_i_2 +
-        (omega_j_cross_omega_j_cross_s_j_world_0 * h_i_0 + omega_j_cross_omega_j_cross_s_j_world_1 * h_i_1 +
-        omega_j_cross_omega_j_cross_s_j_world_2 * h_i_2) + JG_REAL(2.0) * (omega_j_cross_s_j_world_0 *
-        omega_i_cross_h_i_0 + omega_j_cross_s_j_world_1 * omega_i_cross_h_i_1 + omega_j_cross_s_j_world_2 *
-        omega_i_cross_h_i_2) + JG_REAL(2.0) * (v_j[0] * omega_i_cross_h_i_0 + v_j[1] * omega_i_cross_h_i_1 + v_j[2]
-        * omega_i_cross_h_i_2)) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_h_i_0 + v_i[1] * omega_i_cross_h_i_1 +
-        v_i[2] * omega_i_cross_h_i_2) - (omega_i_cross_omega_i_cross_f_i_0 * f_j_0 +
-        omega_i_cross_omega_i_cross_f_i_1 * f_j_1 + omega_i_cross_omega_i_cross_f_i_2 * f_j_2) * t69 - t69 * (f_i_0
-        * omega_j_cross_omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_omega_j_cross_f_j_1 + f_i_2 *
-        omega_j_cross_omega_j_cross_f_j_2) + (omega_i_cross_omega_i_cross_g_i_0 * f_j_0 +
-        omega_i_cross_omega_i_cross_g_i_1 * f_j_1 + omega_i_cross_omega_i_cross_g_i_2 * f_j_2) * t76 + t76 * (g_i_0
-        * omega_j_cross_omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_omega_j_cross_f_j_1 + g_i_2 *
-        omega_j_cross_omega_j_cross_f_j_2) - (omega_i_cross_f_i_0 * omega_j_cross_f_j_0 + omega_i_cross_f_i_1 *
-        omega_j_cross_f_j_1 + omega_i_cross_f_i_2 * omega_j_cross_f_j_2) * t57 + (omega_i_cross_g_i_0 *
-        omega_j_cross_f_j_0 + omega_i_cross_g_i_1 * omega_j_cross_f_j_1 + omega_i_cross_g_i_2 * omega_j_cross_f_j_2)
-        * (theta_sine * t56) + t59 * t59 * t58 + t77 * t77 * t58 - t80 * t79 - t79 * t81 - t80 * t78 * t77 - t77 *
-        t78 * t81 - t80 * t80 * t58 - t81 * t81 * t58 + t80 * t83 + t81 * t83 + t80 * t82 * t77 + t77 * t82 * t81 +
-        t59 * t84 * t77 - t80 * t84 * t81);
+        omega_i_cross_h_i_2) - (t9 * omega_i_cross_omega_i_cross_h_i_0 + t15 * omega_i_cross_omega_i_cross_h_i_1 +
+        t20 * omega_i_cross_omega_i_cross_h_i_2 + (omega_j_cross_omega_j_cross_s_j_world_0 * h_i_0 +
+        omega_j_cross_omega_j_cross_s_j_world_1 * h_i_1 + omega_j_cross_omega_j_cross_s_j_world_2 * h_i_2) +
+        JG_REAL(2.0) * (omega_j_cross_s_j_world_0 * omega_i_cross_h_i_0 + omega_j_cross_s_j_world_1 *
+        omega_i_cross_h_i_1 + omega_j_cross_s_j_world_2 * omega_i_cross_h_i_2) + JG_REAL(2.0) * (v_j[0] *
+        omega_i_cross_h_i_0 + v_j[1] * omega_i_cross_h_i_1 + v_j[2] * omega_i_cross_h_i_2)) + JG_REAL(2.0) * (v_i[0]
+        * omega_i_cross_h_i_0 + v_i[1] * omega_i_cross_h_i_1 + v_i[2] * omega_i_cross_h_i_2) -
+        (omega_i_cross_omega_i_cross_f_i_0 * f_j_0 + omega_i_cross_omega_i_cross_f_i_1 * f_j_1 +
+        omega_i_cross_omega_i_cross_f_i_2 * f_j_2) * t72 - t72 * (f_i_0 * omega_j_cross_omega_j_cross_f_j_0 + f_i_1
+        * omega_j_cross_omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_omega_j_cross_f_j_2) +
+        (omega_i_cross_omega_i_cross_g_i_0 * f_j_0 + omega_i_cross_omega_i_cross_g_i_1 * f_j_1 +
+        omega_i_cross_omega_i_cross_g_i_2 * f_j_2) * t79 + t79 * (g_i_0 * omega_j_cross_omega_j_cross_f_j_0 + g_i_1
+        * omega_j_cross_omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_omega_j_cross_f_j_2) - (omega_i_cross_f_i_0 *
+        omega_j_cross_f_j_0 + omega_i_cross_f_i_1 * omega_j_cross_f_j_1 + omega_i_cross_f_i_2 * omega_j_cross_f_j_2)
+        * t60 + (omega_i_cross_g_i_0 * omega_j_cross_f_j_0 + omega_i_cross_g_i_1 * omega_j_cross_f_j_1 +
+        omega_i_cross_g_i_2 * omega_j_cross_f_j_2) * (theta_sine * t59) + t62 * t62 * t61 + t80 * t80 * t61 - t83 *
+        t82 - t82 * t84 - t83 * t81 * t80 - t80 * t81 * t84 - t83 * t83 * t61 - t84 * t84 * t61 + t83 * t86 + t84 *
+        t86 + t83 * t85 * t80 + t80 * t85 * t84 + t62 * t87 * t80 - t83 * t87 * t84);
 }
 
 void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -736,19 +724,22 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real omega_i_cross_f_i_0 = f_i_2 * omega_i[1] - f_i_1 * omega_i[2];
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t6 = e_ij_0 - s_i_world_0;
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real omega_i_cross_f_i_1 = f_i_0 * omega_i[2] - f_i_2 * omega_i[0];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t12 = e_ij_1 - s_i_world_1;
     const jg_real omega_i_cross_f_i_2 = f_i_1 * omega_i[0] - f_i_0 * omega_i[1];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t17 = e_ij_2 - s_i_world_2;
     /* omega_i_cross_s_i_world = tilde(omega_i) s_i_world */
     const jg_real omega_i_cross_s_i_world_0 = omega_i[1] * s_i_world_2 - omega_i[2] * s_i_world_1;
     const jg_real omega_i_cross_s_i_world_1 = omega_i[2] * s_i_world_0 - omega_i[0] * s_i_world_2;
@@ -758,8 +749,8 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real omega_j_cross_s_j_world_1 = s_j_world_0 * omega_j[2] - s_j_world_2 * omega_j[0];
     const jg_real omega_j_cross_s_j_world_2 = s_j_world_1 * omega_j[0] - s_j_world_0 * omega_j[1];
     phi_q_v[0] = f_i_0 * v_j[0] + f_i_1 * v_j[1] + f_i_2 * v_j[2] + (f_i_0 * omega_j_cross_s_j_world_0 + f_i_1 *
-        omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_f_i_0 * d_ij_0 +
-        omega_i_cross_f_i_1 * d_ij_1 + omega_i_cross_f_i_2 * d_ij_2 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
+        omega_j_cross_s_j_world_1 + f_i_2 * omega_j_cross_s_j_world_2 + (omega_i_cross_f_i_0 * t6 +
+        omega_i_cross_f_i_1 * t12 + omega_i_cross_f_i_2 * t17 - (f_i_0 * omega_i_cross_s_i_world_0 + f_i_1 *
         omega_i_cross_s_i_world_1 + f_i_2 * omega_i_cross_s_i_world_2 + (f_i_0 * v_i[0] + f_i_1 * v_i[1] + f_i_2 *
         v_i[2]))));
     /* g_i = A_i C_i [0; 1; 0] */
@@ -771,8 +762,8 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real omega_i_cross_g_i_1 = omega_i[2] * g_i_0 - omega_i[0] * g_i_2;
     const jg_real omega_i_cross_g_i_2 = omega_i[0] * g_i_1 - omega_i[1] * g_i_0;
     phi_q_v[1] = v_j[0] * g_i_0 + v_j[1] * g_i_1 + v_j[2] * g_i_2 + (omega_j_cross_s_j_world_0 * g_i_0 +
-        omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_s_j_world_2 * g_i_2 + (d_ij_0 * omega_i_cross_g_i_0 +
-        d_ij_1 * omega_i_cross_g_i_1 + d_ij_2 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
+        omega_j_cross_s_j_world_1 * g_i_1 + omega_j_cross_s_j_world_2 * g_i_2 + (t6 * omega_i_cross_g_i_0 + t12 *
+        omega_i_cross_g_i_1 + t17 * omega_i_cross_g_i_2 - (omega_i_cross_s_i_world_0 * g_i_0 +
         omega_i_cross_s_i_world_1 * g_i_1 + omega_i_cross_s_i_world_2 * g_i_2 + (v_i[0] * g_i_0 + v_i[1] * g_i_1 +
         v_i[2] * g_i_2))));
     /* h_j = A_j C_j [0; 0; 1] */
@@ -795,8 +786,8 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real cosine_theta = f_i_0 * f_j_0 + f_i_1 * f_j_1 + f_i_2 * f_j_2;
     /* sine_theta = g_i . f_j */
     const jg_real sine_theta = g_i_0 * f_j_0 + g_i_1 * f_j_1 + g_i_2 * f_j_2;
-    const jg_real t38 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t39 = sine_theta * t38 * pitch;
+    const jg_real t41 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t42 = sine_theta * t41 * pitch;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * f_j_2 - omega_j[2] * f_j_1;
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * f_j_0 - omega_j[0] * f_j_2;
@@ -806,21 +797,20 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t38;
-    const jg_real t47 = pitch * theta_sine;
+    const jg_real theta_sine = cosine_theta * t41;
+    const jg_real t50 = pitch * theta_sine;
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
     const jg_real omega_i_cross_h_i_0 = omega_i[1] * h_i_2 - omega_i[2] * h_i_1;
     const jg_real omega_i_cross_h_i_1 = omega_i[2] * h_i_0 - omega_i[0] * h_i_2;
     const jg_real omega_i_cross_h_i_2 = omega_i[0] * h_i_1 - omega_i[1] * h_i_0;
     phi_q_v[4] = v_j[0] * h_i_0 + v_j[1] * h_i_1 + v_j[2] * h_i_2 + (omega_j_cross_s_j_world_0 * h_i_0 +
-        omega_j_cross_s_j_world_1 * h_i_1 + omega_j_cross_s_j_world_2 * h_i_2 + (d_ij_0 * omega_i_cross_h_i_0 +
-        d_ij_1 * omega_i_cross_h_i_1 + d_ij_2 * omega_i_cross_h_i_2 + ((omega_i_cross_f_i_0 * f_j_0 +
-        omega_i_cross_f_i_1 * f_j_1 + omega_i_cross_f_i_2 * f_j_2) * t39 - (omega_i_cross_s_i_world_0 * h_i_0 +
-        omega_i_cross_s_i_world_1 * h_i_1 + omega_i_cross_s_i_world_2 * h_i_2 + (v_i[0] * h_i_0 + v_i[1] * h_i_1 +
-        v_i[2] * h_i_2)) + t39 * (f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 *
-        omega_j_cross_f_j_2) - (omega_i_cross_g_i_0 * f_j_0 + omega_i_cross_g_i_1 * f_j_1 + omega_i_cross_g_i_2 *
-        f_j_2) * t47 - t47 * (g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 *
-        omega_j_cross_f_j_2))));
+        omega_j_cross_s_j_world_1 * h_i_1 + omega_j_cross_s_j_world_2 * h_i_2 + (t6 * omega_i_cross_h_i_0 + t12 *
+        omega_i_cross_h_i_1 + t17 * omega_i_cross_h_i_2 + ((omega_i_cross_f_i_0 * f_j_0 + omega_i_cross_f_i_1 *
+        f_j_1 + omega_i_cross_f_i_2 * f_j_2) * t42 - (omega_i_cross_s_i_world_0 * h_i_0 + omega_i_cross_s_i_world_1
+        * h_i_1 + omega_i_cross_s_i_world_2 * h_i_2 + (v_i[0] * h_i_0 + v_i[1] * h_i_1 + v_i[2] * h_i_2)) + t42 *
+        (f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_f_j_2) -
+        (omega_i_cross_g_i_0 * f_j_0 + omega_i_cross_g_i_1 * f_j_1 + omega_i_cross_g_i_2 * f_j_2) * t50 - t50 *
+        (g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_f_j_2))));
 }
 
 void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -871,59 +861,59 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real t23 = f_i_2 * t19 - g_i_2 * t21;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real t27 = e_ij_2 - s_i_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real t31 = e_ij_1 - s_i_world_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = g_i_2 * s_i_world_1 - g_i_1 * s_i_world_2;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = h_i_2 * s_i_world_1 - h_i_1 * s_i_world_2;
-    const jg_real t33 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t35 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
     /* h_j = A_j C_j [0; 0; 1] */
     const jg_real h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t35 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real t37 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
     const jg_real h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    phi_q_t_lambda[3] = f_j_2 * t22 - f_j_1 * t23 + (t33 * h_j_2 - t35 * h_j_1 + (t7 * d_ij_2 - t11 * d_ij_1 -
-        (lambda[0] * s_i_world_cross_f_i_0 + lambda[1] * s_i_world_cross_g_i_0 + lambda[4] *
-        s_i_world_cross_h_i_0)));
-    const jg_real t37 = f_i_0 * t19 - g_i_0 * t21;
+    phi_q_t_lambda[3] = f_j_2 * t22 - f_j_1 * t23 + (t35 * h_j_2 - t37 * h_j_1 + (t7 * t27 - t11 * t31 - (lambda[0]
+        * s_i_world_cross_f_i_0 + lambda[1] * s_i_world_cross_g_i_0 + lambda[4] * s_i_world_cross_h_i_0)));
+    const jg_real t39 = f_i_0 * t19 - g_i_0 * t21;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real t43 = e_ij_0 - s_i_world_0;
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
     const jg_real s_i_world_cross_g_i_1 = g_i_0 * s_i_world_2 - g_i_2 * s_i_world_0;
     const jg_real s_i_world_cross_h_i_1 = h_i_0 * s_i_world_2 - h_i_2 * s_i_world_0;
     const jg_real h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t45 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    phi_q_t_lambda[4] = f_j_0 * t23 - f_j_2 * t37 + (t35 * h_j_0 - t45 * h_j_2 + (t11 * d_ij_0 - t3 * d_ij_2 -
-        (lambda[0] * s_i_world_cross_f_i_1 + lambda[1] * s_i_world_cross_g_i_1 + lambda[4] *
-        s_i_world_cross_h_i_1)));
+    const jg_real t48 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    phi_q_t_lambda[4] = f_j_0 * t23 - f_j_2 * t39 + (t37 * h_j_0 - t48 * h_j_2 + (t11 * t43 - t3 * t27 - (lambda[0]
+        * s_i_world_cross_f_i_1 + lambda[1] * s_i_world_cross_g_i_1 + lambda[4] * s_i_world_cross_h_i_1)));
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
     const jg_real s_i_world_cross_g_i_2 = g_i_1 * s_i_world_0 - g_i_0 * s_i_world_1;
     const jg_real s_i_world_cross_h_i_2 = h_i_1 * s_i_world_0 - h_i_0 * s_i_world_1;
-    phi_q_t_lambda[5] = f_j_1 * t37 - f_j_0 * t22 + (t45 * h_j_1 - t33 * h_j_0 + (t3 * d_ij_1 - t7 * d_ij_0 -
-        (lambda[0] * s_i_world_cross_f_i_2 + lambda[1] * s_i_world_cross_g_i_2 + lambda[4] *
-        s_i_world_cross_h_i_2)));
-    const jg_real t49 = f_j_1 * t19 + lambda[2] * h_j_1 + lambda[0] * s_j_world_1;
-    const jg_real t50 = f_j_2 * t19 + lambda[2] * h_j_2 + lambda[0] * s_j_world_2;
-    const jg_real t51 = lambda[3] * h_j_1 - f_j_1 * t21 + lambda[1] * s_j_world_1;
-    const jg_real t52 = lambda[3] * h_j_2 - f_j_2 * t21 + lambda[1] * s_j_world_2;
+    phi_q_t_lambda[5] = f_j_1 * t39 - f_j_0 * t22 + (t48 * h_j_1 - t35 * h_j_0 + (t3 * t31 - t7 * t43 - (lambda[0] *
+        s_i_world_cross_f_i_2 + lambda[1] * s_i_world_cross_g_i_2 + lambda[4] * s_i_world_cross_h_i_2)));
+    const jg_real t52 = f_j_1 * t19 + lambda[2] * h_j_1 + lambda[0] * s_j_world_1;
+    const jg_real t53 = f_j_2 * t19 + lambda[2] * h_j_2 + lambda[0] * s_j_world_2;
+    const jg_real t54 = lambda[3] * h_j_1 - f_j_1 * t21 + lambda[1] * s_j_world_1;
+    const jg_real t55 = lambda[3] * h_j_2 - f_j_2 * t21 + lambda[1] * s_j_world_2;
     /* s_j_world_cross_h_i = tilde(s_j_world) h_i */
     const jg_real s_j_world_cross_h_i_0 = h_i_2 * s_j_world_1 - h_i_1 * s_j_world_2;
-    phi_q_t_lambda[9] = f_i_2 * t49 - f_i_1 * t50 + (g_i_2 * t51 - g_i_1 * t52) + lambda[4] * s_j_world_cross_h_i_0;
-    const jg_real t54 = f_j_0 * t19 + lambda[2] * h_j_0 + lambda[0] * s_j_world_0;
-    const jg_real t55 = lambda[3] * h_j_0 - f_j_0 * t21 + lambda[1] * s_j_world_0;
+    phi_q_t_lambda[9] = f_i_2 * t52 - f_i_1 * t53 + (g_i_2 * t54 - g_i_1 * t55) + lambda[4] * s_j_world_cross_h_i_0;
+    const jg_real t57 = f_j_0 * t19 + lambda[2] * h_j_0 + lambda[0] * s_j_world_0;
+    const jg_real t58 = lambda[3] * h_j_0 - f_j_0 * t21 + lambda[1] * s_j_world_0;
     const jg_real s_j_world_cross_h_i_1 = h_i_0 * s_j_world_2 - h_i_2 * s_j_world_0;
-    phi_q_t_lambda[10] = f_i_0 * t50 - f_i_2 * t54 + (g_i_0 * t52 - g_i_2 * t55) + lambda[4] *
+    phi_q_t_lambda[10] = f_i_0 * t53 - f_i_2 * t57 + (g_i_0 * t55 - g_i_2 * t58) + lambda[4] *
         s_j_world_cross_h_i_1;
     const jg_real s_j_world_cross_h_i_2 = h_i_1 * s_j_world_0 - h_i_0 * s_j_world_1;
-    phi_q_t_lambda[11] = f_i_1 * t54 - f_i_0 * t49 + (g_i_1 * t55 - g_i_0 * t51) + lambda[4] *
+    phi_q_t_lambda[11] = f_i_1 * t57 - f_i_0 * t52 + (g_i_1 * t58 - g_i_0 * t54) + lambda[4] *
         s_j_world_cross_h_i_2;
 }
 
@@ -945,21 +935,25 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const omega_j = velocity + 9;
     /* s_j_world = A_j s_j */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + s_j_world - r_i */
+    const jg_real e_ij_0 = r_j[0] + s_j_world_0 - r_i[0];
     /* s_i_world = A_i s_i */
     const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + s_j_world - r_i - s_i_world */
-    const jg_real d_ij_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    /* d_ij = e_ij - s_i_world */
+    const jg_real d_ij_0 = e_ij_0 - s_i_world_0;
     /* f_i = A_i C_i [1; 0; 0] */
     const jg_real f_i_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     phi_q[24] = f_i_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + s_j_world_1 - r_i[1];
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_1 = e_ij_1 - s_i_world_1;
     const jg_real f_i_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     phi_q[27] = f_i_1;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + s_j_world_2 - r_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_2 = e_ij_2 - s_i_world_2;
     const jg_real f_i_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     phi_q[30] = f_i_2;
     phi[0] = f_i_0 * d_ij_0 + f_i_1 * d_ij_1 + f_i_2 * d_ij_2;
@@ -1005,62 +999,50 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[6] = -f_i_2;
     phi_q[7] = -g_i_2;
     phi_q[8] = -h_i_2;
-    /* f_i_cross_d_ij = tilde(f_i) d_ij */
-    const jg_real f_i_cross_d_ij_0 = f_i_1 * d_ij_2 - f_i_2 * d_ij_1;
     /* s_i_world_cross_f_i = tilde(s_i_world) f_i */
     const jg_real s_i_world_cross_f_i_0 = f_i_2 * s_i_world_1 - f_i_1 * s_i_world_2;
-    phi_q[9] = f_i_cross_d_ij_0 - s_i_world_cross_f_i_0;
-    /* g_i_cross_d_ij = tilde(g_i) d_ij */
-    const jg_real g_i_cross_d_ij_0 = d_ij_2 * g_i_1 - d_ij_1 * g_i_2;
+    phi_q[9] = f_i_1 * d_ij_2 - f_i_2 * d_ij_1 - s_i_world_cross_f_i_0;
     /* s_i_world_cross_g_i = tilde(s_i_world) g_i */
     const jg_real s_i_world_cross_g_i_0 = s_i_world_1 * g_i_2 - s_i_world_2 * g_i_1;
-    phi_q[10] = g_i_cross_d_ij_0 - s_i_world_cross_g_i_0;
+    phi_q[10] = d_ij_2 * g_i_1 - d_ij_1 * g_i_2 - s_i_world_cross_g_i_0;
     /* f_i_cross_h_j = tilde(f_i) h_j */
     const jg_real f_i_cross_h_j_0 = f_i_1 * h_j_2 - f_i_2 * h_j_1;
     phi_q[11] = f_i_cross_h_j_0;
     /* g_i_cross_h_j = tilde(g_i) h_j */
     const jg_real g_i_cross_h_j_0 = g_i_1 * h_j_2 - g_i_2 * h_j_1;
     phi_q[12] = g_i_cross_h_j_0;
-    const jg_real t33 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
-    const jg_real t34 = sine_theta * t33;
-    const jg_real t35 = pitch * t34;
+    const jg_real t34 = JG_REAL(1.0) / (cosine_theta * cosine_theta + sine_theta * sine_theta);
+    const jg_real t35 = sine_theta * t34;
+    const jg_real t36 = pitch * t35;
     /* theta_sine = cosine_theta/(cosine_theta**2 + sine_theta**2) */
-    const jg_real theta_sine = cosine_theta * t33;
-    const jg_real t37 = pitch * theta_sine;
-    const jg_real t38 = f_i_1 * t35 - g_i_1 * t37;
-    const jg_real t39 = f_i_2 * t35 - g_i_2 * t37;
+    const jg_real theta_sine = cosine_theta * t34;
+    const jg_real t38 = pitch * theta_sine;
+    const jg_real t39 = f_i_1 * t36 - g_i_1 * t38;
+    const jg_real t40 = f_i_2 * t36 - g_i_2 * t38;
     /* s_i_world_cross_h_i = tilde(s_i_world) h_i */
     const jg_real s_i_world_cross_h_i_0 = s_i_world_1 * h_i_2 - s_i_world_2 * h_i_1;
-    /* h_i_cross_d_ij = tilde(h_i) d_ij */
-    const jg_real h_i_cross_d_ij_0 = d_ij_2 * h_i_1 - d_ij_1 * h_i_2;
-    phi_q[13] = f_j_2 * t38 - f_j_1 * t39 - s_i_world_cross_h_i_0 + h_i_cross_d_ij_0;
-    const jg_real f_i_cross_d_ij_1 = f_i_2 * d_ij_0 - f_i_0 * d_ij_2;
+    phi_q[13] = d_ij_2 * h_i_1 - d_ij_1 * h_i_2 + (f_j_2 * t39 - f_j_1 * t40 - s_i_world_cross_h_i_0);
     const jg_real s_i_world_cross_f_i_1 = f_i_0 * s_i_world_2 - f_i_2 * s_i_world_0;
-    phi_q[14] = f_i_cross_d_ij_1 - s_i_world_cross_f_i_1;
-    const jg_real g_i_cross_d_ij_1 = d_ij_0 * g_i_2 - d_ij_2 * g_i_0;
+    phi_q[14] = f_i_2 * d_ij_0 - f_i_0 * d_ij_2 - s_i_world_cross_f_i_1;
     const jg_real s_i_world_cross_g_i_1 = s_i_world_2 * g_i_0 - s_i_world_0 * g_i_2;
-    phi_q[15] = g_i_cross_d_ij_1 - s_i_world_cross_g_i_1;
+    phi_q[15] = d_ij_0 * g_i_2 - d_ij_2 * g_i_0 - s_i_world_cross_g_i_1;
     const jg_real f_i_cross_h_j_1 = f_i_2 * h_j_0 - f_i_0 * h_j_2;
     phi_q[16] = f_i_cross_h_j_1;
     const jg_real g_i_cross_h_j_1 = g_i_2 * h_j_0 - g_i_0 * h_j_2;
     phi_q[17] = g_i_cross_h_j_1;
-    const jg_real t48 = f_i_0 * t35 - g_i_0 * t37;
+    const jg_real t46 = f_i_0 * t36 - g_i_0 * t38;
     const jg_real s_i_world_cross_h_i_1 = s_i_world_2 * h_i_0 - s_i_world_0 * h_i_2;
-    const jg_real h_i_cross_d_ij_1 = d_ij_0 * h_i_2 - d_ij_2 * h_i_0;
-    phi_q[18] = f_j_0 * t39 - f_j_2 * t48 - s_i_world_cross_h_i_1 + h_i_cross_d_ij_1;
-    const jg_real f_i_cross_d_ij_2 = f_i_0 * d_ij_1 - f_i_1 * d_ij_0;
+    phi_q[18] = d_ij_0 * h_i_2 - d_ij_2 * h_i_0 + (f_j_0 * t40 - f_j_2 * t46 - s_i_world_cross_h_i_1);
     const jg_real s_i_world_cross_f_i_2 = f_i_1 * s_i_world_0 - f_i_0 * s_i_world_1;
-    phi_q[19] = f_i_cross_d_ij_2 - s_i_world_cross_f_i_2;
-    const jg_real g_i_cross_d_ij_2 = d_ij_1 * g_i_0 - d_ij_0 * g_i_1;
+    phi_q[19] = f_i_0 * d_ij_1 - f_i_1 * d_ij_0 - s_i_world_cross_f_i_2;
     const jg_real s_i_world_cross_g_i_2 = s_i_world_0 * g_i_1 - s_i_world_1 * g_i_0;
-    phi_q[20] = g_i_cross_d_ij_2 - s_i_world_cross_g_i_2;
+    phi_q[20] = d_ij_1 * g_i_0 - d_ij_0 * g_i_1 - s_i_world_cross_g_i_2;
     const jg_real f_i_cross_h_j_2 = f_i_0 * h_j_1 - f_i_1 * h_j_0;
     phi_q[21] = f_i_cross_h_j_2;
     const jg_real g_i_cross_h_j_2 = g_i_0 * h_j_1 - g_i_1 * h_j_0;
     phi_q[22] = g_i_cross_h_j_2;
     const jg_real s_i_world_cross_h_i_2 = s_i_world_0 * h_i_1 - s_i_world_1 * h_i_0;
-    const jg_real h_i_cross_d_ij_2 = d_ij_1 * h_i_0 - d_ij_0 * h_i_1;
-    phi_q[23] = f_j_1 * t48 - f_j_0 * t38 - s_i_world_cross_h_i_2 + h_i_cross_d_ij_2;
+    phi_q[23] = d_ij_1 * h_i_0 - d_ij_0 * h_i_1 + (f_j_1 * t46 - f_j_0 * t39 - s_i_world_cross_h_i_2);
     /* s_j_world_cross_f_i = tilde(s_j_world) f_i */
     const jg_real s_j_world_cross_f_i_0 = f_i_2 * s_j_world_1 - f_i_1 * s_j_world_2;
     phi_q[33] = s_j_world_cross_f_i_0;
@@ -1075,7 +1057,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_j_cross_g_i_0 = g_i_2 * f_j_1 - g_i_1 * f_j_2;
     /* s_j_world_cross_h_i = tilde(s_j_world) h_i */
     const jg_real s_j_world_cross_h_i_0 = s_j_world_1 * h_i_2 - s_j_world_2 * h_i_1;
-    phi_q[37] = t35 * f_j_cross_f_i_0 - t37 * f_j_cross_g_i_0 + s_j_world_cross_h_i_0;
+    phi_q[37] = t36 * f_j_cross_f_i_0 - t38 * f_j_cross_g_i_0 + s_j_world_cross_h_i_0;
     const jg_real s_j_world_cross_f_i_1 = f_i_0 * s_j_world_2 - f_i_2 * s_j_world_0;
     phi_q[38] = s_j_world_cross_f_i_1;
     const jg_real s_j_world_cross_g_i_1 = s_j_world_2 * g_i_0 - s_j_world_0 * g_i_2;
@@ -1085,7 +1067,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_j_cross_f_i_1 = f_i_0 * f_j_2 - f_i_2 * f_j_0;
     const jg_real f_j_cross_g_i_1 = g_i_0 * f_j_2 - g_i_2 * f_j_0;
     const jg_real s_j_world_cross_h_i_1 = s_j_world_2 * h_i_0 - s_j_world_0 * h_i_2;
-    phi_q[42] = t35 * f_j_cross_f_i_1 - t37 * f_j_cross_g_i_1 + s_j_world_cross_h_i_1;
+    phi_q[42] = t36 * f_j_cross_f_i_1 - t38 * f_j_cross_g_i_1 + s_j_world_cross_h_i_1;
     const jg_real s_j_world_cross_f_i_2 = f_i_1 * s_j_world_0 - f_i_0 * s_j_world_1;
     phi_q[43] = s_j_world_cross_f_i_2;
     const jg_real s_j_world_cross_g_i_2 = s_j_world_0 * g_i_1 - s_j_world_1 * g_i_0;
@@ -1095,212 +1077,209 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_j_cross_f_i_2 = f_i_1 * f_j_0 - f_i_0 * f_j_1;
     const jg_real f_j_cross_g_i_2 = g_i_1 * f_j_0 - g_i_0 * f_j_1;
     const jg_real s_j_world_cross_h_i_2 = s_j_world_0 * h_i_1 - s_j_world_1 * h_i_0;
-    phi_q[47] = t35 * f_j_cross_f_i_2 - t37 * f_j_cross_g_i_2 + s_j_world_cross_h_i_2;
-    const jg_real t74 = h_i_2 * lambda[4];
-    const jg_real t75 = f_i_2 * lambda[0] + g_i_2 * lambda[1] + t74;
-    phi_q_t_lambda_q[2] = t75;
-    phi_q_t_lambda_q[6] = t75;
-    phi_q_t_lambda_q[21] = t75;
-    phi_q_t_lambda_q[36] = t75;
-    const jg_real t76 = -t75;
-    phi_q_t_lambda_q[0] = t76;
-    phi_q_t_lambda_q[11] = t76;
-    phi_q_t_lambda_q[16] = t76;
-    phi_q_t_lambda_q[38] = t76;
-    const jg_real t77 = h_i_1 * lambda[4];
-    const jg_real t78 = f_i_1 * lambda[0] + g_i_1 * lambda[1] + t77;
-    phi_q_t_lambda_q[1] = t78;
-    phi_q_t_lambda_q[12] = t78;
-    phi_q_t_lambda_q[26] = t78;
-    phi_q_t_lambda_q[40] = t78;
-    const jg_real t79 = h_i_0 * lambda[4];
-    const jg_real t80 = f_i_0 * lambda[0] + g_i_0 * lambda[1] + t79;
-    phi_q_t_lambda_q[5] = t80;
-    phi_q_t_lambda_q[17] = t80;
-    phi_q_t_lambda_q[32] = t80;
-    phi_q_t_lambda_q[39] = t80;
-    const jg_real t81 = -t80;
-    phi_q_t_lambda_q[3] = t81;
-    phi_q_t_lambda_q[22] = t81;
-    phi_q_t_lambda_q[27] = t81;
-    phi_q_t_lambda_q[41] = t81;
-    const jg_real t82 = -t78;
-    phi_q_t_lambda_q[4] = t82;
-    phi_q_t_lambda_q[7] = t82;
-    phi_q_t_lambda_q[31] = t82;
-    phi_q_t_lambda_q[37] = t82;
-    const jg_real t83 = t34 * t34;
-    const jg_real t84 = pitch * lambda[4];
-    const jg_real t85 = theta_sine * theta_sine;
-    const jg_real t86 = t83 * t84 - t84 * t85;
-    const jg_real t87 = JG_REAL(2.0) * lambda[4] * pitch * t34 * theta_sine;
-    const jg_real t88 = f_i_2 * t86 - g_i_2 * t87;
-    const jg_real t89 = f_i_1 * t86 - g_i_1 * t87;
-    const jg_real t90 = f_j_1 * t88 - f_j_2 * t89;
-    const jg_real t91 = f_j_cross_g_i_0 * t90;
-    const jg_real t92 = g_i_2 * t86 + f_i_2 * t87;
-    const jg_real t93 = g_i_1 * t86 + f_i_1 * t87;
-    const jg_real t94 = f_j_1 * t92 - f_j_2 * t93;
-    const jg_real t95 = f_j_cross_f_i_0 * t94;
-    const jg_real t96 = s_i_world_2 + d_ij_2;
-    const jg_real t97 = t75 * t96;
-    const jg_real t98 = s_i_world_1 + d_ij_1;
-    const jg_real t99 = t78 * t98;
-    const jg_real t100 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
-    const jg_real t101 = h_j_2 * t100;
-    const jg_real t102 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
-    const jg_real t103 = h_j_1 * t102;
-    const jg_real t104 = t101 + t103;
-    const jg_real t105 = t34 * t84;
-    const jg_real t106 = theta_sine * t84;
-    const jg_real t107 = f_i_2 * t105 - g_i_2 * t106;
-    const jg_real t108 = f_j_2 * t107;
-    const jg_real t109 = f_i_1 * t105 - g_i_1 * t106;
-    const jg_real t110 = f_j_1 * t109;
-    const jg_real t111 = t108 + t110;
-    phi_q_t_lambda_q[8] = -(t97 + t99 + t95 + t91 + t104 + t111);
-    const jg_real t112 = f_j_cross_f_i_1 * t94;
-    const jg_real t113 = s_i_world_0 + d_ij_0;
-    const jg_real t114 = f_j_cross_g_i_1 * t90;
-    const jg_real t115 = h_j_0 * t102;
-    const jg_real t116 = f_j_0 * t109;
-    phi_q_t_lambda_q[9] = t78 * t113 - t112 - t114 + t115 + t116;
-    const jg_real t117 = f_j_cross_f_i_2 * t94;
-    const jg_real t118 = f_j_cross_g_i_2 * t90;
-    const jg_real t119 = h_j_0 * t100;
-    const jg_real t120 = f_j_0 * t107;
-    phi_q_t_lambda_q[10] = t75 * t113 - t117 - t118 + t119 + t120;
-    const jg_real t121 = f_j_2 * t105 + h_j_2 * lambda[2] + s_j_world_2 * lambda[0];
-    const jg_real t122 = f_i_2 * t121;
-    const jg_real t123 = f_j_1 * t105 + h_j_1 * lambda[2] + s_j_world_1 * lambda[0];
-    const jg_real t124 = f_i_1 * t123;
-    const jg_real t125 = t122 + t124;
-    const jg_real t126 = h_j_2 * lambda[3] - f_j_2 * t106 + s_j_world_2 * lambda[1];
-    const jg_real t127 = g_i_2 * t126;
-    const jg_real t128 = h_j_1 * lambda[3] - f_j_1 * t106 + s_j_world_1 * lambda[1];
+    phi_q[47] = t36 * f_j_cross_f_i_2 - t38 * f_j_cross_g_i_2 + s_j_world_cross_h_i_2;
+    const jg_real t68 = h_i_2 * lambda[4];
+    const jg_real t69 = f_i_2 * lambda[0] + g_i_2 * lambda[1] + t68;
+    phi_q_t_lambda_q[2] = t69;
+    phi_q_t_lambda_q[6] = t69;
+    phi_q_t_lambda_q[21] = t69;
+    phi_q_t_lambda_q[36] = t69;
+    const jg_real t70 = -t69;
+    phi_q_t_lambda_q[0] = t70;
+    phi_q_t_lambda_q[11] = t70;
+    phi_q_t_lambda_q[16] = t70;
+    phi_q_t_lambda_q[38] = t70;
+    const jg_real t71 = h_i_1 * lambda[4];
+    const jg_real t72 = f_i_1 * lambda[0] + g_i_1 * lambda[1] + t71;
+    phi_q_t_lambda_q[1] = t72;
+    phi_q_t_lambda_q[12] = t72;
+    phi_q_t_lambda_q[26] = t72;
+    phi_q_t_lambda_q[40] = t72;
+    const jg_real t73 = h_i_0 * lambda[4];
+    const jg_real t74 = f_i_0 * lambda[0] + g_i_0 * lambda[1] + t73;
+    phi_q_t_lambda_q[5] = t74;
+    phi_q_t_lambda_q[17] = t74;
+    phi_q_t_lambda_q[32] = t74;
+    phi_q_t_lambda_q[39] = t74;
+    const jg_real t75 = -t74;
+    phi_q_t_lambda_q[3] = t75;
+    phi_q_t_lambda_q[22] = t75;
+    phi_q_t_lambda_q[27] = t75;
+    phi_q_t_lambda_q[41] = t75;
+    const jg_real t76 = -t72;
+    phi_q_t_lambda_q[4] = t76;
+    phi_q_t_lambda_q[7] = t76;
+    phi_q_t_lambda_q[31] = t76;
+    phi_q_t_lambda_q[37] = t76;
+    const jg_real t77 = t35 * t35;
+    const jg_real t78 = pitch * lambda[4];
+    const jg_real t79 = theta_sine * theta_sine;
+    const jg_real t80 = t77 * t78 - t78 * t79;
+    const jg_real t81 = JG_REAL(2.0) * lambda[4] * pitch * t35 * theta_sine;
+    const jg_real t82 = f_i_2 * t80 - g_i_2 * t81;
+    const jg_real t83 = f_i_1 * t80 - g_i_1 * t81;
+    const jg_real t84 = f_j_1 * t82 - f_j_2 * t83;
+    const jg_real t85 = f_j_cross_g_i_0 * t84;
+    const jg_real t86 = g_i_2 * t80 + f_i_2 * t81;
+    const jg_real t87 = g_i_1 * t80 + f_i_1 * t81;
+    const jg_real t88 = f_j_1 * t86 - f_j_2 * t87;
+    const jg_real t89 = f_j_cross_f_i_0 * t88;
+    const jg_real t90 = e_ij_2 * t69;
+    const jg_real t91 = e_ij_1 * t72;
+    const jg_real t92 = f_i_2 * lambda[2] + g_i_2 * lambda[3];
+    const jg_real t93 = h_j_2 * t92;
+    const jg_real t94 = f_i_1 * lambda[2] + g_i_1 * lambda[3];
+    const jg_real t95 = h_j_1 * t94;
+    const jg_real t96 = t93 + t95;
+    const jg_real t97 = t35 * t78;
+    const jg_real t98 = theta_sine * t78;
+    const jg_real t99 = f_i_2 * t97 - g_i_2 * t98;
+    const jg_real t100 = f_j_2 * t99;
+    const jg_real t101 = f_i_1 * t97 - g_i_1 * t98;
+    const jg_real t102 = f_j_1 * t101;
+    const jg_real t103 = t100 + t102;
+    phi_q_t_lambda_q[8] = -(t90 + t91 + t89 + t85 + t96 + t103);
+    const jg_real t104 = f_j_cross_f_i_1 * t88;
+    const jg_real t105 = f_j_cross_g_i_1 * t84;
+    const jg_real t106 = h_j_0 * t94;
+    const jg_real t107 = f_j_0 * t101;
+    phi_q_t_lambda_q[9] = e_ij_0 * t72 - t104 - t105 + t106 + t107;
+    const jg_real t108 = f_j_cross_f_i_2 * t88;
+    const jg_real t109 = f_j_cross_g_i_2 * t84;
+    const jg_real t110 = h_j_0 * t92;
+    const jg_real t111 = f_j_0 * t99;
+    phi_q_t_lambda_q[10] = e_ij_0 * t69 - t108 - t109 + t110 + t111;
+    const jg_real t112 = f_j_2 * t97 + h_j_2 * lambda[2] + s_j_world_2 * lambda[0];
+    const jg_real t113 = f_i_2 * t112;
+    const jg_real t114 = f_j_1 * t97 + h_j_1 * lambda[2] + s_j_world_1 * lambda[0];
+    const jg_real t115 = f_i_1 * t114;
+    const jg_real t116 = t113 + t115;
+    const jg_real t117 = h_j_2 * lambda[3] - f_j_2 * t98 + s_j_world_2 * lambda[1];
+    const jg_real t118 = g_i_2 * t117;
+    const jg_real t119 = h_j_1 * lambda[3] - f_j_1 * t98 + s_j_world_1 * lambda[1];
+    const jg_real t120 = g_i_1 * t119;
+    const jg_real t121 = t118 + t120;
+    const jg_real t122 = s_j_world_2 * lambda[4];
+    const jg_real t123 = h_i_2 * t122;
+    const jg_real t124 = s_j_world_1 * lambda[4];
+    const jg_real t125 = h_i_1 * t124;
+    phi_q_t_lambda_q[13] = t123 + t125 + (t89 + t116 + t85 + t121);
+    const jg_real t126 = f_j_0 * t97 + h_j_0 * lambda[2] + s_j_world_0 * lambda[0];
+    const jg_real t127 = f_i_1 * t126;
+    const jg_real t128 = h_j_0 * lambda[3] - f_j_0 * t98 + s_j_world_0 * lambda[1];
     const jg_real t129 = g_i_1 * t128;
-    const jg_real t130 = t127 + t129;
-    const jg_real t131 = s_j_world_2 * lambda[4];
-    const jg_real t132 = h_i_2 * t131;
-    const jg_real t133 = s_j_world_1 * lambda[4];
-    const jg_real t134 = h_i_1 * t133;
-    phi_q_t_lambda_q[13] = t132 + t134 + (t95 + t125 + t91 + t130);
-    const jg_real t135 = f_j_0 * t105 + h_j_0 * lambda[2] + s_j_world_0 * lambda[0];
-    const jg_real t136 = f_i_1 * t135;
-    const jg_real t137 = h_j_0 * lambda[3] - f_j_0 * t106 + s_j_world_0 * lambda[1];
-    const jg_real t138 = g_i_1 * t137;
-    const jg_real t139 = s_j_world_0 * lambda[4];
-    phi_q_t_lambda_q[14] = t112 - t136 + t114 - t138 - h_i_1 * t139;
-    const jg_real t140 = f_i_2 * t135;
-    const jg_real t141 = g_i_2 * t137;
-    phi_q_t_lambda_q[15] = t117 - t140 + t118 - t141 - h_i_2 * t139;
-    const jg_real t142 = g_i_0 * t86 + f_i_0 * t87;
-    const jg_real t143 = f_j_2 * t142 - f_j_0 * t92;
-    const jg_real t144 = f_j_cross_f_i_0 * t143;
-    const jg_real t145 = f_i_0 * t86 - g_i_0 * t87;
-    const jg_real t146 = f_j_2 * t145 - f_j_0 * t88;
-    const jg_real t147 = f_j_cross_g_i_0 * t146;
-    const jg_real t148 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
-    const jg_real t149 = h_j_1 * t148;
-    const jg_real t150 = f_i_0 * t105 - g_i_0 * t106;
-    const jg_real t151 = f_j_1 * t150;
-    phi_q_t_lambda_q[18] = t80 * t98 - t144 - t147 + t149 + t151;
-    const jg_real t152 = f_j_cross_g_i_1 * t146;
-    const jg_real t153 = f_j_cross_f_i_1 * t143;
-    const jg_real t154 = t80 * t113;
-    const jg_real t155 = h_j_0 * t148;
-    const jg_real t156 = t101 + t155;
-    const jg_real t157 = f_j_0 * t150;
-    const jg_real t158 = t108 + t157;
-    phi_q_t_lambda_q[19] = -(t97 + t154 + t153 + t152 + t156 + t158);
-    const jg_real t159 = f_j_cross_f_i_2 * t143;
-    const jg_real t160 = f_j_cross_g_i_2 * t146;
-    const jg_real t161 = h_j_1 * t100;
-    const jg_real t162 = f_j_1 * t107;
-    phi_q_t_lambda_q[20] = t75 * t98 - t159 - t160 + t161 + t162;
-    const jg_real t163 = f_i_0 * t123;
-    const jg_real t164 = g_i_0 * t128;
-    phi_q_t_lambda_q[23] = t144 - t163 + t147 - t164 - h_i_0 * t133;
-    const jg_real t165 = f_i_0 * t135;
-    const jg_real t166 = t122 + t165;
-    const jg_real t167 = g_i_0 * t137;
-    const jg_real t168 = t127 + t167;
-    const jg_real t169 = h_i_0 * t139;
-    phi_q_t_lambda_q[24] = t132 + t169 + (t153 + t166 + t152 + t168);
-    const jg_real t170 = f_i_2 * t123;
-    const jg_real t171 = g_i_2 * t128;
-    phi_q_t_lambda_q[25] = t159 - t170 + t160 - t171 - h_i_2 * t133;
-    const jg_real t172 = f_j_0 * t93 - f_j_1 * t142;
-    const jg_real t173 = f_j_cross_f_i_0 * t172;
-    const jg_real t174 = f_j_0 * t89 - f_j_1 * t145;
-    const jg_real t175 = f_j_cross_g_i_0 * t174;
-    const jg_real t176 = h_j_2 * t148;
-    const jg_real t177 = f_j_2 * t150;
-    phi_q_t_lambda_q[28] = t80 * t96 - t173 - t175 + t176 + t177;
-    const jg_real t178 = f_j_cross_f_i_1 * t172;
-    const jg_real t179 = f_j_cross_g_i_1 * t174;
-    const jg_real t180 = h_j_2 * t102;
-    const jg_real t181 = f_j_2 * t109;
-    phi_q_t_lambda_q[29] = t78 * t96 - t178 - t179 + t180 + t181;
-    const jg_real t182 = f_j_cross_g_i_2 * t174;
-    const jg_real t183 = f_j_cross_f_i_2 * t172;
-    const jg_real t184 = t103 + t155;
-    const jg_real t185 = t110 + t157;
-    phi_q_t_lambda_q[30] = -(t99 + t154 + t183 + t182 + t184 + t185);
-    const jg_real t186 = f_i_0 * t121;
-    const jg_real t187 = g_i_0 * t126;
-    phi_q_t_lambda_q[33] = t173 - t186 + t175 - t187 - h_i_0 * t131;
-    const jg_real t188 = f_i_1 * t121;
-    const jg_real t189 = g_i_1 * t126;
-    phi_q_t_lambda_q[34] = t178 - t188 + t179 - t189 - h_i_1 * t131;
-    const jg_real t190 = t124 + t165;
-    const jg_real t191 = t129 + t167;
-    phi_q_t_lambda_q[35] = t134 + t169 + (t183 + t190 + t182 + t191);
-    const jg_real t192 = s_j_world_2 * t75;
-    const jg_real t193 = s_j_world_1 * t78;
-    phi_q_t_lambda_q[42] = t192 + t193 + t104 + t91 + t95 + t111;
-    phi_q_t_lambda_q[43] = t147 - (t149 + s_j_world_1 * t80) + t144 - t151;
-    phi_q_t_lambda_q[44] = t175 - (t176 + s_j_world_2 * t80) + t173 - t177;
-    const jg_real t194 = f_j_cross_g_i_0 * t86;
-    const jg_real t195 = f_j_cross_f_i_0 * t86;
-    const jg_real t196 = f_j_cross_f_i_0 * t87;
-    const jg_real t197 = f_j_cross_g_i_0 * t87;
-    const jg_real t198 = s_j_world_2 * t74;
-    const jg_real t199 = s_j_world_1 * t77;
-    phi_q_t_lambda_q[45] = f_j_cross_g_i_0 * t197 - (f_j_cross_g_i_0 * t195 + f_j_cross_f_i_0 * t196 +
-        f_j_cross_f_i_0 * t194) - t125 - t130 - (t198 + t199);
-    const jg_real t200 = f_j_cross_g_i_1 * t86;
-    const jg_real t201 = f_j_cross_f_i_1 * t86;
-    const jg_real t202 = f_j_cross_f_i_1 * t87;
-    const jg_real t203 = f_j_cross_g_i_1 * t87;
-    phi_q_t_lambda_q[46] = f_j_cross_g_i_0 * t203 - (f_j_cross_g_i_0 * t201 + f_j_cross_f_i_0 * t202 +
-        f_j_cross_f_i_0 * t200) + t163 + t164 + s_j_world_1 * t79;
-    const jg_real t204 = f_j_cross_g_i_2 * t86;
-    const jg_real t205 = f_j_cross_f_i_2 * t86;
-    const jg_real t206 = f_j_cross_f_i_2 * t87;
-    const jg_real t207 = f_j_cross_g_i_2 * t87;
-    phi_q_t_lambda_q[47] = f_j_cross_g_i_0 * t207 - (f_j_cross_g_i_0 * t205 + f_j_cross_f_i_0 * t206 +
-        f_j_cross_f_i_0 * t204) + t186 + t187 + s_j_world_2 * t79;
-    phi_q_t_lambda_q[48] = t114 - (t115 + s_j_world_0 * t78) + t112 - t116;
-    const jg_real t208 = s_j_world_0 * t80;
-    phi_q_t_lambda_q[49] = t192 + t208 + t156 + t152 + t153 + t158;
-    phi_q_t_lambda_q[50] = t179 - (t180 + s_j_world_2 * t78) + t178 - t181;
-    phi_q_t_lambda_q[51] = f_j_cross_g_i_1 * t197 - (f_j_cross_g_i_1 * t195 + f_j_cross_f_i_1 * t196 +
-        f_j_cross_f_i_1 * t194) + t136 + t138 + s_j_world_0 * t77;
-    const jg_real t209 = s_j_world_0 * t79;
-    phi_q_t_lambda_q[52] = f_j_cross_g_i_1 * t203 - (f_j_cross_g_i_1 * t201 + f_j_cross_f_i_1 * t202 +
-        f_j_cross_f_i_1 * t200) - t166 - t168 - (t198 + t209);
-    phi_q_t_lambda_q[53] = f_j_cross_g_i_1 * t207 - (f_j_cross_g_i_1 * t205 + f_j_cross_f_i_1 * t206 +
-        f_j_cross_f_i_1 * t204) + t188 + t189 + s_j_world_2 * t77;
-    phi_q_t_lambda_q[54] = t118 - (t119 + s_j_world_0 * t75) + t117 - t120;
-    phi_q_t_lambda_q[55] = t160 - (t161 + s_j_world_1 * t75) + t159 - t162;
-    phi_q_t_lambda_q[56] = t193 + t208 + t184 + t182 + t183 + t185;
-    phi_q_t_lambda_q[57] = f_j_cross_g_i_2 * t197 - (f_j_cross_g_i_2 * t195 + f_j_cross_f_i_2 * t196 +
-        f_j_cross_f_i_2 * t194) + t140 + t141 + s_j_world_0 * t74;
-    phi_q_t_lambda_q[58] = f_j_cross_g_i_2 * t203 - (f_j_cross_g_i_2 * t201 + f_j_cross_f_i_2 * t202 +
-        f_j_cross_f_i_2 * t200) + t170 + t171 + s_j_world_1 * t74;
-    phi_q_t_lambda_q[59] = f_j_cross_g_i_2 * t207 - (f_j_cross_g_i_2 * t205 + f_j_cross_f_i_2 * t206 +
-        f_j_cross_f_i_2 * t204) - t190 - t191 - (t199 + t209);
+    const jg_real t130 = s_j_world_0 * lambda[4];
+    phi_q_t_lambda_q[14] = t104 - t127 + t105 - t129 - h_i_1 * t130;
+    const jg_real t131 = f_i_2 * t126;
+    const jg_real t132 = g_i_2 * t128;
+    phi_q_t_lambda_q[15] = t108 - t131 + t109 - t132 - h_i_2 * t130;
+    const jg_real t133 = g_i_0 * t80 + f_i_0 * t81;
+    const jg_real t134 = f_j_2 * t133 - f_j_0 * t86;
+    const jg_real t135 = f_j_cross_f_i_0 * t134;
+    const jg_real t136 = f_i_0 * t80 - g_i_0 * t81;
+    const jg_real t137 = f_j_2 * t136 - f_j_0 * t82;
+    const jg_real t138 = f_j_cross_g_i_0 * t137;
+    const jg_real t139 = f_i_0 * lambda[2] + g_i_0 * lambda[3];
+    const jg_real t140 = h_j_1 * t139;
+    const jg_real t141 = f_i_0 * t97 - g_i_0 * t98;
+    const jg_real t142 = f_j_1 * t141;
+    phi_q_t_lambda_q[18] = e_ij_1 * t74 - t135 - t138 + t140 + t142;
+    const jg_real t143 = f_j_cross_g_i_1 * t137;
+    const jg_real t144 = f_j_cross_f_i_1 * t134;
+    const jg_real t145 = e_ij_0 * t74;
+    const jg_real t146 = h_j_0 * t139;
+    const jg_real t147 = t93 + t146;
+    const jg_real t148 = f_j_0 * t141;
+    const jg_real t149 = t100 + t148;
+    phi_q_t_lambda_q[19] = -(t90 + t145 + t144 + t143 + t147 + t149);
+    const jg_real t150 = f_j_cross_f_i_2 * t134;
+    const jg_real t151 = f_j_cross_g_i_2 * t137;
+    const jg_real t152 = h_j_1 * t92;
+    const jg_real t153 = f_j_1 * t99;
+    phi_q_t_lambda_q[20] = e_ij_1 * t69 - t150 - t151 + t152 + t153;
+    const jg_real t154 = f_i_0 * t114;
+    const jg_real t155 = g_i_0 * t119;
+    phi_q_t_lambda_q[23] = t135 - t154 + t138 - t155 - h_i_0 * t124;
+    const jg_real t156 = f_i_0 * t126;
+    const jg_real t157 = t113 + t156;
+    const jg_real t158 = g_i_0 * t128;
+    const jg_real t159 = t118 + t158;
+    const jg_real t160 = h_i_0 * t130;
+    phi_q_t_lambda_q[24] = t123 + t160 + (t144 + t157 + t143 + t159);
+    const jg_real t161 = f_i_2 * t114;
+    const jg_real t162 = g_i_2 * t119;
+    phi_q_t_lambda_q[25] = t150 - t161 + t151 - t162 - h_i_2 * t124;
+    const jg_real t163 = f_j_0 * t87 - f_j_1 * t133;
+    const jg_real t164 = f_j_cross_f_i_0 * t163;
+    const jg_real t165 = f_j_0 * t83 - f_j_1 * t136;
+    const jg_real t166 = f_j_cross_g_i_0 * t165;
+    const jg_real t167 = h_j_2 * t139;
+    const jg_real t168 = f_j_2 * t141;
+    phi_q_t_lambda_q[28] = e_ij_2 * t74 - t164 - t166 + t167 + t168;
+    const jg_real t169 = f_j_cross_f_i_1 * t163;
+    const jg_real t170 = f_j_cross_g_i_1 * t165;
+    const jg_real t171 = h_j_2 * t94;
+    const jg_real t172 = f_j_2 * t101;
+    phi_q_t_lambda_q[29] = e_ij_2 * t72 - t169 - t170 + t171 + t172;
+    const jg_real t173 = f_j_cross_g_i_2 * t165;
+    const jg_real t174 = f_j_cross_f_i_2 * t163;
+    const jg_real t175 = t95 + t146;
+    const jg_real t176 = t102 + t148;
+    phi_q_t_lambda_q[30] = -(t91 + t145 + t174 + t173 + t175 + t176);
+    const jg_real t177 = f_i_0 * t112;
+    const jg_real t178 = g_i_0 * t117;
+    phi_q_t_lambda_q[33] = t164 - t177 + t166 - t178 - h_i_0 * t122;
+    const jg_real t179 = f_i_1 * t112;
+    const jg_real t180 = g_i_1 * t117;
+    phi_q_t_lambda_q[34] = t169 - t179 + t170 - t180 - h_i_1 * t122;
+    const jg_real t181 = t115 + t156;
+    const jg_real t182 = t120 + t158;
+    phi_q_t_lambda_q[35] = t125 + t160 + (t174 + t181 + t173 + t182);
+    const jg_real t183 = s_j_world_2 * t69;
+    const jg_real t184 = s_j_world_1 * t72;
+    phi_q_t_lambda_q[42] = t183 + t184 + t96 + t85 + t89 + t103;
+    phi_q_t_lambda_q[43] = t138 - (t140 + s_j_world_1 * t74) + t135 - t142;
+    phi_q_t_lambda_q[44] = t166 - (t167 + s_j_world_2 * t74) + t164 - t168;
+    const jg_real t185 = f_j_cross_g_i_0 * t80;
+    const jg_real t186 = f_j_cross_f_i_0 * t80;
+    const jg_real t187 = f_j_cross_f_i_0 * t81;
+    const jg_real t188 = f_j_cross_g_i_0 * t81;
+    const jg_real t189 = s_j_world_2 * t68;
+    const jg_real t190 = s_j_world_1 * t71;
+    phi_q_t_lambda_q[45] = f_j_cross_g_i_0 * t188 - (f_j_cross_g_i_0 * t186 + f_j_cross_f_i_0 * t187 +
+        f_j_cross_f_i_0 * t185) - t116 - t121 - (t189 + t190);
+    const jg_real t191 = f_j_cross_g_i_1 * t80;
+    const jg_real t192 = f_j_cross_f_i_1 * t80;
+    const jg_real t193 = f_j_cross_f_i_1 * t81;
+    const jg_real t194 = f_j_cross_g_i_1 * t81;
+    phi_q_t_lambda_q[46] = f_j_cross_g_i_0 * t194 - (f_j_cross_g_i_0 * t192 + f_j_cross_f_i_0 * t193 +
+        f_j_cross_f_i_0 * t191) + t154 + t155 + s_j_world_1 * t73;
+    const jg_real t195 = f_j_cross_g_i_2 * t80;
+    const jg_real t196 = f_j_cross_f_i_2 * t80;
+    const jg_real t197 = f_j_cross_f_i_2 * t81;
+    const jg_real t198 = f_j_cross_g_i_2 * t81;
+    phi_q_t_lambda_q[47] = f_j_cross_g_i_0 * t198 - (f_j_cross_g_i_0 * t196 + f_j_cross_f_i_0 * t197 +
+        f_j_cross_f_i_0 * t195) + t177 + t178 + s_j_world_2 * t73;
+    phi_q_t_lambda_q[48] = t105 - (t106 + s_j_world_0 * t72) + t104 - t107;
+    const jg_real t199 = s_j_world_0 * t74;
+    phi_q_t_lambda_q[49] = t183 + t199 + t147 + t143 + t144 + t149;
+    phi_q_t_lambda_q[50] = t170 - (t171 + s_j_world_2 * t72) + t169 - t172;
+    phi_q_t_lambda_q[51] = f_j_cross_g_i_1 * t188 - (f_j_cross_g_i_1 * t186 + f_j_cross_f_i_1 * t187 +
+        f_j_cross_f_i_1 * t185) + t127 + t129 + s_j_world_0 * t71;
+    const jg_real t200 = s_j_world_0 * t73;
+    phi_q_t_lambda_q[52] = f_j_cross_g_i_1 * t194 - (f_j_cross_g_i_1 * t192 + f_j_cross_f_i_1 * t193 +
+        f_j_cross_f_i_1 * t191) - t157 - t159 - (t189 + t200);
+    phi_q_t_lambda_q[53] = f_j_cross_g_i_1 * t198 - (f_j_cross_g_i_1 * t196 + f_j_cross_f_i_1 * t197 +
+        f_j_cross_f_i_1 * t195) + t179 + t180 + s_j_world_2 * t71;
+    phi_q_t_lambda_q[54] = t109 - (t110 + s_j_world_0 * t69) + t108 - t111;
+    phi_q_t_lambda_q[55] = t151 - (t152 + s_j_world_1 * t69) + t150 - t153;
+    phi_q_t_lambda_q[56] = t184 + t199 + t175 + t173 + t174 + t176;
+    phi_q_t_lambda_q[57] = f_j_cross_g_i_2 * t188 - (f_j_cross_g_i_2 * t186 + f_j_cross_f_i_2 * t187 +
+        f_j_cross_f_i_2 * t185) + t131 + t132 + s_j_world_0 * t68;
+    phi_q_t_lambda_q[58] = f_j_cross_g_i_2 * t194 - (f_j_cross_g_i_2 * t192 + f_j_cross_f_i_2 * t193 +
+        f_j_cross_f_i_2 * t191) + t161 + t162 + s_j_world_1 * t68;
+    phi_q_t_lambda_q[59] = f_j_cross_g_i_2 * t198 - (f_j_cross_g_i_2 * t196 + f_j_cross_f_i_2 * t197 +
+        f_j_cross_f_i_2 * t195) - t181 - t182 - (t190 + t200);
     /* omega_i_cross_f_i = tilde(omega_i) f_i */
     const jg_real omega_i_cross_f_i_2 = f_i_1 * omega_i[0] - f_i_0 * omega_i[1];
     const jg_real omega_i_cross_f_i_1 = f_i_0 * omega_i[2] - f_i_2 * omega_i[0];
@@ -1388,10 +1367,10 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_omega_j_cross_h_j_1 + g_i_2 * omega_j_cross_omega_j_cross_h_j_2) + JG_REAL(2.0) *
         (omega_i_cross_g_i_0 * omega_j_cross_h_j_0 + omega_i_cross_g_i_1 * omega_j_cross_h_j_1 + omega_i_cross_g_i_2
         * omega_j_cross_h_j_2));
-    const jg_real t240 = pitch * JG_REAL(2.0);
-    const jg_real t241 = t34 * t240;
-    const jg_real t242 = theta_sine * t241;
-    const jg_real t243 = f_j_0 * omega_i_cross_f_i_0 + f_j_1 * omega_i_cross_f_i_1 + f_j_2 * omega_i_cross_f_i_2;
+    const jg_real t231 = pitch * JG_REAL(2.0);
+    const jg_real t232 = t35 * t231;
+    const jg_real t233 = theta_sine * t232;
+    const jg_real t234 = f_j_0 * omega_i_cross_f_i_0 + f_j_1 * omega_i_cross_f_i_1 + f_j_2 * omega_i_cross_f_i_2;
     /* omega_i_cross_h_i = tilde(omega_i) h_i */
     const jg_real omega_i_cross_h_i_2 = h_i_1 * omega_i[0] - h_i_0 * omega_i[1];
     const jg_real omega_i_cross_h_i_1 = h_i_0 * omega_i[2] - h_i_2 * omega_i[0];
@@ -1414,14 +1393,14 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t256 = f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_f_j_2;
-    const jg_real t257 = t85 * t240;
-    const jg_real t258 = t243 * t257;
-    const jg_real t259 = f_j_0 * omega_i_cross_g_i_0 + f_j_1 * omega_i_cross_g_i_1 + f_j_2 * omega_i_cross_g_i_2;
-    const jg_real t260 = g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_f_j_2;
-    const jg_real t261 = t83 * t240;
-    const jg_real t262 = t243 * t261;
-    const jg_real t263 = pitch * JG_REAL(4.0) * t34 * theta_sine;
+    const jg_real t247 = f_i_0 * omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_f_j_1 + f_i_2 * omega_j_cross_f_j_2;
+    const jg_real t248 = t79 * t231;
+    const jg_real t249 = t234 * t248;
+    const jg_real t250 = f_j_0 * omega_i_cross_g_i_0 + f_j_1 * omega_i_cross_g_i_1 + f_j_2 * omega_i_cross_g_i_2;
+    const jg_real t251 = g_i_0 * omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_f_j_1 + g_i_2 * omega_j_cross_f_j_2;
+    const jg_real t252 = t77 * t231;
+    const jg_real t253 = t234 * t252;
+    const jg_real t254 = pitch * JG_REAL(4.0) * t35 * theta_sine;
     gamma[4] = h_i_0 * omega_i_cross_omega_i_cross_s_i_world_0 + h_i_1 * omega_i_cross_omega_i_cross_s_i_world_1 +
         h_i_2 * omega_i_cross_omega_i_cross_s_i_world_2 + (JG_REAL(2.0) * (omega_i_cross_s_i_world_0 *
         omega_i_cross_h_i_0 + omega_i_cross_s_i_world_1 * omega_i_cross_h_i_1 + omega_i_cross_s_i_world_2 *
@@ -1432,18 +1411,18 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_j_cross_s_j_world_1 * omega_i_cross_h_i_1 + omega_j_cross_s_j_world_2 * omega_i_cross_h_i_2) +
         JG_REAL(2.0) * (v_j[0] * omega_i_cross_h_i_0 + v_j[1] * omega_i_cross_h_i_1 + v_j[2] * omega_i_cross_h_i_2))
         + JG_REAL(2.0) * (v_i[0] * omega_i_cross_h_i_0 + v_i[1] * omega_i_cross_h_i_1 + v_i[2] *
-        omega_i_cross_h_i_2) - t35 * (f_j_0 * omega_i_cross_omega_i_cross_f_i_0 + f_j_1 *
-        omega_i_cross_omega_i_cross_f_i_1 + f_j_2 * omega_i_cross_omega_i_cross_f_i_2) - t35 * (f_i_0 *
+        omega_i_cross_h_i_2) - t36 * (f_j_0 * omega_i_cross_omega_i_cross_f_i_0 + f_j_1 *
+        omega_i_cross_omega_i_cross_f_i_1 + f_j_2 * omega_i_cross_omega_i_cross_f_i_2) - t36 * (f_i_0 *
         omega_j_cross_omega_j_cross_f_j_0 + f_i_1 * omega_j_cross_omega_j_cross_f_j_1 + f_i_2 *
-        omega_j_cross_omega_j_cross_f_j_2) + t37 * (f_j_0 * omega_i_cross_omega_i_cross_g_i_0 + f_j_1 *
-        omega_i_cross_omega_i_cross_g_i_1 + f_j_2 * omega_i_cross_omega_i_cross_g_i_2) + t37 * (g_i_0 *
+        omega_j_cross_omega_j_cross_f_j_2) + t38 * (f_j_0 * omega_i_cross_omega_i_cross_g_i_0 + f_j_1 *
+        omega_i_cross_omega_i_cross_g_i_1 + f_j_2 * omega_i_cross_omega_i_cross_g_i_2) + t38 * (g_i_0 *
         omega_j_cross_omega_j_cross_f_j_0 + g_i_1 * omega_j_cross_omega_j_cross_f_j_1 + g_i_2 *
         omega_j_cross_omega_j_cross_f_j_2) - (omega_i_cross_f_i_0 * omega_j_cross_f_j_0 + omega_i_cross_f_i_1 *
-        omega_j_cross_f_j_1 + omega_i_cross_f_i_2 * omega_j_cross_f_j_2) * t241 + (omega_i_cross_g_i_0 *
+        omega_j_cross_f_j_1 + omega_i_cross_f_i_2 * omega_j_cross_f_j_2) * t232 + (omega_i_cross_g_i_0 *
         omega_j_cross_f_j_0 + omega_i_cross_g_i_1 * omega_j_cross_f_j_1 + omega_i_cross_g_i_2 * omega_j_cross_f_j_2)
-        * (theta_sine * t240) + t243 * t243 * t242 + t256 * t256 * t242 - t259 * t258 - t258 * t260 - t259 * t257 *
-        t256 - t256 * t257 * t260 - t259 * t259 * t242 - t260 * t260 * t242 + t259 * t262 + t260 * t262 + t259 *
-        t261 * t256 + t256 * t261 * t260 + t243 * t263 * t256 - t259 * t263 * t260);
+        * (theta_sine * t231) + t234 * t234 * t233 + t247 * t247 * t233 - t250 * t249 - t249 * t251 - t250 * t248 *
+        t247 - t247 * t248 * t251 - t250 * t250 * t233 - t251 * t251 * t233 + t250 * t253 + t251 * t253 + t250 *
+        t252 * t247 + t247 * t252 * t251 + t234 * t254 * t247 - t250 * t254 * t251);
 }
 
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

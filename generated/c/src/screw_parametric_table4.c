@@ -38,16 +38,20 @@ void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real revolutions = geometry[26];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
@@ -84,7 +88,6 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -94,24 +97,18 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -134,10 +131,9 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     phi_q[7] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t24 = s_i[0] + dp_ij_0;
-    phi_q[9] = t24;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -149,7 +145,7 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
     phi_q[11] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     phi_q[12] = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
-    phi_q[14] = -t24;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[16] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     phi_q[17] = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
@@ -198,7 +194,6 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -208,184 +203,177 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real t11 = lambda[2] * t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t13 = s_i[1] + dp_ij_1;
-    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t16 = C_j[0] * lambda[5] + C_j[6] * lambda[3];
+    const jg_real t1 = C_j[0] * lambda[5] + C_j[6] * lambda[3];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t18 = C_j[1] * lambda[5] + C_j[7] * lambda[3];
+    const jg_real t3 = C_j[1] * lambda[5] + C_j[7] * lambda[3];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t20 = C_j[2] * lambda[5] + C_j[8] * lambda[3];
-    const jg_real t21 = A_ij_2 * t16 + A_ij_5 * t18 + A_ij_8 * t20;
-    const jg_real t22 = C_i[2] * t21;
+    const jg_real t5 = C_j[2] * lambda[5] + C_j[8] * lambda[3];
+    const jg_real t6 = A_ij_2 * t1 + A_ij_5 * t3 + A_ij_8 * t5;
+    const jg_real t7 = C_i[2] * t6;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t26 = A_ij_1 * t16 + A_ij_4 * t18 + A_ij_7 * t20;
-    const jg_real t27 = C_i[1] * t26;
+    const jg_real t11 = A_ij_1 * t1 + A_ij_4 * t3 + A_ij_7 * t5;
+    const jg_real t12 = C_i[1] * t11;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t29 = C_i[5] * lambda[4];
-    const jg_real t30 = A_ij_h_j_2 * t29;
+    const jg_real t14 = C_i[5] * lambda[4];
+    const jg_real t15 = A_ij_h_j_2 * t14;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t32 = C_i[4] * lambda[4];
-    const jg_real t33 = A_ij_h_j_1 * t32;
-    phi_q_t_lambda_q[6] = -(t11 + t14 + (t30 + t33 + (t22 + t27)));
-    const jg_real t34 = C_i[3] * lambda[4];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t34 + C_i[0] * t26 + lambda[0] * t13;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t34 + C_i[0] * t21 + lambda[0] * t10;
-    const jg_real t35 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t35;
-    phi_q_t_lambda_q[33] = t35;
-    const jg_real t36 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t36;
-    phi_q_t_lambda_q[36] = t36;
-    const jg_real t37 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t37;
-    phi_q_t_lambda_q[39] = t37;
+    const jg_real t17 = C_i[4] * lambda[4];
+    const jg_real t18 = A_ij_h_j_1 * t17;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t26 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t28 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t26 + t28 + (t15 + t18 + (t7 + t12)));
+    const jg_real t29 = C_i[3] * lambda[4];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t29 + C_i[0] * t11 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t29 + C_i[0] * t6 + lambda[0] * ep_ij_2;
+    const jg_real t30 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t30;
+    phi_q_t_lambda_q[33] = t30;
+    const jg_real t31 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t31;
+    phi_q_t_lambda_q[36] = t31;
+    const jg_real t32 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t32;
+    phi_q_t_lambda_q[39] = t32;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t41 = A_ij_0 * t16 + A_ij_3 * t18 + A_ij_6 * t20;
-    const jg_real t42 = C_i[0] * t41;
-    const jg_real t43 = t27 + t42;
+    const jg_real t36 = A_ij_0 * t1 + A_ij_3 * t3 + A_ij_6 * t5;
+    const jg_real t37 = C_i[0] * t36;
+    const jg_real t38 = t12 + t37;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t45 = t22 + t43 + lambda[4] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2);
-    const jg_real t46 = A_ij_0 * t45;
+    const jg_real t40 = t7 + t38 + lambda[4] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2);
+    const jg_real t41 = A_ij_0 * t40;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
-    const jg_real t48 = lambda[4] * A_ijt_g_i_0;
+    const jg_real t43 = lambda[4] * A_ijt_g_i_0;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t50 = t41 * A_ijt_f_i_0;
-    const jg_real t51 = s_j[1] * t37 - s_j[2] * t36;
-    phi_q_t_lambda_q[12] = t46 - A_ij_h_j_0 * t48 - t50 + t51;
-    const jg_real t52 = A_ij_3 * t45;
+    const jg_real t45 = t36 * A_ijt_f_i_0;
+    const jg_real t46 = s_j[1] * t32 - s_j[2] * t31;
+    phi_q_t_lambda_q[12] = t41 - A_ij_h_j_0 * t43 - t45 + t46;
+    const jg_real t47 = A_ij_3 * t40;
     const jg_real A_ijt_g_i_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
-    const jg_real t54 = lambda[4] * A_ijt_g_i_1;
+    const jg_real t49 = lambda[4] * A_ijt_g_i_1;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t56 = t41 * A_ijt_f_i_1;
-    const jg_real t57 = s_j[2] * t35 - s_j[0] * t37;
-    phi_q_t_lambda_q[13] = t52 - A_ij_h_j_0 * t54 - t56 + t57;
-    const jg_real t58 = A_ij_6 * t45;
+    const jg_real t51 = t36 * A_ijt_f_i_1;
+    const jg_real t52 = s_j[2] * t30 - s_j[0] * t32;
+    phi_q_t_lambda_q[13] = t47 - A_ij_h_j_0 * t49 - t51 + t52;
+    const jg_real t53 = A_ij_6 * t40;
     const jg_real A_ijt_g_i_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real t60 = lambda[4] * A_ijt_g_i_2;
+    const jg_real t55 = lambda[4] * A_ijt_g_i_2;
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t62 = t41 * A_ijt_f_i_2;
-    const jg_real t63 = s_j[0] * t36 - s_j[1] * t35;
-    phi_q_t_lambda_q[14] = t58 - A_ij_h_j_0 * t60 - t62 + t63;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t65 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t32 + C_i[1] * t41 + lambda[1] * t65;
-    const jg_real t66 = lambda[0] * t65;
-    const jg_real t67 = A_ij_h_j_0 * t34;
-    phi_q_t_lambda_q[16] = -(t11 + t66 + (t30 + t67 + (t22 + t42)));
-    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t32 + C_i[1] * t21 + lambda[1] * t10;
-    const jg_real t68 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t68;
-    phi_q_t_lambda_q[34] = t68;
-    const jg_real t69 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t69;
-    phi_q_t_lambda_q[37] = t69;
-    const jg_real t70 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t70;
-    phi_q_t_lambda_q[40] = t70;
-    const jg_real t71 = A_ij_1 * t45;
-    const jg_real t72 = t26 * A_ijt_f_i_0;
-    const jg_real t73 = s_j[1] * t70 - s_j[2] * t69;
-    phi_q_t_lambda_q[21] = t71 - A_ij_h_j_1 * t48 - t72 + t73;
-    const jg_real t74 = A_ij_4 * t45;
-    const jg_real t75 = t26 * A_ijt_f_i_1;
-    const jg_real t76 = s_j[2] * t68 - s_j[0] * t70;
-    phi_q_t_lambda_q[22] = t74 - A_ij_h_j_1 * t54 - t75 + t76;
-    const jg_real t77 = A_ij_7 * t45;
-    const jg_real t78 = t26 * A_ijt_f_i_2;
-    const jg_real t79 = s_j[0] * t69 - s_j[1] * t68;
-    phi_q_t_lambda_q[23] = t77 - A_ij_h_j_1 * t60 - t78 + t79;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t29 + C_i[2] * t41 + lambda[2] * t65;
-    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t29 + C_i[2] * t26 + lambda[2] * t13;
-    phi_q_t_lambda_q[26] = -(t14 + t66 + (t33 + t67 + t43));
-    const jg_real t80 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t80;
-    phi_q_t_lambda_q[35] = t80;
-    const jg_real t81 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t81;
-    phi_q_t_lambda_q[38] = t81;
-    const jg_real t82 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t82;
-    phi_q_t_lambda_q[41] = t82;
-    const jg_real t83 = A_ij_2 * t45;
-    const jg_real t84 = t21 * A_ijt_f_i_0;
-    const jg_real t85 = s_j[1] * t82 - s_j[2] * t81;
-    phi_q_t_lambda_q[30] = t83 - A_ij_h_j_2 * t48 - t84 + t85;
-    const jg_real t86 = A_ij_5 * t45;
-    const jg_real t87 = t21 * A_ijt_f_i_1;
-    const jg_real t88 = s_j[2] * t80 - s_j[0] * t82;
-    phi_q_t_lambda_q[31] = t86 - A_ij_h_j_2 * t54 - t87 + t88;
-    const jg_real t89 = A_ij_8 * t45;
-    const jg_real t90 = t21 * A_ijt_f_i_2;
-    const jg_real t91 = s_j[0] * t81 - s_j[1] * t80;
-    phi_q_t_lambda_q[32] = t89 - A_ij_h_j_2 * t60 - t90 + t91;
-    const jg_real t92 = A_ij_h_j_0 * lambda[4];
-    phi_q_t_lambda_q[42] = t46 - t92 * A_ijt_g_i_0 - t50 + t51;
-    const jg_real t93 = A_ij_h_j_1 * lambda[4];
-    phi_q_t_lambda_q[43] = t71 - t93 * A_ijt_g_i_0 - t72 + t73;
-    const jg_real t94 = A_ij_h_j_2 * lambda[4];
-    phi_q_t_lambda_q[44] = t83 - t94 * A_ijt_g_i_0 - t84 + t85;
-    const jg_real t95 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = t95;
-    const jg_real t96 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = t96;
-    phi_q_t_lambda_q[46] = -t96;
-    const jg_real t97 = C_j[8] * lambda[4];
-    const jg_real t98 = A_ijt_g_i_2 * t97;
-    const jg_real t99 = C_j[7] * lambda[4];
-    const jg_real t100 = A_ijt_g_i_1 * t99;
-    const jg_real t101 = s_j[2] * t95;
-    const jg_real t102 = s_j[1] * t96;
-    const jg_real t103 = t20 * A_ijt_f_i_2;
-    const jg_real t104 = t18 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[47] = -(t103 + t104 + (t98 + t100 + (t101 + t102)));
-    const jg_real t105 = C_j[6] * lambda[4];
-    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t105 + s_j[0] * t96 + t16 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t105 + s_j[0] * t95 + t16 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[50] = t52 - t92 * A_ijt_g_i_1 - t56 + t57;
-    phi_q_t_lambda_q[51] = t74 - t93 * A_ijt_g_i_1 - t75 + t76;
-    phi_q_t_lambda_q[52] = t86 - t94 * A_ijt_g_i_1 - t87 + t88;
-    phi_q_t_lambda_q[53] = -t95;
-    const jg_real t106 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = t106;
-    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t99 + s_j[1] * t106 + t18 * A_ijt_f_i_0;
-    const jg_real t107 = A_ijt_g_i_0 * t105;
-    const jg_real t108 = s_j[0] * t106;
-    const jg_real t109 = t16 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[56] = -(t103 + t109 + (t98 + t107 + (t101 + t108)));
-    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t99 + s_j[1] * t95 + t18 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[58] = t58 - t92 * A_ijt_g_i_2 - t62 + t63;
-    phi_q_t_lambda_q[59] = t77 - t93 * A_ijt_g_i_2 - t78 + t79;
-    phi_q_t_lambda_q[60] = t89 - t94 * A_ijt_g_i_2 - t90 + t91;
-    phi_q_t_lambda_q[62] = -t106;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t97 + s_j[2] * t106 + t20 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t97 + s_j[2] * t96 + t20 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[65] = -(t104 + t109 + (t100 + t107 + (t102 + t108)));
+    const jg_real t57 = t36 * A_ijt_f_i_2;
+    const jg_real t58 = s_j[0] * t31 - s_j[1] * t30;
+    phi_q_t_lambda_q[14] = t53 - A_ij_h_j_0 * t55 - t57 + t58;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t17 + C_i[1] * t36 + lambda[1] * ep_ij_0;
+    const jg_real t60 = A_ij_h_j_0 * t29;
+    const jg_real t61 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[16] = -(t26 + t61 + (t15 + t60 + (t7 + t37)));
+    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t17 + C_i[1] * t6 + lambda[1] * ep_ij_2;
+    const jg_real t62 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[18] = t62;
+    phi_q_t_lambda_q[34] = t62;
+    const jg_real t63 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[19] = t63;
+    phi_q_t_lambda_q[37] = t63;
+    const jg_real t64 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[20] = t64;
+    phi_q_t_lambda_q[40] = t64;
+    const jg_real t65 = A_ij_1 * t40;
+    const jg_real t66 = t11 * A_ijt_f_i_0;
+    const jg_real t67 = s_j[1] * t64 - s_j[2] * t63;
+    phi_q_t_lambda_q[21] = t65 - A_ij_h_j_1 * t43 - t66 + t67;
+    const jg_real t68 = A_ij_4 * t40;
+    const jg_real t69 = t11 * A_ijt_f_i_1;
+    const jg_real t70 = s_j[2] * t62 - s_j[0] * t64;
+    phi_q_t_lambda_q[22] = t68 - A_ij_h_j_1 * t49 - t69 + t70;
+    const jg_real t71 = A_ij_7 * t40;
+    const jg_real t72 = t11 * A_ijt_f_i_2;
+    const jg_real t73 = s_j[0] * t63 - s_j[1] * t62;
+    phi_q_t_lambda_q[23] = t71 - A_ij_h_j_1 * t55 - t72 + t73;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t14 + C_i[2] * t36 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t14 + C_i[2] * t11 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[26] = -(t28 + t61 + (t18 + t60 + t38));
+    const jg_real t74 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[27] = t74;
+    phi_q_t_lambda_q[35] = t74;
+    const jg_real t75 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[28] = t75;
+    phi_q_t_lambda_q[38] = t75;
+    const jg_real t76 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[29] = t76;
+    phi_q_t_lambda_q[41] = t76;
+    const jg_real t77 = A_ij_2 * t40;
+    const jg_real t78 = t6 * A_ijt_f_i_0;
+    const jg_real t79 = s_j[1] * t76 - s_j[2] * t75;
+    phi_q_t_lambda_q[30] = t77 - A_ij_h_j_2 * t43 - t78 + t79;
+    const jg_real t80 = A_ij_5 * t40;
+    const jg_real t81 = t6 * A_ijt_f_i_1;
+    const jg_real t82 = s_j[2] * t74 - s_j[0] * t76;
+    phi_q_t_lambda_q[31] = t80 - A_ij_h_j_2 * t49 - t81 + t82;
+    const jg_real t83 = A_ij_8 * t40;
+    const jg_real t84 = t6 * A_ijt_f_i_2;
+    const jg_real t85 = s_j[0] * t75 - s_j[1] * t74;
+    phi_q_t_lambda_q[32] = t83 - A_ij_h_j_2 * t55 - t84 + t85;
+    const jg_real t86 = A_ij_h_j_0 * lambda[4];
+    phi_q_t_lambda_q[42] = t41 - t86 * A_ijt_g_i_0 - t45 + t46;
+    const jg_real t87 = A_ij_h_j_1 * lambda[4];
+    phi_q_t_lambda_q[43] = t65 - t87 * A_ijt_g_i_0 - t66 + t67;
+    const jg_real t88 = A_ij_h_j_2 * lambda[4];
+    phi_q_t_lambda_q[44] = t77 - t88 * A_ijt_g_i_0 - t78 + t79;
+    const jg_real t89 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[45] = t89;
+    const jg_real t90 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[61] = t90;
+    phi_q_t_lambda_q[46] = -t90;
+    const jg_real t91 = C_j[8] * lambda[4];
+    const jg_real t92 = A_ijt_g_i_2 * t91;
+    const jg_real t93 = C_j[7] * lambda[4];
+    const jg_real t94 = A_ijt_g_i_1 * t93;
+    const jg_real t95 = s_j[2] * t89;
+    const jg_real t96 = s_j[1] * t90;
+    const jg_real t97 = t5 * A_ijt_f_i_2;
+    const jg_real t98 = t3 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[47] = -(t97 + t98 + (t92 + t94 + (t95 + t96)));
+    const jg_real t99 = C_j[6] * lambda[4];
+    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t99 + s_j[0] * t90 + t1 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t99 + s_j[0] * t89 + t1 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[50] = t47 - t86 * A_ijt_g_i_1 - t51 + t52;
+    phi_q_t_lambda_q[51] = t68 - t87 * A_ijt_g_i_1 - t69 + t70;
+    phi_q_t_lambda_q[52] = t80 - t88 * A_ijt_g_i_1 - t81 + t82;
+    phi_q_t_lambda_q[53] = -t89;
+    const jg_real t100 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[54] = t100;
+    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t93 + s_j[1] * t100 + t3 * A_ijt_f_i_0;
+    const jg_real t101 = A_ijt_g_i_0 * t99;
+    const jg_real t102 = s_j[0] * t100;
+    const jg_real t103 = t1 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[56] = -(t97 + t103 + (t92 + t101 + (t95 + t102)));
+    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t93 + s_j[1] * t89 + t3 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[58] = t53 - t86 * A_ijt_g_i_2 - t57 + t58;
+    phi_q_t_lambda_q[59] = t71 - t87 * A_ijt_g_i_2 - t72 + t73;
+    phi_q_t_lambda_q[60] = t83 - t88 * A_ijt_g_i_2 - t84 + t85;
+    phi_q_t_lambda_q[62] = -t100;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t91 + s_j[2] * t100 + t5 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t91 + s_j[2] * t90 + t5 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[65] = -(t98 + t103 + (t94 + t101 + (t96 + t102)));
     phi_q_t_lambda_q[66] = lambda[5] * jg_cos(alpha[0]);
 }
 
@@ -403,7 +391,6 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -414,26 +401,22 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -450,12 +433,6 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -474,34 +451,29 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -511,11 +483,11 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t47 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t49 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t50 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -523,10 +495,10 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t65 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t56 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t67 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t68 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t58 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t59 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -534,16 +506,16 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t72 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t63 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t73 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t64 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t74 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t65 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[3] = JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59) - (C_i[0] * t72 + C_i[1] * t73 + C_i[2] *
-        t74 + (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68));
-    gamma[4] = JG_REAL(2.0) * (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59) - (C_i[3] * t72 + C_i[4] * t73 + C_i[5] *
-        t74 + (C_i[3] * t65 + C_i[4] * t67 + C_i[5] * t68));
+    gamma[3] = JG_REAL(2.0) * (C_i[0] * t47 + C_i[1] * t49 + C_i[2] * t50) - (C_i[0] * t63 + C_i[1] * t64 + C_i[2] *
+        t65 + (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59));
+    gamma[4] = JG_REAL(2.0) * (C_i[3] * t47 + C_i[4] * t49 + C_i[5] * t50) - (C_i[3] * t63 + C_i[4] * t64 + C_i[5] *
+        t65 + (C_i[3] * t56 + C_i[4] * t58 + C_i[5] * t59));
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -598,62 +570,57 @@ void jg_screw_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
-    const jg_real t16 = alphadot * pitch;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real t18 = alphadot * pitch;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - C_i[6] * t16 - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 -
-        omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - C_i[6] * t18 - (omega_i[1] * t14 - omega_i[2] * t16) +
+        A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t25 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - C_i[7] * t16 - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 -
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - C_i[7] * t18 - (omega_i[2] * t25 - omega_i[0] * t14) +
+        A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - C_i[8] * t16 - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 -
-        omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - C_i[8] * t18 - (omega_i[0] * t16 - omega_i[1] * t25) +
+        A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -707,7 +674,6 @@ void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, c
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -729,56 +695,49 @@ void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, c
     const jg_real t10 = A_ij_1 * t1 + A_ij_4 * t3 + A_ij_7 * t5;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t21 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t23 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    phi_q_t_lambda[3] = C_i[1] * t6 - C_i[2] * t10 + (lambda[1] * t21 - lambda[2] * t23 - lambda[4] * (A_ij_h_j_1 *
-        C_i[5] - A_ij_h_j_2 * C_i[4]));
+    phi_q_t_lambda[3] = C_i[1] * t6 - C_i[2] * t10 + (lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 - lambda[4] *
+        (A_ij_h_j_1 * C_i[5] - A_ij_h_j_2 * C_i[4]));
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t29 = A_ij_0 * t1 + A_ij_3 * t3 + A_ij_6 * t5;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t31 = s_i[0] + dp_ij_0;
+    const jg_real t24 = A_ij_0 * t1 + A_ij_3 * t3 + A_ij_6 * t5;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q_t_lambda[4] = C_i[2] * t29 - C_i[0] * t6 + (lambda[2] * t31 - lambda[0] * t21 - lambda[4] * (A_ij_h_j_2 *
-        C_i[3] - A_ij_h_j_0 * C_i[5]));
-    phi_q_t_lambda[5] = C_i[0] * t10 - C_i[1] * t29 + (lambda[0] * t23 - lambda[1] * t31 - lambda[4] * (A_ij_h_j_0 *
-        C_i[4] - A_ij_h_j_1 * C_i[3]));
-    const jg_real t33 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t33;
-    const jg_real t34 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t34;
-    const jg_real t35 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t35;
+    phi_q_t_lambda[4] = C_i[2] * t24 - C_i[0] * t6 + (lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 - lambda[4] *
+        (A_ij_h_j_2 * C_i[3] - A_ij_h_j_0 * C_i[5]));
+    phi_q_t_lambda[5] = C_i[0] * t10 - C_i[1] * t24 + (lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 - lambda[4] *
+        (A_ij_h_j_0 * C_i[4] - A_ij_h_j_1 * C_i[3]));
+    const jg_real t27 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t27;
+    const jg_real t28 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t28;
+    const jg_real t29 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t29;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
     const jg_real A_ijt_g_i_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    phi_q_t_lambda[9] = t3 * A_ijt_f_i_2 - t5 * A_ijt_f_i_1 + (s_j[1] * t35 - s_j[2] * t34 + lambda[4] * (C_j[7] *
+    phi_q_t_lambda[9] = t3 * A_ijt_f_i_2 - t5 * A_ijt_f_i_1 + (s_j[1] * t29 - s_j[2] * t28 + lambda[4] * (C_j[7] *
         A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1));
     const jg_real A_ijt_g_i_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     const jg_real A_ijt_f_i_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    phi_q_t_lambda[10] = t5 * A_ijt_f_i_0 - t1 * A_ijt_f_i_2 + (s_j[2] * t33 - s_j[0] * t35 + lambda[4] * (C_j[8] *
+    phi_q_t_lambda[10] = t5 * A_ijt_f_i_0 - t1 * A_ijt_f_i_2 + (s_j[2] * t27 - s_j[0] * t29 + lambda[4] * (C_j[8] *
         A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2));
-    phi_q_t_lambda[11] = t1 * A_ijt_f_i_1 - t3 * A_ijt_f_i_0 + (s_j[0] * t34 - s_j[1] * t33 + lambda[4] * (C_j[6] *
+    phi_q_t_lambda[11] = t1 * A_ijt_f_i_1 - t3 * A_ijt_f_i_0 + (s_j[0] * t28 - s_j[1] * t27 + lambda[4] * (C_j[6] *
         A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0));
     phi_q_t_lambda[12] = lambda[5] * jg_sin(alpha[0]) - pitch * (lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2]
         * C_i[8]);
@@ -804,16 +763,20 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real alphadot = velocity[12];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     /* advance = pitch*(alpha_0 + 2*pi*revolutions + theta_0) */
@@ -847,8 +810,8 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     phi[3] = C_i[0] * A_ij_h_j_0 + C_i[1] * A_ij_h_j_1 + C_i[2] * A_ij_h_j_2;
-    const jg_real t25 = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
-    phi[4] = t25;
+    const jg_real t28 = C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2;
+    phi[4] = t28;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
@@ -860,21 +823,22 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t31 = s_i[2] + dp_ij_2;
-    phi_q[3] = t31;
-    const jg_real t32 = s_i[1] + dp_ij_1;
-    phi_q[13] = t32;
-    phi_q[4] = -t32;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[6] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
     phi_q[7] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
-    phi_q[8] = -t31;
-    const jg_real t33 = s_i[0] + dp_ij_0;
-    phi_q[9] = t33;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[11] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
     phi_q[12] = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
-    phi_q[14] = -t33;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[16] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     phi_q[17] = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
@@ -914,150 +878,150 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t40 = t31 * lambda[2];
-    const jg_real t41 = t32 * lambda[1];
-    const jg_real t42 = C_j[0] * lambda[5] + C_j[6] * lambda[3];
-    const jg_real t43 = C_j[1] * lambda[5] + C_j[7] * lambda[3];
-    const jg_real t44 = C_j[2] * lambda[5] + C_j[8] * lambda[3];
-    const jg_real t45 = A_ij_2 * t42 + A_ij_5 * t43 + A_ij_8 * t44;
-    const jg_real t46 = C_i[2] * t45;
-    const jg_real t47 = A_ij_1 * t42 + A_ij_4 * t43 + A_ij_7 * t44;
-    const jg_real t48 = C_i[1] * t47;
-    const jg_real t49 = C_i[5] * lambda[4];
-    const jg_real t50 = A_ij_h_j_2 * t49;
-    const jg_real t51 = C_i[4] * lambda[4];
-    const jg_real t52 = A_ij_h_j_1 * t51;
-    phi_q_t_lambda_q[6] = -(t40 + t41 + (t50 + t52 + (t46 + t48)));
-    const jg_real t53 = C_i[3] * lambda[4];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t53 + C_i[0] * t47 + t32 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t53 + C_i[0] * t45 + t31 * lambda[0];
-    const jg_real t54 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t54;
-    phi_q_t_lambda_q[33] = t54;
-    const jg_real t55 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t55;
-    phi_q_t_lambda_q[36] = t55;
-    const jg_real t56 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t56;
-    phi_q_t_lambda_q[39] = t56;
-    const jg_real t57 = A_ij_0 * t42 + A_ij_3 * t43 + A_ij_6 * t44;
-    const jg_real t58 = C_i[0] * t57;
-    const jg_real t59 = t48 + t58;
-    const jg_real t60 = t46 + t59 + t25 * lambda[4];
-    const jg_real t61 = A_ij_0 * t60;
-    const jg_real t62 = A_ijt_g_i_0 * lambda[4];
-    const jg_real t63 = A_ijt_f_i_0 * t57;
-    const jg_real t64 = s_j[1] * t56 - s_j[2] * t55;
-    phi_q_t_lambda_q[12] = t61 - A_ij_h_j_0 * t62 - t63 + t64;
-    const jg_real t65 = A_ij_3 * t60;
-    const jg_real t66 = A_ijt_g_i_1 * lambda[4];
-    const jg_real t67 = A_ijt_f_i_1 * t57;
-    const jg_real t68 = s_j[2] * t54 - s_j[0] * t56;
-    phi_q_t_lambda_q[13] = t65 - A_ij_h_j_0 * t66 - t67 + t68;
-    const jg_real t69 = A_ij_6 * t60;
-    const jg_real t70 = A_ijt_g_i_2 * lambda[4];
-    const jg_real t71 = A_ijt_f_i_2 * t57;
-    const jg_real t72 = s_j[0] * t55 - s_j[1] * t54;
-    phi_q_t_lambda_q[14] = t69 - A_ij_h_j_0 * t70 - t71 + t72;
-    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t51 + C_i[1] * t57 + t33 * lambda[1];
-    const jg_real t73 = t33 * lambda[0];
-    const jg_real t74 = A_ij_h_j_0 * t53;
-    phi_q_t_lambda_q[16] = -(t40 + t73 + (t50 + t74 + (t46 + t58)));
-    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t51 + C_i[1] * t45 + t31 * lambda[1];
-    const jg_real t75 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t75;
-    phi_q_t_lambda_q[34] = t75;
-    const jg_real t76 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t76;
-    phi_q_t_lambda_q[37] = t76;
-    const jg_real t77 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t77;
-    phi_q_t_lambda_q[40] = t77;
-    const jg_real t78 = A_ij_1 * t60;
-    const jg_real t79 = A_ijt_f_i_0 * t47;
-    const jg_real t80 = s_j[1] * t77 - s_j[2] * t76;
-    phi_q_t_lambda_q[21] = t78 - A_ij_h_j_1 * t62 - t79 + t80;
-    const jg_real t81 = A_ij_4 * t60;
-    const jg_real t82 = A_ijt_f_i_1 * t47;
-    const jg_real t83 = s_j[2] * t75 - s_j[0] * t77;
-    phi_q_t_lambda_q[22] = t81 - A_ij_h_j_1 * t66 - t82 + t83;
-    const jg_real t84 = A_ij_7 * t60;
-    const jg_real t85 = A_ijt_f_i_2 * t47;
-    const jg_real t86 = s_j[0] * t76 - s_j[1] * t75;
-    phi_q_t_lambda_q[23] = t84 - A_ij_h_j_1 * t70 - t85 + t86;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t49 + C_i[2] * t57 + t33 * lambda[2];
-    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t49 + C_i[2] * t47 + t32 * lambda[2];
-    phi_q_t_lambda_q[26] = -(t41 + t73 + (t52 + t74 + t59));
-    const jg_real t87 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t87;
-    phi_q_t_lambda_q[35] = t87;
-    const jg_real t88 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t88;
-    phi_q_t_lambda_q[38] = t88;
-    const jg_real t89 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t89;
-    phi_q_t_lambda_q[41] = t89;
-    const jg_real t90 = A_ij_2 * t60;
-    const jg_real t91 = A_ijt_f_i_0 * t45;
-    const jg_real t92 = s_j[1] * t89 - s_j[2] * t88;
-    phi_q_t_lambda_q[30] = t90 - A_ij_h_j_2 * t62 - t91 + t92;
-    const jg_real t93 = A_ij_5 * t60;
-    const jg_real t94 = A_ijt_f_i_1 * t45;
-    const jg_real t95 = s_j[2] * t87 - s_j[0] * t89;
-    phi_q_t_lambda_q[31] = t93 - A_ij_h_j_2 * t66 - t94 + t95;
-    const jg_real t96 = A_ij_8 * t60;
-    const jg_real t97 = A_ijt_f_i_2 * t45;
-    const jg_real t98 = s_j[0] * t88 - s_j[1] * t87;
-    phi_q_t_lambda_q[32] = t96 - A_ij_h_j_2 * t70 - t97 + t98;
-    const jg_real t99 = A_ij_h_j_0 * lambda[4];
-    phi_q_t_lambda_q[42] = t61 - A_ijt_g_i_0 * t99 - t63 + t64;
-    const jg_real t100 = A_ij_h_j_1 * lambda[4];
-    phi_q_t_lambda_q[43] = t78 - A_ijt_g_i_0 * t100 - t79 + t80;
-    const jg_real t101 = A_ij_h_j_2 * lambda[4];
-    phi_q_t_lambda_q[44] = t90 - A_ijt_g_i_0 * t101 - t91 + t92;
-    const jg_real t102 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = t102;
-    const jg_real t103 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = t103;
-    phi_q_t_lambda_q[46] = -t103;
-    const jg_real t104 = C_j[8] * lambda[4];
-    const jg_real t105 = A_ijt_g_i_2 * t104;
-    const jg_real t106 = C_j[7] * lambda[4];
-    const jg_real t107 = A_ijt_g_i_1 * t106;
-    const jg_real t108 = s_j[2] * t102;
-    const jg_real t109 = s_j[1] * t103;
-    const jg_real t110 = A_ijt_f_i_2 * t44;
-    const jg_real t111 = A_ijt_f_i_1 * t43;
-    phi_q_t_lambda_q[47] = -(t110 + t111 + (t105 + t107 + (t108 + t109)));
-    const jg_real t112 = C_j[6] * lambda[4];
-    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t112 + s_j[0] * t103 + A_ijt_f_i_1 * t42;
-    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t112 + s_j[0] * t102 + A_ijt_f_i_2 * t42;
-    phi_q_t_lambda_q[50] = t65 - A_ijt_g_i_1 * t99 - t67 + t68;
-    phi_q_t_lambda_q[51] = t81 - A_ijt_g_i_1 * t100 - t82 + t83;
-    phi_q_t_lambda_q[52] = t93 - A_ijt_g_i_1 * t101 - t94 + t95;
-    phi_q_t_lambda_q[53] = -t102;
-    const jg_real t113 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = t113;
-    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t106 + s_j[1] * t113 + A_ijt_f_i_0 * t43;
-    const jg_real t114 = A_ijt_g_i_0 * t112;
-    const jg_real t115 = s_j[0] * t113;
-    const jg_real t116 = A_ijt_f_i_0 * t42;
-    phi_q_t_lambda_q[56] = -(t110 + t116 + (t105 + t114 + (t108 + t115)));
-    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t106 + s_j[1] * t102 + A_ijt_f_i_2 * t43;
-    phi_q_t_lambda_q[58] = t69 - A_ijt_g_i_2 * t99 - t71 + t72;
-    phi_q_t_lambda_q[59] = t84 - A_ijt_g_i_2 * t100 - t85 + t86;
-    phi_q_t_lambda_q[60] = t96 - A_ijt_g_i_2 * t101 - t97 + t98;
-    phi_q_t_lambda_q[62] = -t113;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t104 + s_j[2] * t113 + A_ijt_f_i_0 * t44;
-    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t104 + s_j[2] * t103 + A_ijt_f_i_1 * t44;
-    phi_q_t_lambda_q[65] = -(t111 + t116 + (t107 + t114 + (t109 + t115)));
+    const jg_real t43 = C_j[0] * lambda[5] + C_j[6] * lambda[3];
+    const jg_real t44 = C_j[1] * lambda[5] + C_j[7] * lambda[3];
+    const jg_real t45 = C_j[2] * lambda[5] + C_j[8] * lambda[3];
+    const jg_real t46 = A_ij_2 * t43 + A_ij_5 * t44 + A_ij_8 * t45;
+    const jg_real t47 = C_i[2] * t46;
+    const jg_real t48 = A_ij_1 * t43 + A_ij_4 * t44 + A_ij_7 * t45;
+    const jg_real t49 = C_i[1] * t48;
+    const jg_real t50 = C_i[5] * lambda[4];
+    const jg_real t51 = A_ij_h_j_2 * t50;
+    const jg_real t52 = C_i[4] * lambda[4];
+    const jg_real t53 = A_ij_h_j_1 * t52;
+    const jg_real t54 = ep_ij_2 * lambda[2];
+    const jg_real t55 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t54 + t55 + (t51 + t53 + (t47 + t49)));
+    const jg_real t56 = C_i[3] * lambda[4];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t56 + C_i[0] * t48 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t56 + C_i[0] * t46 + ep_ij_2 * lambda[0];
+    const jg_real t57 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t57;
+    phi_q_t_lambda_q[33] = t57;
+    const jg_real t58 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t58;
+    phi_q_t_lambda_q[36] = t58;
+    const jg_real t59 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t59;
+    phi_q_t_lambda_q[39] = t59;
+    const jg_real t60 = A_ij_0 * t43 + A_ij_3 * t44 + A_ij_6 * t45;
+    const jg_real t61 = C_i[0] * t60;
+    const jg_real t62 = t49 + t61;
+    const jg_real t63 = t47 + t62 + t28 * lambda[4];
+    const jg_real t64 = A_ij_0 * t63;
+    const jg_real t65 = A_ijt_g_i_0 * lambda[4];
+    const jg_real t66 = A_ijt_f_i_0 * t60;
+    const jg_real t67 = s_j[1] * t59 - s_j[2] * t58;
+    phi_q_t_lambda_q[12] = t64 - A_ij_h_j_0 * t65 - t66 + t67;
+    const jg_real t68 = A_ij_3 * t63;
+    const jg_real t69 = A_ijt_g_i_1 * lambda[4];
+    const jg_real t70 = A_ijt_f_i_1 * t60;
+    const jg_real t71 = s_j[2] * t57 - s_j[0] * t59;
+    phi_q_t_lambda_q[13] = t68 - A_ij_h_j_0 * t69 - t70 + t71;
+    const jg_real t72 = A_ij_6 * t63;
+    const jg_real t73 = A_ijt_g_i_2 * lambda[4];
+    const jg_real t74 = A_ijt_f_i_2 * t60;
+    const jg_real t75 = s_j[0] * t58 - s_j[1] * t57;
+    phi_q_t_lambda_q[14] = t72 - A_ij_h_j_0 * t73 - t74 + t75;
+    phi_q_t_lambda_q[15] = A_ij_h_j_0 * t52 + C_i[1] * t60 + ep_ij_0 * lambda[1];
+    const jg_real t76 = A_ij_h_j_0 * t56;
+    const jg_real t77 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[16] = -(t54 + t77 + (t51 + t76 + (t47 + t61)));
+    phi_q_t_lambda_q[17] = A_ij_h_j_2 * t52 + C_i[1] * t46 + ep_ij_2 * lambda[1];
+    const jg_real t78 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[18] = t78;
+    phi_q_t_lambda_q[34] = t78;
+    const jg_real t79 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[19] = t79;
+    phi_q_t_lambda_q[37] = t79;
+    const jg_real t80 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[20] = t80;
+    phi_q_t_lambda_q[40] = t80;
+    const jg_real t81 = A_ij_1 * t63;
+    const jg_real t82 = A_ijt_f_i_0 * t48;
+    const jg_real t83 = s_j[1] * t80 - s_j[2] * t79;
+    phi_q_t_lambda_q[21] = t81 - A_ij_h_j_1 * t65 - t82 + t83;
+    const jg_real t84 = A_ij_4 * t63;
+    const jg_real t85 = A_ijt_f_i_1 * t48;
+    const jg_real t86 = s_j[2] * t78 - s_j[0] * t80;
+    phi_q_t_lambda_q[22] = t84 - A_ij_h_j_1 * t69 - t85 + t86;
+    const jg_real t87 = A_ij_7 * t63;
+    const jg_real t88 = A_ijt_f_i_2 * t48;
+    const jg_real t89 = s_j[0] * t79 - s_j[1] * t78;
+    phi_q_t_lambda_q[23] = t87 - A_ij_h_j_1 * t73 - t88 + t89;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t50 + C_i[2] * t60 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[25] = A_ij_h_j_1 * t50 + C_i[2] * t48 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[26] = -(t55 + t77 + (t53 + t76 + t62));
+    const jg_real t90 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[27] = t90;
+    phi_q_t_lambda_q[35] = t90;
+    const jg_real t91 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[28] = t91;
+    phi_q_t_lambda_q[38] = t91;
+    const jg_real t92 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[29] = t92;
+    phi_q_t_lambda_q[41] = t92;
+    const jg_real t93 = A_ij_2 * t63;
+    const jg_real t94 = A_ijt_f_i_0 * t46;
+    const jg_real t95 = s_j[1] * t92 - s_j[2] * t91;
+    phi_q_t_lambda_q[30] = t93 - A_ij_h_j_2 * t65 - t94 + t95;
+    const jg_real t96 = A_ij_5 * t63;
+    const jg_real t97 = A_ijt_f_i_1 * t46;
+    const jg_real t98 = s_j[2] * t90 - s_j[0] * t92;
+    phi_q_t_lambda_q[31] = t96 - A_ij_h_j_2 * t69 - t97 + t98;
+    const jg_real t99 = A_ij_8 * t63;
+    const jg_real t100 = A_ijt_f_i_2 * t46;
+    const jg_real t101 = s_j[0] * t91 - s_j[1] * t90;
+    phi_q_t_lambda_q[32] = t99 - A_ij_h_j_2 * t73 - t100 + t101;
+    const jg_real t102 = A_ij_h_j_0 * lambda[4];
+    phi_q_t_lambda_q[42] = t64 - A_ijt_g_i_0 * t102 - t66 + t67;
+    const jg_real t103 = A_ij_h_j_1 * lambda[4];
+    phi_q_t_lambda_q[43] = t81 - A_ijt_g_i_0 * t103 - t82 + t83;
+    const jg_real t104 = A_ij_h_j_2 * lambda[4];
+    phi_q_t_lambda_q[44] = t93 - A_ijt_g_i_0 * t104 - t94 + t95;
+    const jg_real t105 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[45] = t105;
+    const jg_real t106 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[61] = t106;
+    phi_q_t_lambda_q[46] = -t106;
+    const jg_real t107 = C_j[8] * lambda[4];
+    const jg_real t108 = A_ijt_g_i_2 * t107;
+    const jg_real t109 = C_j[7] * lambda[4];
+    const jg_real t110 = A_ijt_g_i_1 * t109;
+    const jg_real t111 = s_j[2] * t105;
+    const jg_real t112 = s_j[1] * t106;
+    const jg_real t113 = A_ijt_f_i_2 * t45;
+    const jg_real t114 = A_ijt_f_i_1 * t44;
+    phi_q_t_lambda_q[47] = -(t113 + t114 + (t108 + t110 + (t111 + t112)));
+    const jg_real t115 = C_j[6] * lambda[4];
+    phi_q_t_lambda_q[48] = A_ijt_g_i_1 * t115 + s_j[0] * t106 + A_ijt_f_i_1 * t43;
+    phi_q_t_lambda_q[49] = A_ijt_g_i_2 * t115 + s_j[0] * t105 + A_ijt_f_i_2 * t43;
+    phi_q_t_lambda_q[50] = t68 - A_ijt_g_i_1 * t102 - t70 + t71;
+    phi_q_t_lambda_q[51] = t84 - A_ijt_g_i_1 * t103 - t85 + t86;
+    phi_q_t_lambda_q[52] = t96 - A_ijt_g_i_1 * t104 - t97 + t98;
+    phi_q_t_lambda_q[53] = -t105;
+    const jg_real t116 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[54] = t116;
+    phi_q_t_lambda_q[55] = A_ijt_g_i_0 * t109 + s_j[1] * t116 + A_ijt_f_i_0 * t44;
+    const jg_real t117 = A_ijt_g_i_0 * t115;
+    const jg_real t118 = s_j[0] * t116;
+    const jg_real t119 = A_ijt_f_i_0 * t43;
+    phi_q_t_lambda_q[56] = -(t113 + t119 + (t108 + t117 + (t111 + t118)));
+    phi_q_t_lambda_q[57] = A_ijt_g_i_2 * t109 + s_j[1] * t105 + A_ijt_f_i_2 * t44;
+    phi_q_t_lambda_q[58] = t72 - A_ijt_g_i_2 * t102 - t74 + t75;
+    phi_q_t_lambda_q[59] = t87 - A_ijt_g_i_2 * t103 - t88 + t89;
+    phi_q_t_lambda_q[60] = t99 - A_ijt_g_i_2 * t104 - t100 + t101;
+    phi_q_t_lambda_q[62] = -t116;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t107 + s_j[2] * t116 + A_ijt_f_i_0 * t45;
+    phi_q_t_lambda_q[64] = A_ijt_g_i_1 * t107 + s_j[2] * t106 + A_ijt_f_i_1 * t45;
+    phi_q_t_lambda_q[65] = -(t114 + t119 + (t110 + t117 + (t112 + t118)));
     phi_q_t_lambda_q[66] = cosine_0 * lambda[5];
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -1067,12 +1031,6 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -1088,34 +1046,29 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1125,18 +1078,18 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t152 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t149 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t154 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t155 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t151 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t152 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t158 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t155 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t160 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t161 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t157 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t158 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -1144,16 +1097,16 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t165 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t162 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t166 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t163 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t167 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t164 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[3] = JG_REAL(2.0) * (C_i[0] * t152 + C_i[1] * t154 + C_i[2] * t155) - (C_i[0] * t165 + C_i[1] * t166 +
-        C_i[2] * t167 + (C_i[0] * t158 + C_i[1] * t160 + C_i[2] * t161));
-    gamma[4] = JG_REAL(2.0) * (C_i[3] * t152 + C_i[4] * t154 + C_i[5] * t155) - (C_i[3] * t165 + C_i[4] * t166 +
-        C_i[5] * t167 + (C_i[3] * t158 + C_i[4] * t160 + C_i[5] * t161));
+    gamma[3] = JG_REAL(2.0) * (C_i[0] * t149 + C_i[1] * t151 + C_i[2] * t152) - (C_i[0] * t162 + C_i[1] * t163 +
+        C_i[2] * t164 + (C_i[0] * t155 + C_i[1] * t157 + C_i[2] * t158));
+    gamma[4] = JG_REAL(2.0) * (C_i[3] * t149 + C_i[4] * t151 + C_i[5] * t152) - (C_i[3] * t162 + C_i[4] * t163 +
+        C_i[5] * t164 + (C_i[3] * t155 + C_i[4] * t157 + C_i[5] * t158));
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];

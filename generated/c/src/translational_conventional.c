@@ -56,16 +56,20 @@ void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_
     phi[2] = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -120,23 +124,19 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
     phi_q[8] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t26 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t28 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t26 - C_i[2] * t28;
-    phi_q[10] = C_i[4] * t26 - C_i[5] * t28;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t23 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t25 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[9] = C_i[1] * t23 - C_i[2] * t25;
+    phi_q[10] = C_i[4] * t23 - C_i[5] * t25;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
@@ -145,15 +145,15 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
     phi_q[12] = A_ij_h_j_0 * C_i[5] - A_ij_h_j_2 * C_i[3];
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     phi_q[13] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t35 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t35 - C_i[0] * t26;
-    phi_q[15] = C_i[5] * t35 - C_i[3] * t26;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t32 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[14] = C_i[2] * t32 - C_i[0] * t23;
+    phi_q[15] = C_i[5] * t32 - C_i[3] * t23;
     phi_q[16] = A_ij_h_j_1 * C_i[0] - A_ij_h_j_0 * C_i[1];
     phi_q[17] = A_ij_h_j_1 * C_i[3] - A_ij_h_j_0 * C_i[4];
     phi_q[18] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
-    phi_q[19] = C_i[0] * t28 - C_i[1] * t35;
-    phi_q[20] = C_i[3] * t28 - C_i[4] * t35;
+    phi_q[19] = C_i[0] * t25 - C_i[1] * t32;
+    phi_q[20] = C_i[3] * t25 - C_i[4] * t32;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
@@ -200,7 +200,6 @@ void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
     const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -248,163 +247,156 @@ void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real t23 = A_ij_1 * t13 + A_ij_4 * t15 + A_ij_7 * t17;
     const jg_real t24 = C_i[1] * t23;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t35 = s_i[2] + dp_ij_2;
-    const jg_real t36 = t0 * t35;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t38 = s_i[1] + dp_ij_1;
-    const jg_real t39 = t1 * t38;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t41 = C_i[5] * lambda[1];
-    const jg_real t42 = A_ij_h_j_2 * t41;
+    const jg_real t26 = C_i[5] * lambda[1];
+    const jg_real t27 = A_ij_h_j_2 * t26;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t44 = C_i[4] * lambda[1];
-    const jg_real t45 = A_ij_h_j_1 * t44;
-    phi_q_t_lambda_q[12] = -(t19 + t24 + (t42 + t45 + (t36 + t39)));
-    const jg_real t46 = C_i[3] * lambda[1];
-    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t46 + t3 * t38 + C_i[0] * t23;
-    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t46 + t3 * t35 + C_i[0] * t18;
-    const jg_real t47 = -t2;
-    phi_q_t_lambda_q[15] = t47;
-    phi_q_t_lambda_q[45] = t47;
-    const jg_real t48 = -t6;
-    phi_q_t_lambda_q[16] = t48;
-    phi_q_t_lambda_q[48] = t48;
-    const jg_real t49 = -t9;
-    phi_q_t_lambda_q[17] = t49;
-    phi_q_t_lambda_q[51] = t49;
+    const jg_real t29 = C_i[4] * lambda[1];
+    const jg_real t30 = A_ij_h_j_1 * t29;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t38 = t0 * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t40 = t1 * ep_ij_1;
+    phi_q_t_lambda_q[12] = -(t19 + t24 + (t27 + t30 + (t38 + t40)));
+    const jg_real t41 = C_i[3] * lambda[1];
+    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t41 + t3 * ep_ij_1 + C_i[0] * t23;
+    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t41 + t3 * ep_ij_2 + C_i[0] * t18;
+    const jg_real t42 = -t2;
+    phi_q_t_lambda_q[15] = t42;
+    phi_q_t_lambda_q[45] = t42;
+    const jg_real t43 = -t6;
+    phi_q_t_lambda_q[16] = t43;
+    phi_q_t_lambda_q[48] = t43;
+    const jg_real t44 = -t9;
+    phi_q_t_lambda_q[17] = t44;
+    phi_q_t_lambda_q[51] = t44;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t53 = A_ij_0 * t13 + A_ij_3 * t15 + A_ij_6 * t17;
-    const jg_real t54 = C_i[0] * t53;
-    const jg_real t55 = t24 + t54;
-    const jg_real t56 = t19 + t55;
+    const jg_real t48 = A_ij_0 * t13 + A_ij_3 * t15 + A_ij_6 * t17;
+    const jg_real t49 = C_i[0] * t48;
+    const jg_real t50 = t24 + t49;
+    const jg_real t51 = t19 + t50;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t58 = lambda[1] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2);
+    const jg_real t53 = lambda[1] * (C_i[3] * A_ij_h_j_0 + C_i[4] * A_ij_h_j_1 + C_i[5] * A_ij_h_j_2);
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
-    const jg_real t62 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2;
-    const jg_real t63 = t56 + t58 + t62;
+    const jg_real t57 = t3 * A_ij_s_j_0 + t1 * A_ij_s_j_1 + t0 * A_ij_s_j_2;
+    const jg_real t58 = t51 + t53 + t57;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
-    const jg_real t65 = lambda[1] * A_ijt_g_i_0;
-    const jg_real t66 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
-    const jg_real t67 = A_ij_s_j_0 * t66;
+    const jg_real t60 = lambda[1] * A_ijt_g_i_0;
+    const jg_real t61 = t3 * A_ij_0 + t1 * A_ij_1 + t0 * A_ij_2;
+    const jg_real t62 = A_ij_s_j_0 * t61;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t69 = t53 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[18] = A_ij_0 * t63 - A_ij_h_j_0 * t65 - t67 - t69;
+    const jg_real t64 = t48 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[18] = A_ij_0 * t58 - A_ij_h_j_0 * t60 - t62 - t64;
     const jg_real A_ijt_g_i_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
-    const jg_real t71 = lambda[1] * A_ijt_g_i_1;
-    const jg_real t72 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
-    const jg_real t73 = A_ij_s_j_0 * t72;
+    const jg_real t66 = lambda[1] * A_ijt_g_i_1;
+    const jg_real t67 = t3 * A_ij_3 + t1 * A_ij_4 + t0 * A_ij_5;
+    const jg_real t68 = A_ij_s_j_0 * t67;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t75 = t53 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[19] = A_ij_3 * t63 - A_ij_h_j_0 * t71 - t73 - t75;
+    const jg_real t70 = t48 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[19] = A_ij_3 * t58 - A_ij_h_j_0 * t66 - t68 - t70;
     const jg_real A_ijt_g_i_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real t77 = lambda[1] * A_ijt_g_i_2;
-    const jg_real t78 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
-    const jg_real t79 = A_ij_s_j_0 * t78;
+    const jg_real t72 = lambda[1] * A_ijt_g_i_2;
+    const jg_real t73 = t3 * A_ij_6 + t1 * A_ij_7 + t0 * A_ij_8;
+    const jg_real t74 = A_ij_s_j_0 * t73;
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t81 = t53 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[20] = A_ij_6 * t63 - A_ij_h_j_0 * t77 - t79 - t81;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t83 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t44 + t1 * t83 + C_i[1] * t53;
-    const jg_real t84 = t3 * t83;
-    const jg_real t85 = A_ij_h_j_0 * t46;
-    phi_q_t_lambda_q[25] = -(t19 + t54 + (t42 + t85 + (t36 + t84)));
-    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t44 + t1 * t35 + C_i[1] * t18;
-    const jg_real t86 = -t4;
-    phi_q_t_lambda_q[27] = t86;
-    phi_q_t_lambda_q[46] = t86;
-    const jg_real t87 = -t7;
-    phi_q_t_lambda_q[28] = t87;
-    phi_q_t_lambda_q[49] = t87;
-    const jg_real t88 = -t10;
-    phi_q_t_lambda_q[29] = t88;
-    phi_q_t_lambda_q[52] = t88;
-    const jg_real t89 = A_ij_s_j_1 * t66;
-    const jg_real t90 = t23 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[30] = A_ij_1 * t63 - A_ij_h_j_1 * t65 - t89 - t90;
-    const jg_real t91 = A_ij_s_j_1 * t72;
-    const jg_real t92 = t23 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[31] = A_ij_4 * t63 - A_ij_h_j_1 * t71 - t91 - t92;
-    const jg_real t93 = A_ij_s_j_1 * t78;
-    const jg_real t94 = t23 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[32] = A_ij_7 * t63 - A_ij_h_j_1 * t77 - t93 - t94;
-    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t41 + t0 * t83 + C_i[2] * t53;
-    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t41 + t0 * t38 + C_i[2] * t23;
-    phi_q_t_lambda_q[38] = -(t45 + t85 + (t39 + t84) + t55);
-    const jg_real t95 = -t5;
-    phi_q_t_lambda_q[39] = t95;
-    phi_q_t_lambda_q[47] = t95;
-    const jg_real t96 = -t8;
-    phi_q_t_lambda_q[40] = t96;
-    phi_q_t_lambda_q[50] = t96;
-    const jg_real t97 = -t11;
-    phi_q_t_lambda_q[41] = t97;
-    phi_q_t_lambda_q[53] = t97;
-    const jg_real t98 = A_ij_s_j_2 * t66;
-    const jg_real t99 = t18 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[42] = A_ij_2 * t63 - A_ij_h_j_2 * t65 - t98 - t99;
-    const jg_real t100 = A_ij_s_j_2 * t72;
-    const jg_real t101 = t18 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[43] = A_ij_5 * t63 - A_ij_h_j_2 * t71 - t100 - t101;
-    const jg_real t102 = A_ij_s_j_2 * t78;
-    const jg_real t103 = t18 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[44] = A_ij_8 * t63 - A_ij_h_j_2 * t77 - t102 - t103;
-    const jg_real t104 = t56 + t62 + t58;
-    const jg_real t105 = A_ij_h_j_0 * lambda[1];
-    phi_q_t_lambda_q[54] = A_ij_0 * t104 - t105 * A_ijt_g_i_0 - t67 - t69;
-    const jg_real t106 = A_ij_h_j_1 * lambda[1];
-    phi_q_t_lambda_q[55] = A_ij_1 * t104 - t106 * A_ijt_g_i_0 - t89 - t90;
-    const jg_real t107 = A_ij_h_j_2 * lambda[1];
-    phi_q_t_lambda_q[56] = A_ij_2 * t104 - t107 * A_ijt_g_i_0 - t98 - t99;
-    const jg_real t108 = s_j[2] * t78;
-    const jg_real t109 = s_j[1] * t72;
-    const jg_real t110 = C_j[8] * lambda[1];
-    const jg_real t111 = A_ijt_g_i_2 * t110;
-    const jg_real t112 = C_j[7] * lambda[1];
-    const jg_real t113 = A_ijt_g_i_1 * t112;
-    const jg_real t114 = t17 * A_ijt_f_i_2;
-    const jg_real t115 = t15 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[57] = -(t114 + t115 + (t111 + t113 + (t108 + t109)));
-    const jg_real t116 = C_j[6] * lambda[1];
-    phi_q_t_lambda_q[58] = A_ijt_g_i_1 * t116 + s_j[0] * t72 + t13 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[59] = A_ijt_g_i_2 * t116 + s_j[0] * t78 + t13 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[60] = A_ij_3 * t104 - t105 * A_ijt_g_i_1 - t73 - t75;
-    phi_q_t_lambda_q[61] = A_ij_4 * t104 - t106 * A_ijt_g_i_1 - t91 - t92;
-    phi_q_t_lambda_q[62] = A_ij_5 * t104 - t107 * A_ijt_g_i_1 - t100 - t101;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t112 + s_j[1] * t66 + t15 * A_ijt_f_i_0;
-    const jg_real t117 = s_j[0] * t66;
-    const jg_real t118 = A_ijt_g_i_0 * t116;
-    const jg_real t119 = t13 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[64] = -(t114 + t119 + (t111 + t118 + (t108 + t117)));
-    phi_q_t_lambda_q[65] = A_ijt_g_i_2 * t112 + s_j[1] * t78 + t15 * A_ijt_f_i_2;
-    phi_q_t_lambda_q[66] = A_ij_6 * t104 - t105 * A_ijt_g_i_2 - t79 - t81;
-    phi_q_t_lambda_q[67] = A_ij_7 * t104 - t106 * A_ijt_g_i_2 - t93 - t94;
-    phi_q_t_lambda_q[68] = A_ij_8 * t104 - t107 * A_ijt_g_i_2 - t102 - t103;
-    phi_q_t_lambda_q[69] = A_ijt_g_i_0 * t110 + s_j[2] * t66 + t17 * A_ijt_f_i_0;
-    phi_q_t_lambda_q[70] = A_ijt_g_i_1 * t110 + s_j[2] * t72 + t17 * A_ijt_f_i_1;
-    phi_q_t_lambda_q[71] = -(t115 + t119 + (t113 + t118 + (t109 + t117)));
+    const jg_real t76 = t48 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[20] = A_ij_6 * t58 - A_ij_h_j_0 * t72 - t74 - t76;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t29 + t1 * ep_ij_0 + C_i[1] * t48;
+    const jg_real t78 = A_ij_h_j_0 * t41;
+    const jg_real t79 = t3 * ep_ij_0;
+    phi_q_t_lambda_q[25] = -(t19 + t49 + (t27 + t78 + (t38 + t79)));
+    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t29 + t1 * ep_ij_2 + C_i[1] * t18;
+    const jg_real t80 = -t4;
+    phi_q_t_lambda_q[27] = t80;
+    phi_q_t_lambda_q[46] = t80;
+    const jg_real t81 = -t7;
+    phi_q_t_lambda_q[28] = t81;
+    phi_q_t_lambda_q[49] = t81;
+    const jg_real t82 = -t10;
+    phi_q_t_lambda_q[29] = t82;
+    phi_q_t_lambda_q[52] = t82;
+    const jg_real t83 = A_ij_s_j_1 * t61;
+    const jg_real t84 = t23 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[30] = A_ij_1 * t58 - A_ij_h_j_1 * t60 - t83 - t84;
+    const jg_real t85 = A_ij_s_j_1 * t67;
+    const jg_real t86 = t23 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[31] = A_ij_4 * t58 - A_ij_h_j_1 * t66 - t85 - t86;
+    const jg_real t87 = A_ij_s_j_1 * t73;
+    const jg_real t88 = t23 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[32] = A_ij_7 * t58 - A_ij_h_j_1 * t72 - t87 - t88;
+    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t26 + t0 * ep_ij_0 + C_i[2] * t48;
+    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t26 + t0 * ep_ij_1 + C_i[2] * t23;
+    phi_q_t_lambda_q[38] = -(t30 + t78 + (t40 + t79) + t50);
+    const jg_real t89 = -t5;
+    phi_q_t_lambda_q[39] = t89;
+    phi_q_t_lambda_q[47] = t89;
+    const jg_real t90 = -t8;
+    phi_q_t_lambda_q[40] = t90;
+    phi_q_t_lambda_q[50] = t90;
+    const jg_real t91 = -t11;
+    phi_q_t_lambda_q[41] = t91;
+    phi_q_t_lambda_q[53] = t91;
+    const jg_real t92 = A_ij_s_j_2 * t61;
+    const jg_real t93 = t18 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[42] = A_ij_2 * t58 - A_ij_h_j_2 * t60 - t92 - t93;
+    const jg_real t94 = A_ij_s_j_2 * t67;
+    const jg_real t95 = t18 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[43] = A_ij_5 * t58 - A_ij_h_j_2 * t66 - t94 - t95;
+    const jg_real t96 = A_ij_s_j_2 * t73;
+    const jg_real t97 = t18 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[44] = A_ij_8 * t58 - A_ij_h_j_2 * t72 - t96 - t97;
+    const jg_real t98 = t51 + t57 + t53;
+    const jg_real t99 = A_ij_h_j_0 * lambda[1];
+    phi_q_t_lambda_q[54] = A_ij_0 * t98 - t99 * A_ijt_g_i_0 - t62 - t64;
+    const jg_real t100 = A_ij_h_j_1 * lambda[1];
+    phi_q_t_lambda_q[55] = A_ij_1 * t98 - t100 * A_ijt_g_i_0 - t83 - t84;
+    const jg_real t101 = A_ij_h_j_2 * lambda[1];
+    phi_q_t_lambda_q[56] = A_ij_2 * t98 - t101 * A_ijt_g_i_0 - t92 - t93;
+    const jg_real t102 = s_j[2] * t73;
+    const jg_real t103 = s_j[1] * t67;
+    const jg_real t104 = C_j[8] * lambda[1];
+    const jg_real t105 = A_ijt_g_i_2 * t104;
+    const jg_real t106 = C_j[7] * lambda[1];
+    const jg_real t107 = A_ijt_g_i_1 * t106;
+    const jg_real t108 = t17 * A_ijt_f_i_2;
+    const jg_real t109 = t15 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[57] = -(t108 + t109 + (t105 + t107 + (t102 + t103)));
+    const jg_real t110 = C_j[6] * lambda[1];
+    phi_q_t_lambda_q[58] = A_ijt_g_i_1 * t110 + s_j[0] * t67 + t13 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[59] = A_ijt_g_i_2 * t110 + s_j[0] * t73 + t13 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[60] = A_ij_3 * t98 - t99 * A_ijt_g_i_1 - t68 - t70;
+    phi_q_t_lambda_q[61] = A_ij_4 * t98 - t100 * A_ijt_g_i_1 - t85 - t86;
+    phi_q_t_lambda_q[62] = A_ij_5 * t98 - t101 * A_ijt_g_i_1 - t94 - t95;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t106 + s_j[1] * t61 + t15 * A_ijt_f_i_0;
+    const jg_real t111 = s_j[0] * t61;
+    const jg_real t112 = A_ijt_g_i_0 * t110;
+    const jg_real t113 = t13 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[64] = -(t108 + t113 + (t105 + t112 + (t102 + t111)));
+    phi_q_t_lambda_q[65] = A_ijt_g_i_2 * t106 + s_j[1] * t73 + t15 * A_ijt_f_i_2;
+    phi_q_t_lambda_q[66] = A_ij_6 * t98 - t99 * A_ijt_g_i_2 - t74 - t76;
+    phi_q_t_lambda_q[67] = A_ij_7 * t98 - t100 * A_ijt_g_i_2 - t87 - t88;
+    phi_q_t_lambda_q[68] = A_ij_8 * t98 - t101 * A_ijt_g_i_2 - t96 - t97;
+    phi_q_t_lambda_q[69] = A_ijt_g_i_0 * t104 + s_j[2] * t61 + t17 * A_ijt_f_i_0;
+    phi_q_t_lambda_q[70] = A_ijt_g_i_1 * t104 + s_j[2] * t67 + t17 * A_ijt_f_i_1;
+    phi_q_t_lambda_q[71] = -(t109 + t113 + (t107 + t112 + (t103 + t111)));
 }
 
 void jg_translational_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -420,7 +412,6 @@ void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -517,60 +508,55 @@ void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const j
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + C_i[1] * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + C_i[2] * (omega_i[0] *
         omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0)));
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t53 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t55 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t56 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
-    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t78 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t75 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t79 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t76 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t80 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t77 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -588,30 +574,18 @@ void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const j
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t95 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t97 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t98 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[3] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t78 + C_i[1] * t79 + C_i[2] * t80 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t95 + C_i[1] * t97 + C_i[2] * t98);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t75 + C_i[1]
+        * t76 + C_i[2] * t77) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t53 + C_i[1] * t55
+        + C_i[2] * t56);
     gamma[4] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t78 + C_i[4] * t79 + C_i[5] * t80 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t95 + C_i[4] * t97 + C_i[5] * t98);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t75 + C_i[4]
+        * t76 + C_i[5] * t77) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t53 + C_i[4] * t55
+        + C_i[5] * t56);
 }
 
 void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -683,26 +657,35 @@ void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const
     phi_q_v[2] = C_i[0] * A_ij_omega_j_cross_g_j_0 + C_i[1] * A_ij_omega_j_cross_g_j_1 + C_i[2] *
         A_ij_omega_j_cross_g_j_2 - (C_i[0] * omega_i_cross_A_ij_g_j_0 + C_i[1] * omega_i_cross_A_ij_g_j_1 + C_i[2] *
         omega_i_cross_A_ij_g_j_2);
+    /* omega_j_cross_s_j = tilde(omega_j) s_j */
+    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
+    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t46 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t48 = ep_ij_1 - s_i[1];
+    const jg_real t49 = omega_i[1] * t46 - omega_i[2] * t48;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t51 = ep_ij_0 - s_i[0];
+    const jg_real t52 = omega_i[2] * t51 - omega_i[0] * t46;
+    const jg_real t53 = omega_i[0] * t48 - omega_i[1] * t51;
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
@@ -715,34 +698,20 @@ void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
     const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
-    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
-    const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
     phi_q_v[3] = C_i[0] * A_ij_omega_j_cross_s_j_0 + C_i[1] * A_ij_omega_j_cross_s_j_1 + C_i[2] *
         A_ij_omega_j_cross_s_j_2 + (C_i[0] * A_it_v_j_0 + C_i[1] * A_it_v_j_1 + C_i[2] * A_it_v_j_2 - (C_i[0] *
-        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * omega_i_cross_dp_ij_0 + C_i[1] *
-        omega_i_cross_dp_ij_1 + C_i[2] * omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[1] * A_it_v_i_1 + C_i[2] * A_it_v_i_2 + (C_i[0] * t49 + C_i[1] * t52 + C_i[2] * t53 +
+        (C_i[0] * omega_i_cross_s_i_0 + C_i[1] * omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_s_i_2))));
     phi_q_v[4] = C_i[3] * A_ij_omega_j_cross_s_j_0 + C_i[4] * A_ij_omega_j_cross_s_j_1 + C_i[5] *
         A_ij_omega_j_cross_s_j_2 + (C_i[3] * A_it_v_j_0 + C_i[4] * A_it_v_j_1 + C_i[5] * A_it_v_j_2 - (C_i[3] *
-        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * omega_i_cross_dp_ij_0 + C_i[4] *
-        omega_i_cross_dp_ij_1 + C_i[5] * omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
+        A_it_v_i_0 + C_i[4] * A_it_v_i_1 + C_i[5] * A_it_v_i_2 + (C_i[3] * t49 + C_i[4] * t52 + C_i[5] * t53 +
+        (C_i[3] * omega_i_cross_s_i_0 + C_i[4] * omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_s_i_2))));
 }
 
 void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -772,53 +741,46 @@ void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
     const jg_real t16 = A_ij_1 * t7 + A_ij_4 * t9 + A_ij_7 * t11;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t27 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t29 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    phi_q_t_lambda[3] = C_i[1] * t12 - C_i[2] * t16 + (t1 * t27 - t2 * t29 - lambda[1] * (C_i[5] * A_ij_h_j_1 -
-        C_i[4] * A_ij_h_j_2));
+    phi_q_t_lambda[3] = C_i[1] * t12 - C_i[2] * t16 + (t1 * ep_ij_2 - t2 * ep_ij_1 - lambda[1] * (C_i[5] *
+        A_ij_h_j_1 - C_i[4] * A_ij_h_j_2));
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t35 = A_ij_0 * t7 + A_ij_3 * t9 + A_ij_6 * t11;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t37 = s_i[0] + dp_ij_0;
+    const jg_real t30 = A_ij_0 * t7 + A_ij_3 * t9 + A_ij_6 * t11;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q_t_lambda[4] = C_i[2] * t35 - C_i[0] * t12 + (t2 * t37 - t0 * t27 - lambda[1] * (C_i[3] * A_ij_h_j_2 -
-        C_i[5] * A_ij_h_j_0));
-    phi_q_t_lambda[5] = C_i[0] * t16 - C_i[1] * t35 + (t0 * t29 - t1 * t37 - lambda[1] * (C_i[4] * A_ij_h_j_0 -
-        C_i[3] * A_ij_h_j_1));
-    const jg_real t39 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
-    const jg_real t40 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
+    phi_q_t_lambda[4] = C_i[2] * t30 - C_i[0] * t12 + (t2 * ep_ij_0 - t0 * ep_ij_2 - lambda[1] * (C_i[3] *
+        A_ij_h_j_2 - C_i[5] * A_ij_h_j_0));
+    phi_q_t_lambda[5] = C_i[0] * t16 - C_i[1] * t30 + (t0 * ep_ij_1 - t1 * ep_ij_0 - lambda[1] * (C_i[4] *
+        A_ij_h_j_0 - C_i[3] * A_ij_h_j_1));
+    const jg_real t33 = t0 * A_ij_6 + t1 * A_ij_7 + t2 * A_ij_8;
+    const jg_real t34 = t0 * A_ij_3 + t1 * A_ij_4 + t2 * A_ij_5;
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
     const jg_real A_ijt_g_i_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    phi_q_t_lambda[9] = t9 * A_ijt_f_i_2 - t11 * A_ijt_f_i_1 + (s_j[1] * t39 - s_j[2] * t40 + lambda[1] * (C_j[7] *
+    phi_q_t_lambda[9] = t9 * A_ijt_f_i_2 - t11 * A_ijt_f_i_1 + (s_j[1] * t33 - s_j[2] * t34 + lambda[1] * (C_j[7] *
         A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1));
-    const jg_real t45 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
+    const jg_real t39 = t0 * A_ij_0 + t1 * A_ij_1 + t2 * A_ij_2;
     const jg_real A_ijt_g_i_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    phi_q_t_lambda[10] = t11 * A_ijt_f_i_0 - t7 * A_ijt_f_i_2 + (s_j[2] * t45 - s_j[0] * t39 + lambda[1] * (C_j[8] *
+    phi_q_t_lambda[10] = t11 * A_ijt_f_i_0 - t7 * A_ijt_f_i_2 + (s_j[2] * t39 - s_j[0] * t33 + lambda[1] * (C_j[8] *
         A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2));
-    phi_q_t_lambda[11] = t7 * A_ijt_f_i_1 - t9 * A_ijt_f_i_0 + (s_j[0] * t40 - s_j[1] * t45 + lambda[1] * (C_j[6] *
+    phi_q_t_lambda[11] = t7 * A_ijt_f_i_1 - t9 * A_ijt_f_i_0 + (s_j[0] * t34 - s_j[1] * t39 + lambda[1] * (C_j[6] *
         A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0));
 }
 
@@ -859,16 +821,20 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
     phi[2] = C_i[0] * A_ij_g_j_0 + C_i[1] * A_ij_g_j_1 + C_i[2] * A_ij_g_j_2;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
@@ -898,21 +864,25 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
     phi_q[6] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     phi_q[7] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
     phi_q[8] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
-    const jg_real t34 = s_i[2] + dp_ij_2;
-    const jg_real t35 = s_i[1] + dp_ij_1;
-    phi_q[9] = C_i[1] * t34 - C_i[2] * t35;
-    phi_q[10] = C_i[4] * t34 - C_i[5] * t35;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t38 = ep_ij_2 - s_i[2] + s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t40 = ep_ij_1 - s_i[1] + s_i[1];
+    phi_q[9] = C_i[1] * t38 - C_i[2] * t40;
+    phi_q[10] = C_i[4] * t38 - C_i[5] * t40;
     phi_q[11] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     phi_q[12] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
     phi_q[13] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    const jg_real t36 = s_i[0] + dp_ij_0;
-    phi_q[14] = C_i[2] * t36 - C_i[0] * t34;
-    phi_q[15] = C_i[5] * t36 - C_i[3] * t34;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t42 = ep_ij_0 - s_i[0] + s_i[0];
+    phi_q[14] = C_i[2] * t42 - C_i[0] * t38;
+    phi_q[15] = C_i[5] * t42 - C_i[3] * t38;
     phi_q[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     phi_q[17] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     phi_q[18] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
-    phi_q[19] = C_i[0] * t35 - C_i[1] * t36;
-    phi_q[20] = C_i[3] * t35 - C_i[4] * t36;
+    phi_q[19] = C_i[0] * t40 - C_i[1] * t42;
+    phi_q[20] = C_i[3] * t40 - C_i[4] * t42;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
@@ -944,166 +914,166 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
     phi_q[40] = s_j_cross_A_ijt_f_i_2;
     const jg_real s_j_cross_A_ijt_g_i_2 = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
     phi_q[41] = s_j_cross_A_ijt_g_i_2;
-    const jg_real t49 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
-    const jg_real t50 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
-    const jg_real t51 = A_i[3] * t49 - A_i[6] * t50;
-    phi_q_t_lambda_q[0] = t51;
-    phi_q_t_lambda_q[9] = t51;
-    const jg_real t52 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    const jg_real t53 = A_i[6] * t52 - A_i[0] * t49;
-    phi_q_t_lambda_q[1] = t53;
-    phi_q_t_lambda_q[21] = t53;
-    const jg_real t54 = A_i[0] * t50 - A_i[3] * t52;
-    phi_q_t_lambda_q[2] = t54;
-    phi_q_t_lambda_q[33] = t54;
-    const jg_real t55 = A_i[4] * t49 - A_i[7] * t50;
-    phi_q_t_lambda_q[3] = t55;
-    phi_q_t_lambda_q[10] = t55;
-    const jg_real t56 = A_i[7] * t52 - A_i[1] * t49;
-    phi_q_t_lambda_q[4] = t56;
-    phi_q_t_lambda_q[22] = t56;
-    const jg_real t57 = A_i[1] * t50 - A_i[4] * t52;
-    phi_q_t_lambda_q[5] = t57;
-    phi_q_t_lambda_q[34] = t57;
-    const jg_real t58 = A_i[5] * t49 - A_i[8] * t50;
-    phi_q_t_lambda_q[6] = t58;
-    phi_q_t_lambda_q[11] = t58;
-    const jg_real t59 = A_i[8] * t52 - A_i[2] * t49;
-    phi_q_t_lambda_q[7] = t59;
-    phi_q_t_lambda_q[23] = t59;
-    const jg_real t60 = A_i[2] * t50 - A_i[5] * t52;
-    phi_q_t_lambda_q[8] = t60;
-    phi_q_t_lambda_q[35] = t60;
-    const jg_real t61 = C_j[3] * lambda[2] + C_j[6] * lambda[0];
-    const jg_real t62 = C_j[4] * lambda[2] + C_j[7] * lambda[0];
-    const jg_real t63 = C_j[5] * lambda[2] + C_j[8] * lambda[0];
-    const jg_real t64 = A_ij_2 * t61 + A_ij_5 * t62 + A_ij_8 * t63;
-    const jg_real t65 = C_i[2] * t64;
-    const jg_real t66 = A_ij_1 * t61 + A_ij_4 * t62 + A_ij_7 * t63;
-    const jg_real t67 = C_i[1] * t66;
-    const jg_real t68 = t34 * t49;
-    const jg_real t69 = t35 * t50;
-    const jg_real t70 = C_i[5] * lambda[1];
-    const jg_real t71 = A_ij_h_j_2 * t70;
-    const jg_real t72 = C_i[4] * lambda[1];
-    const jg_real t73 = A_ij_h_j_1 * t72;
-    phi_q_t_lambda_q[12] = -(t65 + t67 + (t71 + t73 + (t68 + t69)));
-    const jg_real t74 = C_i[3] * lambda[1];
-    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t74 + t35 * t52 + C_i[0] * t66;
-    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t74 + t34 * t52 + C_i[0] * t64;
-    const jg_real t75 = -t51;
-    phi_q_t_lambda_q[15] = t75;
-    phi_q_t_lambda_q[45] = t75;
-    const jg_real t76 = -t55;
-    phi_q_t_lambda_q[16] = t76;
-    phi_q_t_lambda_q[48] = t76;
-    const jg_real t77 = -t58;
-    phi_q_t_lambda_q[17] = t77;
-    phi_q_t_lambda_q[51] = t77;
-    const jg_real t78 = A_ij_0 * t61 + A_ij_3 * t62 + A_ij_6 * t63;
-    const jg_real t79 = C_i[0] * t78;
-    const jg_real t80 = t67 + t79;
-    const jg_real t81 = t65 + t80;
-    const jg_real t82 = t12 * lambda[1];
+    const jg_real t55 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
+    const jg_real t56 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
+    const jg_real t57 = A_i[3] * t55 - A_i[6] * t56;
+    phi_q_t_lambda_q[0] = t57;
+    phi_q_t_lambda_q[9] = t57;
+    const jg_real t58 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
+    const jg_real t59 = A_i[6] * t58 - A_i[0] * t55;
+    phi_q_t_lambda_q[1] = t59;
+    phi_q_t_lambda_q[21] = t59;
+    const jg_real t60 = A_i[0] * t56 - A_i[3] * t58;
+    phi_q_t_lambda_q[2] = t60;
+    phi_q_t_lambda_q[33] = t60;
+    const jg_real t61 = A_i[4] * t55 - A_i[7] * t56;
+    phi_q_t_lambda_q[3] = t61;
+    phi_q_t_lambda_q[10] = t61;
+    const jg_real t62 = A_i[7] * t58 - A_i[1] * t55;
+    phi_q_t_lambda_q[4] = t62;
+    phi_q_t_lambda_q[22] = t62;
+    const jg_real t63 = A_i[1] * t56 - A_i[4] * t58;
+    phi_q_t_lambda_q[5] = t63;
+    phi_q_t_lambda_q[34] = t63;
+    const jg_real t64 = A_i[5] * t55 - A_i[8] * t56;
+    phi_q_t_lambda_q[6] = t64;
+    phi_q_t_lambda_q[11] = t64;
+    const jg_real t65 = A_i[8] * t58 - A_i[2] * t55;
+    phi_q_t_lambda_q[7] = t65;
+    phi_q_t_lambda_q[23] = t65;
+    const jg_real t66 = A_i[2] * t56 - A_i[5] * t58;
+    phi_q_t_lambda_q[8] = t66;
+    phi_q_t_lambda_q[35] = t66;
+    const jg_real t67 = C_j[3] * lambda[2] + C_j[6] * lambda[0];
+    const jg_real t68 = C_j[4] * lambda[2] + C_j[7] * lambda[0];
+    const jg_real t69 = C_j[5] * lambda[2] + C_j[8] * lambda[0];
+    const jg_real t70 = A_ij_2 * t67 + A_ij_5 * t68 + A_ij_8 * t69;
+    const jg_real t71 = C_i[2] * t70;
+    const jg_real t72 = A_ij_1 * t67 + A_ij_4 * t68 + A_ij_7 * t69;
+    const jg_real t73 = C_i[1] * t72;
+    const jg_real t74 = C_i[5] * lambda[1];
+    const jg_real t75 = A_ij_h_j_2 * t74;
+    const jg_real t76 = C_i[4] * lambda[1];
+    const jg_real t77 = A_ij_h_j_1 * t76;
+    const jg_real t78 = ep_ij_2 * t55;
+    const jg_real t79 = ep_ij_1 * t56;
+    phi_q_t_lambda_q[12] = -(t71 + t73 + (t75 + t77 + (t78 + t79)));
+    const jg_real t80 = C_i[3] * lambda[1];
+    phi_q_t_lambda_q[13] = A_ij_h_j_1 * t80 + ep_ij_1 * t58 + C_i[0] * t72;
+    phi_q_t_lambda_q[14] = A_ij_h_j_2 * t80 + ep_ij_2 * t58 + C_i[0] * t70;
+    const jg_real t81 = -t57;
+    phi_q_t_lambda_q[15] = t81;
+    phi_q_t_lambda_q[45] = t81;
+    const jg_real t82 = -t61;
+    phi_q_t_lambda_q[16] = t82;
+    phi_q_t_lambda_q[48] = t82;
+    const jg_real t83 = -t64;
+    phi_q_t_lambda_q[17] = t83;
+    phi_q_t_lambda_q[51] = t83;
+    const jg_real t84 = A_ij_0 * t67 + A_ij_3 * t68 + A_ij_6 * t69;
+    const jg_real t85 = C_i[0] * t84;
+    const jg_real t86 = t73 + t85;
+    const jg_real t87 = t71 + t86;
+    const jg_real t88 = t12 * lambda[1];
     /* A_ij_s_j = A_ij s_j */
     const jg_real A_ij_s_j_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     const jg_real A_ij_s_j_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real A_ij_s_j_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
-    const jg_real t86 = t52 * A_ij_s_j_0 + t50 * A_ij_s_j_1 + t49 * A_ij_s_j_2;
-    const jg_real t87 = t81 + t82 + t86;
-    const jg_real t88 = A_ijt_g_i_0 * lambda[1];
-    const jg_real t89 = A_ij_0 * t52 + A_ij_1 * t50 + A_ij_2 * t49;
-    const jg_real t90 = A_ij_s_j_0 * t89;
-    const jg_real t91 = A_ijt_f_i_0 * t78;
-    phi_q_t_lambda_q[18] = A_ij_0 * t87 - A_ij_h_j_0 * t88 - t90 - t91;
-    const jg_real t92 = A_ijt_g_i_1 * lambda[1];
-    const jg_real t93 = A_ij_3 * t52 + A_ij_4 * t50 + A_ij_5 * t49;
-    const jg_real t94 = A_ij_s_j_0 * t93;
-    const jg_real t95 = A_ijt_f_i_1 * t78;
-    phi_q_t_lambda_q[19] = A_ij_3 * t87 - A_ij_h_j_0 * t92 - t94 - t95;
-    const jg_real t96 = A_ijt_g_i_2 * lambda[1];
-    const jg_real t97 = A_ij_6 * t52 + A_ij_7 * t50 + A_ij_8 * t49;
-    const jg_real t98 = A_ij_s_j_0 * t97;
-    const jg_real t99 = A_ijt_f_i_2 * t78;
-    phi_q_t_lambda_q[20] = A_ij_6 * t87 - A_ij_h_j_0 * t96 - t98 - t99;
-    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t72 + t36 * t50 + C_i[1] * t78;
-    const jg_real t100 = t36 * t52;
-    const jg_real t101 = A_ij_h_j_0 * t74;
-    phi_q_t_lambda_q[25] = -(t65 + t79 + (t71 + t101 + (t68 + t100)));
-    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t72 + t34 * t50 + C_i[1] * t64;
-    const jg_real t102 = -t53;
-    phi_q_t_lambda_q[27] = t102;
-    phi_q_t_lambda_q[46] = t102;
-    const jg_real t103 = -t56;
-    phi_q_t_lambda_q[28] = t103;
-    phi_q_t_lambda_q[49] = t103;
-    const jg_real t104 = -t59;
-    phi_q_t_lambda_q[29] = t104;
-    phi_q_t_lambda_q[52] = t104;
-    const jg_real t105 = A_ij_s_j_1 * t89;
-    const jg_real t106 = A_ijt_f_i_0 * t66;
-    phi_q_t_lambda_q[30] = A_ij_1 * t87 - A_ij_h_j_1 * t88 - t105 - t106;
-    const jg_real t107 = A_ij_s_j_1 * t93;
-    const jg_real t108 = A_ijt_f_i_1 * t66;
-    phi_q_t_lambda_q[31] = A_ij_4 * t87 - A_ij_h_j_1 * t92 - t107 - t108;
-    const jg_real t109 = A_ij_s_j_1 * t97;
-    const jg_real t110 = A_ijt_f_i_2 * t66;
-    phi_q_t_lambda_q[32] = A_ij_7 * t87 - A_ij_h_j_1 * t96 - t109 - t110;
-    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t70 + t36 * t49 + C_i[2] * t78;
-    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t70 + t35 * t49 + C_i[2] * t66;
-    phi_q_t_lambda_q[38] = -(t73 + t101 + (t69 + t100) + t80);
-    const jg_real t111 = -t54;
-    phi_q_t_lambda_q[39] = t111;
-    phi_q_t_lambda_q[47] = t111;
-    const jg_real t112 = -t57;
-    phi_q_t_lambda_q[40] = t112;
-    phi_q_t_lambda_q[50] = t112;
-    const jg_real t113 = -t60;
-    phi_q_t_lambda_q[41] = t113;
-    phi_q_t_lambda_q[53] = t113;
-    const jg_real t114 = A_ij_s_j_2 * t89;
-    const jg_real t115 = A_ijt_f_i_0 * t64;
-    phi_q_t_lambda_q[42] = A_ij_2 * t87 - A_ij_h_j_2 * t88 - t114 - t115;
-    const jg_real t116 = A_ij_s_j_2 * t93;
-    const jg_real t117 = A_ijt_f_i_1 * t64;
-    phi_q_t_lambda_q[43] = A_ij_5 * t87 - A_ij_h_j_2 * t92 - t116 - t117;
-    const jg_real t118 = A_ij_s_j_2 * t97;
-    const jg_real t119 = A_ijt_f_i_2 * t64;
-    phi_q_t_lambda_q[44] = A_ij_8 * t87 - A_ij_h_j_2 * t96 - t118 - t119;
-    const jg_real t120 = t81 + t86 + t82;
-    const jg_real t121 = A_ij_h_j_0 * lambda[1];
-    phi_q_t_lambda_q[54] = A_ij_0 * t120 - A_ijt_g_i_0 * t121 - t90 - t91;
-    const jg_real t122 = A_ij_h_j_1 * lambda[1];
-    phi_q_t_lambda_q[55] = A_ij_1 * t120 - A_ijt_g_i_0 * t122 - t105 - t106;
-    const jg_real t123 = A_ij_h_j_2 * lambda[1];
-    phi_q_t_lambda_q[56] = A_ij_2 * t120 - A_ijt_g_i_0 * t123 - t114 - t115;
-    const jg_real t124 = s_j[2] * t97;
-    const jg_real t125 = s_j[1] * t93;
-    const jg_real t126 = C_j[8] * lambda[1];
-    const jg_real t127 = A_ijt_g_i_2 * t126;
-    const jg_real t128 = C_j[7] * lambda[1];
-    const jg_real t129 = A_ijt_g_i_1 * t128;
-    const jg_real t130 = A_ijt_f_i_2 * t63;
-    const jg_real t131 = A_ijt_f_i_1 * t62;
-    phi_q_t_lambda_q[57] = -(t130 + t131 + (t127 + t129 + (t124 + t125)));
-    const jg_real t132 = C_j[6] * lambda[1];
-    phi_q_t_lambda_q[58] = A_ijt_g_i_1 * t132 + s_j[0] * t93 + A_ijt_f_i_1 * t61;
-    phi_q_t_lambda_q[59] = A_ijt_g_i_2 * t132 + s_j[0] * t97 + A_ijt_f_i_2 * t61;
-    phi_q_t_lambda_q[60] = A_ij_3 * t120 - A_ijt_g_i_1 * t121 - t94 - t95;
-    phi_q_t_lambda_q[61] = A_ij_4 * t120 - A_ijt_g_i_1 * t122 - t107 - t108;
-    phi_q_t_lambda_q[62] = A_ij_5 * t120 - A_ijt_g_i_1 * t123 - t116 - t117;
-    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t128 + s_j[1] * t89 + A_ijt_f_i_0 * t62;
-    const jg_real t133 = s_j[0] * t89;
-    const jg_real t134 = A_ijt_g_i_0 * t132;
-    const jg_real t135 = A_ijt_f_i_0 * t61;
-    phi_q_t_lambda_q[64] = -(t130 + t135 + (t127 + t134 + (t124 + t133)));
-    phi_q_t_lambda_q[65] = A_ijt_g_i_2 * t128 + s_j[1] * t97 + A_ijt_f_i_2 * t62;
-    phi_q_t_lambda_q[66] = A_ij_6 * t120 - A_ijt_g_i_2 * t121 - t98 - t99;
-    phi_q_t_lambda_q[67] = A_ij_7 * t120 - A_ijt_g_i_2 * t122 - t109 - t110;
-    phi_q_t_lambda_q[68] = A_ij_8 * t120 - A_ijt_g_i_2 * t123 - t118 - t119;
-    phi_q_t_lambda_q[69] = A_ijt_g_i_0 * t126 + s_j[2] * t89 + A_ijt_f_i_0 * t63;
-    phi_q_t_lambda_q[70] = A_ijt_g_i_1 * t126 + s_j[2] * t93 + A_ijt_f_i_1 * t63;
-    phi_q_t_lambda_q[71] = -(t131 + t135 + (t129 + t134 + (t125 + t133)));
+    const jg_real t92 = t58 * A_ij_s_j_0 + t56 * A_ij_s_j_1 + t55 * A_ij_s_j_2;
+    const jg_real t93 = t87 + t88 + t92;
+    const jg_real t94 = A_ijt_g_i_0 * lambda[1];
+    const jg_real t95 = A_ij_0 * t58 + A_ij_1 * t56 + A_ij_2 * t55;
+    const jg_real t96 = A_ij_s_j_0 * t95;
+    const jg_real t97 = A_ijt_f_i_0 * t84;
+    phi_q_t_lambda_q[18] = A_ij_0 * t93 - A_ij_h_j_0 * t94 - t96 - t97;
+    const jg_real t98 = A_ijt_g_i_1 * lambda[1];
+    const jg_real t99 = A_ij_3 * t58 + A_ij_4 * t56 + A_ij_5 * t55;
+    const jg_real t100 = A_ij_s_j_0 * t99;
+    const jg_real t101 = A_ijt_f_i_1 * t84;
+    phi_q_t_lambda_q[19] = A_ij_3 * t93 - A_ij_h_j_0 * t98 - t100 - t101;
+    const jg_real t102 = A_ijt_g_i_2 * lambda[1];
+    const jg_real t103 = A_ij_6 * t58 + A_ij_7 * t56 + A_ij_8 * t55;
+    const jg_real t104 = A_ij_s_j_0 * t103;
+    const jg_real t105 = A_ijt_f_i_2 * t84;
+    phi_q_t_lambda_q[20] = A_ij_6 * t93 - A_ij_h_j_0 * t102 - t104 - t105;
+    phi_q_t_lambda_q[24] = A_ij_h_j_0 * t76 + ep_ij_0 * t56 + C_i[1] * t84;
+    const jg_real t106 = A_ij_h_j_0 * t80;
+    const jg_real t107 = ep_ij_0 * t58;
+    phi_q_t_lambda_q[25] = -(t71 + t85 + (t75 + t106 + (t78 + t107)));
+    phi_q_t_lambda_q[26] = A_ij_h_j_2 * t76 + ep_ij_2 * t56 + C_i[1] * t70;
+    const jg_real t108 = -t59;
+    phi_q_t_lambda_q[27] = t108;
+    phi_q_t_lambda_q[46] = t108;
+    const jg_real t109 = -t62;
+    phi_q_t_lambda_q[28] = t109;
+    phi_q_t_lambda_q[49] = t109;
+    const jg_real t110 = -t65;
+    phi_q_t_lambda_q[29] = t110;
+    phi_q_t_lambda_q[52] = t110;
+    const jg_real t111 = A_ij_s_j_1 * t95;
+    const jg_real t112 = A_ijt_f_i_0 * t72;
+    phi_q_t_lambda_q[30] = A_ij_1 * t93 - A_ij_h_j_1 * t94 - t111 - t112;
+    const jg_real t113 = A_ij_s_j_1 * t99;
+    const jg_real t114 = A_ijt_f_i_1 * t72;
+    phi_q_t_lambda_q[31] = A_ij_4 * t93 - A_ij_h_j_1 * t98 - t113 - t114;
+    const jg_real t115 = A_ij_s_j_1 * t103;
+    const jg_real t116 = A_ijt_f_i_2 * t72;
+    phi_q_t_lambda_q[32] = A_ij_7 * t93 - A_ij_h_j_1 * t102 - t115 - t116;
+    phi_q_t_lambda_q[36] = A_ij_h_j_0 * t74 + ep_ij_0 * t55 + C_i[2] * t84;
+    phi_q_t_lambda_q[37] = A_ij_h_j_1 * t74 + ep_ij_1 * t55 + C_i[2] * t72;
+    phi_q_t_lambda_q[38] = -(t77 + t106 + (t79 + t107) + t86);
+    const jg_real t117 = -t60;
+    phi_q_t_lambda_q[39] = t117;
+    phi_q_t_lambda_q[47] = t117;
+    const jg_real t118 = -t63;
+    phi_q_t_lambda_q[40] = t118;
+    phi_q_t_lambda_q[50] = t118;
+    const jg_real t119 = -t66;
+    phi_q_t_lambda_q[41] = t119;
+    phi_q_t_lambda_q[53] = t119;
+    const jg_real t120 = A_ij_s_j_2 * t95;
+    const jg_real t121 = A_ijt_f_i_0 * t70;
+    phi_q_t_lambda_q[42] = A_ij_2 * t93 - A_ij_h_j_2 * t94 - t120 - t121;
+    const jg_real t122 = A_ij_s_j_2 * t99;
+    const jg_real t123 = A_ijt_f_i_1 * t70;
+    phi_q_t_lambda_q[43] = A_ij_5 * t93 - A_ij_h_j_2 * t98 - t122 - t123;
+    const jg_real t124 = A_ij_s_j_2 * t103;
+    const jg_real t125 = A_ijt_f_i_2 * t70;
+    phi_q_t_lambda_q[44] = A_ij_8 * t93 - A_ij_h_j_2 * t102 - t124 - t125;
+    const jg_real t126 = t87 + t92 + t88;
+    const jg_real t127 = A_ij_h_j_0 * lambda[1];
+    phi_q_t_lambda_q[54] = A_ij_0 * t126 - A_ijt_g_i_0 * t127 - t96 - t97;
+    const jg_real t128 = A_ij_h_j_1 * lambda[1];
+    phi_q_t_lambda_q[55] = A_ij_1 * t126 - A_ijt_g_i_0 * t128 - t111 - t112;
+    const jg_real t129 = A_ij_h_j_2 * lambda[1];
+    phi_q_t_lambda_q[56] = A_ij_2 * t126 - A_ijt_g_i_0 * t129 - t120 - t121;
+    const jg_real t130 = s_j[2] * t103;
+    const jg_real t131 = s_j[1] * t99;
+    const jg_real t132 = C_j[8] * lambda[1];
+    const jg_real t133 = A_ijt_g_i_2 * t132;
+    const jg_real t134 = C_j[7] * lambda[1];
+    const jg_real t135 = A_ijt_g_i_1 * t134;
+    const jg_real t136 = A_ijt_f_i_2 * t69;
+    const jg_real t137 = A_ijt_f_i_1 * t68;
+    phi_q_t_lambda_q[57] = -(t136 + t137 + (t133 + t135 + (t130 + t131)));
+    const jg_real t138 = C_j[6] * lambda[1];
+    phi_q_t_lambda_q[58] = A_ijt_g_i_1 * t138 + s_j[0] * t99 + A_ijt_f_i_1 * t67;
+    phi_q_t_lambda_q[59] = A_ijt_g_i_2 * t138 + s_j[0] * t103 + A_ijt_f_i_2 * t67;
+    phi_q_t_lambda_q[60] = A_ij_3 * t126 - A_ijt_g_i_1 * t127 - t100 - t101;
+    phi_q_t_lambda_q[61] = A_ij_4 * t126 - A_ijt_g_i_1 * t128 - t113 - t114;
+    phi_q_t_lambda_q[62] = A_ij_5 * t126 - A_ijt_g_i_1 * t129 - t122 - t123;
+    phi_q_t_lambda_q[63] = A_ijt_g_i_0 * t134 + s_j[1] * t95 + A_ijt_f_i_0 * t68;
+    const jg_real t139 = s_j[0] * t95;
+    const jg_real t140 = A_ijt_g_i_0 * t138;
+    const jg_real t141 = A_ijt_f_i_0 * t67;
+    phi_q_t_lambda_q[64] = -(t136 + t141 + (t133 + t140 + (t130 + t139)));
+    phi_q_t_lambda_q[65] = A_ijt_g_i_2 * t134 + s_j[1] * t103 + A_ijt_f_i_2 * t68;
+    phi_q_t_lambda_q[66] = A_ij_6 * t126 - A_ijt_g_i_2 * t127 - t104 - t105;
+    phi_q_t_lambda_q[67] = A_ij_7 * t126 - A_ijt_g_i_2 * t128 - t115 - t116;
+    phi_q_t_lambda_q[68] = A_ij_8 * t126 - A_ijt_g_i_2 * t129 - t124 - t125;
+    phi_q_t_lambda_q[69] = A_ijt_g_i_0 * t132 + s_j[2] * t95 + A_ijt_f_i_0 * t69;
+    phi_q_t_lambda_q[70] = A_ijt_g_i_1 * t132 + s_j[2] * t99 + A_ijt_f_i_1 * t69;
+    phi_q_t_lambda_q[71] = -(t137 + t141 + (t135 + t140 + (t131 + t139)));
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1113,18 +1083,18 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real t141 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
+    const jg_real t147 = omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] * A_ij_omega_j_cross_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real t143 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
-    const jg_real t144 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
+    const jg_real t149 = omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] * A_ij_omega_j_cross_h_j_2;
+    const jg_real t150 = omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] * A_ij_omega_j_cross_h_j_0;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - A_ij_h_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_h_j_1 = A_ij_h_j_0 * omega_i[2] - A_ij_h_j_2 * omega_i[0];
-    const jg_real t147 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
+    const jg_real t153 = omega_i[1] * omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1;
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t149 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
-    const jg_real t150 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
+    const jg_real t155 = omega_i[2] * omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2;
+    const jg_real t156 = omega_i[0] * omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0;
     /* omega_j_cross_omega_j_cross_h_j = tilde(omega_j) tilde(omega_j) h_j */
     const jg_real omega_j_cross_omega_j_cross_h_j_0 = omega_j[1] * omega_j_cross_h_j_2 - omega_j[2] *
         omega_j_cross_h_j_1;
@@ -1132,16 +1102,16 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t154 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t160 = A_ij_0 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t155 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t161 = A_ij_1 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_h_j_2;
-    const jg_real t156 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
+    const jg_real t162 = A_ij_2 * omega_j_cross_omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_h_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_h_j_2;
-    gamma[0] = JG_REAL(2.0) * (C_i[0] * t141 + C_i[1] * t143 + C_i[2] * t144) - (C_i[0] * t154 + C_i[1] * t155 +
-        C_i[2] * t156 + (C_i[0] * t147 + C_i[1] * t149 + C_i[2] * t150));
-    gamma[1] = JG_REAL(2.0) * (C_i[3] * t141 + C_i[4] * t143 + C_i[5] * t144) - (C_i[3] * t154 + C_i[4] * t155 +
-        C_i[5] * t156 + (C_i[3] * t147 + C_i[4] * t149 + C_i[5] * t150));
+    gamma[0] = JG_REAL(2.0) * (C_i[0] * t147 + C_i[1] * t149 + C_i[2] * t150) - (C_i[0] * t160 + C_i[1] * t161 +
+        C_i[2] * t162 + (C_i[0] * t153 + C_i[1] * t155 + C_i[2] * t156));
+    gamma[1] = JG_REAL(2.0) * (C_i[3] * t147 + C_i[4] * t149 + C_i[5] * t150) - (C_i[3] * t160 + C_i[4] * t161 +
+        C_i[5] * t162 + (C_i[3] * t153 + C_i[4] * t155 + C_i[5] * t156));
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real omega_j_cross_g_j_1 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
@@ -1175,44 +1145,43 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + C_i[1] * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + C_i[2] * (omega_i[0] *
         omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0)));
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real t180 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    const jg_real t182 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
+    const jg_real t183 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
-    const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_omega_j_cross_s_j_1 = omega_j[2] * omega_j_cross_s_j_0 - omega_j[0] *
         omega_j_cross_s_j_2;
     const jg_real omega_j_cross_omega_j_cross_s_j_2 = omega_j[0] * omega_j_cross_s_j_1 - omega_j[1] *
         omega_j_cross_s_j_0;
-    const jg_real t187 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t193 = A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t188 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t194 = A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_s_j_2;
-    const jg_real t189 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
+    const jg_real t195 = A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_s_j_2;
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
@@ -1230,30 +1199,18 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real omega_i_cross_A_it_v_j_1 = omega_i[2] * A_it_v_j_0 - omega_i[0] * A_it_v_j_2;
     const jg_real omega_i_cross_A_it_v_j_2 = omega_i[0] * A_it_v_j_1 - omega_i[1] * A_it_v_j_0;
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t204 = omega_i[1] * A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1;
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t206 = omega_i[2] * A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2;
-    const jg_real t207 = omega_i[0] * A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0;
     gamma[3] = JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_j_0 + C_i[1] * omega_i_cross_A_it_v_j_1 + C_i[2] *
-        omega_i_cross_A_it_v_j_2) - (C_i[0] * t187 + C_i[1] * t188 + C_i[2] * t189 + (C_i[0] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[1] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[2] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[0] * omega_i_cross_omega_i_cross_s_i_0 + C_i[1] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[2] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[0] *
-        omega_i_cross_A_it_v_i_0 + C_i[1] * omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[0] * t204 + C_i[1] * t206 + C_i[2] * t207);
+        omega_i_cross_A_it_v_j_2) - (C_i[0] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[1] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[2] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[0] * t193 + C_i[1]
+        * t194 + C_i[2] * t195) + JG_REAL(2.0) * (C_i[0] * omega_i_cross_A_it_v_i_0 + C_i[1] *
+        omega_i_cross_A_it_v_i_1 + C_i[2] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[0] * t180 + C_i[1] *
+        t182 + C_i[2] * t183);
     gamma[4] = JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_j_0 + C_i[4] * omega_i_cross_A_it_v_j_1 + C_i[5] *
-        omega_i_cross_A_it_v_j_2) - (C_i[3] * t187 + C_i[4] * t188 + C_i[5] * t189 + (C_i[3] *
-        omega_i_cross_omega_i_cross_dp_ij_0 + C_i[4] * omega_i_cross_omega_i_cross_dp_ij_1 + C_i[5] *
-        omega_i_cross_omega_i_cross_dp_ij_2 + (C_i[3] * omega_i_cross_omega_i_cross_s_i_0 + C_i[4] *
-        omega_i_cross_omega_i_cross_s_i_1 + C_i[5] * omega_i_cross_omega_i_cross_s_i_2)) + JG_REAL(2.0) * (C_i[3] *
-        omega_i_cross_A_it_v_i_0 + C_i[4] * omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) +
-        JG_REAL(2.0) * (C_i[3] * t204 + C_i[4] * t206 + C_i[5] * t207);
+        omega_i_cross_A_it_v_j_2) - (C_i[3] * omega_i_cross_omega_i_cross_ep_ij_0 + C_i[4] *
+        omega_i_cross_omega_i_cross_ep_ij_1 + C_i[5] * omega_i_cross_omega_i_cross_ep_ij_2 + (C_i[3] * t193 + C_i[4]
+        * t194 + C_i[5] * t195) + JG_REAL(2.0) * (C_i[3] * omega_i_cross_A_it_v_i_0 + C_i[4] *
+        omega_i_cross_A_it_v_i_1 + C_i[5] * omega_i_cross_A_it_v_i_2)) + JG_REAL(2.0) * (C_i[3] * t180 + C_i[4] *
+        t182 + C_i[5] * t183);
 }
 
 void jg_translational_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -36,16 +36,20 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -68,30 +72,30 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_1 * sine_0;
+    const jg_real t24 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t35 = cosine_0 * sine_1;
+    const jg_real t38 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t38 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t38 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t38 + C_i[8] * cosine_1;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
@@ -108,7 +112,6 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -117,24 +120,18 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -153,9 +150,9 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t22 = cosine_1 * sine_0;
+    const jg_real t17 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t22 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t17 + C_i[7] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -163,16 +160,16 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     phi_q[25] = A_ij_7;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t22 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t17 + C_i[8] * sine_1;
     phi_q[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t31 = cosine_0 * sine_1;
+    const jg_real t26 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t31 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t26 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t31 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t26 + C_i[8] * cosine_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
@@ -181,10 +178,9 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t40 = s_i[0] + dp_ij_0;
-    phi_q[9] = t40;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -192,15 +188,15 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     phi_q[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t22 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t17 + C_i[6] * sine_1;
     phi_q[10] = A_ij_h_j_0 * g_star_2 - A_ij_h_j_2 * g_star_0;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t31 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t26 + C_i[6] * cosine_1;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t40;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -236,10 +232,10 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
     phi_q[45] = -(cosine_1 * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2));
     phi_q[46] = sine_1 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2);
-    const jg_real t59 = cosine_1 * H_4 + sine_1 * t31;
-    const jg_real t60 = cosine_1 * t22 + sine_1 * H_6;
-    phi_q[47] = A_ij_g_j_0 * (C_i[3] * t59 - C_i[0] * t60) + A_ij_g_j_1 * (C_i[4] * t59 - C_i[1] * t60) + A_ij_g_j_2
-        * (C_i[5] * t59 - C_i[2] * t60);
+    const jg_real t53 = cosine_1 * H_4 + sine_1 * t26;
+    const jg_real t54 = cosine_1 * t17 + sine_1 * H_6;
+    phi_q[47] = A_ij_g_j_0 * (C_i[3] * t53 - C_i[0] * t54) + A_ij_g_j_1 * (C_i[4] * t53 - C_i[1] * t54) + A_ij_g_j_2
+        * (C_i[5] * t53 - C_i[2] * t54);
     phi_q[48] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -257,7 +253,6 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -267,25 +262,6 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real t11 = lambda[2] * t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t13 = s_i[1] + dp_ij_1;
-    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -301,277 +277,289 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t24 = cosine_1 * sine_0;
+    const jg_real t9 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
-    const jg_real t26 = g_star_2 * lambda[3];
-    const jg_real t27 = A_ij_h_j_2 * t26;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t9 + C_i[8] * sine_1;
+    const jg_real t11 = g_star_2 * lambda[3];
+    const jg_real t12 = A_ij_h_j_2 * t11;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
-    const jg_real t33 = g_star_1 * lambda[3];
-    const jg_real t34 = A_ij_h_j_1 * t33;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t9 + C_i[7] * sine_1;
+    const jg_real t18 = g_star_1 * lambda[3];
+    const jg_real t19 = A_ij_h_j_1 * t18;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t37 = cosine_0 * sine_1;
+    const jg_real t22 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t37 + C_i[8] * cosine_1;
-    const jg_real t39 = h_star_2 * lambda[4];
-    const jg_real t40 = A_ij_f_j_2 * t39;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t22 + C_i[8] * cosine_1;
+    const jg_real t24 = h_star_2 * lambda[4];
+    const jg_real t25 = A_ij_f_j_2 * t24;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t37 + C_i[7] * cosine_1;
-    const jg_real t43 = h_star_1 * lambda[4];
-    const jg_real t44 = A_ij_f_j_1 * t43;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t22 + C_i[7] * cosine_1;
+    const jg_real t28 = h_star_1 * lambda[4];
+    const jg_real t29 = A_ij_f_j_1 * t28;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t47 = f_star_2 * lambda[5];
-    const jg_real t48 = A_ij_g_j_2 * t47;
+    const jg_real t32 = f_star_2 * lambda[5];
+    const jg_real t33 = A_ij_g_j_2 * t32;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real t51 = f_star_1 * lambda[5];
-    const jg_real t52 = A_ij_g_j_1 * t51;
-    phi_q_t_lambda_q[6] = -(t11 + t14 + (t48 + t52 + (t27 + t34 + (t40 + t44))));
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
-    const jg_real t54 = g_star_0 * lambda[3];
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t37 + C_i[6] * cosine_1;
-    const jg_real t56 = h_star_0 * lambda[4];
+    const jg_real t36 = f_star_1 * lambda[5];
+    const jg_real t37 = A_ij_g_j_1 * t36;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t45 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t47 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t45 + t47 + (t33 + t37 + (t12 + t19 + (t25 + t29))));
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t9 + C_i[6] * sine_1;
+    const jg_real t49 = g_star_0 * lambda[3];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t22 + C_i[6] * cosine_1;
+    const jg_real t51 = h_star_0 * lambda[4];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real t58 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t54 + A_ij_f_j_1 * t56 + A_ij_g_j_1 * t58 + lambda[0] * t13;
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t54 + A_ij_f_j_2 * t56 + A_ij_g_j_2 * t58 + lambda[0] * t10;
-    const jg_real t59 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t59;
-    phi_q_t_lambda_q[39] = t59;
-    const jg_real t60 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t60;
-    phi_q_t_lambda_q[42] = t60;
-    const jg_real t61 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t61;
-    phi_q_t_lambda_q[45] = t61;
+    const jg_real t53 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t49 + A_ij_f_j_1 * t51 + A_ij_g_j_1 * t53 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t49 + A_ij_f_j_2 * t51 + A_ij_g_j_2 * t53 + lambda[0] * ep_ij_2;
+    const jg_real t54 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t54;
+    phi_q_t_lambda_q[39] = t54;
+    const jg_real t55 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t55;
+    phi_q_t_lambda_q[42] = t55;
+    const jg_real t56 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t56;
+    phi_q_t_lambda_q[45] = t56;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t67 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) +
+    const jg_real t62 = lambda[3] * (g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) +
         lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2);
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t69 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t70 = lambda[5] * t69 + t67;
-    const jg_real t71 = A_ij_0 * t70;
+    const jg_real t64 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t65 = lambda[5] * t64 + t62;
+    const jg_real t66 = A_ij_0 * t65;
     /* A_ijt_g_star = A_ij^T g_star */
     const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + g_star_1 * A_ij_1 + g_star_2 * A_ij_2;
-    const jg_real t73 = lambda[3] * A_ijt_g_star_0;
+    const jg_real t68 = lambda[3] * A_ijt_g_star_0;
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
-    const jg_real t75 = lambda[4] * A_ijt_h_star_0;
+    const jg_real t70 = lambda[4] * A_ijt_h_star_0;
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    const jg_real t77 = lambda[5] * A_ijt_f_star_0;
-    const jg_real t78 = s_j[1] * t61 - s_j[2] * t60;
-    phi_q_t_lambda_q[12] = t71 - A_ij_h_j_0 * t73 - A_ij_f_j_0 * t75 - A_ij_g_j_0 * t77 + t78;
-    const jg_real t79 = A_ij_3 * t70;
+    const jg_real t72 = lambda[5] * A_ijt_f_star_0;
+    const jg_real t73 = s_j[1] * t56 - s_j[2] * t55;
+    phi_q_t_lambda_q[12] = t66 - A_ij_h_j_0 * t68 - A_ij_f_j_0 * t70 - A_ij_g_j_0 * t72 + t73;
+    const jg_real t74 = A_ij_3 * t65;
     const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + g_star_1 * A_ij_4 + g_star_2 * A_ij_5;
-    const jg_real t81 = lambda[3] * A_ijt_g_star_1;
+    const jg_real t76 = lambda[3] * A_ijt_g_star_1;
     const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
-    const jg_real t83 = lambda[4] * A_ijt_h_star_1;
+    const jg_real t78 = lambda[4] * A_ijt_h_star_1;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    const jg_real t85 = lambda[5] * A_ijt_f_star_1;
-    const jg_real t86 = s_j[2] * t59 - s_j[0] * t61;
-    phi_q_t_lambda_q[13] = t79 - A_ij_h_j_0 * t81 - A_ij_f_j_0 * t83 - A_ij_g_j_0 * t85 + t86;
-    const jg_real t87 = A_ij_6 * t70;
+    const jg_real t80 = lambda[5] * A_ijt_f_star_1;
+    const jg_real t81 = s_j[2] * t54 - s_j[0] * t56;
+    phi_q_t_lambda_q[13] = t74 - A_ij_h_j_0 * t76 - A_ij_f_j_0 * t78 - A_ij_g_j_0 * t80 + t81;
+    const jg_real t82 = A_ij_6 * t65;
     const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + g_star_1 * A_ij_7 + g_star_2 * A_ij_8;
-    const jg_real t89 = lambda[3] * A_ijt_g_star_2;
+    const jg_real t84 = lambda[3] * A_ijt_g_star_2;
     const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
-    const jg_real t91 = lambda[4] * A_ijt_h_star_2;
+    const jg_real t86 = lambda[4] * A_ijt_h_star_2;
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    const jg_real t93 = lambda[5] * A_ijt_f_star_2;
-    const jg_real t94 = s_j[0] * t60 - s_j[1] * t59;
-    phi_q_t_lambda_q[14] = t87 - A_ij_h_j_0 * t89 - A_ij_f_j_0 * t91 - A_ij_g_j_0 * t93 + t94;
-    const jg_real t95 = cosine_1 * lambda[3];
-    const jg_real t96 = sine_1 * lambda[4];
-    const jg_real t97 = C_j[6] * t95 - C_j[0] * t96;
-    const jg_real t98 = C_j[7] * t95 - C_j[1] * t96;
-    const jg_real t99 = C_j[8] * t95 - C_j[2] * t96;
-    const jg_real t100 = A_ij_1 * t97 + A_ij_4 * t98 + A_ij_7 * t99;
-    const jg_real t101 = A_ij_2 * t97 + A_ij_5 * t98 + A_ij_8 * t99;
-    const jg_real t102 = cosine_1 * lambda[5];
-    const jg_real t103 = sine_1 * lambda[5];
-    const jg_real t104 = t24 * t102 + H_6 * t103;
-    const jg_real t105 = H_4 * t102 + t37 * t103;
-    const jg_real t106 = cosine_1 * t103 - sine_1 * t102;
-    const jg_real t107 = C_i[2] * t104 - C_i[5] * t105 + C_i[8] * t106;
-    const jg_real t108 = C_i[1] * t104 - C_i[4] * t105 + C_i[7] * t106;
-    const jg_real t109 = f_star_2 * t100 - f_star_1 * t101 + (A_ij_g_j_1 * t107 - A_ij_g_j_2 * t108);
-    phi_q_t_lambda_q[15] = t109;
-    phi_q_t_lambda_q[78] = t109;
-    const jg_real t110 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+    const jg_real t88 = lambda[5] * A_ijt_f_star_2;
+    const jg_real t89 = s_j[0] * t55 - s_j[1] * t54;
+    phi_q_t_lambda_q[14] = t82 - A_ij_h_j_0 * t84 - A_ij_f_j_0 * t86 - A_ij_g_j_0 * t88 + t89;
+    const jg_real t90 = cosine_1 * lambda[3];
+    const jg_real t91 = sine_1 * lambda[4];
+    const jg_real t92 = C_j[6] * t90 - C_j[0] * t91;
+    const jg_real t93 = C_j[7] * t90 - C_j[1] * t91;
+    const jg_real t94 = C_j[8] * t90 - C_j[2] * t91;
+    const jg_real t95 = A_ij_1 * t92 + A_ij_4 * t93 + A_ij_7 * t94;
+    const jg_real t96 = A_ij_2 * t92 + A_ij_5 * t93 + A_ij_8 * t94;
+    const jg_real t97 = cosine_1 * lambda[5];
+    const jg_real t98 = sine_1 * lambda[5];
+    const jg_real t99 = t9 * t97 + H_6 * t98;
+    const jg_real t100 = H_4 * t97 + t22 * t98;
+    const jg_real t101 = cosine_1 * t98 - sine_1 * t97;
+    const jg_real t102 = C_i[2] * t99 - C_i[5] * t100 + C_i[8] * t101;
+    const jg_real t103 = C_i[1] * t99 - C_i[4] * t100 + C_i[7] * t101;
+    const jg_real t104 = f_star_2 * t95 - f_star_1 * t96 + (A_ij_g_j_1 * t102 - A_ij_g_j_2 * t103);
+    phi_q_t_lambda_q[15] = t104;
+    phi_q_t_lambda_q[78] = t104;
+    const jg_real t105 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
         h_star_2 - A_ij_h_j_2 * h_star_1);
-    phi_q_t_lambda_q[16] = t110;
-    phi_q_t_lambda_q[86] = t110;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t112 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t33 + A_ij_f_j_0 * t43 + A_ij_g_j_0 * t51 + lambda[1] * t112;
-    const jg_real t113 = lambda[0] * t112;
-    const jg_real t114 = A_ij_h_j_0 * t54;
-    const jg_real t115 = A_ij_f_j_0 * t56;
-    const jg_real t116 = A_ij_g_j_0 * t58;
-    phi_q_t_lambda_q[18] = -(t11 + t113 + (t48 + t116 + (t27 + t114 + (t40 + t115))));
-    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t33 + A_ij_f_j_2 * t43 + A_ij_g_j_2 * t51 + lambda[1] * t10;
-    const jg_real t117 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[20] = t117;
-    phi_q_t_lambda_q[40] = t117;
-    const jg_real t118 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[21] = t118;
-    phi_q_t_lambda_q[43] = t118;
-    const jg_real t119 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[22] = t119;
-    phi_q_t_lambda_q[46] = t119;
-    const jg_real t120 = A_ij_1 * t70;
-    const jg_real t121 = s_j[1] * t119 - s_j[2] * t118;
-    phi_q_t_lambda_q[23] = t120 - A_ij_h_j_1 * t73 - A_ij_f_j_1 * t75 - A_ij_g_j_1 * t77 + t121;
-    const jg_real t122 = A_ij_4 * t70;
-    const jg_real t123 = s_j[2] * t117 - s_j[0] * t119;
-    phi_q_t_lambda_q[24] = t122 - A_ij_h_j_1 * t81 - A_ij_f_j_1 * t83 - A_ij_g_j_1 * t85 + t123;
-    const jg_real t124 = A_ij_7 * t70;
-    const jg_real t125 = s_j[0] * t118 - s_j[1] * t117;
-    phi_q_t_lambda_q[25] = t124 - A_ij_h_j_1 * t89 - A_ij_f_j_1 * t91 - A_ij_g_j_1 * t93 + t125;
-    const jg_real t126 = A_ij_0 * t97 + A_ij_3 * t98 + A_ij_6 * t99;
-    const jg_real t127 = C_i[0] * t104 - C_i[3] * t105 + C_i[6] * t106;
-    const jg_real t128 = f_star_0 * t101 - f_star_2 * t126 + (A_ij_g_j_2 * t127 - A_ij_g_j_0 * t107);
-    phi_q_t_lambda_q[26] = t128;
-    phi_q_t_lambda_q[79] = t128;
-    const jg_real t129 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+    phi_q_t_lambda_q[16] = t105;
+    phi_q_t_lambda_q[86] = t105;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t18 + A_ij_f_j_0 * t28 + A_ij_g_j_0 * t36 + lambda[1] * ep_ij_0;
+    const jg_real t107 = A_ij_h_j_0 * t49;
+    const jg_real t108 = A_ij_f_j_0 * t51;
+    const jg_real t109 = A_ij_g_j_0 * t53;
+    const jg_real t110 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[18] = -(t45 + t110 + (t33 + t109 + (t12 + t107 + (t25 + t108))));
+    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t18 + A_ij_f_j_2 * t28 + A_ij_g_j_2 * t36 + lambda[1] * ep_ij_2;
+    const jg_real t111 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[20] = t111;
+    phi_q_t_lambda_q[40] = t111;
+    const jg_real t112 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[21] = t112;
+    phi_q_t_lambda_q[43] = t112;
+    const jg_real t113 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[22] = t113;
+    phi_q_t_lambda_q[46] = t113;
+    const jg_real t114 = A_ij_1 * t65;
+    const jg_real t115 = s_j[1] * t113 - s_j[2] * t112;
+    phi_q_t_lambda_q[23] = t114 - A_ij_h_j_1 * t68 - A_ij_f_j_1 * t70 - A_ij_g_j_1 * t72 + t115;
+    const jg_real t116 = A_ij_4 * t65;
+    const jg_real t117 = s_j[2] * t111 - s_j[0] * t113;
+    phi_q_t_lambda_q[24] = t116 - A_ij_h_j_1 * t76 - A_ij_f_j_1 * t78 - A_ij_g_j_1 * t80 + t117;
+    const jg_real t118 = A_ij_7 * t65;
+    const jg_real t119 = s_j[0] * t112 - s_j[1] * t111;
+    phi_q_t_lambda_q[25] = t118 - A_ij_h_j_1 * t84 - A_ij_f_j_1 * t86 - A_ij_g_j_1 * t88 + t119;
+    const jg_real t120 = A_ij_0 * t92 + A_ij_3 * t93 + A_ij_6 * t94;
+    const jg_real t121 = C_i[0] * t99 - C_i[3] * t100 + C_i[6] * t101;
+    const jg_real t122 = f_star_0 * t96 - f_star_2 * t120 + (A_ij_g_j_2 * t121 - A_ij_g_j_0 * t102);
+    phi_q_t_lambda_q[26] = t122;
+    phi_q_t_lambda_q[79] = t122;
+    const jg_real t123 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
         h_star_0 - A_ij_h_j_0 * h_star_2);
-    phi_q_t_lambda_q[27] = t129;
-    phi_q_t_lambda_q[87] = t129;
-    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t26 + A_ij_f_j_0 * t39 + A_ij_g_j_0 * t47 + lambda[2] * t112;
-    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t26 + A_ij_f_j_1 * t39 + A_ij_g_j_1 * t47 + lambda[2] * t13;
-    phi_q_t_lambda_q[30] = -(t14 + t113 + (t52 + t116 + (t34 + t114 + (t44 + t115))));
-    const jg_real t130 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[31] = t130;
-    phi_q_t_lambda_q[41] = t130;
-    const jg_real t131 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[32] = t131;
-    phi_q_t_lambda_q[44] = t131;
-    const jg_real t132 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[33] = t132;
-    phi_q_t_lambda_q[47] = t132;
-    const jg_real t133 = A_ij_2 * t70;
-    const jg_real t134 = s_j[1] * t132 - s_j[2] * t131;
-    phi_q_t_lambda_q[34] = t133 - A_ij_h_j_2 * t73 - A_ij_f_j_2 * t75 - A_ij_g_j_2 * t77 + t134;
-    const jg_real t135 = A_ij_5 * t70;
-    const jg_real t136 = s_j[2] * t130 - s_j[0] * t132;
-    phi_q_t_lambda_q[35] = t135 - A_ij_h_j_2 * t81 - A_ij_f_j_2 * t83 - A_ij_g_j_2 * t85 + t136;
-    const jg_real t137 = A_ij_8 * t70;
-    const jg_real t138 = s_j[0] * t131 - s_j[1] * t130;
-    phi_q_t_lambda_q[36] = t137 - A_ij_h_j_2 * t89 - A_ij_f_j_2 * t91 - A_ij_g_j_2 * t93 + t138;
-    const jg_real t139 = f_star_1 * t126 - f_star_0 * t100 + (A_ij_g_j_0 * t108 - A_ij_g_j_1 * t127);
-    phi_q_t_lambda_q[37] = t139;
-    phi_q_t_lambda_q[80] = t139;
-    const jg_real t140 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+    phi_q_t_lambda_q[27] = t123;
+    phi_q_t_lambda_q[87] = t123;
+    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t11 + A_ij_f_j_0 * t24 + A_ij_g_j_0 * t32 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t11 + A_ij_f_j_1 * t24 + A_ij_g_j_1 * t32 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[30] = -(t47 + t110 + (t37 + t109 + (t19 + t107 + (t29 + t108))));
+    const jg_real t124 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[31] = t124;
+    phi_q_t_lambda_q[41] = t124;
+    const jg_real t125 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[32] = t125;
+    phi_q_t_lambda_q[44] = t125;
+    const jg_real t126 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[33] = t126;
+    phi_q_t_lambda_q[47] = t126;
+    const jg_real t127 = A_ij_2 * t65;
+    const jg_real t128 = s_j[1] * t126 - s_j[2] * t125;
+    phi_q_t_lambda_q[34] = t127 - A_ij_h_j_2 * t68 - A_ij_f_j_2 * t70 - A_ij_g_j_2 * t72 + t128;
+    const jg_real t129 = A_ij_5 * t65;
+    const jg_real t130 = s_j[2] * t124 - s_j[0] * t126;
+    phi_q_t_lambda_q[35] = t129 - A_ij_h_j_2 * t76 - A_ij_f_j_2 * t78 - A_ij_g_j_2 * t80 + t130;
+    const jg_real t131 = A_ij_8 * t65;
+    const jg_real t132 = s_j[0] * t125 - s_j[1] * t124;
+    phi_q_t_lambda_q[36] = t131 - A_ij_h_j_2 * t84 - A_ij_f_j_2 * t86 - A_ij_g_j_2 * t88 + t132;
+    const jg_real t133 = f_star_1 * t120 - f_star_0 * t95 + (A_ij_g_j_0 * t103 - A_ij_g_j_1 * t121);
+    phi_q_t_lambda_q[37] = t133;
+    phi_q_t_lambda_q[80] = t133;
+    const jg_real t134 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
         h_star_1 - A_ij_h_j_1 * h_star_0);
-    phi_q_t_lambda_q[38] = t140;
-    phi_q_t_lambda_q[88] = t140;
-    const jg_real t141 = A_ij_h_j_0 * lambda[3];
-    const jg_real t142 = A_ij_f_j_0 * lambda[4];
-    const jg_real t143 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[48] = t71 - t141 * A_ijt_g_star_0 - t142 * A_ijt_h_star_0 - t143 * A_ijt_f_star_0 + t78;
-    const jg_real t144 = A_ij_h_j_1 * lambda[3];
-    const jg_real t145 = A_ij_f_j_1 * lambda[4];
-    const jg_real t146 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[49] = t120 - t144 * A_ijt_g_star_0 - t145 * A_ijt_h_star_0 - t146 * A_ijt_f_star_0 + t121;
-    const jg_real t147 = A_ij_h_j_2 * lambda[3];
-    const jg_real t148 = A_ij_f_j_2 * lambda[4];
-    const jg_real t149 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[50] = t133 - t147 * A_ijt_g_star_0 - t148 * A_ijt_h_star_0 - t149 * A_ijt_f_star_0 + t134;
-    const jg_real t150 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[51] = t150;
-    const jg_real t151 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[71] = t151;
-    phi_q_t_lambda_q[52] = -t151;
-    const jg_real t152 = C_j[8] * lambda[3];
-    const jg_real t153 = A_ijt_g_star_2 * t152;
-    const jg_real t154 = C_j[7] * lambda[3];
-    const jg_real t155 = A_ijt_g_star_1 * t154;
-    const jg_real t156 = C_j[2] * lambda[4];
-    const jg_real t157 = A_ijt_h_star_2 * t156;
-    const jg_real t158 = C_j[1] * lambda[4];
-    const jg_real t159 = A_ijt_h_star_1 * t158;
-    const jg_real t160 = C_j[5] * lambda[5];
-    const jg_real t161 = A_ijt_f_star_2 * t160;
-    const jg_real t162 = C_j[4] * lambda[5];
-    const jg_real t163 = A_ijt_f_star_1 * t162;
-    const jg_real t164 = s_j[2] * t150;
-    const jg_real t165 = s_j[1] * t151;
-    phi_q_t_lambda_q[53] = -(t164 + t165 + (t161 + t163 + (t153 + t155 + (t157 + t159))));
-    const jg_real t166 = C_j[6] * lambda[3];
-    const jg_real t167 = C_j[0] * lambda[4];
-    const jg_real t168 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t166 + A_ijt_h_star_1 * t167 + A_ijt_f_star_1 * t168 + s_j[0] * t151;
-    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t166 + A_ijt_h_star_2 * t167 + A_ijt_f_star_2 * t168 + s_j[0] * t150;
-    const jg_real t169 = A_ij_3 * t127 + A_ij_4 * t108 + A_ij_5 * t107;
-    const jg_real t170 = A_ij_6 * t127 + A_ij_7 * t108 + A_ij_8 * t107;
-    const jg_real t171 = A_ijt_f_star_1 * t99 - A_ijt_f_star_2 * t98 + (C_j[5] * t169 - C_j[4] * t170);
-    phi_q_t_lambda_q[56] = t171;
-    phi_q_t_lambda_q[81] = t171;
-    const jg_real t172 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+    phi_q_t_lambda_q[38] = t134;
+    phi_q_t_lambda_q[88] = t134;
+    const jg_real t135 = A_ij_h_j_0 * lambda[3];
+    const jg_real t136 = A_ij_f_j_0 * lambda[4];
+    const jg_real t137 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[48] = t66 - t135 * A_ijt_g_star_0 - t136 * A_ijt_h_star_0 - t137 * A_ijt_f_star_0 + t73;
+    const jg_real t138 = A_ij_h_j_1 * lambda[3];
+    const jg_real t139 = A_ij_f_j_1 * lambda[4];
+    const jg_real t140 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[49] = t114 - t138 * A_ijt_g_star_0 - t139 * A_ijt_h_star_0 - t140 * A_ijt_f_star_0 + t115;
+    const jg_real t141 = A_ij_h_j_2 * lambda[3];
+    const jg_real t142 = A_ij_f_j_2 * lambda[4];
+    const jg_real t143 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[50] = t127 - t141 * A_ijt_g_star_0 - t142 * A_ijt_h_star_0 - t143 * A_ijt_f_star_0 + t128;
+    const jg_real t144 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[51] = t144;
+    const jg_real t145 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[71] = t145;
+    phi_q_t_lambda_q[52] = -t145;
+    const jg_real t146 = C_j[8] * lambda[3];
+    const jg_real t147 = A_ijt_g_star_2 * t146;
+    const jg_real t148 = C_j[7] * lambda[3];
+    const jg_real t149 = A_ijt_g_star_1 * t148;
+    const jg_real t150 = C_j[2] * lambda[4];
+    const jg_real t151 = A_ijt_h_star_2 * t150;
+    const jg_real t152 = C_j[1] * lambda[4];
+    const jg_real t153 = A_ijt_h_star_1 * t152;
+    const jg_real t154 = C_j[5] * lambda[5];
+    const jg_real t155 = A_ijt_f_star_2 * t154;
+    const jg_real t156 = C_j[4] * lambda[5];
+    const jg_real t157 = A_ijt_f_star_1 * t156;
+    const jg_real t158 = s_j[2] * t144;
+    const jg_real t159 = s_j[1] * t145;
+    phi_q_t_lambda_q[53] = -(t158 + t159 + (t155 + t157 + (t147 + t149 + (t151 + t153))));
+    const jg_real t160 = C_j[6] * lambda[3];
+    const jg_real t161 = C_j[0] * lambda[4];
+    const jg_real t162 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t160 + A_ijt_h_star_1 * t161 + A_ijt_f_star_1 * t162 + s_j[0] * t145;
+    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t160 + A_ijt_h_star_2 * t161 + A_ijt_f_star_2 * t162 + s_j[0] * t144;
+    const jg_real t163 = A_ij_3 * t121 + A_ij_4 * t103 + A_ij_5 * t102;
+    const jg_real t164 = A_ij_6 * t121 + A_ij_7 * t103 + A_ij_8 * t102;
+    const jg_real t165 = A_ijt_f_star_1 * t94 - A_ijt_f_star_2 * t93 + (C_j[5] * t163 - C_j[4] * t164);
+    phi_q_t_lambda_q[56] = t165;
+    phi_q_t_lambda_q[81] = t165;
+    const jg_real t166 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
         A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
-    phi_q_t_lambda_q[57] = t172;
-    phi_q_t_lambda_q[89] = t172;
-    phi_q_t_lambda_q[58] = t79 - t141 * A_ijt_g_star_1 - t142 * A_ijt_h_star_1 - t143 * A_ijt_f_star_1 + t86;
-    phi_q_t_lambda_q[59] = t122 - t144 * A_ijt_g_star_1 - t145 * A_ijt_h_star_1 - t146 * A_ijt_f_star_1 + t123;
-    phi_q_t_lambda_q[60] = t135 - t147 * A_ijt_g_star_1 - t148 * A_ijt_h_star_1 - t149 * A_ijt_f_star_1 + t136;
-    phi_q_t_lambda_q[61] = -t150;
-    const jg_real t173 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[62] = t173;
-    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t154 + A_ijt_h_star_0 * t158 + A_ijt_f_star_0 * t162 + s_j[1] * t173;
-    const jg_real t174 = A_ijt_g_star_0 * t166;
-    const jg_real t175 = A_ijt_h_star_0 * t167;
-    const jg_real t176 = A_ijt_f_star_0 * t168;
-    const jg_real t177 = s_j[0] * t173;
-    phi_q_t_lambda_q[64] = -(t164 + t177 + (t161 + t176 + (t153 + t174 + (t157 + t175))));
-    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t154 + A_ijt_h_star_2 * t158 + A_ijt_f_star_2 * t162 + s_j[1] * t150;
-    const jg_real t178 = A_ij_0 * t127 + A_ij_1 * t108 + A_ij_2 * t107;
-    const jg_real t179 = A_ijt_f_star_2 * t97 - A_ijt_f_star_0 * t99 + (C_j[3] * t170 - C_j[5] * t178);
-    phi_q_t_lambda_q[66] = t179;
-    phi_q_t_lambda_q[82] = t179;
-    const jg_real t180 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+    phi_q_t_lambda_q[57] = t166;
+    phi_q_t_lambda_q[89] = t166;
+    phi_q_t_lambda_q[58] = t74 - t135 * A_ijt_g_star_1 - t136 * A_ijt_h_star_1 - t137 * A_ijt_f_star_1 + t81;
+    phi_q_t_lambda_q[59] = t116 - t138 * A_ijt_g_star_1 - t139 * A_ijt_h_star_1 - t140 * A_ijt_f_star_1 + t117;
+    phi_q_t_lambda_q[60] = t129 - t141 * A_ijt_g_star_1 - t142 * A_ijt_h_star_1 - t143 * A_ijt_f_star_1 + t130;
+    phi_q_t_lambda_q[61] = -t144;
+    const jg_real t167 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[62] = t167;
+    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t148 + A_ijt_h_star_0 * t152 + A_ijt_f_star_0 * t156 + s_j[1] * t167;
+    const jg_real t168 = A_ijt_g_star_0 * t160;
+    const jg_real t169 = A_ijt_h_star_0 * t161;
+    const jg_real t170 = A_ijt_f_star_0 * t162;
+    const jg_real t171 = s_j[0] * t167;
+    phi_q_t_lambda_q[64] = -(t158 + t171 + (t155 + t170 + (t147 + t168 + (t151 + t169))));
+    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t148 + A_ijt_h_star_2 * t152 + A_ijt_f_star_2 * t156 + s_j[1] * t144;
+    const jg_real t172 = A_ij_0 * t121 + A_ij_1 * t103 + A_ij_2 * t102;
+    const jg_real t173 = A_ijt_f_star_2 * t92 - A_ijt_f_star_0 * t94 + (C_j[3] * t164 - C_j[5] * t172);
+    phi_q_t_lambda_q[66] = t173;
+    phi_q_t_lambda_q[82] = t173;
+    const jg_real t174 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
         A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
-    phi_q_t_lambda_q[67] = t180;
-    phi_q_t_lambda_q[90] = t180;
-    phi_q_t_lambda_q[68] = t87 - t141 * A_ijt_g_star_2 - t142 * A_ijt_h_star_2 - t143 * A_ijt_f_star_2 + t94;
-    phi_q_t_lambda_q[69] = t124 - t144 * A_ijt_g_star_2 - t145 * A_ijt_h_star_2 - t146 * A_ijt_f_star_2 + t125;
-    phi_q_t_lambda_q[70] = t137 - t147 * A_ijt_g_star_2 - t148 * A_ijt_h_star_2 - t149 * A_ijt_f_star_2 + t138;
-    phi_q_t_lambda_q[72] = -t173;
-    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t152 + A_ijt_h_star_0 * t156 + A_ijt_f_star_0 * t160 + s_j[2] * t173;
-    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t152 + A_ijt_h_star_1 * t156 + A_ijt_f_star_1 * t160 + s_j[2] * t151;
-    phi_q_t_lambda_q[75] = -(t165 + t177 + (t163 + t176 + (t155 + t174 + (t159 + t175))));
-    const jg_real t181 = A_ijt_f_star_0 * t98 - A_ijt_f_star_1 * t97 + (C_j[4] * t178 - C_j[3] * t169);
-    phi_q_t_lambda_q[76] = t181;
-    phi_q_t_lambda_q[83] = t181;
-    const jg_real t182 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+    phi_q_t_lambda_q[67] = t174;
+    phi_q_t_lambda_q[90] = t174;
+    phi_q_t_lambda_q[68] = t82 - t135 * A_ijt_g_star_2 - t136 * A_ijt_h_star_2 - t137 * A_ijt_f_star_2 + t89;
+    phi_q_t_lambda_q[69] = t118 - t138 * A_ijt_g_star_2 - t139 * A_ijt_h_star_2 - t140 * A_ijt_f_star_2 + t119;
+    phi_q_t_lambda_q[70] = t131 - t141 * A_ijt_g_star_2 - t142 * A_ijt_h_star_2 - t143 * A_ijt_f_star_2 + t132;
+    phi_q_t_lambda_q[72] = -t167;
+    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t146 + A_ijt_h_star_0 * t150 + A_ijt_f_star_0 * t154 + s_j[2] * t167;
+    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t146 + A_ijt_h_star_1 * t150 + A_ijt_f_star_1 * t154 + s_j[2] * t145;
+    phi_q_t_lambda_q[75] = -(t159 + t171 + (t157 + t170 + (t149 + t168 + (t153 + t169))));
+    const jg_real t175 = A_ijt_f_star_0 * t93 - A_ijt_f_star_1 * t92 + (C_j[4] * t172 - C_j[3] * t163);
+    phi_q_t_lambda_q[76] = t175;
+    phi_q_t_lambda_q[83] = t175;
+    const jg_real t176 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
         A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
-    phi_q_t_lambda_q[77] = t182;
-    phi_q_t_lambda_q[91] = t182;
-    const jg_real t183 = cosine_1 * H_4 + sine_1 * t37;
-    const jg_real t184 = cosine_1 * t24 + sine_1 * H_6;
-    const jg_real t185 = C_i[3] * t183 - C_i[0] * t184;
-    const jg_real t186 = C_i[4] * t183 - C_i[1] * t184;
-    const jg_real t187 = C_i[5] * t183 - C_i[2] * t184;
-    phi_q_t_lambda_q[84] = lambda[4] * (A_ij_f_j_0 * t185 + A_ij_f_j_1 * t186 + A_ij_f_j_2 * t187) * sine_1 -
-        lambda[3] * (A_ij_h_j_0 * t185 + A_ij_h_j_1 * t186 + A_ij_h_j_2 * t187) * cosine_1 - cosine_1 * cosine_1 *
-        lambda[5] * t69 - sine_1 * sine_1 * lambda[5] * t69;
-    const jg_real t188 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
+    phi_q_t_lambda_q[77] = t176;
+    phi_q_t_lambda_q[91] = t176;
+    const jg_real t177 = cosine_1 * H_4 + sine_1 * t22;
+    const jg_real t178 = cosine_1 * t9 + sine_1 * H_6;
+    const jg_real t179 = C_i[3] * t177 - C_i[0] * t178;
+    const jg_real t180 = C_i[4] * t177 - C_i[1] * t178;
+    const jg_real t181 = C_i[5] * t177 - C_i[2] * t178;
+    phi_q_t_lambda_q[84] = lambda[4] * (A_ij_f_j_0 * t179 + A_ij_f_j_1 * t180 + A_ij_f_j_2 * t181) * sine_1 -
+        lambda[3] * (A_ij_h_j_0 * t179 + A_ij_h_j_1 * t180 + A_ij_h_j_2 * t181) * cosine_1 - cosine_1 * cosine_1 *
+        lambda[5] * t64 - sine_1 * sine_1 * lambda[5] * t64;
+    const jg_real t182 = lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2) *
         sine_1 + lambda[4] * (A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * cosine_1;
-    phi_q_t_lambda_q[85] = t188;
-    phi_q_t_lambda_q[92] = t188;
-    phi_q_t_lambda_q[93] = -t67;
+    phi_q_t_lambda_q[85] = t182;
+    phi_q_t_lambda_q[92] = t182;
+    phi_q_t_lambda_q[93] = -t62;
 }
 
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -587,7 +575,6 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -598,26 +585,22 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -634,12 +617,6 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -658,34 +635,29 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -704,13 +676,13 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t61 = cosine_1 * sine_0;
+    const jg_real t52 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t61 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t52 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t61 + C_i[7] * sine_1;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t61 + C_i[8] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t52 + C_i[7] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t52 + C_i[8] * sine_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
@@ -726,26 +698,26 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t75 = alphadot[1] * alphadot[1];
+    const jg_real t66 = alphadot[1] * alphadot[1];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t77 = cosine_0 * sine_1;
+    const jg_real t68 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t77 + C_i[6] * cosine_1;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t77 + C_i[7] * cosine_1;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t77 + C_i[8] * cosine_1;
-    const jg_real t81 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t82 = cosine_1 * H_4 + sine_1 * t77;
-    const jg_real t83 = cosine_1 * t61 + sine_1 * H_6;
-    const jg_real t84 = C_i[3] * t82 - C_i[0] * t83;
-    const jg_real t85 = C_i[4] * t82 - C_i[1] * t83;
-    const jg_real t86 = C_i[5] * t82 - C_i[2] * t83;
-    const jg_real t87 = alphadot[0] * alphadot[0];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t68 + C_i[6] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t68 + C_i[7] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t68 + C_i[8] * cosine_1;
+    const jg_real t72 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t73 = cosine_1 * H_4 + sine_1 * t68;
+    const jg_real t74 = cosine_1 * t52 + sine_1 * H_6;
+    const jg_real t75 = C_i[3] * t73 - C_i[0] * t74;
+    const jg_real t76 = C_i[4] * t73 - C_i[1] * t74;
+    const jg_real t77 = C_i[5] * t73 - C_i[2] * t74;
+    const jg_real t78 = alphadot[0] * alphadot[0];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t91 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t92 = alphadot[1] * t91;
+    const jg_real t82 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t83 = alphadot[1] * t82;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -756,15 +728,15 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t75 * (g_star_0 * A_ij_h_j_0 +
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t66 * (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) - (A_ij_omega_j_cross_h_j_0 * h_star_0 +
-        A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t81 + t81 *
+        A_ij_omega_j_cross_h_j_1 * h_star_1 + A_ij_omega_j_cross_h_j_2 * h_star_2) * t72 + t72 *
         (omega_i_cross_A_ij_h_j_0 * h_star_0 + omega_i_cross_A_ij_h_j_1 * h_star_1 + omega_i_cross_A_ij_h_j_2 *
-        h_star_2) + t87 * (A_ij_h_j_0 * t84 + A_ij_h_j_1 * t85 + A_ij_h_j_2 * t86) * cosine_1 -
+        h_star_2) + t78 * (A_ij_h_j_0 * t75 + A_ij_h_j_1 * t76 + A_ij_h_j_2 * t77) * cosine_1 -
         (omega_i_cross_A_ij_h_j_0 * f_star_0 + omega_i_cross_A_ij_h_j_1 * f_star_1 + omega_i_cross_A_ij_h_j_2 *
-        f_star_2) * t91 * cosine_1 + t91 * (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 *
+        f_star_2) * t82 * cosine_1 + t82 * (A_ij_omega_j_cross_h_j_0 * f_star_0 + A_ij_omega_j_cross_h_j_1 *
         f_star_1 + A_ij_omega_j_cross_h_j_2 * f_star_2) * cosine_1 - (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1
-        + A_ij_h_j_2 * f_star_2) * t92 * sine_1;
+        + A_ij_h_j_2 * f_star_2) * t83 * sine_1;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -801,14 +773,14 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t75 * (h_star_0 * A_ij_f_j_0 +
-        h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - t81 * (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
-        omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t81 * (g_star_0 * A_ij_omega_j_cross_f_j_0
-        + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t87 * (t84 * A_ij_f_j_0 + t85
-        * A_ij_f_j_1 + t86 * A_ij_f_j_2) * sine_1 - t91 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
-        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t91 * (f_star_0 *
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t66 * (h_star_0 * A_ij_f_j_0 +
+        h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - t72 * (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
+        omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t72 * (g_star_0 * A_ij_omega_j_cross_f_j_0
+        + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2) - t78 * (t75 * A_ij_f_j_0 + t76
+        * A_ij_f_j_1 + t77 * A_ij_f_j_2) * sine_1 - t82 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
+        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t82 * (f_star_0 *
         omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) *
-        sine_1 - t92 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_1;
+        sine_1 - t83 * (f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2) * cosine_1;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
@@ -835,14 +807,14 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t123 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    const jg_real t124 = cosine_1 * cosine_1;
-    const jg_real t125 = sine_1 * sine_1;
-    const jg_real t126 = t61 * sine_1 - cosine_1 * H_6;
-    const jg_real t127 = cosine_1 * t77 - sine_1 * H_4;
-    const jg_real t128 = t124 + t125;
-    const jg_real t129 = (A_ij_g_j_0 * (C_i[0] * t126 + C_i[3] * t127 - C_i[6] * t128) + A_ij_g_j_1 * (C_i[1] * t126
-        + C_i[4] * t127 - C_i[7] * t128) + A_ij_g_j_2 * (C_i[2] * t126 + C_i[5] * t127 - C_i[8] * t128)) *
+    const jg_real t114 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    const jg_real t115 = cosine_1 * cosine_1;
+    const jg_real t116 = sine_1 * sine_1;
+    const jg_real t117 = t52 * sine_1 - cosine_1 * H_6;
+    const jg_real t118 = cosine_1 * t68 - sine_1 * H_4;
+    const jg_real t119 = t115 + t116;
+    const jg_real t120 = (A_ij_g_j_0 * (C_i[0] * t117 + C_i[3] * t118 - C_i[6] * t119) + A_ij_g_j_1 * (C_i[1] * t117
+        + C_i[4] * t118 - C_i[7] * t119) + A_ij_g_j_2 * (C_i[2] * t117 + C_i[5] * t118 - C_i[8] * t119)) *
         (alphadot[1] * alphadot[0]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -854,10 +826,10 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t91 * (t84 * A_ij_omega_j_cross_g_j_0
-        + t85 * A_ij_omega_j_cross_g_j_1 + t86 * A_ij_omega_j_cross_g_j_2) + t91 * (t84 * omega_i_cross_A_ij_g_j_0 +
-        t85 * omega_i_cross_A_ij_g_j_1 + t86 * omega_i_cross_A_ij_g_j_2) + t87 * t124 * t123 + t87 * t125 * t123 -
-        t129 + t129;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t82 * (t75 * A_ij_omega_j_cross_g_j_0
+        + t76 * A_ij_omega_j_cross_g_j_1 + t77 * A_ij_omega_j_cross_g_j_2) + t82 * (t75 * omega_i_cross_A_ij_g_j_0 +
+        t76 * omega_i_cross_A_ij_g_j_1 + t77 * omega_i_cross_A_ij_g_j_2) + t78 * t115 * t114 + t78 * t116 * t114 -
+        t120 + t120;
 }
 
 void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -873,58 +845,56 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - (omega_i[1] * t14 - omega_i[2] * t16) + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t24 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - (omega_i[2] * t24 - omega_i[0] * t14) + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - (omega_i[0] * t16 - omega_i[1] * t24) + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -941,15 +911,15 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t45 = cosine_1 * sine_0;
+    const jg_real t42 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t45 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t42 + C_i[6] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t45 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t42 + C_i[7] * sine_1;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t45 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t42 + C_i[8] * sine_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
@@ -959,11 +929,11 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t58 = cosine_0 * sine_1;
+    const jg_real t55 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t58 + C_i[6] * cosine_1;
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t58 + C_i[7] * cosine_1;
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t58 + C_i[8] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t55 + C_i[6] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t55 + C_i[7] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t55 + C_i[8] * cosine_1;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
@@ -999,8 +969,8 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
         A_ij_f_j_2)));
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    const jg_real t78 = cosine_1 * H_4 + sine_1 * t58;
-    const jg_real t79 = cosine_1 * t45 + sine_1 * H_6;
+    const jg_real t75 = cosine_1 * H_4 + sine_1 * t55;
+    const jg_real t76 = cosine_1 * t42 + sine_1 * H_6;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* omega_i_cross_A_ij_g_j = tilde(omega_i) A_ij g_j */
@@ -1019,8 +989,8 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     phi_q_v[5] = f_star_0 * A_ij_omega_j_cross_g_j_0 + f_star_1 * A_ij_omega_j_cross_g_j_1 + f_star_2 *
-        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t78 - C_i[0] * t79) + A_ij_g_j_1 * (C_i[4]
-        * t78 - C_i[1] * t79) + A_ij_g_j_2 * (C_i[5] * t78 - C_i[2] * t79)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
+        A_ij_omega_j_cross_g_j_2 + (alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t75 - C_i[0] * t76) + A_ij_g_j_1 * (C_i[4]
+        * t75 - C_i[1] * t76) + A_ij_g_j_2 * (C_i[5] * t75 - C_i[2] * t76)) - (f_star_0 * omega_i_cross_A_ij_g_j_0 +
         f_star_1 * omega_i_cross_A_ij_g_j_1 + f_star_2 * omega_i_cross_A_ij_g_j_2));
 }
 
@@ -1028,7 +998,6 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -1037,21 +1006,15 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -1067,54 +1030,53 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t22 = cosine_1 * sine_0;
+    const jg_real t17 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t22 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t17 + C_i[8] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t22 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t17 + C_i[7] * sine_1;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t31 = cosine_0 * sine_1;
+    const jg_real t26 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t31 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t26 + C_i[8] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t31 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t26 + C_i[7] * cosine_1;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2 *
-        g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 * f_star_2
-        - A_ij_g_j_2 * f_star_1);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t40 = s_i[0] + dp_ij_0;
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t22 + C_i[6] * sine_1;
+    phi_q_t_lambda[3] = lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 - lambda[3] * (A_ij_h_j_1 * g_star_2 - A_ij_h_j_2
+        * g_star_1) - lambda[4] * (A_ij_f_j_1 * h_star_2 - A_ij_f_j_2 * h_star_1) - lambda[5] * (A_ij_g_j_1 *
+        f_star_2 - A_ij_g_j_2 * f_star_1);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t17 + C_i[6] * sine_1;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t31 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t26 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real f_star_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    phi_q_t_lambda[4] = lambda[2] * t40 - lambda[0] * t10 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0 *
-        g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 * f_star_0
-        - A_ij_g_j_0 * f_star_2);
-    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t40 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1 *
-        g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 * f_star_1
-        - A_ij_g_j_1 * f_star_0);
-    const jg_real t50 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t50;
-    const jg_real t51 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t51;
-    const jg_real t52 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t52;
+    phi_q_t_lambda[4] = lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 - lambda[3] * (A_ij_h_j_2 * g_star_0 - A_ij_h_j_0
+        * g_star_2) - lambda[4] * (A_ij_f_j_2 * h_star_0 - A_ij_f_j_0 * h_star_2) - lambda[5] * (A_ij_g_j_2 *
+        f_star_0 - A_ij_g_j_0 * f_star_2);
+    phi_q_t_lambda[5] = lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 - lambda[3] * (A_ij_h_j_0 * g_star_1 - A_ij_h_j_1
+        * g_star_0) - lambda[4] * (A_ij_f_j_0 * h_star_1 - A_ij_f_j_1 * h_star_0) - lambda[5] * (A_ij_g_j_0 *
+        f_star_1 - A_ij_g_j_1 * f_star_0);
+    const jg_real t44 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t44;
+    const jg_real t45 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t45;
+    const jg_real t46 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t46;
     /* A_ijt_g_star = A_ij^T g_star */
     const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
     const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
@@ -1124,22 +1086,22 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    phi_q_t_lambda[9] = s_j[1] * t52 - s_j[2] * t51 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
+    phi_q_t_lambda[9] = s_j[1] * t46 - s_j[2] * t45 + (lambda[3] * (C_j[7] * A_ijt_g_star_2 - C_j[8] *
         A_ijt_g_star_1) + lambda[4] * (C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1) + lambda[5] * (C_j[4] *
         A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1));
     const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    phi_q_t_lambda[10] = s_j[2] * t50 - s_j[0] * t52 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
+    phi_q_t_lambda[10] = s_j[2] * t44 - s_j[0] * t46 + (lambda[3] * (C_j[8] * A_ijt_g_star_0 - C_j[6] *
         A_ijt_g_star_2) + lambda[4] * (C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2) + lambda[5] * (C_j[5] *
         A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2));
-    phi_q_t_lambda[11] = s_j[0] * t51 - s_j[1] * t50 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
+    phi_q_t_lambda[11] = s_j[0] * t45 - s_j[1] * t44 + (lambda[3] * (C_j[6] * A_ijt_g_star_1 - C_j[7] *
         A_ijt_g_star_0) + lambda[4] * (C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0) + lambda[5] * (C_j[3] *
         A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0));
-    const jg_real t62 = cosine_1 * H_4 + sine_1 * t31;
-    const jg_real t63 = cosine_1 * t22 + sine_1 * H_6;
-    phi_q_t_lambda[12] = lambda[5] * (A_ij_g_j_0 * (C_i[3] * t62 - C_i[0] * t63) + A_ij_g_j_1 * (C_i[4] * t62 -
-        C_i[1] * t63) + A_ij_g_j_2 * (C_i[5] * t62 - C_i[2] * t63)) + lambda[4] * (A_ij_f_j_0 * f_star_0 +
+    const jg_real t56 = cosine_1 * H_4 + sine_1 * t26;
+    const jg_real t57 = cosine_1 * t17 + sine_1 * H_6;
+    phi_q_t_lambda[12] = lambda[5] * (A_ij_g_j_0 * (C_i[3] * t56 - C_i[0] * t57) + A_ij_g_j_1 * (C_i[4] * t56 -
+        C_i[1] * t57) + A_ij_g_j_2 * (C_i[5] * t56 - C_i[2] * t57)) + lambda[4] * (A_ij_f_j_0 * f_star_0 +
         A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2) * sine_1 - lambda[3] * (A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 *
         f_star_1 + A_ij_h_j_2 * f_star_2) * cosine_1;
     phi_q_t_lambda[13] = lambda[3] * (A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2) -
@@ -1163,16 +1125,20 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -1198,9 +1164,9 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_1 * sine_0;
+    const jg_real t24 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
@@ -1208,7 +1174,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     phi_q[25] = A_ij_7;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
@@ -1216,21 +1182,21 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     phi_q[26] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
-    const jg_real t33 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
-    phi[3] = t33;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
+    const jg_real t36 = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
+    phi[3] = t36;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t36 = cosine_0 * sine_1;
+    const jg_real t39 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t36 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t39 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t36 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t39 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t36 + C_i[8] * cosine_1;
-    const jg_real t42 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
-    phi[4] = t42;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t39 + C_i[8] * cosine_1;
+    const jg_real t45 = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
+    phi[4] = t45;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
@@ -1239,26 +1205,27 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real f_star_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     const jg_real f_star_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t49 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
-    phi[5] = t49;
+    const jg_real t52 = f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 * A_ij_g_j_2;
+    phi[5] = t52;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t50 = s_i[2] + dp_ij_2;
-    phi_q[3] = t50;
-    const jg_real t51 = s_i[1] + dp_ij_1;
-    phi_q[13] = t51;
-    phi_q[4] = -t51;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     phi_q[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     phi_q[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    phi_q[8] = -t50;
-    const jg_real t52 = s_i[0] + dp_ij_0;
-    phi_q[9] = t52;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     phi_q[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     phi_q[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    phi_q[14] = -t52;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     phi_q[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     phi_q[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1292,16 +1259,16 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q[42] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
     phi_q[43] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
     phi_q[44] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    const jg_real t62 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    phi_q[45] = -(cosine_1 * t62);
-    const jg_real t63 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    phi_q[46] = sine_1 * t63;
-    const jg_real t64 = cosine_1 * H_4 + sine_1 * t36;
-    const jg_real t65 = cosine_1 * t21 + sine_1 * H_6;
-    const jg_real t66 = C_i[3] * t64 - C_i[0] * t65;
-    const jg_real t67 = C_i[4] * t64 - C_i[1] * t65;
-    const jg_real t68 = C_i[5] * t64 - C_i[2] * t65;
-    phi_q[47] = A_ij_g_j_0 * t66 + A_ij_g_j_1 * t67 + A_ij_g_j_2 * t68;
+    const jg_real t65 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    phi_q[45] = -(cosine_1 * t65);
+    const jg_real t66 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    phi_q[46] = sine_1 * t66;
+    const jg_real t67 = cosine_1 * H_4 + sine_1 * t39;
+    const jg_real t68 = cosine_1 * t24 + sine_1 * H_6;
+    const jg_real t69 = C_i[3] * t67 - C_i[0] * t68;
+    const jg_real t70 = C_i[4] * t67 - C_i[1] * t68;
+    const jg_real t71 = C_i[5] * t67 - C_i[2] * t68;
+    phi_q[47] = A_ij_g_j_0 * t69 + A_ij_g_j_1 * t70 + A_ij_g_j_2 * t71;
     phi_q[48] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     phi_q[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     phi_q_t_lambda_q[2] = lambda[2];
@@ -1310,235 +1277,235 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t69 = t50 * lambda[2];
-    const jg_real t70 = t51 * lambda[1];
-    const jg_real t71 = g_star_2 * lambda[3];
-    const jg_real t72 = A_ij_h_j_2 * t71;
-    const jg_real t73 = g_star_1 * lambda[3];
-    const jg_real t74 = A_ij_h_j_1 * t73;
-    const jg_real t75 = h_star_2 * lambda[4];
-    const jg_real t76 = A_ij_f_j_2 * t75;
-    const jg_real t77 = h_star_1 * lambda[4];
-    const jg_real t78 = A_ij_f_j_1 * t77;
-    const jg_real t79 = f_star_2 * lambda[5];
-    const jg_real t80 = A_ij_g_j_2 * t79;
-    const jg_real t81 = f_star_1 * lambda[5];
-    const jg_real t82 = A_ij_g_j_1 * t81;
-    phi_q_t_lambda_q[6] = -(t69 + t70 + (t80 + t82 + (t72 + t74 + (t76 + t78))));
-    const jg_real t83 = g_star_0 * lambda[3];
-    const jg_real t84 = h_star_0 * lambda[4];
-    const jg_real t85 = f_star_0 * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t83 + A_ij_f_j_1 * t84 + A_ij_g_j_1 * t85 + t51 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t83 + A_ij_f_j_2 * t84 + A_ij_g_j_2 * t85 + t50 * lambda[0];
-    const jg_real t86 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t86;
-    phi_q_t_lambda_q[39] = t86;
-    const jg_real t87 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t87;
-    phi_q_t_lambda_q[42] = t87;
-    const jg_real t88 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t88;
-    phi_q_t_lambda_q[45] = t88;
-    const jg_real t89 = t33 * lambda[3] + t42 * lambda[4];
-    const jg_real t90 = t49 * lambda[5] + t89;
-    const jg_real t91 = A_ij_0 * t90;
-    const jg_real t92 = A_ijt_g_star_0 * lambda[3];
-    const jg_real t93 = A_ijt_h_star_0 * lambda[4];
-    const jg_real t94 = A_ijt_f_star_0 * lambda[5];
-    const jg_real t95 = s_j[1] * t88 - s_j[2] * t87;
-    phi_q_t_lambda_q[12] = t91 - A_ij_h_j_0 * t92 - A_ij_f_j_0 * t93 - A_ij_g_j_0 * t94 + t95;
-    const jg_real t96 = A_ij_3 * t90;
-    const jg_real t97 = A_ijt_g_star_1 * lambda[3];
-    const jg_real t98 = A_ijt_h_star_1 * lambda[4];
-    const jg_real t99 = A_ijt_f_star_1 * lambda[5];
-    const jg_real t100 = s_j[2] * t86 - s_j[0] * t88;
-    phi_q_t_lambda_q[13] = t96 - A_ij_h_j_0 * t97 - A_ij_f_j_0 * t98 - A_ij_g_j_0 * t99 + t100;
-    const jg_real t101 = A_ij_6 * t90;
-    const jg_real t102 = A_ijt_g_star_2 * lambda[3];
-    const jg_real t103 = A_ijt_h_star_2 * lambda[4];
-    const jg_real t104 = A_ijt_f_star_2 * lambda[5];
-    const jg_real t105 = s_j[0] * t87 - s_j[1] * t86;
-    phi_q_t_lambda_q[14] = t101 - A_ij_h_j_0 * t102 - A_ij_f_j_0 * t103 - A_ij_g_j_0 * t104 + t105;
-    const jg_real t106 = cosine_1 * lambda[3];
-    const jg_real t107 = sine_1 * lambda[4];
-    const jg_real t108 = C_j[6] * t106 - C_j[0] * t107;
-    const jg_real t109 = C_j[7] * t106 - C_j[1] * t107;
-    const jg_real t110 = C_j[8] * t106 - C_j[2] * t107;
-    const jg_real t111 = A_ij_1 * t108 + A_ij_4 * t109 + A_ij_7 * t110;
-    const jg_real t112 = A_ij_2 * t108 + A_ij_5 * t109 + A_ij_8 * t110;
-    const jg_real t113 = cosine_1 * lambda[5];
-    const jg_real t114 = sine_1 * lambda[5];
-    const jg_real t115 = t21 * t113 + H_6 * t114;
-    const jg_real t116 = H_4 * t113 + t36 * t114;
-    const jg_real t117 = cosine_1 * t114 - sine_1 * t113;
-    const jg_real t118 = C_i[2] * t115 - C_i[5] * t116 + C_i[8] * t117;
-    const jg_real t119 = C_i[1] * t115 - C_i[4] * t116 + C_i[7] * t117;
-    const jg_real t120 = f_star_2 * t111 - f_star_1 * t112 + (A_ij_g_j_1 * t118 - A_ij_g_j_2 * t119);
-    phi_q_t_lambda_q[15] = t120;
-    phi_q_t_lambda_q[78] = t120;
-    const jg_real t121 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
+    const jg_real t72 = g_star_2 * lambda[3];
+    const jg_real t73 = A_ij_h_j_2 * t72;
+    const jg_real t74 = g_star_1 * lambda[3];
+    const jg_real t75 = A_ij_h_j_1 * t74;
+    const jg_real t76 = h_star_2 * lambda[4];
+    const jg_real t77 = A_ij_f_j_2 * t76;
+    const jg_real t78 = h_star_1 * lambda[4];
+    const jg_real t79 = A_ij_f_j_1 * t78;
+    const jg_real t80 = f_star_2 * lambda[5];
+    const jg_real t81 = A_ij_g_j_2 * t80;
+    const jg_real t82 = f_star_1 * lambda[5];
+    const jg_real t83 = A_ij_g_j_1 * t82;
+    const jg_real t84 = ep_ij_2 * lambda[2];
+    const jg_real t85 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t84 + t85 + (t81 + t83 + (t73 + t75 + (t77 + t79))));
+    const jg_real t86 = g_star_0 * lambda[3];
+    const jg_real t87 = h_star_0 * lambda[4];
+    const jg_real t88 = f_star_0 * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_h_j_1 * t86 + A_ij_f_j_1 * t87 + A_ij_g_j_1 * t88 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_h_j_2 * t86 + A_ij_f_j_2 * t87 + A_ij_g_j_2 * t88 + ep_ij_2 * lambda[0];
+    const jg_real t89 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t89;
+    phi_q_t_lambda_q[39] = t89;
+    const jg_real t90 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t90;
+    phi_q_t_lambda_q[42] = t90;
+    const jg_real t91 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t91;
+    phi_q_t_lambda_q[45] = t91;
+    const jg_real t92 = t36 * lambda[3] + t45 * lambda[4];
+    const jg_real t93 = t52 * lambda[5] + t92;
+    const jg_real t94 = A_ij_0 * t93;
+    const jg_real t95 = A_ijt_g_star_0 * lambda[3];
+    const jg_real t96 = A_ijt_h_star_0 * lambda[4];
+    const jg_real t97 = A_ijt_f_star_0 * lambda[5];
+    const jg_real t98 = s_j[1] * t91 - s_j[2] * t90;
+    phi_q_t_lambda_q[12] = t94 - A_ij_h_j_0 * t95 - A_ij_f_j_0 * t96 - A_ij_g_j_0 * t97 + t98;
+    const jg_real t99 = A_ij_3 * t93;
+    const jg_real t100 = A_ijt_g_star_1 * lambda[3];
+    const jg_real t101 = A_ijt_h_star_1 * lambda[4];
+    const jg_real t102 = A_ijt_f_star_1 * lambda[5];
+    const jg_real t103 = s_j[2] * t89 - s_j[0] * t91;
+    phi_q_t_lambda_q[13] = t99 - A_ij_h_j_0 * t100 - A_ij_f_j_0 * t101 - A_ij_g_j_0 * t102 + t103;
+    const jg_real t104 = A_ij_6 * t93;
+    const jg_real t105 = A_ijt_g_star_2 * lambda[3];
+    const jg_real t106 = A_ijt_h_star_2 * lambda[4];
+    const jg_real t107 = A_ijt_f_star_2 * lambda[5];
+    const jg_real t108 = s_j[0] * t90 - s_j[1] * t89;
+    phi_q_t_lambda_q[14] = t104 - A_ij_h_j_0 * t105 - A_ij_f_j_0 * t106 - A_ij_g_j_0 * t107 + t108;
+    const jg_real t109 = cosine_1 * lambda[3];
+    const jg_real t110 = sine_1 * lambda[4];
+    const jg_real t111 = C_j[6] * t109 - C_j[0] * t110;
+    const jg_real t112 = C_j[7] * t109 - C_j[1] * t110;
+    const jg_real t113 = C_j[8] * t109 - C_j[2] * t110;
+    const jg_real t114 = A_ij_1 * t111 + A_ij_4 * t112 + A_ij_7 * t113;
+    const jg_real t115 = A_ij_2 * t111 + A_ij_5 * t112 + A_ij_8 * t113;
+    const jg_real t116 = cosine_1 * lambda[5];
+    const jg_real t117 = sine_1 * lambda[5];
+    const jg_real t118 = t24 * t116 + H_6 * t117;
+    const jg_real t119 = H_4 * t116 + t39 * t117;
+    const jg_real t120 = cosine_1 * t117 - sine_1 * t116;
+    const jg_real t121 = C_i[2] * t118 - C_i[5] * t119 + C_i[8] * t120;
+    const jg_real t122 = C_i[1] * t118 - C_i[4] * t119 + C_i[7] * t120;
+    const jg_real t123 = f_star_2 * t114 - f_star_1 * t115 + (A_ij_g_j_1 * t121 - A_ij_g_j_2 * t122);
+    phi_q_t_lambda_q[15] = t123;
+    phi_q_t_lambda_q[78] = t123;
+    const jg_real t124 = lambda[4] * (g_star_2 * A_ij_f_j_1 - g_star_1 * A_ij_f_j_2) - lambda[3] * (A_ij_h_j_1 *
         h_star_2 - A_ij_h_j_2 * h_star_1);
-    phi_q_t_lambda_q[16] = t121;
-    phi_q_t_lambda_q[86] = t121;
-    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t73 + A_ij_f_j_0 * t77 + A_ij_g_j_0 * t81 + t52 * lambda[1];
-    const jg_real t122 = t52 * lambda[0];
-    const jg_real t123 = A_ij_h_j_0 * t83;
-    const jg_real t124 = A_ij_f_j_0 * t84;
-    const jg_real t125 = A_ij_g_j_0 * t85;
-    phi_q_t_lambda_q[18] = -(t69 + t122 + (t80 + t125 + (t72 + t123 + (t76 + t124))));
-    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t73 + A_ij_f_j_2 * t77 + A_ij_g_j_2 * t81 + t50 * lambda[1];
-    const jg_real t126 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[20] = t126;
-    phi_q_t_lambda_q[40] = t126;
-    const jg_real t127 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[21] = t127;
-    phi_q_t_lambda_q[43] = t127;
-    const jg_real t128 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[22] = t128;
-    phi_q_t_lambda_q[46] = t128;
-    const jg_real t129 = A_ij_1 * t90;
-    const jg_real t130 = s_j[1] * t128 - s_j[2] * t127;
-    phi_q_t_lambda_q[23] = t129 - A_ij_h_j_1 * t92 - A_ij_f_j_1 * t93 - A_ij_g_j_1 * t94 + t130;
-    const jg_real t131 = A_ij_4 * t90;
-    const jg_real t132 = s_j[2] * t126 - s_j[0] * t128;
-    phi_q_t_lambda_q[24] = t131 - A_ij_h_j_1 * t97 - A_ij_f_j_1 * t98 - A_ij_g_j_1 * t99 + t132;
-    const jg_real t133 = A_ij_7 * t90;
-    const jg_real t134 = s_j[0] * t127 - s_j[1] * t126;
-    phi_q_t_lambda_q[25] = t133 - A_ij_h_j_1 * t102 - A_ij_f_j_1 * t103 - A_ij_g_j_1 * t104 + t134;
-    const jg_real t135 = A_ij_0 * t108 + A_ij_3 * t109 + A_ij_6 * t110;
-    const jg_real t136 = C_i[0] * t115 - C_i[3] * t116 + C_i[6] * t117;
-    const jg_real t137 = f_star_0 * t112 - f_star_2 * t135 + (A_ij_g_j_2 * t136 - A_ij_g_j_0 * t118);
-    phi_q_t_lambda_q[26] = t137;
-    phi_q_t_lambda_q[79] = t137;
-    const jg_real t138 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
+    phi_q_t_lambda_q[16] = t124;
+    phi_q_t_lambda_q[86] = t124;
+    phi_q_t_lambda_q[17] = A_ij_h_j_0 * t74 + A_ij_f_j_0 * t78 + A_ij_g_j_0 * t82 + ep_ij_0 * lambda[1];
+    const jg_real t125 = A_ij_h_j_0 * t86;
+    const jg_real t126 = A_ij_f_j_0 * t87;
+    const jg_real t127 = A_ij_g_j_0 * t88;
+    const jg_real t128 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[18] = -(t84 + t128 + (t81 + t127 + (t73 + t125 + (t77 + t126))));
+    phi_q_t_lambda_q[19] = A_ij_h_j_2 * t74 + A_ij_f_j_2 * t78 + A_ij_g_j_2 * t82 + ep_ij_2 * lambda[1];
+    const jg_real t129 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[20] = t129;
+    phi_q_t_lambda_q[40] = t129;
+    const jg_real t130 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[21] = t130;
+    phi_q_t_lambda_q[43] = t130;
+    const jg_real t131 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[22] = t131;
+    phi_q_t_lambda_q[46] = t131;
+    const jg_real t132 = A_ij_1 * t93;
+    const jg_real t133 = s_j[1] * t131 - s_j[2] * t130;
+    phi_q_t_lambda_q[23] = t132 - A_ij_h_j_1 * t95 - A_ij_f_j_1 * t96 - A_ij_g_j_1 * t97 + t133;
+    const jg_real t134 = A_ij_4 * t93;
+    const jg_real t135 = s_j[2] * t129 - s_j[0] * t131;
+    phi_q_t_lambda_q[24] = t134 - A_ij_h_j_1 * t100 - A_ij_f_j_1 * t101 - A_ij_g_j_1 * t102 + t135;
+    const jg_real t136 = A_ij_7 * t93;
+    const jg_real t137 = s_j[0] * t130 - s_j[1] * t129;
+    phi_q_t_lambda_q[25] = t136 - A_ij_h_j_1 * t105 - A_ij_f_j_1 * t106 - A_ij_g_j_1 * t107 + t137;
+    const jg_real t138 = A_ij_0 * t111 + A_ij_3 * t112 + A_ij_6 * t113;
+    const jg_real t139 = C_i[0] * t118 - C_i[3] * t119 + C_i[6] * t120;
+    const jg_real t140 = f_star_0 * t115 - f_star_2 * t138 + (A_ij_g_j_2 * t139 - A_ij_g_j_0 * t121);
+    phi_q_t_lambda_q[26] = t140;
+    phi_q_t_lambda_q[79] = t140;
+    const jg_real t141 = lambda[4] * (g_star_0 * A_ij_f_j_2 - g_star_2 * A_ij_f_j_0) - lambda[3] * (A_ij_h_j_2 *
         h_star_0 - A_ij_h_j_0 * h_star_2);
-    phi_q_t_lambda_q[27] = t138;
-    phi_q_t_lambda_q[87] = t138;
-    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t71 + A_ij_f_j_0 * t75 + A_ij_g_j_0 * t79 + t52 * lambda[2];
-    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t71 + A_ij_f_j_1 * t75 + A_ij_g_j_1 * t79 + t51 * lambda[2];
-    phi_q_t_lambda_q[30] = -(t70 + t122 + (t82 + t125 + (t74 + t123 + (t78 + t124))));
-    const jg_real t139 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[31] = t139;
-    phi_q_t_lambda_q[41] = t139;
-    const jg_real t140 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[32] = t140;
-    phi_q_t_lambda_q[44] = t140;
-    const jg_real t141 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[33] = t141;
-    phi_q_t_lambda_q[47] = t141;
-    const jg_real t142 = A_ij_2 * t90;
-    const jg_real t143 = s_j[1] * t141 - s_j[2] * t140;
-    phi_q_t_lambda_q[34] = t142 - A_ij_h_j_2 * t92 - A_ij_f_j_2 * t93 - A_ij_g_j_2 * t94 + t143;
-    const jg_real t144 = A_ij_5 * t90;
-    const jg_real t145 = s_j[2] * t139 - s_j[0] * t141;
-    phi_q_t_lambda_q[35] = t144 - A_ij_h_j_2 * t97 - A_ij_f_j_2 * t98 - A_ij_g_j_2 * t99 + t145;
-    const jg_real t146 = A_ij_8 * t90;
-    const jg_real t147 = s_j[0] * t140 - s_j[1] * t139;
-    phi_q_t_lambda_q[36] = t146 - A_ij_h_j_2 * t102 - A_ij_f_j_2 * t103 - A_ij_g_j_2 * t104 + t147;
-    const jg_real t148 = f_star_1 * t135 - f_star_0 * t111 + (A_ij_g_j_0 * t119 - A_ij_g_j_1 * t136);
-    phi_q_t_lambda_q[37] = t148;
-    phi_q_t_lambda_q[80] = t148;
-    const jg_real t149 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
+    phi_q_t_lambda_q[27] = t141;
+    phi_q_t_lambda_q[87] = t141;
+    phi_q_t_lambda_q[28] = A_ij_h_j_0 * t72 + A_ij_f_j_0 * t76 + A_ij_g_j_0 * t80 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[29] = A_ij_h_j_1 * t72 + A_ij_f_j_1 * t76 + A_ij_g_j_1 * t80 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[30] = -(t85 + t128 + (t83 + t127 + (t75 + t125 + (t79 + t126))));
+    const jg_real t142 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[31] = t142;
+    phi_q_t_lambda_q[41] = t142;
+    const jg_real t143 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[32] = t143;
+    phi_q_t_lambda_q[44] = t143;
+    const jg_real t144 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[33] = t144;
+    phi_q_t_lambda_q[47] = t144;
+    const jg_real t145 = A_ij_2 * t93;
+    const jg_real t146 = s_j[1] * t144 - s_j[2] * t143;
+    phi_q_t_lambda_q[34] = t145 - A_ij_h_j_2 * t95 - A_ij_f_j_2 * t96 - A_ij_g_j_2 * t97 + t146;
+    const jg_real t147 = A_ij_5 * t93;
+    const jg_real t148 = s_j[2] * t142 - s_j[0] * t144;
+    phi_q_t_lambda_q[35] = t147 - A_ij_h_j_2 * t100 - A_ij_f_j_2 * t101 - A_ij_g_j_2 * t102 + t148;
+    const jg_real t149 = A_ij_8 * t93;
+    const jg_real t150 = s_j[0] * t143 - s_j[1] * t142;
+    phi_q_t_lambda_q[36] = t149 - A_ij_h_j_2 * t105 - A_ij_f_j_2 * t106 - A_ij_g_j_2 * t107 + t150;
+    const jg_real t151 = f_star_1 * t138 - f_star_0 * t114 + (A_ij_g_j_0 * t122 - A_ij_g_j_1 * t139);
+    phi_q_t_lambda_q[37] = t151;
+    phi_q_t_lambda_q[80] = t151;
+    const jg_real t152 = lambda[4] * (g_star_1 * A_ij_f_j_0 - g_star_0 * A_ij_f_j_1) - lambda[3] * (A_ij_h_j_0 *
         h_star_1 - A_ij_h_j_1 * h_star_0);
-    phi_q_t_lambda_q[38] = t149;
-    phi_q_t_lambda_q[88] = t149;
-    const jg_real t150 = A_ij_h_j_0 * lambda[3];
-    const jg_real t151 = A_ij_f_j_0 * lambda[4];
-    const jg_real t152 = A_ij_g_j_0 * lambda[5];
-    phi_q_t_lambda_q[48] = t91 - A_ijt_g_star_0 * t150 - A_ijt_h_star_0 * t151 - A_ijt_f_star_0 * t152 + t95;
-    const jg_real t153 = A_ij_h_j_1 * lambda[3];
-    const jg_real t154 = A_ij_f_j_1 * lambda[4];
-    const jg_real t155 = A_ij_g_j_1 * lambda[5];
-    phi_q_t_lambda_q[49] = t129 - A_ijt_g_star_0 * t153 - A_ijt_h_star_0 * t154 - A_ijt_f_star_0 * t155 + t130;
-    const jg_real t156 = A_ij_h_j_2 * lambda[3];
-    const jg_real t157 = A_ij_f_j_2 * lambda[4];
-    const jg_real t158 = A_ij_g_j_2 * lambda[5];
-    phi_q_t_lambda_q[50] = t142 - A_ijt_g_star_0 * t156 - A_ijt_h_star_0 * t157 - A_ijt_f_star_0 * t158 + t143;
-    const jg_real t159 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[51] = t159;
-    const jg_real t160 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[71] = t160;
-    phi_q_t_lambda_q[52] = -t160;
-    const jg_real t161 = C_j[8] * lambda[3];
-    const jg_real t162 = A_ijt_g_star_2 * t161;
-    const jg_real t163 = C_j[7] * lambda[3];
-    const jg_real t164 = A_ijt_g_star_1 * t163;
-    const jg_real t165 = C_j[2] * lambda[4];
-    const jg_real t166 = A_ijt_h_star_2 * t165;
-    const jg_real t167 = C_j[1] * lambda[4];
-    const jg_real t168 = A_ijt_h_star_1 * t167;
-    const jg_real t169 = C_j[5] * lambda[5];
-    const jg_real t170 = A_ijt_f_star_2 * t169;
-    const jg_real t171 = C_j[4] * lambda[5];
-    const jg_real t172 = A_ijt_f_star_1 * t171;
-    const jg_real t173 = s_j[2] * t159;
-    const jg_real t174 = s_j[1] * t160;
-    phi_q_t_lambda_q[53] = -(t173 + t174 + (t170 + t172 + (t162 + t164 + (t166 + t168))));
-    const jg_real t175 = C_j[6] * lambda[3];
-    const jg_real t176 = C_j[0] * lambda[4];
-    const jg_real t177 = C_j[3] * lambda[5];
-    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t175 + A_ijt_h_star_1 * t176 + A_ijt_f_star_1 * t177 + s_j[0] * t160;
-    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t175 + A_ijt_h_star_2 * t176 + A_ijt_f_star_2 * t177 + s_j[0] * t159;
-    const jg_real t178 = A_ij_3 * t136 + A_ij_4 * t119 + A_ij_5 * t118;
-    const jg_real t179 = A_ij_6 * t136 + A_ij_7 * t119 + A_ij_8 * t118;
-    const jg_real t180 = A_ijt_f_star_1 * t110 - A_ijt_f_star_2 * t109 + (C_j[5] * t178 - C_j[4] * t179);
-    phi_q_t_lambda_q[56] = t180;
-    phi_q_t_lambda_q[81] = t180;
-    const jg_real t181 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
+    phi_q_t_lambda_q[38] = t152;
+    phi_q_t_lambda_q[88] = t152;
+    const jg_real t153 = A_ij_h_j_0 * lambda[3];
+    const jg_real t154 = A_ij_f_j_0 * lambda[4];
+    const jg_real t155 = A_ij_g_j_0 * lambda[5];
+    phi_q_t_lambda_q[48] = t94 - A_ijt_g_star_0 * t153 - A_ijt_h_star_0 * t154 - A_ijt_f_star_0 * t155 + t98;
+    const jg_real t156 = A_ij_h_j_1 * lambda[3];
+    const jg_real t157 = A_ij_f_j_1 * lambda[4];
+    const jg_real t158 = A_ij_g_j_1 * lambda[5];
+    phi_q_t_lambda_q[49] = t132 - A_ijt_g_star_0 * t156 - A_ijt_h_star_0 * t157 - A_ijt_f_star_0 * t158 + t133;
+    const jg_real t159 = A_ij_h_j_2 * lambda[3];
+    const jg_real t160 = A_ij_f_j_2 * lambda[4];
+    const jg_real t161 = A_ij_g_j_2 * lambda[5];
+    phi_q_t_lambda_q[50] = t145 - A_ijt_g_star_0 * t159 - A_ijt_h_star_0 * t160 - A_ijt_f_star_0 * t161 + t146;
+    const jg_real t162 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[51] = t162;
+    const jg_real t163 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[71] = t163;
+    phi_q_t_lambda_q[52] = -t163;
+    const jg_real t164 = C_j[8] * lambda[3];
+    const jg_real t165 = A_ijt_g_star_2 * t164;
+    const jg_real t166 = C_j[7] * lambda[3];
+    const jg_real t167 = A_ijt_g_star_1 * t166;
+    const jg_real t168 = C_j[2] * lambda[4];
+    const jg_real t169 = A_ijt_h_star_2 * t168;
+    const jg_real t170 = C_j[1] * lambda[4];
+    const jg_real t171 = A_ijt_h_star_1 * t170;
+    const jg_real t172 = C_j[5] * lambda[5];
+    const jg_real t173 = A_ijt_f_star_2 * t172;
+    const jg_real t174 = C_j[4] * lambda[5];
+    const jg_real t175 = A_ijt_f_star_1 * t174;
+    const jg_real t176 = s_j[2] * t162;
+    const jg_real t177 = s_j[1] * t163;
+    phi_q_t_lambda_q[53] = -(t176 + t177 + (t173 + t175 + (t165 + t167 + (t169 + t171))));
+    const jg_real t178 = C_j[6] * lambda[3];
+    const jg_real t179 = C_j[0] * lambda[4];
+    const jg_real t180 = C_j[3] * lambda[5];
+    phi_q_t_lambda_q[54] = A_ijt_g_star_1 * t178 + A_ijt_h_star_1 * t179 + A_ijt_f_star_1 * t180 + s_j[0] * t163;
+    phi_q_t_lambda_q[55] = A_ijt_g_star_2 * t178 + A_ijt_h_star_2 * t179 + A_ijt_f_star_2 * t180 + s_j[0] * t162;
+    const jg_real t181 = A_ij_3 * t139 + A_ij_4 * t122 + A_ij_5 * t121;
+    const jg_real t182 = A_ij_6 * t139 + A_ij_7 * t122 + A_ij_8 * t121;
+    const jg_real t183 = A_ijt_f_star_1 * t113 - A_ijt_f_star_2 * t112 + (C_j[5] * t181 - C_j[4] * t182);
+    phi_q_t_lambda_q[56] = t183;
+    phi_q_t_lambda_q[81] = t183;
+    const jg_real t184 = lambda[3] * (C_j[7] * A_ijt_h_star_2 - C_j[8] * A_ijt_h_star_1) - lambda[4] * (C_j[1] *
         A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_1);
-    phi_q_t_lambda_q[57] = t181;
-    phi_q_t_lambda_q[89] = t181;
-    phi_q_t_lambda_q[58] = t96 - A_ijt_g_star_1 * t150 - A_ijt_h_star_1 * t151 - A_ijt_f_star_1 * t152 + t100;
-    phi_q_t_lambda_q[59] = t131 - A_ijt_g_star_1 * t153 - A_ijt_h_star_1 * t154 - A_ijt_f_star_1 * t155 + t132;
-    phi_q_t_lambda_q[60] = t144 - A_ijt_g_star_1 * t156 - A_ijt_h_star_1 * t157 - A_ijt_f_star_1 * t158 + t145;
-    phi_q_t_lambda_q[61] = -t159;
-    const jg_real t182 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[62] = t182;
-    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t163 + A_ijt_h_star_0 * t167 + A_ijt_f_star_0 * t171 + s_j[1] * t182;
-    const jg_real t183 = A_ijt_g_star_0 * t175;
-    const jg_real t184 = A_ijt_h_star_0 * t176;
-    const jg_real t185 = A_ijt_f_star_0 * t177;
-    const jg_real t186 = s_j[0] * t182;
-    phi_q_t_lambda_q[64] = -(t173 + t186 + (t170 + t185 + (t162 + t183 + (t166 + t184))));
-    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t163 + A_ijt_h_star_2 * t167 + A_ijt_f_star_2 * t171 + s_j[1] * t159;
-    const jg_real t187 = A_ij_0 * t136 + A_ij_1 * t119 + A_ij_2 * t118;
-    const jg_real t188 = A_ijt_f_star_2 * t108 - A_ijt_f_star_0 * t110 + (C_j[3] * t179 - C_j[5] * t187);
-    phi_q_t_lambda_q[66] = t188;
-    phi_q_t_lambda_q[82] = t188;
-    const jg_real t189 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
+    phi_q_t_lambda_q[57] = t184;
+    phi_q_t_lambda_q[89] = t184;
+    phi_q_t_lambda_q[58] = t99 - A_ijt_g_star_1 * t153 - A_ijt_h_star_1 * t154 - A_ijt_f_star_1 * t155 + t103;
+    phi_q_t_lambda_q[59] = t134 - A_ijt_g_star_1 * t156 - A_ijt_h_star_1 * t157 - A_ijt_f_star_1 * t158 + t135;
+    phi_q_t_lambda_q[60] = t147 - A_ijt_g_star_1 * t159 - A_ijt_h_star_1 * t160 - A_ijt_f_star_1 * t161 + t148;
+    phi_q_t_lambda_q[61] = -t162;
+    const jg_real t185 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[62] = t185;
+    phi_q_t_lambda_q[63] = A_ijt_g_star_0 * t166 + A_ijt_h_star_0 * t170 + A_ijt_f_star_0 * t174 + s_j[1] * t185;
+    const jg_real t186 = A_ijt_g_star_0 * t178;
+    const jg_real t187 = A_ijt_h_star_0 * t179;
+    const jg_real t188 = A_ijt_f_star_0 * t180;
+    const jg_real t189 = s_j[0] * t185;
+    phi_q_t_lambda_q[64] = -(t176 + t189 + (t173 + t188 + (t165 + t186 + (t169 + t187))));
+    phi_q_t_lambda_q[65] = A_ijt_g_star_2 * t166 + A_ijt_h_star_2 * t170 + A_ijt_f_star_2 * t174 + s_j[1] * t162;
+    const jg_real t190 = A_ij_0 * t139 + A_ij_1 * t122 + A_ij_2 * t121;
+    const jg_real t191 = A_ijt_f_star_2 * t111 - A_ijt_f_star_0 * t113 + (C_j[3] * t182 - C_j[5] * t190);
+    phi_q_t_lambda_q[66] = t191;
+    phi_q_t_lambda_q[82] = t191;
+    const jg_real t192 = lambda[3] * (C_j[8] * A_ijt_h_star_0 - C_j[6] * A_ijt_h_star_2) - lambda[4] * (C_j[2] *
         A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_2);
-    phi_q_t_lambda_q[67] = t189;
-    phi_q_t_lambda_q[90] = t189;
-    phi_q_t_lambda_q[68] = t101 - A_ijt_g_star_2 * t150 - A_ijt_h_star_2 * t151 - A_ijt_f_star_2 * t152 + t105;
-    phi_q_t_lambda_q[69] = t133 - A_ijt_g_star_2 * t153 - A_ijt_h_star_2 * t154 - A_ijt_f_star_2 * t155 + t134;
-    phi_q_t_lambda_q[70] = t146 - A_ijt_g_star_2 * t156 - A_ijt_h_star_2 * t157 - A_ijt_f_star_2 * t158 + t147;
-    phi_q_t_lambda_q[72] = -t182;
-    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t161 + A_ijt_h_star_0 * t165 + A_ijt_f_star_0 * t169 + s_j[2] * t182;
-    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t161 + A_ijt_h_star_1 * t165 + A_ijt_f_star_1 * t169 + s_j[2] * t160;
-    phi_q_t_lambda_q[75] = -(t174 + t186 + (t172 + t185 + (t164 + t183 + (t168 + t184))));
-    const jg_real t190 = A_ijt_f_star_0 * t109 - A_ijt_f_star_1 * t108 + (C_j[4] * t187 - C_j[3] * t178);
-    phi_q_t_lambda_q[76] = t190;
-    phi_q_t_lambda_q[83] = t190;
-    const jg_real t191 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
+    phi_q_t_lambda_q[67] = t192;
+    phi_q_t_lambda_q[90] = t192;
+    phi_q_t_lambda_q[68] = t104 - A_ijt_g_star_2 * t153 - A_ijt_h_star_2 * t154 - A_ijt_f_star_2 * t155 + t108;
+    phi_q_t_lambda_q[69] = t136 - A_ijt_g_star_2 * t156 - A_ijt_h_star_2 * t157 - A_ijt_f_star_2 * t158 + t137;
+    phi_q_t_lambda_q[70] = t149 - A_ijt_g_star_2 * t159 - A_ijt_h_star_2 * t160 - A_ijt_f_star_2 * t161 + t150;
+    phi_q_t_lambda_q[72] = -t185;
+    phi_q_t_lambda_q[73] = A_ijt_g_star_0 * t164 + A_ijt_h_star_0 * t168 + A_ijt_f_star_0 * t172 + s_j[2] * t185;
+    phi_q_t_lambda_q[74] = A_ijt_g_star_1 * t164 + A_ijt_h_star_1 * t168 + A_ijt_f_star_1 * t172 + s_j[2] * t163;
+    phi_q_t_lambda_q[75] = -(t177 + t189 + (t175 + t188 + (t167 + t186 + (t171 + t187))));
+    const jg_real t193 = A_ijt_f_star_0 * t112 - A_ijt_f_star_1 * t111 + (C_j[4] * t190 - C_j[3] * t181);
+    phi_q_t_lambda_q[76] = t193;
+    phi_q_t_lambda_q[83] = t193;
+    const jg_real t194 = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) - lambda[4] * (C_j[0] *
         A_ijt_g_star_1 - C_j[1] * A_ijt_g_star_0);
-    phi_q_t_lambda_q[77] = t191;
-    phi_q_t_lambda_q[91] = t191;
-    const jg_real t192 = A_ij_f_j_0 * t66 + A_ij_f_j_1 * t67 + A_ij_f_j_2 * t68;
-    const jg_real t193 = A_ij_h_j_0 * t66 + A_ij_h_j_1 * t67 + A_ij_h_j_2 * t68;
-    const jg_real t194 = cosine_1 * cosine_1;
-    const jg_real t195 = sine_1 * sine_1;
-    phi_q_t_lambda_q[84] = lambda[4] * t192 * sine_1 - lambda[3] * t193 * cosine_1 - lambda[5] * t194 * t49 -
-        lambda[5] * t195 * t49;
-    const jg_real t196 = t62 * lambda[3] * sine_1 + t63 * lambda[4] * cosine_1;
-    phi_q_t_lambda_q[85] = t196;
-    phi_q_t_lambda_q[92] = t196;
-    phi_q_t_lambda_q[93] = -t89;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    phi_q_t_lambda_q[77] = t194;
+    phi_q_t_lambda_q[91] = t194;
+    const jg_real t195 = A_ij_f_j_0 * t69 + A_ij_f_j_1 * t70 + A_ij_f_j_2 * t71;
+    const jg_real t196 = A_ij_h_j_0 * t69 + A_ij_h_j_1 * t70 + A_ij_h_j_2 * t71;
+    const jg_real t197 = cosine_1 * cosine_1;
+    const jg_real t198 = sine_1 * sine_1;
+    phi_q_t_lambda_q[84] = lambda[4] * t195 * sine_1 - lambda[3] * t196 * cosine_1 - lambda[5] * t197 * t52 -
+        lambda[5] * t198 * t52;
+    const jg_real t199 = t65 * lambda[3] * sine_1 + t66 * lambda[4] * cosine_1;
+    phi_q_t_lambda_q[85] = t199;
+    phi_q_t_lambda_q[92] = t199;
+    phi_q_t_lambda_q[93] = -t92;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -1548,12 +1515,6 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -1569,34 +1530,29 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
@@ -1619,11 +1575,11 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_h_j_2;
     const jg_real omega_j_cross_omega_j_cross_h_j_2 = omega_j[0] * omega_j_cross_h_j_1 - omega_j[1] *
         omega_j_cross_h_j_0;
-    const jg_real t239 = alphadot[1] * alphadot[1];
-    const jg_real t240 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t241 = alphadot[0] * alphadot[0];
-    const jg_real t242 = JG_REAL(2.0) * alphadot[0];
-    const jg_real t243 = alphadot[1] * t242;
+    const jg_real t236 = alphadot[1] * alphadot[1];
+    const jg_real t237 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t238 = alphadot[0] * alphadot[0];
+    const jg_real t239 = JG_REAL(2.0) * alphadot[0];
+    const jg_real t240 = alphadot[1] * t239;
     gamma[3] = JG_REAL(2.0) * (g_star_0 * (omega_i[1] * A_ij_omega_j_cross_h_j_2 - omega_i[2] *
         A_ij_omega_j_cross_h_j_1) + g_star_1 * (omega_i[2] * A_ij_omega_j_cross_h_j_0 - omega_i[0] *
         A_ij_omega_j_cross_h_j_2) + g_star_2 * (omega_i[0] * A_ij_omega_j_cross_h_j_1 - omega_i[1] *
@@ -1634,13 +1590,13 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_h_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_h_j_2) + (g_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_h_j_2 - omega_i[2] * omega_i_cross_A_ij_h_j_1) + g_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_h_j_0 - omega_i[0] * omega_i_cross_A_ij_h_j_2) + g_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t33 * t239 - (h_star_0 *
-        A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 * A_ij_omega_j_cross_h_j_2) * t240
-        + t240 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 *
-        omega_i_cross_A_ij_h_j_2) + t193 * t241 * cosine_1 - (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
-        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t242 * cosine_1 + t242 * (f_star_0 *
+        omega_i_cross_A_ij_h_j_1 - omega_i[1] * omega_i_cross_A_ij_h_j_0))) + t36 * t236 - (h_star_0 *
+        A_ij_omega_j_cross_h_j_0 + h_star_1 * A_ij_omega_j_cross_h_j_1 + h_star_2 * A_ij_omega_j_cross_h_j_2) * t237
+        + t237 * (h_star_0 * omega_i_cross_A_ij_h_j_0 + h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 *
+        omega_i_cross_A_ij_h_j_2) + t196 * t238 * cosine_1 - (f_star_0 * omega_i_cross_A_ij_h_j_0 + f_star_1 *
+        omega_i_cross_A_ij_h_j_1 + f_star_2 * omega_i_cross_A_ij_h_j_2) * t239 * cosine_1 + t239 * (f_star_0 *
         A_ij_omega_j_cross_h_j_0 + f_star_1 * A_ij_omega_j_cross_h_j_1 + f_star_2 * A_ij_omega_j_cross_h_j_2) *
-        cosine_1 - t62 * t243 * sine_1;
+        cosine_1 - t65 * t240 * sine_1;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -1673,13 +1629,13 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_f_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_f_j_2) + (h_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1) + h_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2) + h_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t42 * t239 - t240 * (g_star_0 *
-        omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t240
+        omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0))) + t45 * t236 - t237 * (g_star_0 *
+        omega_i_cross_A_ij_f_j_0 + g_star_1 * omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2) + t237
         * (g_star_0 * A_ij_omega_j_cross_f_j_0 + g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 *
-        A_ij_omega_j_cross_f_j_2) - t192 * t241 * sine_1 - t242 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
-        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t242 * (f_star_0 *
+        A_ij_omega_j_cross_f_j_2) - t195 * t238 * sine_1 - t239 * (f_star_0 * A_ij_omega_j_cross_f_j_0 + f_star_1 *
+        A_ij_omega_j_cross_f_j_1 + f_star_2 * A_ij_omega_j_cross_f_j_2) * sine_1 + t239 * (f_star_0 *
         omega_i_cross_A_ij_f_j_0 + f_star_1 * omega_i_cross_A_ij_f_j_1 + f_star_2 * omega_i_cross_A_ij_f_j_2) *
-        sine_1 - t63 * t243 * cosine_1;
+        sine_1 - t66 * t240 * cosine_1;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real omega_j_cross_g_j_1 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
@@ -1702,11 +1658,11 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_g_j_2;
     const jg_real omega_j_cross_omega_j_cross_g_j_2 = omega_j[0] * omega_j_cross_g_j_1 - omega_j[1] *
         omega_j_cross_g_j_0;
-    const jg_real t268 = t21 * sine_1 - cosine_1 * H_6;
-    const jg_real t269 = cosine_1 * t36 - sine_1 * H_4;
-    const jg_real t270 = t194 + t195;
-    const jg_real t271 = (A_ij_g_j_0 * (C_i[0] * t268 + C_i[3] * t269 - C_i[6] * t270) + A_ij_g_j_1 * (C_i[1] * t268
-        + C_i[4] * t269 - C_i[7] * t270) + A_ij_g_j_2 * (C_i[2] * t268 + C_i[5] * t269 - C_i[8] * t270)) *
+    const jg_real t265 = t24 * sine_1 - cosine_1 * H_6;
+    const jg_real t266 = cosine_1 * t39 - sine_1 * H_4;
+    const jg_real t267 = t197 + t198;
+    const jg_real t268 = (A_ij_g_j_0 * (C_i[0] * t265 + C_i[3] * t266 - C_i[6] * t267) + A_ij_g_j_1 * (C_i[1] * t265
+        + C_i[4] * t266 - C_i[7] * t267) + A_ij_g_j_2 * (C_i[2] * t265 + C_i[5] * t266 - C_i[8] * t267)) *
         (alphadot[1] * alphadot[0]);
     gamma[5] = JG_REAL(2.0) * (f_star_0 * (omega_i[1] * A_ij_omega_j_cross_g_j_2 - omega_i[2] *
         A_ij_omega_j_cross_g_j_1) + f_star_1 * (omega_i[2] * A_ij_omega_j_cross_g_j_0 - omega_i[0] *
@@ -1718,10 +1674,10 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
         omega_j_cross_omega_j_cross_g_j_1 + A_ij_8 * omega_j_cross_omega_j_cross_g_j_2) + (f_star_0 * (omega_i[1] *
         omega_i_cross_A_ij_g_j_2 - omega_i[2] * omega_i_cross_A_ij_g_j_1) + f_star_1 * (omega_i[2] *
         omega_i_cross_A_ij_g_j_0 - omega_i[0] * omega_i_cross_A_ij_g_j_2) + f_star_2 * (omega_i[0] *
-        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t242 * (t66 * A_ij_omega_j_cross_g_j_0
-        + t67 * A_ij_omega_j_cross_g_j_1 + t68 * A_ij_omega_j_cross_g_j_2) + t242 * (t66 * omega_i_cross_A_ij_g_j_0
-        + t67 * omega_i_cross_A_ij_g_j_1 + t68 * omega_i_cross_A_ij_g_j_2) + t194 * t241 * t49 + t195 * t241 * t49 -
-        t271 + t271;
+        omega_i_cross_A_ij_g_j_1 - omega_i[1] * omega_i_cross_A_ij_g_j_0))) - t239 * (t69 * A_ij_omega_j_cross_g_j_0
+        + t70 * A_ij_omega_j_cross_g_j_1 + t71 * A_ij_omega_j_cross_g_j_2) + t239 * (t69 * omega_i_cross_A_ij_g_j_0
+        + t70 * omega_i_cross_A_ij_g_j_1 + t71 * omega_i_cross_A_ij_g_j_2) + t197 * t238 * t52 + t198 * t238 * t52 -
+        t268 + t268;
 }
 
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -34,16 +34,20 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -66,30 +70,30 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_1 * sine_0;
+    const jg_real t24 = cosine_1 * sine_0;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t35 = cosine_0 * sine_1;
+    const jg_real t38 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t38 + C_i[6] * cosine_1;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t38 + C_i[7] * cosine_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t38 + C_i[8] * cosine_1;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
@@ -530,19 +534,23 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -566,36 +574,36 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t21 = cosine_1 * sine_0;
+    const jg_real t24 = cosine_1 * sine_0;
     phi_q[45] = sine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t21 + C_i[6] * sine_1;
+    const jg_real g_star_0 = C_i[3] * H_4 - C_i[0] * t24 + C_i[6] * sine_1;
     phi_q[6] = g_star_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t21 + C_i[7] * sine_1;
+    const jg_real g_star_1 = C_i[4] * H_4 - C_i[1] * t24 + C_i[7] * sine_1;
     phi_q[11] = g_star_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t21 + C_i[8] * sine_1;
+    const jg_real g_star_2 = C_i[5] * H_4 - C_i[2] * t24 + C_i[8] * sine_1;
     phi_q[16] = g_star_2;
     phi[3] = g_star_0 * A_ij_h_j_0 + g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t35 = cosine_0 * sine_1;
+    const jg_real t38 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t38 + C_i[6] * cosine_1;
     phi_q[7] = h_star_0;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t38 + C_i[7] * cosine_1;
     phi_q[12] = h_star_1;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t38 + C_i[8] * cosine_1;
     phi_q[17] = h_star_2;
     phi[4] = h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
@@ -653,50 +661,50 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
     phi_q[47] = JG_REAL(1.0);
-    const jg_real t56 = sine_1 * lambda[5] - cosine_1 * lambda[4];
-    const jg_real t57 = cosine_1 * lambda[3];
-    const jg_real t58 = sine_1 * lambda[3];
-    phi_q_t_lambda_q[0] = f_star_0 * t56 + g_star_0 * t57 - h_star_0 * t58;
-    phi_q_t_lambda_q[1] = f_star_1 * t56 + g_star_1 * t57 - h_star_1 * t58;
-    phi_q_t_lambda_q[2] = f_star_2 * t56 + g_star_2 * t57 - h_star_2 * t58;
-    const jg_real t59 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t60 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t61 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t62 = H_4 * t59 - t21 * t60 + sine_1 * t61;
-    const jg_real t63 = H_6 * t60 - t35 * t59 + cosine_1 * t61;
-    const jg_real t64 = cosine_1 * t62 - sine_1 * t63;
-    const jg_real t65 = cosine_0 * t60 + sine_0 * t59;
-    const jg_real t66 = cosine_1 * t65;
-    const jg_real t67 = sine_1 * t65;
-    const jg_real t68 = C_j[0] * t64 - C_j[3] * t66 + C_j[6] * t67;
-    phi_q_t_lambda_q[3] = t68;
-    const jg_real t69 = C_j[1] * t64 - C_j[4] * t66 + C_j[7] * t67;
-    phi_q_t_lambda_q[4] = t69;
-    const jg_real t70 = C_j[2] * t64 - C_j[5] * t66 + C_j[8] * t67;
-    phi_q_t_lambda_q[5] = t70;
-    phi_q_t_lambda_q[6] = s_j[1] * t70 - s_j[2] * t69;
-    phi_q_t_lambda_q[7] = s_j[2] * t68 - s_j[0] * t70;
-    phi_q_t_lambda_q[8] = s_j[0] * t69 - s_j[1] * t68;
+    const jg_real t59 = sine_1 * lambda[5] - cosine_1 * lambda[4];
+    const jg_real t60 = cosine_1 * lambda[3];
+    const jg_real t61 = sine_1 * lambda[3];
+    phi_q_t_lambda_q[0] = f_star_0 * t59 + g_star_0 * t60 - h_star_0 * t61;
+    phi_q_t_lambda_q[1] = f_star_1 * t59 + g_star_1 * t60 - h_star_1 * t61;
+    phi_q_t_lambda_q[2] = f_star_2 * t59 + g_star_2 * t60 - h_star_2 * t61;
+    const jg_real t62 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t63 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t64 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t65 = H_4 * t62 - t24 * t63 + sine_1 * t64;
+    const jg_real t66 = H_6 * t63 - t38 * t62 + cosine_1 * t64;
+    const jg_real t67 = cosine_1 * t65 - sine_1 * t66;
+    const jg_real t68 = cosine_0 * t63 + sine_0 * t62;
+    const jg_real t69 = cosine_1 * t68;
+    const jg_real t70 = sine_1 * t68;
+    const jg_real t71 = C_j[0] * t67 - C_j[3] * t69 + C_j[6] * t70;
+    phi_q_t_lambda_q[3] = t71;
+    const jg_real t72 = C_j[1] * t67 - C_j[4] * t69 + C_j[7] * t70;
+    phi_q_t_lambda_q[4] = t72;
+    const jg_real t73 = C_j[2] * t67 - C_j[5] * t69 + C_j[8] * t70;
+    phi_q_t_lambda_q[5] = t73;
+    phi_q_t_lambda_q[6] = s_j[1] * t73 - s_j[2] * t72;
+    phi_q_t_lambda_q[7] = s_j[2] * t71 - s_j[0] * t73;
+    phi_q_t_lambda_q[8] = s_j[0] * t72 - s_j[1] * t71;
     phi_q_t_lambda_q[9] = h_star_0 * lambda[4] - g_star_0 * lambda[5];
     phi_q_t_lambda_q[10] = h_star_1 * lambda[4] - g_star_1 * lambda[5];
     phi_q_t_lambda_q[11] = h_star_2 * lambda[4] - g_star_2 * lambda[5];
-    const jg_real t71 = C_j[3] * t63 - C_j[6] * t62;
-    phi_q_t_lambda_q[12] = t71;
-    const jg_real t72 = C_j[4] * t63 - C_j[7] * t62;
-    phi_q_t_lambda_q[13] = t72;
-    const jg_real t73 = C_j[5] * t63 - C_j[8] * t62;
-    phi_q_t_lambda_q[14] = t73;
-    phi_q_t_lambda_q[15] = s_j[1] * t73 - s_j[2] * t72;
-    phi_q_t_lambda_q[16] = s_j[2] * t71 - s_j[0] * t73;
-    phi_q_t_lambda_q[17] = s_j[0] * t72 - s_j[1] * t71;
-    phi_q_t_lambda_q[18] = -t56;
+    const jg_real t74 = C_j[3] * t66 - C_j[6] * t65;
+    phi_q_t_lambda_q[12] = t74;
+    const jg_real t75 = C_j[4] * t66 - C_j[7] * t65;
+    phi_q_t_lambda_q[13] = t75;
+    const jg_real t76 = C_j[5] * t66 - C_j[8] * t65;
+    phi_q_t_lambda_q[14] = t76;
+    phi_q_t_lambda_q[15] = s_j[1] * t76 - s_j[2] * t75;
+    phi_q_t_lambda_q[16] = s_j[2] * t74 - s_j[0] * t76;
+    phi_q_t_lambda_q[17] = s_j[0] * t75 - s_j[1] * t74;
+    phi_q_t_lambda_q[18] = -t59;
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real t76 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
+    const jg_real t79 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t78 = cosine_1 * C_jt_v_j_0;
-    const jg_real t79 = sine_1 * C_jt_v_j_0;
+    const jg_real t81 = cosine_1 * C_jt_v_j_0;
+    const jg_real t82 = sine_1 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
@@ -706,11 +714,11 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
         s_j_cross_omega_j_2;
     const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
         s_j_cross_omega_j_2;
-    const jg_real t85 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t88 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
     const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
         s_j_cross_omega_j_2;
-    const jg_real t87 = cosine_1 * C_jt_s_j_cross_omega_j_0;
-    const jg_real t88 = sine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t90 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t91 = sine_1 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -720,32 +728,32 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t76 + g_star_0 * t78 - h_star_0 * t79) +
-        alphadot[1] * (h_star_0 * C_jt_v_j_1 - g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t85 + g_star_0 *
-        t87 - h_star_0 * t88) - alphadot[1] * (h_star_0 * C_jt_s_j_cross_omega_j_1 - g_star_0 *
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (f_star_0 * t79 + g_star_0 * t81 - h_star_0 * t82) +
+        alphadot[1] * (h_star_0 * C_jt_v_j_1 - g_star_0 * C_jt_v_j_2) - alphadot[0] * (f_star_0 * t88 + g_star_0 *
+        t90 - h_star_0 * t91) - alphadot[1] * (h_star_0 * C_jt_s_j_cross_omega_j_1 - g_star_0 *
         C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t76 + g_star_1 * t78 - h_star_1 * t79) +
-        alphadot[1] * (h_star_1 * C_jt_v_j_1 - g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t85 + g_star_1 *
-        t87 - h_star_1 * t88) - alphadot[1] * (h_star_1 * C_jt_s_j_cross_omega_j_1 - g_star_1 *
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (f_star_1 * t79 + g_star_1 * t81 - h_star_1 * t82) +
+        alphadot[1] * (h_star_1 * C_jt_v_j_1 - g_star_1 * C_jt_v_j_2) - alphadot[0] * (f_star_1 * t88 + g_star_1 *
+        t90 - h_star_1 * t91) - alphadot[1] * (h_star_1 * C_jt_s_j_cross_omega_j_1 - g_star_1 *
         C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t76 + g_star_2 * t78 - h_star_2 * t79) +
-        alphadot[1] * (h_star_2 * C_jt_v_j_1 - g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t85 + g_star_2 *
-        t87 - h_star_2 * t88) - alphadot[1] * (h_star_2 * C_jt_s_j_cross_omega_j_1 - g_star_2 *
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (f_star_2 * t79 + g_star_2 * t81 - h_star_2 * t82) +
+        alphadot[1] * (h_star_2 * C_jt_v_j_1 - g_star_2 * C_jt_v_j_2) - alphadot[0] * (f_star_2 * t88 + g_star_2 *
+        t90 - h_star_2 * t91) - alphadot[1] * (h_star_2 * C_jt_s_j_cross_omega_j_1 - g_star_2 *
         C_jt_s_j_cross_omega_j_2) + omega_i_cross_v_i_2);
     gamma[3] = -(alphadot[0] * (omega_i[0] * (cosine_1 * g_star_0 - sine_1 * h_star_0) + omega_i[1] * (cosine_1 *
         g_star_1 - sine_1 * h_star_1) + omega_i[2] * (cosine_1 * g_star_2 - sine_1 * h_star_2)));
-    const jg_real t98 = alphadot[0] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
-    const jg_real t99 = alphadot[0] * alphadot[1];
-    gamma[4] = cosine_1 * t98 - alphadot[1] * (h_star_0 * omega_i[0] + h_star_1 * omega_i[1] + h_star_2 *
-        omega_i[2]) - cosine_1 * t99;
-    gamma[5] = alphadot[1] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) + sine_1 * t99
-        - sine_1 * t98;
+    const jg_real t101 = alphadot[0] * (f_star_0 * omega_i[0] + f_star_1 * omega_i[1] + f_star_2 * omega_i[2]);
+    const jg_real t102 = alphadot[0] * alphadot[1];
+    gamma[4] = cosine_1 * t101 - alphadot[1] * (h_star_0 * omega_i[0] + h_star_1 * omega_i[1] + h_star_2 *
+        omega_i[2]) - cosine_1 * t102;
+    gamma[5] = alphadot[1] * (g_star_0 * omega_i[0] + g_star_1 * omega_i[1] + g_star_2 * omega_i[2]) + sine_1 * t102
+        - sine_1 * t101;
 }
 
 void jg_universal_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

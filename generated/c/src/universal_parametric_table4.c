@@ -35,16 +35,20 @@ void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -79,7 +83,6 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -88,24 +91,18 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
     phi_q[2] = JG_REAL(-1.0);
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    phi_q[3] = t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
-    phi_q[13] = t12;
-    phi_q[4] = -t12;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[20] = A_ij_2;
@@ -128,10 +125,9 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     phi_q[7] = C_i[7] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_1;
-    phi_q[8] = -t10;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t24 = s_i[0] + dp_ij_0;
-    phi_q[9] = t24;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[18] = A_ij_0;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -143,7 +139,7 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
     phi_q[11] = A_ij_f_j_0 * C_i[2] - A_ij_f_j_2 * C_i[0];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     phi_q[12] = C_i[8] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_2;
-    phi_q[14] = -t24;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = A_ij_f_j_1 * C_i[6] - A_ij_f_j_0 * C_i[7];
     phi_q[16] = A_ij_f_j_1 * C_i[0] - A_ij_f_j_0 * C_i[1];
     phi_q[17] = C_i[6] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_0;
@@ -191,7 +187,6 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
     jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -201,184 +196,177 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real t11 = lambda[2] * t10;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t13 = s_i[1] + dp_ij_1;
-    const jg_real t14 = lambda[1] * t13;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t19 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
-    const jg_real t20 = t19 * A_ij_f_j_2;
+    const jg_real t4 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
+    const jg_real t5 = t4 * A_ij_f_j_2;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t25 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
-    const jg_real t26 = t25 * A_ij_f_j_1;
+    const jg_real t10 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
+    const jg_real t11 = t10 * A_ij_f_j_1;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t28 = C_i[8] * lambda[5];
-    const jg_real t29 = A_ij_h_j_2 * t28;
+    const jg_real t13 = C_i[8] * lambda[5];
+    const jg_real t14 = A_ij_h_j_2 * t13;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t31 = C_i[7] * lambda[5];
-    const jg_real t32 = A_ij_h_j_1 * t31;
-    phi_q_t_lambda_q[6] = -(t11 + t14 + (t20 + t26 + (t29 + t32)));
-    const jg_real t33 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
-    const jg_real t34 = C_i[6] * lambda[5];
-    phi_q_t_lambda_q[7] = t33 * A_ij_f_j_1 + A_ij_h_j_1 * t34 + lambda[0] * t13;
-    phi_q_t_lambda_q[8] = t33 * A_ij_f_j_2 + A_ij_h_j_2 * t34 + lambda[0] * t10;
-    const jg_real t35 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t35;
-    phi_q_t_lambda_q[33] = t35;
-    const jg_real t36 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t36;
-    phi_q_t_lambda_q[36] = t36;
-    const jg_real t37 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t37;
-    phi_q_t_lambda_q[39] = t37;
+    const jg_real t16 = C_i[7] * lambda[5];
+    const jg_real t17 = A_ij_h_j_1 * t16;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t25 = lambda[2] * ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t27 = lambda[1] * ep_ij_1;
+    phi_q_t_lambda_q[6] = -(t25 + t27 + (t5 + t11 + (t14 + t17)));
+    const jg_real t28 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
+    const jg_real t29 = C_i[6] * lambda[5];
+    phi_q_t_lambda_q[7] = t28 * A_ij_f_j_1 + A_ij_h_j_1 * t29 + lambda[0] * ep_ij_1;
+    phi_q_t_lambda_q[8] = t28 * A_ij_f_j_2 + A_ij_h_j_2 * t29 + lambda[0] * ep_ij_2;
+    const jg_real t30 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    phi_q_t_lambda_q[9] = t30;
+    phi_q_t_lambda_q[33] = t30;
+    const jg_real t31 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[10] = t31;
+    phi_q_t_lambda_q[36] = t31;
+    const jg_real t32 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    phi_q_t_lambda_q[11] = t32;
+    phi_q_t_lambda_q[39] = t32;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t42 = t33 * A_ij_f_j_0;
-    const jg_real t43 = t26 + t42;
+    const jg_real t37 = t28 * A_ij_f_j_0;
+    const jg_real t38 = t11 + t37;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t45 = t20 + t43 + lambda[5] * (C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2);
-    const jg_real t46 = A_ij_0 * t45;
+    const jg_real t40 = t5 + t38 + lambda[5] * (C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2);
+    const jg_real t41 = A_ij_0 * t40;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    const jg_real t48 = lambda[5] * A_ijt_h_i_0;
-    const jg_real t49 = t33 * A_ij_0 + t25 * A_ij_1 + t19 * A_ij_2;
-    const jg_real t50 = A_ij_f_j_0 * t49;
-    const jg_real t51 = s_j[1] * t37 - s_j[2] * t36;
-    phi_q_t_lambda_q[12] = t46 - A_ij_h_j_0 * t48 - t50 + t51;
-    const jg_real t52 = A_ij_3 * t45;
+    const jg_real t43 = lambda[5] * A_ijt_h_i_0;
+    const jg_real t44 = t28 * A_ij_0 + t10 * A_ij_1 + t4 * A_ij_2;
+    const jg_real t45 = A_ij_f_j_0 * t44;
+    const jg_real t46 = s_j[1] * t32 - s_j[2] * t31;
+    phi_q_t_lambda_q[12] = t41 - A_ij_h_j_0 * t43 - t45 + t46;
+    const jg_real t47 = A_ij_3 * t40;
     const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real t54 = lambda[5] * A_ijt_h_i_1;
-    const jg_real t55 = t33 * A_ij_3 + t25 * A_ij_4 + t19 * A_ij_5;
-    const jg_real t56 = A_ij_f_j_0 * t55;
-    const jg_real t57 = s_j[2] * t35 - s_j[0] * t37;
-    phi_q_t_lambda_q[13] = t52 - A_ij_h_j_0 * t54 - t56 + t57;
-    const jg_real t58 = A_ij_6 * t45;
+    const jg_real t49 = lambda[5] * A_ijt_h_i_1;
+    const jg_real t50 = t28 * A_ij_3 + t10 * A_ij_4 + t4 * A_ij_5;
+    const jg_real t51 = A_ij_f_j_0 * t50;
+    const jg_real t52 = s_j[2] * t30 - s_j[0] * t32;
+    phi_q_t_lambda_q[13] = t47 - A_ij_h_j_0 * t49 - t51 + t52;
+    const jg_real t53 = A_ij_6 * t40;
     const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real t60 = lambda[5] * A_ijt_h_i_2;
-    const jg_real t61 = t33 * A_ij_6 + t25 * A_ij_7 + t19 * A_ij_8;
-    const jg_real t62 = A_ij_f_j_0 * t61;
-    const jg_real t63 = s_j[0] * t36 - s_j[1] * t35;
-    phi_q_t_lambda_q[14] = t58 - A_ij_h_j_0 * t60 - t62 + t63;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t65 = s_i[0] + dp_ij_0;
-    phi_q_t_lambda_q[15] = t25 * A_ij_f_j_0 + A_ij_h_j_0 * t31 + lambda[1] * t65;
-    const jg_real t66 = lambda[0] * t65;
-    const jg_real t67 = A_ij_h_j_0 * t34;
-    phi_q_t_lambda_q[16] = -(t11 + t66 + (t20 + t42 + (t29 + t67)));
-    phi_q_t_lambda_q[17] = t25 * A_ij_f_j_2 + A_ij_h_j_2 * t31 + lambda[1] * t10;
-    const jg_real t68 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t68;
-    phi_q_t_lambda_q[34] = t68;
-    const jg_real t69 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t69;
-    phi_q_t_lambda_q[37] = t69;
-    const jg_real t70 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t70;
-    phi_q_t_lambda_q[40] = t70;
-    const jg_real t71 = A_ij_1 * t45;
-    const jg_real t72 = A_ij_f_j_1 * t49;
-    const jg_real t73 = s_j[1] * t70 - s_j[2] * t69;
-    phi_q_t_lambda_q[21] = t71 - A_ij_h_j_1 * t48 - t72 + t73;
-    const jg_real t74 = A_ij_4 * t45;
-    const jg_real t75 = A_ij_f_j_1 * t55;
-    const jg_real t76 = s_j[2] * t68 - s_j[0] * t70;
-    phi_q_t_lambda_q[22] = t74 - A_ij_h_j_1 * t54 - t75 + t76;
-    const jg_real t77 = A_ij_7 * t45;
-    const jg_real t78 = A_ij_f_j_1 * t61;
-    const jg_real t79 = s_j[0] * t69 - s_j[1] * t68;
-    phi_q_t_lambda_q[23] = t77 - A_ij_h_j_1 * t60 - t78 + t79;
-    phi_q_t_lambda_q[24] = t19 * A_ij_f_j_0 + A_ij_h_j_0 * t28 + lambda[2] * t65;
-    phi_q_t_lambda_q[25] = t19 * A_ij_f_j_1 + A_ij_h_j_1 * t28 + lambda[2] * t13;
-    phi_q_t_lambda_q[26] = -(t14 + t66 + (t32 + t67 + t43));
-    const jg_real t80 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t80;
-    phi_q_t_lambda_q[35] = t80;
-    const jg_real t81 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t81;
-    phi_q_t_lambda_q[38] = t81;
-    const jg_real t82 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t82;
-    phi_q_t_lambda_q[41] = t82;
-    const jg_real t83 = A_ij_2 * t45;
-    const jg_real t84 = A_ij_f_j_2 * t49;
-    const jg_real t85 = s_j[1] * t82 - s_j[2] * t81;
-    phi_q_t_lambda_q[30] = t83 - A_ij_h_j_2 * t48 - t84 + t85;
-    const jg_real t86 = A_ij_5 * t45;
-    const jg_real t87 = A_ij_f_j_2 * t55;
-    const jg_real t88 = s_j[2] * t80 - s_j[0] * t82;
-    phi_q_t_lambda_q[31] = t86 - A_ij_h_j_2 * t54 - t87 + t88;
-    const jg_real t89 = A_ij_8 * t45;
-    const jg_real t90 = A_ij_f_j_2 * t61;
-    const jg_real t91 = s_j[0] * t81 - s_j[1] * t80;
-    phi_q_t_lambda_q[32] = t89 - A_ij_h_j_2 * t60 - t90 + t91;
-    const jg_real t92 = A_ij_h_j_0 * lambda[5];
-    phi_q_t_lambda_q[42] = t46 - t50 - t92 * A_ijt_h_i_0 + t51;
-    const jg_real t93 = A_ij_h_j_1 * lambda[5];
-    phi_q_t_lambda_q[43] = t71 - t72 - t93 * A_ijt_h_i_0 + t73;
-    const jg_real t94 = A_ij_h_j_2 * lambda[5];
-    phi_q_t_lambda_q[44] = t83 - t84 - t94 * A_ijt_h_i_0 + t85;
-    const jg_real t95 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = t95;
-    const jg_real t96 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = t96;
-    phi_q_t_lambda_q[46] = -t96;
-    const jg_real t97 = C_j[2] * t61;
-    const jg_real t98 = C_j[1] * t55;
-    const jg_real t99 = C_j[8] * lambda[5];
-    const jg_real t100 = A_ijt_h_i_2 * t99;
-    const jg_real t101 = C_j[7] * lambda[5];
-    const jg_real t102 = A_ijt_h_i_1 * t101;
-    const jg_real t103 = s_j[2] * t95;
-    const jg_real t104 = s_j[1] * t96;
-    phi_q_t_lambda_q[47] = -(t97 + t98 + (t100 + t102 + (t103 + t104)));
-    const jg_real t105 = C_j[6] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t105 + s_j[0] * t96 + C_j[0] * t55;
-    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t105 + s_j[0] * t95 + C_j[0] * t61;
-    phi_q_t_lambda_q[50] = t52 - t56 - t92 * A_ijt_h_i_1 + t57;
-    phi_q_t_lambda_q[51] = t74 - t75 - t93 * A_ijt_h_i_1 + t76;
-    phi_q_t_lambda_q[52] = t86 - t87 - t94 * A_ijt_h_i_1 + t88;
-    phi_q_t_lambda_q[53] = -t95;
-    const jg_real t106 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = t106;
-    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t101 + s_j[1] * t106 + C_j[1] * t49;
-    const jg_real t107 = C_j[0] * t49;
-    const jg_real t108 = A_ijt_h_i_0 * t105;
-    const jg_real t109 = s_j[0] * t106;
-    phi_q_t_lambda_q[56] = -(t97 + t107 + (t100 + t108 + (t103 + t109)));
-    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t101 + s_j[1] * t95 + C_j[1] * t61;
-    phi_q_t_lambda_q[58] = t58 - t62 - t92 * A_ijt_h_i_2 + t63;
-    phi_q_t_lambda_q[59] = t77 - t78 - t93 * A_ijt_h_i_2 + t79;
-    phi_q_t_lambda_q[60] = t89 - t90 - t94 * A_ijt_h_i_2 + t91;
-    phi_q_t_lambda_q[62] = -t106;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t99 + s_j[2] * t106 + C_j[2] * t49;
-    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t99 + s_j[2] * t96 + C_j[2] * t55;
-    phi_q_t_lambda_q[65] = -(t98 + t107 + (t102 + t108 + (t104 + t109)));
+    const jg_real t55 = lambda[5] * A_ijt_h_i_2;
+    const jg_real t56 = t28 * A_ij_6 + t10 * A_ij_7 + t4 * A_ij_8;
+    const jg_real t57 = A_ij_f_j_0 * t56;
+    const jg_real t58 = s_j[0] * t31 - s_j[1] * t30;
+    phi_q_t_lambda_q[14] = t53 - A_ij_h_j_0 * t55 - t57 + t58;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q_t_lambda_q[15] = t10 * A_ij_f_j_0 + A_ij_h_j_0 * t16 + lambda[1] * ep_ij_0;
+    const jg_real t60 = A_ij_h_j_0 * t29;
+    const jg_real t61 = lambda[0] * ep_ij_0;
+    phi_q_t_lambda_q[16] = -(t25 + t61 + (t5 + t37 + (t14 + t60)));
+    phi_q_t_lambda_q[17] = t10 * A_ij_f_j_2 + A_ij_h_j_2 * t16 + lambda[1] * ep_ij_2;
+    const jg_real t62 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[18] = t62;
+    phi_q_t_lambda_q[34] = t62;
+    const jg_real t63 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    phi_q_t_lambda_q[19] = t63;
+    phi_q_t_lambda_q[37] = t63;
+    const jg_real t64 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[20] = t64;
+    phi_q_t_lambda_q[40] = t64;
+    const jg_real t65 = A_ij_1 * t40;
+    const jg_real t66 = A_ij_f_j_1 * t44;
+    const jg_real t67 = s_j[1] * t64 - s_j[2] * t63;
+    phi_q_t_lambda_q[21] = t65 - A_ij_h_j_1 * t43 - t66 + t67;
+    const jg_real t68 = A_ij_4 * t40;
+    const jg_real t69 = A_ij_f_j_1 * t50;
+    const jg_real t70 = s_j[2] * t62 - s_j[0] * t64;
+    phi_q_t_lambda_q[22] = t68 - A_ij_h_j_1 * t49 - t69 + t70;
+    const jg_real t71 = A_ij_7 * t40;
+    const jg_real t72 = A_ij_f_j_1 * t56;
+    const jg_real t73 = s_j[0] * t63 - s_j[1] * t62;
+    phi_q_t_lambda_q[23] = t71 - A_ij_h_j_1 * t55 - t72 + t73;
+    phi_q_t_lambda_q[24] = t4 * A_ij_f_j_0 + A_ij_h_j_0 * t13 + lambda[2] * ep_ij_0;
+    phi_q_t_lambda_q[25] = t4 * A_ij_f_j_1 + A_ij_h_j_1 * t13 + lambda[2] * ep_ij_1;
+    phi_q_t_lambda_q[26] = -(t27 + t61 + (t17 + t60 + t38));
+    const jg_real t74 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[27] = t74;
+    phi_q_t_lambda_q[35] = t74;
+    const jg_real t75 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[28] = t75;
+    phi_q_t_lambda_q[38] = t75;
+    const jg_real t76 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    phi_q_t_lambda_q[29] = t76;
+    phi_q_t_lambda_q[41] = t76;
+    const jg_real t77 = A_ij_2 * t40;
+    const jg_real t78 = A_ij_f_j_2 * t44;
+    const jg_real t79 = s_j[1] * t76 - s_j[2] * t75;
+    phi_q_t_lambda_q[30] = t77 - A_ij_h_j_2 * t43 - t78 + t79;
+    const jg_real t80 = A_ij_5 * t40;
+    const jg_real t81 = A_ij_f_j_2 * t50;
+    const jg_real t82 = s_j[2] * t74 - s_j[0] * t76;
+    phi_q_t_lambda_q[31] = t80 - A_ij_h_j_2 * t49 - t81 + t82;
+    const jg_real t83 = A_ij_8 * t40;
+    const jg_real t84 = A_ij_f_j_2 * t56;
+    const jg_real t85 = s_j[0] * t75 - s_j[1] * t74;
+    phi_q_t_lambda_q[32] = t83 - A_ij_h_j_2 * t55 - t84 + t85;
+    const jg_real t86 = A_ij_h_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t41 - t45 - t86 * A_ijt_h_i_0 + t46;
+    const jg_real t87 = A_ij_h_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t65 - t66 - t87 * A_ijt_h_i_0 + t67;
+    const jg_real t88 = A_ij_h_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t77 - t78 - t88 * A_ijt_h_i_0 + t79;
+    const jg_real t89 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda_q[45] = t89;
+    const jg_real t90 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[61] = t90;
+    phi_q_t_lambda_q[46] = -t90;
+    const jg_real t91 = C_j[2] * t56;
+    const jg_real t92 = C_j[1] * t50;
+    const jg_real t93 = C_j[8] * lambda[5];
+    const jg_real t94 = A_ijt_h_i_2 * t93;
+    const jg_real t95 = C_j[7] * lambda[5];
+    const jg_real t96 = A_ijt_h_i_1 * t95;
+    const jg_real t97 = s_j[2] * t89;
+    const jg_real t98 = s_j[1] * t90;
+    phi_q_t_lambda_q[47] = -(t91 + t92 + (t94 + t96 + (t97 + t98)));
+    const jg_real t99 = C_j[6] * lambda[5];
+    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t99 + s_j[0] * t90 + C_j[0] * t50;
+    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t99 + s_j[0] * t89 + C_j[0] * t56;
+    phi_q_t_lambda_q[50] = t47 - t51 - t86 * A_ijt_h_i_1 + t52;
+    phi_q_t_lambda_q[51] = t68 - t69 - t87 * A_ijt_h_i_1 + t70;
+    phi_q_t_lambda_q[52] = t80 - t81 - t88 * A_ijt_h_i_1 + t82;
+    phi_q_t_lambda_q[53] = -t89;
+    const jg_real t100 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda_q[54] = t100;
+    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t95 + s_j[1] * t100 + C_j[1] * t44;
+    const jg_real t101 = C_j[0] * t44;
+    const jg_real t102 = A_ijt_h_i_0 * t99;
+    const jg_real t103 = s_j[0] * t100;
+    phi_q_t_lambda_q[56] = -(t91 + t101 + (t94 + t102 + (t97 + t103)));
+    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t95 + s_j[1] * t89 + C_j[1] * t56;
+    phi_q_t_lambda_q[58] = t53 - t57 - t86 * A_ijt_h_i_2 + t58;
+    phi_q_t_lambda_q[59] = t71 - t72 - t87 * A_ijt_h_i_2 + t73;
+    phi_q_t_lambda_q[60] = t83 - t84 - t88 * A_ijt_h_i_2 + t85;
+    phi_q_t_lambda_q[62] = -t100;
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t93 + s_j[2] * t100 + C_j[2] * t44;
+    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t93 + s_j[2] * t90 + C_j[2] * t50;
+    phi_q_t_lambda_q[65] = -(t92 + t101 + (t96 + t102 + (t98 + t103)));
     phi_q_t_lambda_q[66] = lambda[4] * jg_cos(alpha[0]);
     phi_q_t_lambda_q[67] = lambda[5] * jg_cos(alpha[1]);
 }
@@ -397,7 +385,6 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -408,26 +395,22 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = omega_i[0] * ep_ij_1 - omega_i[1] * ep_ij_0;
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real omega_i_cross_ep_ij_1 = omega_i[2] * ep_ij_0 - omega_i[0] * ep_ij_2;
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
@@ -444,12 +427,6 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -468,34 +445,29 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = omega_i[1] * ep_ij_2 - omega_i[2] * ep_ij_1;
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -505,11 +477,11 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t56 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t47 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t58 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t59 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t49 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t50 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -517,10 +489,10 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    const jg_real t65 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t56 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    const jg_real t67 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t68 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t58 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t59 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* omega_j_cross_omega_j_cross_f_j = tilde(omega_j) tilde(omega_j) f_j */
     const jg_real omega_j_cross_omega_j_cross_f_j_0 = omega_j[1] * omega_j_cross_f_j_2 - omega_j[2] *
         omega_j_cross_f_j_1;
@@ -528,16 +500,16 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t72 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t63 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t73 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t64 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t74 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t65 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
-    gamma[3] = JG_REAL(2.0) * (C_i[6] * t56 + C_i[7] * t58 + C_i[8] * t59) - (C_i[6] * t72 + C_i[7] * t73 + C_i[8] *
-        t74 + (C_i[6] * t65 + C_i[7] * t67 + C_i[8] * t68));
-    gamma[4] = JG_REAL(2.0) * (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59) - (C_i[0] * t72 + C_i[1] * t73 + C_i[2] *
-        t74 + (C_i[0] * t65 + C_i[1] * t67 + C_i[2] * t68)) - alphadot[0] * alphadot[0] * jg_cos(alpha[0]);
+    gamma[3] = JG_REAL(2.0) * (C_i[6] * t47 + C_i[7] * t49 + C_i[8] * t50) - (C_i[6] * t63 + C_i[7] * t64 + C_i[8] *
+        t65 + (C_i[6] * t56 + C_i[7] * t58 + C_i[8] * t59));
+    gamma[4] = JG_REAL(2.0) * (C_i[0] * t47 + C_i[1] * t49 + C_i[2] * t50) - (C_i[0] * t63 + C_i[1] * t64 + C_i[2] *
+        t65 + (C_i[0] * t56 + C_i[1] * t58 + C_i[2] * t59)) - alphadot[0] * alphadot[0] * jg_cos(alpha[0]);
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
@@ -591,58 +563,56 @@ void jg_universal_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
-    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
-    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* A_ij_v_j = A_ij v_j */
-    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
     /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t14 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t16 = ep_ij_1 - s_i[1];
+    /* A_ij_v_j = A_ij v_j */
+    const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
-    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - omega_i_cross_dp_ij_0 + A_ij_omega_j_cross_s_j_0 - omega_i_cross_s_i_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    phi_q_v[0] = A_ij_v_j_0 - v_i[0] - (omega_i[1] * t14 - omega_i[2] * t16) + A_ij_omega_j_cross_s_j_0 -
+        omega_i_cross_s_i_0;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t24 = ep_ij_0 - s_i[0];
+    const jg_real A_ij_v_j_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
-    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - omega_i_cross_dp_ij_1 + A_ij_omega_j_cross_s_j_1 - omega_i_cross_s_i_1;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    phi_q_v[1] = A_ij_v_j_1 - v_i[1] - (omega_i[2] * t24 - omega_i[0] * t14) + A_ij_omega_j_cross_s_j_1 -
+        omega_i_cross_s_i_1;
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
         omega_j_cross_s_j_2;
+    const jg_real A_ij_v_j_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
-    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - omega_i_cross_dp_ij_2 + A_ij_omega_j_cross_s_j_2 - omega_i_cross_s_i_2;
+    phi_q_v[2] = A_ij_v_j_2 - v_i[2] - (omega_i[0] * t16 - omega_i[1] * t24) + A_ij_omega_j_cross_s_j_2 -
+        omega_i_cross_s_i_2;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
@@ -696,7 +666,6 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -705,68 +674,61 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
     phi_q_t_lambda[2] = -lambda[2];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t10 = s_i[2] + dp_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t12 = s_i[1] + dp_ij_1;
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t17 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
+    const jg_real t12 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t22 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
+    const jg_real t17 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    phi_q_t_lambda[3] = lambda[1] * t10 - lambda[2] * t12 + (A_ij_f_j_2 * t17 - A_ij_f_j_1 * t22) - lambda[5] *
-        (C_i[8] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_2);
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t26 = s_i[0] + dp_ij_0;
+    phi_q_t_lambda[3] = lambda[1] * ep_ij_2 - lambda[2] * ep_ij_1 + (A_ij_f_j_2 * t12 - A_ij_f_j_1 * t17) -
+        lambda[5] * (C_i[8] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_2);
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real t31 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
+    const jg_real t25 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q_t_lambda[4] = lambda[2] * t26 - lambda[0] * t10 + (A_ij_f_j_0 * t22 - A_ij_f_j_2 * t31) - lambda[5] *
-        (C_i[6] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_0);
-    phi_q_t_lambda[5] = lambda[0] * t12 - lambda[1] * t26 + (A_ij_f_j_1 * t31 - A_ij_f_j_0 * t17) - lambda[5] *
-        (C_i[7] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_1);
-    const jg_real t33 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = t33;
-    const jg_real t34 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = t34;
-    const jg_real t35 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = t35;
-    const jg_real t36 = A_ij_6 * t31 + A_ij_7 * t17 + A_ij_8 * t22;
-    const jg_real t37 = A_ij_3 * t31 + A_ij_4 * t17 + A_ij_5 * t22;
+    phi_q_t_lambda[4] = lambda[2] * ep_ij_0 - lambda[0] * ep_ij_2 + (A_ij_f_j_0 * t17 - A_ij_f_j_2 * t25) -
+        lambda[5] * (C_i[6] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_0);
+    phi_q_t_lambda[5] = lambda[0] * ep_ij_1 - lambda[1] * ep_ij_0 + (A_ij_f_j_1 * t25 - A_ij_f_j_0 * t12) -
+        lambda[5] * (C_i[7] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_1);
+    const jg_real t27 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    phi_q_t_lambda[6] = t27;
+    const jg_real t28 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda[7] = t28;
+    const jg_real t29 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    phi_q_t_lambda[8] = t29;
+    const jg_real t30 = A_ij_6 * t25 + A_ij_7 * t12 + A_ij_8 * t17;
+    const jg_real t31 = A_ij_3 * t25 + A_ij_4 * t12 + A_ij_5 * t17;
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real A_ijt_h_i_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    phi_q_t_lambda[9] = C_j[1] * t36 - C_j[2] * t37 + (s_j[1] * t35 - s_j[2] * t34 + lambda[5] * (C_j[7] *
+    phi_q_t_lambda[9] = C_j[1] * t30 - C_j[2] * t31 + (s_j[1] * t29 - s_j[2] * t28 + lambda[5] * (C_j[7] *
         A_ijt_h_i_2 - C_j[8] * A_ijt_h_i_1));
-    const jg_real t40 = A_ij_0 * t31 + A_ij_1 * t17 + A_ij_2 * t22;
+    const jg_real t34 = A_ij_0 * t25 + A_ij_1 * t12 + A_ij_2 * t17;
     const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    phi_q_t_lambda[10] = C_j[2] * t40 - C_j[0] * t36 + (s_j[2] * t33 - s_j[0] * t35 + lambda[5] * (C_j[8] *
+    phi_q_t_lambda[10] = C_j[2] * t34 - C_j[0] * t30 + (s_j[2] * t27 - s_j[0] * t29 + lambda[5] * (C_j[8] *
         A_ijt_h_i_0 - C_j[6] * A_ijt_h_i_2));
-    phi_q_t_lambda[11] = C_j[0] * t37 - C_j[1] * t40 + (s_j[0] * t34 - s_j[1] * t33 + lambda[5] * (C_j[6] *
+    phi_q_t_lambda[11] = C_j[0] * t31 - C_j[1] * t34 + (s_j[0] * t28 - s_j[1] * t27 + lambda[5] * (C_j[6] *
         A_ijt_h_i_1 - C_j[7] * A_ijt_h_i_0));
     phi_q_t_lambda[12] = lambda[4] * jg_sin(alpha[0]);
     phi_q_t_lambda[13] = lambda[5] * jg_sin(alpha[1]);
@@ -789,16 +751,20 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -838,29 +804,30 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t29 = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2;
+    const jg_real t32 = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    phi[5] = t29 - cosine_1;
+    phi[5] = t32 - cosine_1;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real t32 = s_i[2] + dp_ij_2;
-    phi_q[3] = t32;
-    const jg_real t33 = s_i[1] + dp_ij_1;
-    phi_q[13] = t33;
-    phi_q[4] = -t33;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    phi_q[3] = ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    phi_q[13] = ep_ij_1;
+    phi_q[4] = -ep_ij_1;
     phi_q[5] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     phi_q[6] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
     phi_q[7] = C_i[7] * A_ij_h_j_2 - C_i[8] * A_ij_h_j_1;
-    phi_q[8] = -t32;
-    const jg_real t34 = s_i[0] + dp_ij_0;
-    phi_q[9] = t34;
+    phi_q[8] = -ep_ij_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    phi_q[9] = ep_ij_0;
     phi_q[10] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     phi_q[11] = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
     phi_q[12] = C_i[8] * A_ij_h_j_0 - C_i[6] * A_ij_h_j_2;
-    phi_q[14] = -t34;
+    phi_q[14] = -ep_ij_0;
     phi_q[15] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     phi_q[16] = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
     phi_q[17] = C_i[6] * A_ij_h_j_1 - C_i[7] * A_ij_h_j_0;
@@ -898,151 +865,151 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real t41 = t32 * lambda[2];
-    const jg_real t42 = t33 * lambda[1];
-    const jg_real t43 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
-    const jg_real t44 = A_ij_f_j_2 * t43;
-    const jg_real t45 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
-    const jg_real t46 = A_ij_f_j_1 * t45;
-    const jg_real t47 = C_i[8] * lambda[5];
-    const jg_real t48 = A_ij_h_j_2 * t47;
-    const jg_real t49 = C_i[7] * lambda[5];
-    const jg_real t50 = A_ij_h_j_1 * t49;
-    phi_q_t_lambda_q[6] = -(t41 + t42 + (t44 + t46 + (t48 + t50)));
-    const jg_real t51 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
-    const jg_real t52 = C_i[6] * lambda[5];
-    phi_q_t_lambda_q[7] = A_ij_f_j_1 * t51 + A_ij_h_j_1 * t52 + t33 * lambda[0];
-    phi_q_t_lambda_q[8] = A_ij_f_j_2 * t51 + A_ij_h_j_2 * t52 + t32 * lambda[0];
-    const jg_real t53 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t53;
-    phi_q_t_lambda_q[33] = t53;
-    const jg_real t54 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t54;
-    phi_q_t_lambda_q[36] = t54;
-    const jg_real t55 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t55;
-    phi_q_t_lambda_q[39] = t55;
-    const jg_real t56 = A_ij_f_j_0 * t51;
-    const jg_real t57 = t46 + t56;
-    const jg_real t58 = t44 + t57 + t29 * lambda[5];
-    const jg_real t59 = A_ij_0 * t58;
-    const jg_real t60 = A_ijt_h_i_0 * lambda[5];
-    const jg_real t61 = A_ij_0 * t51 + A_ij_1 * t45 + A_ij_2 * t43;
-    const jg_real t62 = A_ij_f_j_0 * t61;
-    const jg_real t63 = s_j[1] * t55 - s_j[2] * t54;
-    phi_q_t_lambda_q[12] = t59 - A_ij_h_j_0 * t60 - t62 + t63;
-    const jg_real t64 = A_ij_3 * t58;
-    const jg_real t65 = A_ijt_h_i_1 * lambda[5];
-    const jg_real t66 = A_ij_3 * t51 + A_ij_4 * t45 + A_ij_5 * t43;
-    const jg_real t67 = A_ij_f_j_0 * t66;
-    const jg_real t68 = s_j[2] * t53 - s_j[0] * t55;
-    phi_q_t_lambda_q[13] = t64 - A_ij_h_j_0 * t65 - t67 + t68;
-    const jg_real t69 = A_ij_6 * t58;
-    const jg_real t70 = A_ijt_h_i_2 * lambda[5];
-    const jg_real t71 = A_ij_6 * t51 + A_ij_7 * t45 + A_ij_8 * t43;
-    const jg_real t72 = A_ij_f_j_0 * t71;
-    const jg_real t73 = s_j[0] * t54 - s_j[1] * t53;
-    phi_q_t_lambda_q[14] = t69 - A_ij_h_j_0 * t70 - t72 + t73;
-    phi_q_t_lambda_q[15] = A_ij_f_j_0 * t45 + A_ij_h_j_0 * t49 + t34 * lambda[1];
-    const jg_real t74 = t34 * lambda[0];
-    const jg_real t75 = A_ij_h_j_0 * t52;
-    phi_q_t_lambda_q[16] = -(t41 + t74 + (t44 + t56 + (t48 + t75)));
-    phi_q_t_lambda_q[17] = A_ij_f_j_2 * t45 + A_ij_h_j_2 * t49 + t32 * lambda[1];
-    const jg_real t76 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t76;
-    phi_q_t_lambda_q[34] = t76;
-    const jg_real t77 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t77;
-    phi_q_t_lambda_q[37] = t77;
-    const jg_real t78 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t78;
-    phi_q_t_lambda_q[40] = t78;
-    const jg_real t79 = A_ij_1 * t58;
-    const jg_real t80 = A_ij_f_j_1 * t61;
-    const jg_real t81 = s_j[1] * t78 - s_j[2] * t77;
-    phi_q_t_lambda_q[21] = t79 - A_ij_h_j_1 * t60 - t80 + t81;
-    const jg_real t82 = A_ij_4 * t58;
-    const jg_real t83 = A_ij_f_j_1 * t66;
-    const jg_real t84 = s_j[2] * t76 - s_j[0] * t78;
-    phi_q_t_lambda_q[22] = t82 - A_ij_h_j_1 * t65 - t83 + t84;
-    const jg_real t85 = A_ij_7 * t58;
-    const jg_real t86 = A_ij_f_j_1 * t71;
-    const jg_real t87 = s_j[0] * t77 - s_j[1] * t76;
-    phi_q_t_lambda_q[23] = t85 - A_ij_h_j_1 * t70 - t86 + t87;
-    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t43 + A_ij_h_j_0 * t47 + t34 * lambda[2];
-    phi_q_t_lambda_q[25] = A_ij_f_j_1 * t43 + A_ij_h_j_1 * t47 + t33 * lambda[2];
-    phi_q_t_lambda_q[26] = -(t42 + t74 + (t50 + t75 + t57));
-    const jg_real t88 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t88;
-    phi_q_t_lambda_q[35] = t88;
-    const jg_real t89 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t89;
-    phi_q_t_lambda_q[38] = t89;
-    const jg_real t90 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t90;
-    phi_q_t_lambda_q[41] = t90;
-    const jg_real t91 = A_ij_2 * t58;
-    const jg_real t92 = A_ij_f_j_2 * t61;
-    const jg_real t93 = s_j[1] * t90 - s_j[2] * t89;
-    phi_q_t_lambda_q[30] = t91 - A_ij_h_j_2 * t60 - t92 + t93;
-    const jg_real t94 = A_ij_5 * t58;
-    const jg_real t95 = A_ij_f_j_2 * t66;
-    const jg_real t96 = s_j[2] * t88 - s_j[0] * t90;
-    phi_q_t_lambda_q[31] = t94 - A_ij_h_j_2 * t65 - t95 + t96;
-    const jg_real t97 = A_ij_8 * t58;
-    const jg_real t98 = A_ij_f_j_2 * t71;
-    const jg_real t99 = s_j[0] * t89 - s_j[1] * t88;
-    phi_q_t_lambda_q[32] = t97 - A_ij_h_j_2 * t70 - t98 + t99;
-    const jg_real t100 = A_ij_h_j_0 * lambda[5];
-    phi_q_t_lambda_q[42] = t59 - t62 - A_ijt_h_i_0 * t100 + t63;
-    const jg_real t101 = A_ij_h_j_1 * lambda[5];
-    phi_q_t_lambda_q[43] = t79 - t80 - A_ijt_h_i_0 * t101 + t81;
-    const jg_real t102 = A_ij_h_j_2 * lambda[5];
-    phi_q_t_lambda_q[44] = t91 - t92 - A_ijt_h_i_0 * t102 + t93;
-    const jg_real t103 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = t103;
-    const jg_real t104 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = t104;
-    phi_q_t_lambda_q[46] = -t104;
-    const jg_real t105 = C_j[2] * t71;
-    const jg_real t106 = C_j[1] * t66;
-    const jg_real t107 = C_j[8] * lambda[5];
-    const jg_real t108 = A_ijt_h_i_2 * t107;
-    const jg_real t109 = C_j[7] * lambda[5];
-    const jg_real t110 = A_ijt_h_i_1 * t109;
-    const jg_real t111 = s_j[2] * t103;
-    const jg_real t112 = s_j[1] * t104;
-    phi_q_t_lambda_q[47] = -(t105 + t106 + (t108 + t110 + (t111 + t112)));
-    const jg_real t113 = C_j[6] * lambda[5];
-    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t113 + s_j[0] * t104 + C_j[0] * t66;
-    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t113 + s_j[0] * t103 + C_j[0] * t71;
-    phi_q_t_lambda_q[50] = t64 - t67 - A_ijt_h_i_1 * t100 + t68;
-    phi_q_t_lambda_q[51] = t82 - t83 - A_ijt_h_i_1 * t101 + t84;
-    phi_q_t_lambda_q[52] = t94 - t95 - A_ijt_h_i_1 * t102 + t96;
-    phi_q_t_lambda_q[53] = -t103;
-    const jg_real t114 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = t114;
-    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t109 + s_j[1] * t114 + C_j[1] * t61;
-    const jg_real t115 = C_j[0] * t61;
-    const jg_real t116 = A_ijt_h_i_0 * t113;
-    const jg_real t117 = s_j[0] * t114;
-    phi_q_t_lambda_q[56] = -(t105 + t115 + (t108 + t116 + (t111 + t117)));
-    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t109 + s_j[1] * t103 + C_j[1] * t71;
-    phi_q_t_lambda_q[58] = t69 - t72 - A_ijt_h_i_2 * t100 + t73;
-    phi_q_t_lambda_q[59] = t85 - t86 - A_ijt_h_i_2 * t101 + t87;
-    phi_q_t_lambda_q[60] = t97 - t98 - A_ijt_h_i_2 * t102 + t99;
-    phi_q_t_lambda_q[62] = -t114;
-    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t107 + s_j[2] * t114 + C_j[2] * t61;
-    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t107 + s_j[2] * t104 + C_j[2] * t66;
-    phi_q_t_lambda_q[65] = -(t106 + t115 + (t110 + t116 + (t112 + t117)));
+    const jg_real t44 = C_i[2] * lambda[4] + C_i[8] * lambda[3];
+    const jg_real t45 = A_ij_f_j_2 * t44;
+    const jg_real t46 = C_i[1] * lambda[4] + C_i[7] * lambda[3];
+    const jg_real t47 = A_ij_f_j_1 * t46;
+    const jg_real t48 = C_i[8] * lambda[5];
+    const jg_real t49 = A_ij_h_j_2 * t48;
+    const jg_real t50 = C_i[7] * lambda[5];
+    const jg_real t51 = A_ij_h_j_1 * t50;
+    const jg_real t52 = ep_ij_2 * lambda[2];
+    const jg_real t53 = ep_ij_1 * lambda[1];
+    phi_q_t_lambda_q[6] = -(t52 + t53 + (t45 + t47 + (t49 + t51)));
+    const jg_real t54 = C_i[0] * lambda[4] + C_i[6] * lambda[3];
+    const jg_real t55 = C_i[6] * lambda[5];
+    phi_q_t_lambda_q[7] = A_ij_f_j_1 * t54 + A_ij_h_j_1 * t55 + ep_ij_1 * lambda[0];
+    phi_q_t_lambda_q[8] = A_ij_f_j_2 * t54 + A_ij_h_j_2 * t55 + ep_ij_2 * lambda[0];
+    const jg_real t56 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[9] = t56;
+    phi_q_t_lambda_q[33] = t56;
+    const jg_real t57 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    phi_q_t_lambda_q[10] = t57;
+    phi_q_t_lambda_q[36] = t57;
+    const jg_real t58 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    phi_q_t_lambda_q[11] = t58;
+    phi_q_t_lambda_q[39] = t58;
+    const jg_real t59 = A_ij_f_j_0 * t54;
+    const jg_real t60 = t47 + t59;
+    const jg_real t61 = t45 + t60 + t32 * lambda[5];
+    const jg_real t62 = A_ij_0 * t61;
+    const jg_real t63 = A_ijt_h_i_0 * lambda[5];
+    const jg_real t64 = A_ij_0 * t54 + A_ij_1 * t46 + A_ij_2 * t44;
+    const jg_real t65 = A_ij_f_j_0 * t64;
+    const jg_real t66 = s_j[1] * t58 - s_j[2] * t57;
+    phi_q_t_lambda_q[12] = t62 - A_ij_h_j_0 * t63 - t65 + t66;
+    const jg_real t67 = A_ij_3 * t61;
+    const jg_real t68 = A_ijt_h_i_1 * lambda[5];
+    const jg_real t69 = A_ij_3 * t54 + A_ij_4 * t46 + A_ij_5 * t44;
+    const jg_real t70 = A_ij_f_j_0 * t69;
+    const jg_real t71 = s_j[2] * t56 - s_j[0] * t58;
+    phi_q_t_lambda_q[13] = t67 - A_ij_h_j_0 * t68 - t70 + t71;
+    const jg_real t72 = A_ij_6 * t61;
+    const jg_real t73 = A_ijt_h_i_2 * lambda[5];
+    const jg_real t74 = A_ij_6 * t54 + A_ij_7 * t46 + A_ij_8 * t44;
+    const jg_real t75 = A_ij_f_j_0 * t74;
+    const jg_real t76 = s_j[0] * t57 - s_j[1] * t56;
+    phi_q_t_lambda_q[14] = t72 - A_ij_h_j_0 * t73 - t75 + t76;
+    phi_q_t_lambda_q[15] = A_ij_f_j_0 * t46 + A_ij_h_j_0 * t50 + ep_ij_0 * lambda[1];
+    const jg_real t77 = A_ij_h_j_0 * t55;
+    const jg_real t78 = ep_ij_0 * lambda[0];
+    phi_q_t_lambda_q[16] = -(t52 + t78 + (t45 + t59 + (t49 + t77)));
+    phi_q_t_lambda_q[17] = A_ij_f_j_2 * t46 + A_ij_h_j_2 * t50 + ep_ij_2 * lambda[1];
+    const jg_real t79 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[18] = t79;
+    phi_q_t_lambda_q[34] = t79;
+    const jg_real t80 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[19] = t80;
+    phi_q_t_lambda_q[37] = t80;
+    const jg_real t81 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    phi_q_t_lambda_q[20] = t81;
+    phi_q_t_lambda_q[40] = t81;
+    const jg_real t82 = A_ij_1 * t61;
+    const jg_real t83 = A_ij_f_j_1 * t64;
+    const jg_real t84 = s_j[1] * t81 - s_j[2] * t80;
+    phi_q_t_lambda_q[21] = t82 - A_ij_h_j_1 * t63 - t83 + t84;
+    const jg_real t85 = A_ij_4 * t61;
+    const jg_real t86 = A_ij_f_j_1 * t69;
+    const jg_real t87 = s_j[2] * t79 - s_j[0] * t81;
+    phi_q_t_lambda_q[22] = t85 - A_ij_h_j_1 * t68 - t86 + t87;
+    const jg_real t88 = A_ij_7 * t61;
+    const jg_real t89 = A_ij_f_j_1 * t74;
+    const jg_real t90 = s_j[0] * t80 - s_j[1] * t79;
+    phi_q_t_lambda_q[23] = t88 - A_ij_h_j_1 * t73 - t89 + t90;
+    phi_q_t_lambda_q[24] = A_ij_f_j_0 * t44 + A_ij_h_j_0 * t48 + ep_ij_0 * lambda[2];
+    phi_q_t_lambda_q[25] = A_ij_f_j_1 * t44 + A_ij_h_j_1 * t48 + ep_ij_1 * lambda[2];
+    phi_q_t_lambda_q[26] = -(t53 + t78 + (t51 + t77 + t60));
+    const jg_real t91 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    phi_q_t_lambda_q[27] = t91;
+    phi_q_t_lambda_q[35] = t91;
+    const jg_real t92 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[28] = t92;
+    phi_q_t_lambda_q[38] = t92;
+    const jg_real t93 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[29] = t93;
+    phi_q_t_lambda_q[41] = t93;
+    const jg_real t94 = A_ij_2 * t61;
+    const jg_real t95 = A_ij_f_j_2 * t64;
+    const jg_real t96 = s_j[1] * t93 - s_j[2] * t92;
+    phi_q_t_lambda_q[30] = t94 - A_ij_h_j_2 * t63 - t95 + t96;
+    const jg_real t97 = A_ij_5 * t61;
+    const jg_real t98 = A_ij_f_j_2 * t69;
+    const jg_real t99 = s_j[2] * t91 - s_j[0] * t93;
+    phi_q_t_lambda_q[31] = t97 - A_ij_h_j_2 * t68 - t98 + t99;
+    const jg_real t100 = A_ij_8 * t61;
+    const jg_real t101 = A_ij_f_j_2 * t74;
+    const jg_real t102 = s_j[0] * t92 - s_j[1] * t91;
+    phi_q_t_lambda_q[32] = t100 - A_ij_h_j_2 * t73 - t101 + t102;
+    const jg_real t103 = A_ij_h_j_0 * lambda[5];
+    phi_q_t_lambda_q[42] = t62 - t65 - A_ijt_h_i_0 * t103 + t66;
+    const jg_real t104 = A_ij_h_j_1 * lambda[5];
+    phi_q_t_lambda_q[43] = t82 - t83 - A_ijt_h_i_0 * t104 + t84;
+    const jg_real t105 = A_ij_h_j_2 * lambda[5];
+    phi_q_t_lambda_q[44] = t94 - t95 - A_ijt_h_i_0 * t105 + t96;
+    const jg_real t106 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    phi_q_t_lambda_q[45] = t106;
+    const jg_real t107 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi_q_t_lambda_q[61] = t107;
+    phi_q_t_lambda_q[46] = -t107;
+    const jg_real t108 = C_j[2] * t74;
+    const jg_real t109 = C_j[1] * t69;
+    const jg_real t110 = C_j[8] * lambda[5];
+    const jg_real t111 = A_ijt_h_i_2 * t110;
+    const jg_real t112 = C_j[7] * lambda[5];
+    const jg_real t113 = A_ijt_h_i_1 * t112;
+    const jg_real t114 = s_j[2] * t106;
+    const jg_real t115 = s_j[1] * t107;
+    phi_q_t_lambda_q[47] = -(t108 + t109 + (t111 + t113 + (t114 + t115)));
+    const jg_real t116 = C_j[6] * lambda[5];
+    phi_q_t_lambda_q[48] = A_ijt_h_i_1 * t116 + s_j[0] * t107 + C_j[0] * t69;
+    phi_q_t_lambda_q[49] = A_ijt_h_i_2 * t116 + s_j[0] * t106 + C_j[0] * t74;
+    phi_q_t_lambda_q[50] = t67 - t70 - A_ijt_h_i_1 * t103 + t71;
+    phi_q_t_lambda_q[51] = t85 - t86 - A_ijt_h_i_1 * t104 + t87;
+    phi_q_t_lambda_q[52] = t97 - t98 - A_ijt_h_i_1 * t105 + t99;
+    phi_q_t_lambda_q[53] = -t106;
+    const jg_real t117 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    phi_q_t_lambda_q[54] = t117;
+    phi_q_t_lambda_q[55] = A_ijt_h_i_0 * t112 + s_j[1] * t117 + C_j[1] * t64;
+    const jg_real t118 = C_j[0] * t64;
+    const jg_real t119 = A_ijt_h_i_0 * t116;
+    const jg_real t120 = s_j[0] * t117;
+    phi_q_t_lambda_q[56] = -(t108 + t118 + (t111 + t119 + (t114 + t120)));
+    phi_q_t_lambda_q[57] = A_ijt_h_i_2 * t112 + s_j[1] * t106 + C_j[1] * t74;
+    phi_q_t_lambda_q[58] = t72 - t75 - A_ijt_h_i_2 * t103 + t76;
+    phi_q_t_lambda_q[59] = t88 - t89 - A_ijt_h_i_2 * t104 + t90;
+    phi_q_t_lambda_q[60] = t100 - t101 - A_ijt_h_i_2 * t105 + t102;
+    phi_q_t_lambda_q[62] = -t117;
+    phi_q_t_lambda_q[63] = A_ijt_h_i_0 * t110 + s_j[2] * t117 + C_j[2] * t64;
+    phi_q_t_lambda_q[64] = A_ijt_h_i_1 * t110 + s_j[2] * t107 + C_j[2] * t69;
+    phi_q_t_lambda_q[65] = -(t109 + t118 + (t113 + t119 + (t115 + t120)));
     phi_q_t_lambda_q[66] = cosine_0 * lambda[4];
     phi_q_t_lambda_q[67] = cosine_1 * lambda[5];
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_2 = dp_ij_1 * omega_i[0] - dp_ij_0 * omega_i[1];
-    const jg_real omega_i_cross_dp_ij_1 = dp_ij_0 * omega_i[2] - dp_ij_2 * omega_i[0];
-    /* omega_i_cross_omega_i_cross_dp_ij = tilde(omega_i) tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_0 = omega_i[1] * omega_i_cross_dp_ij_2 - omega_i[2] *
-        omega_i_cross_dp_ij_1;
+    /* omega_i_cross_ep_ij = tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_ep_ij_2 = ep_ij_1 * omega_i[0] - ep_ij_0 * omega_i[1];
+    const jg_real omega_i_cross_ep_ij_1 = ep_ij_0 * omega_i[2] - ep_ij_2 * omega_i[0];
+    /* omega_i_cross_omega_i_cross_ep_ij = tilde(omega_i) tilde(omega_i) ep_ij */
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_0 = omega_i[1] * omega_i_cross_ep_ij_2 - omega_i[2] *
+        omega_i_cross_ep_ij_1;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
@@ -1052,12 +1019,6 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
         omega_j_cross_s_j_2;
     const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
         omega_j_cross_s_j_2;
-    /* omega_i_cross_s_i = tilde(omega_i) s_i */
-    const jg_real omega_i_cross_s_i_2 = s_i[1] * omega_i[0] - s_i[0] * omega_i[1];
-    const jg_real omega_i_cross_s_i_1 = s_i[0] * omega_i[2] - s_i[2] * omega_i[0];
-    /* omega_i_cross_omega_i_cross_s_i = tilde(omega_i) tilde(omega_i) s_i */
-    const jg_real omega_i_cross_omega_i_cross_s_i_0 = omega_i[1] * omega_i_cross_s_i_2 - omega_i[2] *
-        omega_i_cross_s_i_1;
     /* omega_j_cross_omega_j_cross_s_j = tilde(omega_j) tilde(omega_j) s_j */
     const jg_real omega_j_cross_omega_j_cross_s_j_0 = omega_j[1] * omega_j_cross_s_j_2 - omega_j[2] *
         omega_j_cross_s_j_1;
@@ -1073,34 +1034,29 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     gamma[0] = -(A_ij_0 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_0 - JG_REAL(2.0) * (omega_i[1] *
-        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1) + omega_i_cross_omega_i_cross_s_i_0) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0 + JG_REAL(2.0) * omega_i_cross_v_i_0);
-    const jg_real omega_i_cross_dp_ij_0 = dp_ij_2 * omega_i[1] - dp_ij_1 * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_1 = omega_i[2] * omega_i_cross_dp_ij_0 - omega_i[0] *
-        omega_i_cross_dp_ij_2;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_0 - JG_REAL(2.0) * (omega_i[1] *
+        A_ij_omega_j_cross_s_j_2 - omega_i[2] * A_ij_omega_j_cross_s_j_1)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_0
+        + JG_REAL(2.0) * omega_i_cross_v_i_0);
+    const jg_real omega_i_cross_ep_ij_0 = ep_ij_2 * omega_i[1] - ep_ij_1 * omega_i[2];
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_1 = omega_i[2] * omega_i_cross_ep_ij_0 - omega_i[0] *
+        omega_i_cross_ep_ij_2;
     const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
         omega_j_cross_s_j_2;
-    const jg_real omega_i_cross_s_i_0 = s_i[2] * omega_i[1] - s_i[1] * omega_i[2];
-    const jg_real omega_i_cross_omega_i_cross_s_i_1 = omega_i[2] * omega_i_cross_s_i_0 - omega_i[0] *
-        omega_i_cross_s_i_2;
     const jg_real A_ij_v_j_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real omega_i_cross_A_ij_v_j_1 = omega_i[2] * A_ij_v_j_0 - omega_i[0] * A_ij_v_j_2;
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     gamma[1] = -(A_ij_1 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_1 - JG_REAL(2.0) * (omega_i[2] *
-        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2) + omega_i_cross_omega_i_cross_s_i_1) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1 + JG_REAL(2.0) * omega_i_cross_v_i_1);
-    const jg_real omega_i_cross_omega_i_cross_dp_ij_2 = omega_i[0] * omega_i_cross_dp_ij_1 - omega_i[1] *
-        omega_i_cross_dp_ij_0;
-    const jg_real omega_i_cross_omega_i_cross_s_i_2 = omega_i[0] * omega_i_cross_s_i_1 - omega_i[1] *
-        omega_i_cross_s_i_0;
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_1 - JG_REAL(2.0) * (omega_i[2] *
+        A_ij_omega_j_cross_s_j_0 - omega_i[0] * A_ij_omega_j_cross_s_j_2)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_1
+        + JG_REAL(2.0) * omega_i_cross_v_i_1);
+    const jg_real omega_i_cross_omega_i_cross_ep_ij_2 = omega_i[0] * omega_i_cross_ep_ij_1 - omega_i[1] *
+        omega_i_cross_ep_ij_0;
     const jg_real omega_i_cross_A_ij_v_j_2 = omega_i[0] * A_ij_v_j_1 - omega_i[1] * A_ij_v_j_0;
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     gamma[2] = -(A_ij_2 * omega_j_cross_omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_dp_ij_2 - JG_REAL(2.0) * (omega_i[0] *
-        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0) + omega_i_cross_omega_i_cross_s_i_2) -
-        JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2 + JG_REAL(2.0) * omega_i_cross_v_i_2);
+        omega_j_cross_omega_j_cross_s_j_2 + (omega_i_cross_omega_i_cross_ep_ij_2 - JG_REAL(2.0) * (omega_i[0] *
+        A_ij_omega_j_cross_s_j_1 - omega_i[1] * A_ij_omega_j_cross_s_j_0)) - JG_REAL(2.0) * omega_i_cross_A_ij_v_j_2
+        + JG_REAL(2.0) * omega_i_cross_v_i_2);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real omega_j_cross_f_j_1 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
@@ -1110,18 +1066,18 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
-    const jg_real t153 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
+    const jg_real t150 = omega_i[1] * A_ij_omega_j_cross_f_j_2 - omega_i[2] * A_ij_omega_j_cross_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
-    const jg_real t155 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
-    const jg_real t156 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
+    const jg_real t152 = omega_i[2] * A_ij_omega_j_cross_f_j_0 - omega_i[0] * A_ij_omega_j_cross_f_j_2;
+    const jg_real t153 = omega_i[0] * A_ij_omega_j_cross_f_j_1 - omega_i[1] * A_ij_omega_j_cross_f_j_0;
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_2 = A_ij_f_j_1 * omega_i[0] - A_ij_f_j_0 * omega_i[1];
     const jg_real omega_i_cross_A_ij_f_j_1 = A_ij_f_j_0 * omega_i[2] - A_ij_f_j_2 * omega_i[0];
-    const jg_real t159 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
+    const jg_real t156 = omega_i[1] * omega_i_cross_A_ij_f_j_2 - omega_i[2] * omega_i_cross_A_ij_f_j_1;
     const jg_real omega_i_cross_A_ij_f_j_0 = A_ij_f_j_2 * omega_i[1] - A_ij_f_j_1 * omega_i[2];
-    const jg_real t161 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
-    const jg_real t162 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
+    const jg_real t158 = omega_i[2] * omega_i_cross_A_ij_f_j_0 - omega_i[0] * omega_i_cross_A_ij_f_j_2;
+    const jg_real t159 = omega_i[0] * omega_i_cross_A_ij_f_j_1 - omega_i[1] * omega_i_cross_A_ij_f_j_0;
     /* omega_j_cross_omega_j_cross_f_j = tilde(omega_j) tilde(omega_j) f_j */
     const jg_real omega_j_cross_omega_j_cross_f_j_0 = omega_j[1] * omega_j_cross_f_j_2 - omega_j[2] *
         omega_j_cross_f_j_1;
@@ -1129,16 +1085,16 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
         omega_j_cross_f_j_2;
     const jg_real omega_j_cross_omega_j_cross_f_j_2 = omega_j[0] * omega_j_cross_f_j_1 - omega_j[1] *
         omega_j_cross_f_j_0;
-    const jg_real t166 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t163 = A_ij_0 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_6 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t167 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t164 = A_ij_1 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_7 * omega_j_cross_omega_j_cross_f_j_2;
-    const jg_real t168 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
+    const jg_real t165 = A_ij_2 * omega_j_cross_omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_omega_j_cross_f_j_1 +
         A_ij_8 * omega_j_cross_omega_j_cross_f_j_2;
-    gamma[3] = JG_REAL(2.0) * (C_i[6] * t153 + C_i[7] * t155 + C_i[8] * t156) - (C_i[6] * t166 + C_i[7] * t167 +
-        C_i[8] * t168 + (C_i[6] * t159 + C_i[7] * t161 + C_i[8] * t162));
-    gamma[4] = JG_REAL(2.0) * (C_i[0] * t153 + C_i[1] * t155 + C_i[2] * t156) - (C_i[0] * t166 + C_i[1] * t167 +
-        C_i[2] * t168 + (C_i[0] * t159 + C_i[1] * t161 + C_i[2] * t162)) - alphadot[0] * alphadot[0] * cosine_0;
+    gamma[3] = JG_REAL(2.0) * (C_i[6] * t150 + C_i[7] * t152 + C_i[8] * t153) - (C_i[6] * t163 + C_i[7] * t164 +
+        C_i[8] * t165 + (C_i[6] * t156 + C_i[7] * t158 + C_i[8] * t159));
+    gamma[4] = JG_REAL(2.0) * (C_i[0] * t150 + C_i[1] * t152 + C_i[2] * t153) - (C_i[0] * t163 + C_i[1] * t164 +
+        C_i[2] * t165 + (C_i[0] * t156 + C_i[1] * t158 + C_i[2] * t159)) - alphadot[0] * alphadot[0] * cosine_0;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
     const jg_real omega_j_cross_h_j_1 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];

@@ -34,16 +34,20 @@ void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r
     const jg_real *const C_j = geometry + 15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -494,19 +498,23 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     const jg_real *const alphadot = velocity + 12;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     /* A_i_s_i = A_i s_i */
     const jg_real A_i_s_i_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = r_j[0] + A_j_s_j_0 - r_i[0] - A_i_s_i_0;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1];
     const jg_real A_i_s_i_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
-    const jg_real d_ij_1 = r_j[1] + A_j_s_j_1 - r_i[1] - A_i_s_i_1;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2];
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
-    const jg_real d_ij_2 = r_j[2] + A_j_s_j_2 - r_i[2] - A_i_s_i_2;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     /* dp_ij = A_i^T d_ij */
     const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
     phi[0] = dp_ij_0;
@@ -546,41 +554,41 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i[1];
     phi_q[45] = sine_0;
-    const jg_real t31 = C_i[0] * sine_0 - C_i[3] * cosine_0;
-    phi_q[5] = -t31;
+    const jg_real t34 = C_i[0] * sine_0 - C_i[3] * cosine_0;
+    phi_q[5] = -t34;
     phi_q[6] = C_i[6] * sine_0;
     phi_q[46] = sine_1;
-    const jg_real t32 = cosine_0 * sine_1;
+    const jg_real t35 = cosine_0 * sine_1;
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_6 = sine_0 * sine_1;
-    phi_q[7] = C_i[0] * t32 + C_i[3] * H_6;
+    phi_q[7] = C_i[0] * t35 + C_i[3] * H_6;
     phi_q[8] = -s_i[2];
-    const jg_real t34 = C_i[1] * sine_0 - C_i[4] * cosine_0;
-    phi_q[10] = -t34;
+    const jg_real t37 = C_i[1] * sine_0 - C_i[4] * cosine_0;
+    phi_q[10] = -t37;
     phi_q[11] = C_i[7] * sine_0;
-    phi_q[12] = C_i[1] * t32 + C_i[4] * H_6;
+    phi_q[12] = C_i[1] * t35 + C_i[4] * H_6;
     phi_q[14] = -s_i[0];
-    const jg_real t35 = C_i[2] * sine_0 - C_i[5] * cosine_0;
-    phi_q[15] = -t35;
+    const jg_real t38 = C_i[2] * sine_0 - C_i[5] * cosine_0;
+    phi_q[15] = -t38;
     phi_q[16] = C_i[8] * sine_0;
-    phi_q[17] = C_i[2] * t32 + C_i[5] * H_6;
+    phi_q[17] = C_i[2] * t35 + C_i[5] * H_6;
     /* C_i_H = C_i H */
     const jg_real C_i_H_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t38 = cosine_1 * sine_0;
-    const jg_real C_i_H_3 = C_i[3] * H_4 - C_i[0] * t38 + C_i[6] * sine_1;
-    const jg_real C_i_H_6 = C_i[0] * H_6 - C_i[3] * t32 + C_i[6] * cosine_1;
+    const jg_real t41 = cosine_1 * sine_0;
+    const jg_real C_i_H_3 = C_i[3] * H_4 - C_i[0] * t41 + C_i[6] * sine_1;
+    const jg_real C_i_H_6 = C_i[0] * H_6 - C_i[3] * t35 + C_i[6] * cosine_1;
     const jg_real A_ij_0_ = C_j[0] * C_i_H_0 + C_j[3] * C_i_H_3 + C_j[6] * C_i_H_6;
     phi_q[18] = A_ij_0_;
     const jg_real C_i_H_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real C_i_H_4 = C_i[4] * H_4 - C_i[1] * t38 + C_i[7] * sine_1;
-    const jg_real C_i_H_7 = C_i[1] * H_6 - C_i[4] * t32 + C_i[7] * cosine_1;
+    const jg_real C_i_H_4 = C_i[4] * H_4 - C_i[1] * t41 + C_i[7] * sine_1;
+    const jg_real C_i_H_7 = C_i[1] * H_6 - C_i[4] * t35 + C_i[7] * cosine_1;
     const jg_real A_ij_1_ = C_j[0] * C_i_H_1 + C_j[3] * C_i_H_4 + C_j[6] * C_i_H_7;
     phi_q[19] = A_ij_1_;
     const jg_real C_i_H_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real C_i_H_5 = C_i[5] * H_4 - C_i[2] * t38 + C_i[8] * sine_1;
-    const jg_real C_i_H_8 = C_i[2] * H_6 - C_i[5] * t32 + C_i[8] * cosine_1;
+    const jg_real C_i_H_5 = C_i[5] * H_4 - C_i[2] * t41 + C_i[8] * sine_1;
+    const jg_real C_i_H_8 = C_i[2] * H_6 - C_i[5] * t35 + C_i[8] * cosine_1;
     const jg_real A_ij_2_ = C_j[0] * C_i_H_2 + C_j[3] * C_i_H_5 + C_j[6] * C_i_H_8;
     phi_q[20] = A_ij_2_;
     const jg_real A_ij_3_ = C_j[1] * C_i_H_0 + C_j[4] * C_i_H_3 + C_j[7] * C_i_H_6;
@@ -599,78 +607,78 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     phi_q[28] = s_j[1] * A_ij_7_ - s_j[2] * A_ij_4_;
     phi_q[29] = s_j[1] * A_ij_8_ - s_j[2] * A_ij_5_;
     phi_q[30] = C_j[6] * sine_1 - C_j[3] * cosine_1;
-    phi_q[31] = -(C_j[6] * t38 + C_j[3] * H_6);
+    phi_q[31] = -(C_j[6] * t41 + C_j[3] * H_6);
     phi_q[32] = -(C_j[0] * sine_1);
     phi_q[33] = s_j[2] * A_ij_0_ - s_j[0] * A_ij_6_;
     phi_q[34] = s_j[2] * A_ij_1_ - s_j[0] * A_ij_7_;
     phi_q[35] = s_j[2] * A_ij_2_ - s_j[0] * A_ij_8_;
     phi_q[36] = C_j[7] * sine_1 - C_j[4] * cosine_1;
-    phi_q[37] = -(C_j[7] * t38 + C_j[4] * H_6);
+    phi_q[37] = -(C_j[7] * t41 + C_j[4] * H_6);
     phi_q[38] = -(C_j[1] * sine_1);
     phi_q[39] = s_j[0] * A_ij_3_ - s_j[1] * A_ij_0_;
     phi_q[40] = s_j[0] * A_ij_4_ - s_j[1] * A_ij_1_;
     phi_q[41] = s_j[0] * A_ij_5_ - s_j[1] * A_ij_2_;
     phi_q[42] = C_j[8] * sine_1 - C_j[5] * cosine_1;
-    phi_q[43] = -(C_j[8] * t38 + C_j[5] * H_6);
+    phi_q[43] = -(C_j[8] * t41 + C_j[5] * H_6);
     phi_q[44] = -(C_j[2] * sine_1);
-    const jg_real t56 = cosine_1 * H_4 + sine_1 * t32;
-    const jg_real t57 = t56 * lambda[3];
-    const jg_real t58 = cosine_1 * t38 + sine_1 * H_6;
-    const jg_real t59 = t58 * lambda[3];
-    const jg_real t60 = t56 * lambda[4];
-    const jg_real t61 = sine_1 * lambda[5];
-    phi_q_t_lambda_q[0] = C_i[6] * t60 - (C_i[0] * t57 + C_i[3] * t59) - t31 * t61;
-    phi_q_t_lambda_q[1] = C_i[7] * t60 - (C_i[1] * t57 + C_i[4] * t59) - t34 * t61;
-    phi_q_t_lambda_q[2] = C_i[8] * t60 - (C_i[2] * t57 + C_i[5] * t59) - t35 * t61;
-    const jg_real t62 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
-    const jg_real t63 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
-    const jg_real t64 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    const jg_real t65 = H_4 * t62 - t38 * t63 + sine_1 * t64;
-    const jg_real t66 = H_6 * t63 - t32 * t62 + cosine_1 * t64;
-    const jg_real t67 = cosine_1 * t65 - sine_1 * t66;
-    const jg_real t68 = cosine_0 * t63 + sine_0 * t62;
-    const jg_real t69 = cosine_1 * t68;
-    const jg_real t70 = sine_1 * t68;
-    const jg_real t71 = C_j[0] * t67 - C_j[3] * t69 + C_j[6] * t70;
-    phi_q_t_lambda_q[3] = t71;
-    const jg_real t72 = C_j[1] * t67 - C_j[4] * t69 + C_j[7] * t70;
-    phi_q_t_lambda_q[4] = t72;
-    const jg_real t73 = C_j[2] * t67 - C_j[5] * t69 + C_j[8] * t70;
-    phi_q_t_lambda_q[5] = t73;
-    const jg_real t74 = t32 * lambda[4];
-    const jg_real t75 = H_4 * lambda[4];
-    phi_q_t_lambda_q[6] = s_j[1] * t73 - s_j[2] * t72 - (C_j[3] * t74 + C_j[6] * t75);
-    phi_q_t_lambda_q[7] = s_j[2] * t71 - s_j[0] * t73 - (C_j[4] * t74 + C_j[7] * t75);
-    phi_q_t_lambda_q[8] = s_j[0] * t72 - s_j[1] * t71 - (C_j[5] * t74 + C_j[8] * t75);
+    const jg_real t59 = cosine_1 * H_4 + sine_1 * t35;
+    const jg_real t60 = t59 * lambda[3];
+    const jg_real t61 = cosine_1 * t41 + sine_1 * H_6;
+    const jg_real t62 = t61 * lambda[3];
+    const jg_real t63 = t59 * lambda[4];
+    const jg_real t64 = sine_1 * lambda[5];
+    phi_q_t_lambda_q[0] = C_i[6] * t63 - (C_i[0] * t60 + C_i[3] * t62) - t34 * t64;
+    phi_q_t_lambda_q[1] = C_i[7] * t63 - (C_i[1] * t60 + C_i[4] * t62) - t37 * t64;
+    phi_q_t_lambda_q[2] = C_i[8] * t63 - (C_i[2] * t60 + C_i[5] * t62) - t38 * t64;
+    const jg_real t65 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    const jg_real t66 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real t67 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
+    const jg_real t68 = H_4 * t65 - t41 * t66 + sine_1 * t67;
+    const jg_real t69 = H_6 * t66 - t35 * t65 + cosine_1 * t67;
+    const jg_real t70 = cosine_1 * t68 - sine_1 * t69;
+    const jg_real t71 = cosine_0 * t66 + sine_0 * t65;
+    const jg_real t72 = cosine_1 * t71;
+    const jg_real t73 = sine_1 * t71;
+    const jg_real t74 = C_j[0] * t70 - C_j[3] * t72 + C_j[6] * t73;
+    phi_q_t_lambda_q[3] = t74;
+    const jg_real t75 = C_j[1] * t70 - C_j[4] * t72 + C_j[7] * t73;
+    phi_q_t_lambda_q[4] = t75;
+    const jg_real t76 = C_j[2] * t70 - C_j[5] * t72 + C_j[8] * t73;
+    phi_q_t_lambda_q[5] = t76;
+    const jg_real t77 = t35 * lambda[4];
+    const jg_real t78 = H_4 * lambda[4];
+    phi_q_t_lambda_q[6] = s_j[1] * t76 - s_j[2] * t75 - (C_j[3] * t77 + C_j[6] * t78);
+    phi_q_t_lambda_q[7] = s_j[2] * t74 - s_j[0] * t76 - (C_j[4] * t77 + C_j[7] * t78);
+    phi_q_t_lambda_q[8] = s_j[0] * t75 - s_j[1] * t74 - (C_j[5] * t77 + C_j[8] * t78);
     phi_q_t_lambda_q[9] = cosine_0 * lambda[4];
-    const jg_real t76 = C_i[0] * H_4 + C_i[3] * t38;
-    phi_q_t_lambda_q[10] = lambda[5] * t76;
-    const jg_real t77 = C_i[1] * H_4 + C_i[4] * t38;
-    phi_q_t_lambda_q[11] = lambda[5] * t77;
-    const jg_real t78 = C_i[2] * H_4 + C_i[5] * t38;
-    phi_q_t_lambda_q[12] = lambda[5] * t78;
-    const jg_real t79 = C_j[3] * t66 - C_j[6] * t65;
-    phi_q_t_lambda_q[13] = t79;
-    const jg_real t80 = C_j[4] * t66 - C_j[7] * t65;
-    phi_q_t_lambda_q[14] = t80;
-    const jg_real t81 = C_j[5] * t66 - C_j[8] * t65;
-    phi_q_t_lambda_q[15] = t81;
-    const jg_real t82 = sine_1 * lambda[3] - t38 * lambda[4];
-    const jg_real t83 = H_6 * lambda[4] + cosine_1 * lambda[3];
-    const jg_real t84 = C_j[0] * cosine_1;
-    phi_q_t_lambda_q[16] = s_j[1] * t81 - s_j[2] * t80 + (C_j[3] * t82 + C_j[6] * t83 - lambda[5] * t84);
-    const jg_real t85 = C_j[1] * cosine_1;
-    phi_q_t_lambda_q[17] = s_j[2] * t79 - s_j[0] * t81 + (C_j[4] * t82 + C_j[7] * t83 - lambda[5] * t85);
-    const jg_real t86 = C_j[2] * cosine_1;
-    phi_q_t_lambda_q[18] = s_j[0] * t80 - s_j[1] * t79 + (C_j[5] * t82 + C_j[8] * t83 - lambda[5] * t86);
+    const jg_real t79 = C_i[0] * H_4 + C_i[3] * t41;
+    phi_q_t_lambda_q[10] = lambda[5] * t79;
+    const jg_real t80 = C_i[1] * H_4 + C_i[4] * t41;
+    phi_q_t_lambda_q[11] = lambda[5] * t80;
+    const jg_real t81 = C_i[2] * H_4 + C_i[5] * t41;
+    phi_q_t_lambda_q[12] = lambda[5] * t81;
+    const jg_real t82 = C_j[3] * t69 - C_j[6] * t68;
+    phi_q_t_lambda_q[13] = t82;
+    const jg_real t83 = C_j[4] * t69 - C_j[7] * t68;
+    phi_q_t_lambda_q[14] = t83;
+    const jg_real t84 = C_j[5] * t69 - C_j[8] * t68;
+    phi_q_t_lambda_q[15] = t84;
+    const jg_real t85 = sine_1 * lambda[3] - t41 * lambda[4];
+    const jg_real t86 = H_6 * lambda[4] + cosine_1 * lambda[3];
+    const jg_real t87 = C_j[0] * cosine_1;
+    phi_q_t_lambda_q[16] = s_j[1] * t84 - s_j[2] * t83 + (C_j[3] * t85 + C_j[6] * t86 - lambda[5] * t87);
+    const jg_real t88 = C_j[1] * cosine_1;
+    phi_q_t_lambda_q[17] = s_j[2] * t82 - s_j[0] * t84 + (C_j[4] * t85 + C_j[7] * t86 - lambda[5] * t88);
+    const jg_real t89 = C_j[2] * cosine_1;
+    phi_q_t_lambda_q[18] = s_j[0] * t83 - s_j[1] * t82 + (C_j[5] * t85 + C_j[8] * t86 - lambda[5] * t89);
     phi_q_t_lambda_q[19] = cosine_1 * lambda[5];
     /* C_jt_v_j = C_j^T v_j */
     const jg_real C_jt_v_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real C_jt_v_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real t89 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
+    const jg_real t92 = sine_1 * C_jt_v_j_2 - cosine_1 * C_jt_v_j_1;
     const jg_real C_jt_v_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    const jg_real t91 = cosine_1 * C_jt_v_j_0;
-    const jg_real t92 = sine_1 * C_jt_v_j_0;
+    const jg_real t94 = cosine_1 * C_jt_v_j_0;
+    const jg_real t95 = sine_1 * C_jt_v_j_0;
     /* s_j_cross_omega_j = tilde(s_j) omega_j */
     const jg_real s_j_cross_omega_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
@@ -680,11 +688,11 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
         s_j_cross_omega_j_2;
     const jg_real C_jt_s_j_cross_omega_j_1 = C_j[3] * s_j_cross_omega_j_0 + C_j[4] * s_j_cross_omega_j_1 + C_j[5] *
         s_j_cross_omega_j_2;
-    const jg_real t98 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
+    const jg_real t101 = sine_1 * C_jt_s_j_cross_omega_j_2 - cosine_1 * C_jt_s_j_cross_omega_j_1;
     const jg_real C_jt_s_j_cross_omega_j_0 = C_j[0] * s_j_cross_omega_j_0 + C_j[1] * s_j_cross_omega_j_1 + C_j[2] *
         s_j_cross_omega_j_2;
-    const jg_real t100 = cosine_1 * C_jt_s_j_cross_omega_j_0;
-    const jg_real t101 = sine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t103 = cosine_1 * C_jt_s_j_cross_omega_j_0;
+    const jg_real t104 = sine_1 * C_jt_s_j_cross_omega_j_0;
     /* omega_i_cross_v_i = tilde(omega_i) v_i */
     const jg_real omega_i_cross_v_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* omega_j_cross_v_j = tilde(omega_j) v_j */
@@ -694,36 +702,36 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     /* A_ij_omega_j_cross_v_j = A_ij tilde(omega_j) v_j */
     const jg_real A_ij_omega_j_cross_v_j_0 = A_ij_0_ * omega_j_cross_v_j_0 + A_ij_3_ * omega_j_cross_v_j_1 + A_ij_6_
         * omega_j_cross_v_j_2;
-    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t89 + C_i_H_3 * t91 - C_i_H_6 * t92) +
-        alphadot[1] * (C_i_H_6 * C_jt_v_j_1 - C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t98 + C_i_H_3 * t100
-        - C_i_H_6 * t101) - alphadot[1] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 - C_i_H_3 * C_jt_s_j_cross_omega_j_2)
+    gamma[0] = A_ij_omega_j_cross_v_j_0 - (alphadot[0] * (C_i_H_0 * t92 + C_i_H_3 * t94 - C_i_H_6 * t95) +
+        alphadot[1] * (C_i_H_6 * C_jt_v_j_1 - C_i_H_3 * C_jt_v_j_2) - alphadot[0] * (C_i_H_0 * t101 + C_i_H_3 * t103
+        - C_i_H_6 * t104) - alphadot[1] * (C_i_H_6 * C_jt_s_j_cross_omega_j_1 - C_i_H_3 * C_jt_s_j_cross_omega_j_2)
         + omega_i_cross_v_i_0);
     const jg_real omega_i_cross_v_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real A_ij_omega_j_cross_v_j_1 = A_ij_1_ * omega_j_cross_v_j_0 + A_ij_4_ * omega_j_cross_v_j_1 + A_ij_7_
         * omega_j_cross_v_j_2;
-    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t89 + C_i_H_4 * t91 - C_i_H_7 * t92) +
-        alphadot[1] * (C_i_H_7 * C_jt_v_j_1 - C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t98 + C_i_H_4 * t100
-        - C_i_H_7 * t101) - alphadot[1] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 - C_i_H_4 * C_jt_s_j_cross_omega_j_2)
+    gamma[1] = A_ij_omega_j_cross_v_j_1 - (alphadot[0] * (C_i_H_1 * t92 + C_i_H_4 * t94 - C_i_H_7 * t95) +
+        alphadot[1] * (C_i_H_7 * C_jt_v_j_1 - C_i_H_4 * C_jt_v_j_2) - alphadot[0] * (C_i_H_1 * t101 + C_i_H_4 * t103
+        - C_i_H_7 * t104) - alphadot[1] * (C_i_H_7 * C_jt_s_j_cross_omega_j_1 - C_i_H_4 * C_jt_s_j_cross_omega_j_2)
         + omega_i_cross_v_i_1);
     const jg_real omega_i_cross_v_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real A_ij_omega_j_cross_v_j_2 = A_ij_2_ * omega_j_cross_v_j_0 + A_ij_5_ * omega_j_cross_v_j_1 + A_ij_8_
         * omega_j_cross_v_j_2;
-    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t89 + C_i_H_5 * t91 - C_i_H_8 * t92) +
-        alphadot[1] * (C_i_H_8 * C_jt_v_j_1 - C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t98 + C_i_H_5 * t100
-        - C_i_H_8 * t101) - alphadot[1] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 - C_i_H_5 * C_jt_s_j_cross_omega_j_2)
+    gamma[2] = A_ij_omega_j_cross_v_j_2 - (alphadot[0] * (C_i_H_2 * t92 + C_i_H_5 * t94 - C_i_H_8 * t95) +
+        alphadot[1] * (C_i_H_8 * C_jt_v_j_1 - C_i_H_5 * C_jt_v_j_2) - alphadot[0] * (C_i_H_2 * t101 + C_i_H_5 * t103
+        - C_i_H_8 * t104) - alphadot[1] * (C_i_H_8 * C_jt_s_j_cross_omega_j_1 - C_i_H_5 * C_jt_s_j_cross_omega_j_2)
         + omega_i_cross_v_i_2);
-    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t56 + C_i[3] * t58) + omega_i[1] * (C_i[1] * t56 + C_i[4] *
-        t58) + omega_i[2] * (C_i[2] * t56 + C_i[5] * t58)) - alphadot[1] * (omega_j[0] * (C_j[3] * sine_1 + C_j[6] *
+    gamma[3] = alphadot[0] * (omega_i[0] * (C_i[0] * t59 + C_i[3] * t61) + omega_i[1] * (C_i[1] * t59 + C_i[4] *
+        t61) + omega_i[2] * (C_i[2] * t59 + C_i[5] * t61)) - alphadot[1] * (omega_j[0] * (C_j[3] * sine_1 + C_j[6] *
         cosine_1) + omega_j[1] * (C_j[4] * sine_1 + C_j[7] * cosine_1) + omega_j[2] * (C_j[5] * sine_1 + C_j[8] *
         cosine_1));
-    gamma[4] = alphadot[0] * (omega_j[0] * (C_j[3] * t32 + C_j[6] * H_4) + omega_j[1] * (C_j[4] * t32 + C_j[7] *
-        H_4) + omega_j[2] * (C_j[5] * t32 + C_j[8] * H_4)) - alphadot[0] * (C_i[6] * t56 * omega_i[0] + C_i[7] * t56
-        * omega_i[1] + C_i[8] * t56 * omega_i[2]) - alphadot[1] * (omega_j[0] * (C_j[6] * H_6 - C_j[3] * t38) +
-        omega_j[1] * (C_j[7] * H_6 - C_j[4] * t38) + omega_j[2] * (C_j[8] * H_6 - C_j[5] * t38)) - alphadot[0] *
+    gamma[4] = alphadot[0] * (omega_j[0] * (C_j[3] * t35 + C_j[6] * H_4) + omega_j[1] * (C_j[4] * t35 + C_j[7] *
+        H_4) + omega_j[2] * (C_j[5] * t35 + C_j[8] * H_4)) - alphadot[0] * (C_i[6] * t59 * omega_i[0] + C_i[7] * t59
+        * omega_i[1] + C_i[8] * t59 * omega_i[2]) - alphadot[1] * (omega_j[0] * (C_j[6] * H_6 - C_j[3] * t41) +
+        omega_j[1] * (C_j[7] * H_6 - C_j[4] * t41) + omega_j[2] * (C_j[8] * H_6 - C_j[5] * t41)) - alphadot[0] *
         alphadot[0] * cosine_0;
-    gamma[5] = alphadot[1] * (t84 * omega_j[0] + t85 * omega_j[1] + t86 * omega_j[2]) - alphadot[1] * (t76 *
-        omega_i[0] + t77 * omega_i[1] + t78 * omega_i[2]) - alphadot[1] * alphadot[1] * cosine_1 + alphadot[0] *
-        (t31 * omega_i[0] + t34 * omega_i[1] + t35 * omega_i[2]) * sine_1;
+    gamma[5] = alphadot[1] * (t87 * omega_j[0] + t88 * omega_j[1] + t89 * omega_j[2]) - alphadot[1] * (t79 *
+        omega_i[0] + t80 * omega_i[1] + t81 * omega_i[2]) - alphadot[1] * alphadot[1] * cosine_1 + alphadot[0] *
+        (t34 * omega_i[0] + t37 * omega_i[1] + t38 * omega_i[2]) * sine_1;
 }
 
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

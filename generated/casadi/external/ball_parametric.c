@@ -51,14 +51,16 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_r_i[8] = -A_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t1 = A_i[0] * s_i[0];
-    const jg_real t2 = A_i[3] * s_i[1];
-    const jg_real t3 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t2 = A_i[0] * s_i[0];
+    const jg_real t3 = A_i[3] * s_i[1];
+    const jg_real t4 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t1 + t2 + t3;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    jac_phi_A_i[0] = d_ij_0 - t1;
+    const jg_real A_i_s_i_0 = t2 + t3 + t4;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    jac_phi_A_i[0] = d_ij_0 - t2;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
     jg_real sine_0;
@@ -67,117 +69,119 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real t10 = cosine_0 * sine_1;
+    const jg_real t11 = cosine_0 * sine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t13 = sine_0 * cosine_2;
+    const jg_real t14 = sine_0 * cosine_2;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = t10 * sine_2 - t13;
-    const jg_real t15 = sine_0 * sine_1;
-    const jg_real t16 = cosine_0 * cosine_2;
-    const jg_real H_4 = t15 * sine_2 + t16;
+    const jg_real H_3 = t11 * sine_2 - t14;
+    const jg_real t16 = sine_0 * sine_1;
+    const jg_real t17 = cosine_0 * cosine_2;
+    const jg_real H_4 = t16 * sine_2 + t17;
     const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real t19 = H_5 * C_i[6];
+    const jg_real t20 = H_5 * C_i[6];
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t19;
-    const jg_real t21 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[3] = g_star_0 * t21;
-    const jg_real t22 = sine_0 * sine_2;
-    const jg_real H_6 = t22 + sine_1 * t16;
-    const jg_real t24 = cosine_0 * sine_2;
-    const jg_real t25 = t24 - sine_1 * t13;
+    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t20;
+    const jg_real t22 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[3] = g_star_0 * t22;
+    const jg_real t23 = sine_0 * sine_2;
+    const jg_real H_6 = t23 + sine_1 * t17;
+    const jg_real t25 = cosine_0 * sine_2;
+    const jg_real t26 = t25 - sine_1 * t14;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t27 = H_8 * C_i[6];
+    const jg_real t28 = H_8 * C_i[6];
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t25 + t27;
-    const jg_real t29 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = h_star_0 * t29;
-    const jg_real t30 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t26 + t28;
+    const jg_real t30 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = h_star_0 * t30;
+    const jg_real t31 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = sine_0 * cosine_1;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
-    jac_phi_A_i[5] = t30 * f_star_0;
+    jac_phi_A_i[5] = t31 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t35 = s_i[0] * A_i[1];
-    const jg_real t36 = s_i[1] * A_i[4];
-    const jg_real t37 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t35 + t36 + t37;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    jac_phi_A_i[6] = d_ij_1 - t35;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t37 = s_i[0] * A_i[1];
+    const jg_real t38 = s_i[1] * A_i[4];
+    const jg_real t39 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t37 + t38 + t39;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t37;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t40 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = g_star_0 * t40;
-    const jg_real t41 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = h_star_0 * t41;
-    const jg_real t42 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t42 * f_star_0;
+    const jg_real t42 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = g_star_0 * t42;
+    const jg_real t43 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = h_star_0 * t43;
+    const jg_real t44 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t44 * f_star_0;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t44 = s_i[0] * A_i[2];
-    const jg_real t45 = s_i[1] * A_i[5];
-    const jg_real t46 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t44 + t45 + t46;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    jac_phi_A_i[12] = d_ij_2 - t44;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t47 = s_i[0] * A_i[2];
+    const jg_real t48 = s_i[1] * A_i[5];
+    const jg_real t49 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t47 + t48 + t49;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t47;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t49 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = g_star_0 * t49;
-    const jg_real t50 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = h_star_0 * t50;
-    const jg_real t51 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t51 * f_star_0;
+    const jg_real t52 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = g_star_0 * t52;
+    const jg_real t53 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = h_star_0 * t53;
+    const jg_real t54 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t54 * f_star_0;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
-    jac_phi_A_i[19] = d_ij_0 - t2;
+    jac_phi_A_i[19] = d_ij_0 - t3;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    const jg_real t52 = H_5 * C_i[7];
-    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t52;
-    jac_phi_A_i[21] = t21 * g_star_1;
-    const jg_real t54 = H_8 * C_i[7];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t25 + t54;
-    jac_phi_A_i[22] = t29 * h_star_1;
+    const jg_real t55 = H_5 * C_i[7];
+    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t55;
+    jac_phi_A_i[21] = t22 * g_star_1;
+    const jg_real t57 = H_8 * C_i[7];
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t26 + t57;
+    jac_phi_A_i[22] = t30 * h_star_1;
     const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_1 * C_i[7];
-    jac_phi_A_i[23] = t30 * f_star_1;
+    jac_phi_A_i[23] = t31 * f_star_1;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t36;
+    jac_phi_A_i[25] = d_ij_1 - t38;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t40 * g_star_1;
-    jac_phi_A_i[28] = t41 * h_star_1;
-    jac_phi_A_i[29] = t42 * f_star_1;
+    jac_phi_A_i[27] = t42 * g_star_1;
+    jac_phi_A_i[28] = t43 * h_star_1;
+    jac_phi_A_i[29] = t44 * f_star_1;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t45;
+    jac_phi_A_i[31] = d_ij_2 - t48;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t49 * g_star_1;
-    jac_phi_A_i[34] = t50 * h_star_1;
-    jac_phi_A_i[35] = t51 * f_star_1;
+    jac_phi_A_i[33] = t52 * g_star_1;
+    jac_phi_A_i[34] = t53 * h_star_1;
+    jac_phi_A_i[35] = t54 * f_star_1;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
-    jac_phi_A_i[38] = d_ij_0 - t3;
-    const jg_real t57 = H_5 * C_i[8];
-    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t57;
-    jac_phi_A_i[39] = t21 * g_star_2;
-    const jg_real t59 = H_8 * C_i[8];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t25 + t59;
-    jac_phi_A_i[40] = t29 * h_star_2;
+    jac_phi_A_i[38] = d_ij_0 - t4;
+    const jg_real t60 = H_5 * C_i[8];
+    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t60;
+    jac_phi_A_i[39] = t22 * g_star_2;
+    const jg_real t62 = H_8 * C_i[8];
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t26 + t62;
+    jac_phi_A_i[40] = t30 * h_star_2;
     const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_1 * C_i[8];
-    jac_phi_A_i[41] = t30 * f_star_2;
+    jac_phi_A_i[41] = t31 * f_star_2;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t37;
-    jac_phi_A_i[45] = t40 * g_star_2;
-    jac_phi_A_i[46] = t41 * h_star_2;
-    jac_phi_A_i[47] = t42 * f_star_2;
+    jac_phi_A_i[44] = d_ij_1 - t39;
+    jac_phi_A_i[45] = t42 * g_star_2;
+    jac_phi_A_i[46] = t43 * h_star_2;
+    jac_phi_A_i[47] = t44 * f_star_2;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t46;
-    jac_phi_A_i[51] = t49 * g_star_2;
-    jac_phi_A_i[52] = t50 * h_star_2;
-    jac_phi_A_i[53] = t51 * f_star_2;
+    jac_phi_A_i[50] = d_ij_2 - t49;
+    jac_phi_A_i[51] = t52 * g_star_2;
+    jac_phi_A_i[52] = t53 * h_star_2;
+    jac_phi_A_i[53] = t54 * f_star_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -261,45 +265,45 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    jac_phi_alpha[1] = (C_i[0] * t25 + C_i[3] * H_6) * A_ij_f_j_0 + (C_i[1] * t25 + C_i[4] * H_6) * A_ij_f_j_1 +
-        (C_i[2] * t25 + C_i[5] * H_6) * A_ij_f_j_2;
+    jac_phi_alpha[1] = (C_i[0] * t26 + C_i[3] * H_6) * A_ij_f_j_0 + (C_i[1] * t26 + C_i[4] * H_6) * A_ij_f_j_1 +
+        (C_i[2] * t26 + C_i[5] * H_6) * A_ij_f_j_2;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     jac_phi_alpha[2] = A_ij_g_j_0 * (H_0 * C_i[3] - C_i[0] * H_1) + A_ij_g_j_1 * (H_0 * C_i[4] - H_1 * C_i[1]) +
         A_ij_g_j_2 * (H_0 * C_i[5] - H_1 * C_i[2]);
-    const jg_real t80 = H_0 * sine_2;
-    const jg_real t81 = sine_2 * H_1;
-    const jg_real t82 = sine_1 * sine_2;
-    jac_phi_alpha[3] = (t80 * C_i[0] + t81 * C_i[3] - t82 * C_i[6]) * A_ij_h_j_0 + (t80 * C_i[1] + t81 * C_i[4] -
-        t82 * C_i[7]) * A_ij_h_j_1 + (t80 * C_i[2] + t81 * C_i[5] - t82 * C_i[8]) * A_ij_h_j_2;
-    const jg_real t83 = cosine_1 * t16;
-    const jg_real t84 = cosine_1 * t13;
-    const jg_real t85 = sine_1 * cosine_2;
-    jac_phi_alpha[4] = (C_i[0] * t83 + C_i[3] * t84 - C_i[6] * t85) * A_ij_f_j_0 + (C_i[1] * t83 + C_i[4] * t84 -
-        C_i[7] * t85) * A_ij_f_j_1 + (C_i[2] * t83 + C_i[5] * t84 - C_i[8] * t85) * A_ij_f_j_2;
-    jac_phi_alpha[5] = -(A_ij_g_j_0 * (t10 * C_i[0] + t15 * C_i[3] + cosine_1 * C_i[6]) + A_ij_g_j_1 * (t10 * C_i[1]
-        + t15 * C_i[4] + cosine_1 * C_i[7]) + A_ij_g_j_2 * (t10 * C_i[2] + t15 * C_i[5] + cosine_1 * C_i[8]));
-    const jg_real t86 = t10 * cosine_2 + t22;
-    const jg_real t87 = t15 * cosine_2 - t24;
-    jac_phi_alpha[6] = (t86 * C_i[0] + t87 * C_i[3] + t27) * A_ij_h_j_0 + (t86 * C_i[1] + t87 * C_i[4] + t54) *
-        A_ij_h_j_1 + (t86 * C_i[2] + t87 * C_i[5] + t59) * A_ij_h_j_2;
-    const jg_real t88 = t13 - sine_1 * t24;
-    const jg_real t89 = t16 + sine_1 * t22;
-    jac_phi_alpha[7] = (C_i[0] * t88 - C_i[3] * t89 - t19) * A_ij_f_j_0 + (C_i[1] * t88 - C_i[4] * t89 - t52) *
-        A_ij_f_j_1 + (C_i[2] * t88 - C_i[5] * t89 - t57) * A_ij_f_j_2;
+    const jg_real t83 = H_0 * sine_2;
+    const jg_real t84 = sine_2 * H_1;
+    const jg_real t85 = sine_1 * sine_2;
+    jac_phi_alpha[3] = (t83 * C_i[0] + t84 * C_i[3] - t85 * C_i[6]) * A_ij_h_j_0 + (t83 * C_i[1] + t84 * C_i[4] -
+        t85 * C_i[7]) * A_ij_h_j_1 + (t83 * C_i[2] + t84 * C_i[5] - t85 * C_i[8]) * A_ij_h_j_2;
+    const jg_real t86 = cosine_1 * t17;
+    const jg_real t87 = cosine_1 * t14;
+    const jg_real t88 = sine_1 * cosine_2;
+    jac_phi_alpha[4] = (C_i[0] * t86 + C_i[3] * t87 - C_i[6] * t88) * A_ij_f_j_0 + (C_i[1] * t86 + C_i[4] * t87 -
+        C_i[7] * t88) * A_ij_f_j_1 + (C_i[2] * t86 + C_i[5] * t87 - C_i[8] * t88) * A_ij_f_j_2;
+    jac_phi_alpha[5] = -(A_ij_g_j_0 * (t11 * C_i[0] + t16 * C_i[3] + cosine_1 * C_i[6]) + A_ij_g_j_1 * (t11 * C_i[1]
+        + t16 * C_i[4] + cosine_1 * C_i[7]) + A_ij_g_j_2 * (t11 * C_i[2] + t16 * C_i[5] + cosine_1 * C_i[8]));
+    const jg_real t89 = t11 * cosine_2 + t23;
+    const jg_real t90 = t16 * cosine_2 - t25;
+    jac_phi_alpha[6] = (t89 * C_i[0] + t90 * C_i[3] + t28) * A_ij_h_j_0 + (t89 * C_i[1] + t90 * C_i[4] + t57) *
+        A_ij_h_j_1 + (t89 * C_i[2] + t90 * C_i[5] + t62) * A_ij_h_j_2;
+    const jg_real t91 = t14 - sine_1 * t25;
+    const jg_real t92 = t17 + sine_1 * t23;
+    jac_phi_alpha[7] = (C_i[0] * t91 - C_i[3] * t92 - t20) * A_ij_f_j_0 + (C_i[1] * t91 - C_i[4] * t92 - t55) *
+        A_ij_f_j_1 + (C_i[2] * t91 - C_i[5] * t92 - t60) * A_ij_f_j_2;
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t90 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t90;
-    jac_phi_geometry[3] = t90;
-    const jg_real t91 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t91;
-    jac_phi_geometry[6] = t91;
+    const jg_real t93 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t93;
+    jac_phi_geometry[3] = t93;
+    const jg_real t94 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t94;
+    jac_phi_geometry[6] = t94;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t92 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t92;
-    jac_phi_geometry[7] = t92;
+    const jg_real t95 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t95;
+    jac_phi_geometry[7] = t95;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
     jac_phi_geometry[9] = H_3 * A_ij_h_j_0;
     jac_phi_geometry[10] = H_6 * A_ij_f_j_0;
@@ -311,13 +315,13 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_geometry[16] = H_6 * A_ij_f_j_2;
     jac_phi_geometry[17] = H_0 * A_ij_g_j_2;
     jac_phi_geometry[18] = H_4 * A_ij_h_j_0;
-    jac_phi_geometry[19] = -(t25 * A_ij_f_j_0);
+    jac_phi_geometry[19] = -(t26 * A_ij_f_j_0);
     jac_phi_geometry[20] = H_1 * A_ij_g_j_0;
     jac_phi_geometry[21] = H_4 * A_ij_h_j_1;
-    jac_phi_geometry[22] = -(t25 * A_ij_f_j_1);
+    jac_phi_geometry[22] = -(t26 * A_ij_f_j_1);
     jac_phi_geometry[23] = H_1 * A_ij_g_j_1;
     jac_phi_geometry[24] = H_4 * A_ij_h_j_2;
-    jac_phi_geometry[25] = -(t25 * A_ij_f_j_2);
+    jac_phi_geometry[25] = -(t26 * A_ij_f_j_2);
     jac_phi_geometry[26] = H_1 * A_ij_g_j_2;
     jac_phi_geometry[27] = H_5 * A_ij_h_j_0;
     jac_phi_geometry[28] = H_8 * A_ij_f_j_0;
@@ -372,272 +376,241 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_q_v_r_i[7] = t7;
     const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
     jac_phi_q_v_r_i[8] = t8;
-    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
-    const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t12 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2 +
+        (A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2]);
+    jac_phi_q_v_A_i[0] = t12;
+    jac_phi_q_v_A_i[19] = t12;
+    jac_phi_q_v_A_i[38] = t12;
     /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
-    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = e_ij_0 * omega_i[2];
+    jac_phi_q_v_A_i[18] = t15;
+    jac_phi_q_v_A_i[1] = -t15;
+    const jg_real t16 = e_ij_0 * omega_i[1];
+    jac_phi_q_v_A_i[2] = t16;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real t27 = cosine_0 * sine_1;
+    const jg_real t21 = cosine_0 * sine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t30 = sine_0 * cosine_2;
+    const jg_real t24 = sine_0 * cosine_2;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = t27 * sine_2 - t30;
-    const jg_real t32 = sine_0 * sine_1;
-    const jg_real t33 = cosine_0 * cosine_2;
-    const jg_real H_4 = t32 * sine_2 + t33;
+    const jg_real H_3 = t21 * sine_2 - t24;
+    const jg_real t26 = sine_0 * sine_1;
+    const jg_real t27 = cosine_0 * cosine_2;
+    const jg_real H_4 = t26 * sine_2 + t27;
     const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real t36 = H_5 * C_i[7];
+    const jg_real t30 = H_5 * C_i[7];
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t36;
-    const jg_real t38 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t39 = omega_i[2] * t38;
-    const jg_real t40 = H_5 * C_i[8];
-    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t40;
-    const jg_real t42 = omega_i[1] * t38;
+    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t30;
+    const jg_real t32 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t33 = omega_i[2] * t32;
+    const jg_real t34 = H_5 * C_i[8];
+    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t34;
+    const jg_real t36 = omega_i[1] * t32;
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t45 = H_0 * H_8;
-    const jg_real t46 = sine_0 * sine_2;
-    const jg_real H_6 = t46 + sine_1 * t33;
-    const jg_real t48 = t45 + sine_1 * H_6;
-    const jg_real t49 = cosine_0 * sine_2;
-    const jg_real t50 = t49 - sine_1 * t30;
+    const jg_real t39 = H_0 * H_8;
+    const jg_real t40 = sine_0 * sine_2;
+    const jg_real H_6 = t40 + sine_1 * t27;
+    const jg_real t42 = t39 + sine_1 * H_6;
+    const jg_real t43 = cosine_0 * sine_2;
+    const jg_real t44 = t43 - sine_1 * t24;
     const jg_real H_1 = sine_0 * cosine_1;
-    const jg_real t52 = H_1 * H_8;
-    const jg_real t53 = sine_1 * t50 - t52;
-    const jg_real t54 = C_i[0] * t48 - C_i[3] * t53;
-    const jg_real t55 = H_8 * C_i[6];
+    const jg_real t46 = H_1 * H_8;
+    const jg_real t47 = sine_1 * t44 - t46;
+    const jg_real t48 = C_i[0] * t42 - C_i[3] * t47;
+    const jg_real t49 = H_8 * C_i[6];
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t50 + t55;
+    const jg_real h_star_0 = C_i[0] * H_6 - C_i[3] * t44 + t49;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
-    const jg_real t58 = H_5 * C_i[6];
-    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t58;
+    const jg_real t52 = H_5 * C_i[6];
+    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t52;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t63 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[3] = t38 * h_star_0 * alphadot[2] - (t39 * g_star_1 - t42 * g_star_2 + t38 * t54 * alphadot[0])
-        + t38 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t63;
-    const jg_real t64 = H_0 * H_5;
-    const jg_real t65 = t64 + sine_1 * H_3;
-    const jg_real t66 = H_1 * H_5;
-    const jg_real t67 = t66 + sine_1 * H_4;
-    const jg_real t68 = C_i[0] * t65 + C_i[3] * t67;
-    const jg_real t69 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t70 = H_8 * C_i[7];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t50 + t70;
-    const jg_real t72 = omega_i[2] * t69;
-    const jg_real t73 = H_8 * C_i[8];
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t50 + t73;
-    const jg_real t75 = omega_i[1] * t69;
+    const jg_real t57 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[3] = t32 * h_star_0 * alphadot[2] - (t33 * g_star_1 - t36 * g_star_2 + t32 * t48 * alphadot[0])
+        + t32 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t57;
+    const jg_real t58 = H_0 * H_5;
+    const jg_real t59 = t58 + sine_1 * H_3;
+    const jg_real t60 = H_1 * H_5;
+    const jg_real t61 = t60 + sine_1 * H_4;
+    const jg_real t62 = C_i[0] * t59 + C_i[3] * t61;
+    const jg_real t63 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t64 = H_8 * C_i[7];
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t44 + t64;
+    const jg_real t66 = omega_i[2] * t63;
+    const jg_real t67 = H_8 * C_i[8];
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t44 + t67;
+    const jg_real t69 = omega_i[1] * t63;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t79 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[4] = t68 * t69 * alphadot[0] - (h_star_1 * t72 - h_star_2 * t75) - g_star_0 * t69 * alphadot[2]
-        + f_star_0 * t69 * alphadot[1] * cosine_2 + h_star_0 * t79;
-    const jg_real t80 = H_3 * H_8 - H_5 * H_6;
-    const jg_real t81 = H_4 * H_8 + H_5 * t50;
-    const jg_real t82 = C_i[0] * t80 + C_i[3] * t81;
-    const jg_real t83 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t73 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[4] = t62 * t63 * alphadot[0] - (h_star_1 * t66 - h_star_2 * t69) - g_star_0 * t63 * alphadot[2]
+        + f_star_0 * t63 * alphadot[1] * cosine_2 + h_star_0 * t73;
+    const jg_real t74 = H_3 * H_8 - H_5 * H_6;
+    const jg_real t75 = H_4 * H_8 + H_5 * t44;
+    const jg_real t76 = C_i[0] * t74 + C_i[3] * t75;
+    const jg_real t77 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_1 * C_i[7];
-    const jg_real t85 = omega_i[2] * t83;
+    const jg_real t79 = omega_i[2] * t77;
     const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_1 * C_i[8];
-    const jg_real t87 = omega_i[1] * t83;
-    const jg_real t88 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t89 = cosine_2 * t50 - sine_2 * H_4;
-    const jg_real t90 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t91 = C_i[0] * t88 - C_i[3] * t89 + C_i[6] * t90;
+    const jg_real t81 = omega_i[1] * t77;
+    const jg_real t82 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t83 = cosine_2 * t44 - sine_2 * H_4;
+    const jg_real t84 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t85 = C_i[0] * t82 - C_i[3] * t83 + C_i[6] * t84;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t95 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[5] = t82 * t83 * alphadot[0] - (f_star_1 * t85 - f_star_2 * t87) - t83 * t91 * alphadot[1] +
-        f_star_0 * t95;
-    const jg_real t96 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t97 = s_i[0] * A_i[4];
-    const jg_real t98 = s_i[0] * A_i[7];
-    const jg_real t99 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t96 - (t97 * omega_i[2] - t98 * omega_i[1]) + t99;
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t101 = s_i[0] * A_i[1];
-    const jg_real t102 = s_i[1] * A_i[4];
-    const jg_real t103 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t101 + t102 + t103;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t106 = d_ij_1 - t101;
-    jac_phi_q_v_A_i[7] = -(omega_i[2] * t106 + t98 * omega_i[0]);
-    jac_phi_q_v_A_i[8] = t97 * omega_i[0] + omega_i[1] * t106;
-    const jg_real t107 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t108 = omega_i[2] * t107;
-    const jg_real t109 = omega_i[1] * t107;
-    const jg_real t110 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[9] = t107 * h_star_0 * alphadot[2] - (t108 * g_star_1 - t109 * g_star_2 + t107 * t54 *
-        alphadot[0]) + t107 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t110;
-    const jg_real t111 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t112 = omega_i[2] * t111;
-    const jg_real t113 = omega_i[1] * t111;
-    const jg_real t114 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[10] = t68 * t111 * alphadot[0] - (h_star_1 * t112 - h_star_2 * t113) - g_star_0 * t111 *
-        alphadot[2] + f_star_0 * t111 * alphadot[1] * cosine_2 + h_star_0 * t114;
-    const jg_real t115 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t116 = omega_i[2] * t115;
-    const jg_real t117 = omega_i[1] * t115;
-    const jg_real t118 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[11] = t82 * t115 * alphadot[0] - (f_star_1 * t116 - f_star_2 * t117) - t115 * t91 * alphadot[1]
-        + f_star_0 * t118;
-    const jg_real t119 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t120 = s_i[0] * A_i[5];
-    const jg_real t121 = s_i[0] * A_i[8];
-    const jg_real t122 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t119 - (t120 * omega_i[2] - t121 * omega_i[1]) + t122;
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t124 = s_i[0] * A_i[2];
-    const jg_real t125 = s_i[1] * A_i[5];
-    const jg_real t126 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t124 + t125 + t126;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t129 = d_ij_2 - t124;
-    jac_phi_q_v_A_i[13] = -(omega_i[2] * t129 + t121 * omega_i[0]);
-    jac_phi_q_v_A_i[14] = t120 * omega_i[0] + omega_i[1] * t129;
-    const jg_real t130 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t131 = omega_i[2] * t130;
-    const jg_real t132 = omega_i[1] * t130;
-    const jg_real t133 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[15] = t130 * h_star_0 * alphadot[2] - (t131 * g_star_1 - t132 * g_star_2 + t130 * t54 *
-        alphadot[0]) + t130 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t133;
-    const jg_real t134 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t135 = omega_i[2] * t134;
-    const jg_real t136 = omega_i[1] * t134;
-    const jg_real t137 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[16] = t68 * t134 * alphadot[0] - (h_star_1 * t135 - h_star_2 * t136) - g_star_0 * t134 *
-        alphadot[2] + f_star_0 * t134 * alphadot[1] * cosine_2 + h_star_0 * t137;
-    const jg_real t138 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t139 = omega_i[2] * t138;
-    const jg_real t140 = omega_i[1] * t138;
-    const jg_real t141 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[17] = t82 * t138 * alphadot[0] - (f_star_1 * t139 - f_star_2 * t140) - t138 * t91 * alphadot[1]
-        + f_star_0 * t141;
-    const jg_real t142 = d_ij_0 - t18;
-    const jg_real t143 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t143 * omega_i[1] + t142 * omega_i[2];
-    const jg_real t144 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = t9 - (t143 * omega_i[0] - omega_i[2] * t144) + t15;
-    jac_phi_q_v_A_i[20] = -(t142 * omega_i[0] + omega_i[1] * t144);
-    const jg_real t145 = omega_i[0] * t38;
-    const jg_real t146 = C_i[1] * t48 - C_i[4] * t53;
-    jac_phi_q_v_A_i[21] = t38 * h_star_1 * alphadot[2] - (t145 * g_star_2 - t39 * g_star_0 + t38 * t146 *
-        alphadot[0]) + t38 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t63;
-    const jg_real t147 = C_i[1] * t65 + C_i[4] * t67;
-    const jg_real t148 = omega_i[0] * t69;
-    jac_phi_q_v_A_i[22] = t69 * t147 * alphadot[0] - (h_star_2 * t148 - h_star_0 * t72) - g_star_1 * t69 *
-        alphadot[2] + f_star_1 * t69 * alphadot[1] * cosine_2 + h_star_1 * t79;
-    const jg_real t149 = C_i[1] * t80 + C_i[4] * t81;
-    const jg_real t150 = omega_i[0] * t83;
-    const jg_real t151 = C_i[1] * t88 - C_i[4] * t89 + C_i[7] * t90;
-    jac_phi_q_v_A_i[23] = t83 * t149 * alphadot[0] - (f_star_2 * t150 - f_star_0 * t85) - t83 * t151 * alphadot[1] +
-        f_star_1 * t95;
-    const jg_real t152 = d_ij_1 - t102;
-    const jg_real t153 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t153 * omega_i[1] + t152 * omega_i[2];
-    const jg_real t154 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = t96 - (t153 * omega_i[0] - omega_i[2] * t154) + t99;
-    jac_phi_q_v_A_i[26] = -(t152 * omega_i[0] + omega_i[1] * t154);
-    const jg_real t155 = omega_i[0] * t107;
-    jac_phi_q_v_A_i[27] = t107 * h_star_1 * alphadot[2] - (t155 * g_star_2 - t108 * g_star_0 + t107 * t146 *
-        alphadot[0]) + t107 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t110;
-    const jg_real t156 = omega_i[0] * t111;
-    jac_phi_q_v_A_i[28] = t111 * t147 * alphadot[0] - (h_star_2 * t156 - h_star_0 * t112) - g_star_1 * t111 *
-        alphadot[2] + f_star_1 * t111 * alphadot[1] * cosine_2 + h_star_1 * t114;
-    const jg_real t157 = omega_i[0] * t115;
-    jac_phi_q_v_A_i[29] = t115 * t149 * alphadot[0] - (f_star_2 * t157 - f_star_0 * t116) - t115 * t151 *
-        alphadot[1] + f_star_1 * t118;
-    const jg_real t158 = d_ij_2 - t125;
-    const jg_real t159 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t159 * omega_i[1] + t158 * omega_i[2];
-    const jg_real t160 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = t119 - (t159 * omega_i[0] - omega_i[2] * t160) + t122;
-    jac_phi_q_v_A_i[32] = -(t158 * omega_i[0] + omega_i[1] * t160);
-    const jg_real t161 = omega_i[0] * t130;
-    jac_phi_q_v_A_i[33] = t130 * h_star_1 * alphadot[2] - (t161 * g_star_2 - t131 * g_star_0 + t130 * t146 *
-        alphadot[0]) + t130 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t133;
-    const jg_real t162 = omega_i[0] * t134;
-    jac_phi_q_v_A_i[34] = t134 * t147 * alphadot[0] - (h_star_2 * t162 - h_star_0 * t135) - g_star_1 * t134 *
-        alphadot[2] + f_star_1 * t134 * alphadot[1] * cosine_2 + h_star_1 * t137;
-    const jg_real t163 = omega_i[0] * t138;
-    jac_phi_q_v_A_i[35] = t138 * t149 * alphadot[0] - (f_star_2 * t163 - f_star_0 * t139) - t138 * t151 *
-        alphadot[1] + f_star_1 * t141;
-    const jg_real t164 = d_ij_0 - t19;
-    const jg_real t165 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t164 * omega_i[1] + t165 * omega_i[2]);
-    const jg_real t166 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = omega_i[2] * t166 + t164 * omega_i[0];
-    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t166 - t165 * omega_i[0]) + t15;
-    const jg_real t167 = C_i[2] * t48 - C_i[5] * t53;
-    jac_phi_q_v_A_i[39] = t38 * h_star_2 * alphadot[2] - (t42 * g_star_0 - t145 * g_star_1 + t38 * t167 *
-        alphadot[0]) + t38 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t63;
-    const jg_real t168 = C_i[2] * t65 + C_i[5] * t67;
-    jac_phi_q_v_A_i[40] = t69 * t168 * alphadot[0] - (h_star_0 * t75 - h_star_1 * t148) - g_star_2 * t69 *
-        alphadot[2] + f_star_2 * t69 * alphadot[1] * cosine_2 + h_star_2 * t79;
-    const jg_real t169 = C_i[2] * t80 + C_i[5] * t81;
-    const jg_real t170 = C_i[2] * t88 - C_i[5] * t89 + C_i[8] * t90;
-    jac_phi_q_v_A_i[41] = t83 * t169 * alphadot[0] - (f_star_0 * t87 - f_star_1 * t150) - t83 * t170 * alphadot[1] +
-        f_star_2 * t95;
-    const jg_real t171 = d_ij_1 - t103;
-    const jg_real t172 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t171 * omega_i[1] + t172 * omega_i[2]);
-    const jg_real t173 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = omega_i[2] * t173 + t171 * omega_i[0];
-    jac_phi_q_v_A_i[44] = t96 - (omega_i[1] * t173 - t172 * omega_i[0]) + t99;
-    jac_phi_q_v_A_i[45] = t107 * h_star_2 * alphadot[2] - (t109 * g_star_0 - t155 * g_star_1 + t107 * t167 *
-        alphadot[0]) + t107 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t110;
-    jac_phi_q_v_A_i[46] = t111 * t168 * alphadot[0] - (h_star_0 * t113 - h_star_1 * t156) - g_star_2 * t111 *
-        alphadot[2] + f_star_2 * t111 * alphadot[1] * cosine_2 + h_star_2 * t114;
-    jac_phi_q_v_A_i[47] = t115 * t169 * alphadot[0] - (f_star_0 * t117 - f_star_1 * t157) - t115 * t170 *
-        alphadot[1] + f_star_2 * t118;
-    const jg_real t174 = d_ij_2 - t126;
-    const jg_real t175 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t174 * omega_i[1] + t175 * omega_i[2]);
-    const jg_real t176 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = omega_i[2] * t176 + t174 * omega_i[0];
-    jac_phi_q_v_A_i[50] = t119 - (omega_i[1] * t176 - t175 * omega_i[0]) + t122;
-    jac_phi_q_v_A_i[51] = t130 * h_star_2 * alphadot[2] - (t132 * g_star_0 - t161 * g_star_1 + t130 * t167 *
-        alphadot[0]) + t130 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t133;
-    jac_phi_q_v_A_i[52] = t134 * t168 * alphadot[0] - (h_star_0 * t136 - h_star_1 * t162) - g_star_2 * t134 *
-        alphadot[2] + f_star_2 * t134 * alphadot[1] * cosine_2 + h_star_2 * t137;
-    jac_phi_q_v_A_i[53] = t138 * t169 * alphadot[0] - (f_star_0 * t140 - f_star_1 * t163) - t138 * t170 *
-        alphadot[1] + f_star_2 * t141;
+    const jg_real t89 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[5] = t76 * t77 * alphadot[0] - (f_star_1 * t79 - f_star_2 * t81) - t77 * t85 * alphadot[1] +
+        f_star_0 * t89;
+    const jg_real t90 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2 +
+        (A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2]);
+    jac_phi_q_v_A_i[6] = t90;
+    jac_phi_q_v_A_i[25] = t90;
+    jac_phi_q_v_A_i[44] = t90;
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t93 = e_ij_1 * omega_i[2];
+    jac_phi_q_v_A_i[24] = t93;
+    jac_phi_q_v_A_i[7] = -t93;
+    const jg_real t94 = e_ij_1 * omega_i[1];
+    jac_phi_q_v_A_i[8] = t94;
+    const jg_real t95 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t96 = omega_i[2] * t95;
+    const jg_real t97 = omega_i[1] * t95;
+    const jg_real t98 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[9] = t95 * h_star_0 * alphadot[2] - (t96 * g_star_1 - t97 * g_star_2 + t95 * t48 * alphadot[0])
+        + t95 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t98;
+    const jg_real t99 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t100 = omega_i[2] * t99;
+    const jg_real t101 = omega_i[1] * t99;
+    const jg_real t102 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[10] = t62 * t99 * alphadot[0] - (h_star_1 * t100 - h_star_2 * t101) - g_star_0 * t99 *
+        alphadot[2] + f_star_0 * t99 * alphadot[1] * cosine_2 + h_star_0 * t102;
+    const jg_real t103 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t104 = omega_i[2] * t103;
+    const jg_real t105 = omega_i[1] * t103;
+    const jg_real t106 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[11] = t76 * t103 * alphadot[0] - (f_star_1 * t104 - f_star_2 * t105) - t103 * t85 * alphadot[1]
+        + f_star_0 * t106;
+    const jg_real t107 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2
+        + (A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2]);
+    jac_phi_q_v_A_i[12] = t107;
+    jac_phi_q_v_A_i[31] = t107;
+    jac_phi_q_v_A_i[50] = t107;
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t110 = e_ij_2 * omega_i[2];
+    jac_phi_q_v_A_i[30] = t110;
+    jac_phi_q_v_A_i[13] = -t110;
+    const jg_real t111 = e_ij_2 * omega_i[1];
+    jac_phi_q_v_A_i[14] = t111;
+    const jg_real t112 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t113 = omega_i[2] * t112;
+    const jg_real t114 = omega_i[1] * t112;
+    const jg_real t115 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[15] = t112 * h_star_0 * alphadot[2] - (t113 * g_star_1 - t114 * g_star_2 + t112 * t48 *
+        alphadot[0]) + t112 * f_star_0 * alphadot[1] * sine_2 + g_star_0 * t115;
+    const jg_real t116 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t117 = omega_i[2] * t116;
+    const jg_real t118 = omega_i[1] * t116;
+    const jg_real t119 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[16] = t62 * t116 * alphadot[0] - (h_star_1 * t117 - h_star_2 * t118) - g_star_0 * t116 *
+        alphadot[2] + f_star_0 * t116 * alphadot[1] * cosine_2 + h_star_0 * t119;
+    const jg_real t120 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t121 = omega_i[2] * t120;
+    const jg_real t122 = omega_i[1] * t120;
+    const jg_real t123 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[17] = t76 * t120 * alphadot[0] - (f_star_1 * t121 - f_star_2 * t122) - t120 * t85 * alphadot[1]
+        + f_star_0 * t123;
+    const jg_real t124 = e_ij_0 * omega_i[0];
+    jac_phi_q_v_A_i[37] = t124;
+    jac_phi_q_v_A_i[20] = -t124;
+    const jg_real t125 = omega_i[0] * t32;
+    const jg_real t126 = C_i[1] * t42 - C_i[4] * t47;
+    jac_phi_q_v_A_i[21] = t32 * h_star_1 * alphadot[2] - (t125 * g_star_2 - t33 * g_star_0 + t32 * t126 *
+        alphadot[0]) + t32 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t57;
+    const jg_real t127 = C_i[1] * t59 + C_i[4] * t61;
+    const jg_real t128 = omega_i[0] * t63;
+    jac_phi_q_v_A_i[22] = t63 * t127 * alphadot[0] - (h_star_2 * t128 - h_star_0 * t66) - g_star_1 * t63 *
+        alphadot[2] + f_star_1 * t63 * alphadot[1] * cosine_2 + h_star_1 * t73;
+    const jg_real t129 = C_i[1] * t74 + C_i[4] * t75;
+    const jg_real t130 = omega_i[0] * t77;
+    const jg_real t131 = C_i[1] * t82 - C_i[4] * t83 + C_i[7] * t84;
+    jac_phi_q_v_A_i[23] = t77 * t129 * alphadot[0] - (f_star_2 * t130 - f_star_0 * t79) - t77 * t131 * alphadot[1] +
+        f_star_1 * t89;
+    const jg_real t132 = e_ij_1 * omega_i[0];
+    jac_phi_q_v_A_i[43] = t132;
+    jac_phi_q_v_A_i[26] = -t132;
+    const jg_real t133 = omega_i[0] * t95;
+    jac_phi_q_v_A_i[27] = t95 * h_star_1 * alphadot[2] - (t133 * g_star_2 - t96 * g_star_0 + t95 * t126 *
+        alphadot[0]) + t95 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t98;
+    const jg_real t134 = omega_i[0] * t99;
+    jac_phi_q_v_A_i[28] = t99 * t127 * alphadot[0] - (h_star_2 * t134 - h_star_0 * t100) - g_star_1 * t99 *
+        alphadot[2] + f_star_1 * t99 * alphadot[1] * cosine_2 + h_star_1 * t102;
+    const jg_real t135 = omega_i[0] * t103;
+    jac_phi_q_v_A_i[29] = t103 * t129 * alphadot[0] - (f_star_2 * t135 - f_star_0 * t104) - t103 * t131 *
+        alphadot[1] + f_star_1 * t106;
+    const jg_real t136 = e_ij_2 * omega_i[0];
+    jac_phi_q_v_A_i[49] = t136;
+    jac_phi_q_v_A_i[32] = -t136;
+    const jg_real t137 = omega_i[0] * t112;
+    jac_phi_q_v_A_i[33] = t112 * h_star_1 * alphadot[2] - (t137 * g_star_2 - t113 * g_star_0 + t112 * t126 *
+        alphadot[0]) + t112 * f_star_1 * alphadot[1] * sine_2 + g_star_1 * t115;
+    const jg_real t138 = omega_i[0] * t116;
+    jac_phi_q_v_A_i[34] = t116 * t127 * alphadot[0] - (h_star_2 * t138 - h_star_0 * t117) - g_star_1 * t116 *
+        alphadot[2] + f_star_1 * t116 * alphadot[1] * cosine_2 + h_star_1 * t119;
+    const jg_real t139 = omega_i[0] * t120;
+    jac_phi_q_v_A_i[35] = t120 * t129 * alphadot[0] - (f_star_2 * t139 - f_star_0 * t121) - t120 * t131 *
+        alphadot[1] + f_star_1 * t123;
+    jac_phi_q_v_A_i[36] = -t16;
+    const jg_real t140 = C_i[2] * t42 - C_i[5] * t47;
+    jac_phi_q_v_A_i[39] = t32 * h_star_2 * alphadot[2] - (t36 * g_star_0 - t125 * g_star_1 + t32 * t140 *
+        alphadot[0]) + t32 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t57;
+    const jg_real t141 = C_i[2] * t59 + C_i[5] * t61;
+    jac_phi_q_v_A_i[40] = t63 * t141 * alphadot[0] - (h_star_0 * t69 - h_star_1 * t128) - g_star_2 * t63 *
+        alphadot[2] + f_star_2 * t63 * alphadot[1] * cosine_2 + h_star_2 * t73;
+    const jg_real t142 = C_i[2] * t74 + C_i[5] * t75;
+    const jg_real t143 = C_i[2] * t82 - C_i[5] * t83 + C_i[8] * t84;
+    jac_phi_q_v_A_i[41] = t77 * t142 * alphadot[0] - (f_star_0 * t81 - f_star_1 * t130) - t77 * t143 * alphadot[1] +
+        f_star_2 * t89;
+    jac_phi_q_v_A_i[42] = -t94;
+    jac_phi_q_v_A_i[45] = t95 * h_star_2 * alphadot[2] - (t97 * g_star_0 - t133 * g_star_1 + t95 * t140 *
+        alphadot[0]) + t95 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t98;
+    jac_phi_q_v_A_i[46] = t99 * t141 * alphadot[0] - (h_star_0 * t101 - h_star_1 * t134) - g_star_2 * t99 *
+        alphadot[2] + f_star_2 * t99 * alphadot[1] * cosine_2 + h_star_2 * t102;
+    jac_phi_q_v_A_i[47] = t103 * t142 * alphadot[0] - (f_star_0 * t105 - f_star_1 * t135) - t103 * t143 *
+        alphadot[1] + f_star_2 * t106;
+    jac_phi_q_v_A_i[48] = -t111;
+    jac_phi_q_v_A_i[51] = t112 * h_star_2 * alphadot[2] - (t114 * g_star_0 - t137 * g_star_1 + t112 * t140 *
+        alphadot[0]) + t112 * f_star_2 * alphadot[1] * sine_2 + g_star_2 * t115;
+    jac_phi_q_v_A_i[52] = t116 * t141 * alphadot[0] - (h_star_0 * t118 - h_star_1 * t138) - g_star_2 * t116 *
+        alphadot[2] + f_star_2 * t116 * alphadot[1] * cosine_2 + h_star_2 * t119;
+    jac_phi_q_v_A_i[53] = t120 * t142 * alphadot[0] - (f_star_0 * t122 - f_star_1 * t139) - t120 * t143 *
+        alphadot[1] + f_star_2 * t123;
     jac_phi_q_v_r_j[0] = -t0;
     jac_phi_q_v_r_j[1] = -t1;
     jac_phi_q_v_r_j[2] = -t2;
@@ -647,266 +620,266 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_q_v_r_j[6] = -t6;
     jac_phi_q_v_r_j[7] = -t7;
     jac_phi_q_v_r_j[8] = -t8;
-    const jg_real t177 = s_j[0] * A_i[6];
-    const jg_real t178 = s_j[0] * A_i[3];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t177 * omega_i[1] - t178 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t179 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t179 - t177 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t178 * omega_i[0] - omega_i[1] * t179) + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t180 = A_i[0] * C_j[6];
-    const jg_real t181 = A_i[3] * C_j[6];
-    const jg_real t182 = A_i[6] * C_j[6];
-    jac_phi_q_v_A_j[3] = (t180 * h_star_0 + t181 * h_star_1 + t182 * h_star_2) * alphadot[2] - ((omega_i[1] * t182 -
-        omega_i[2] * t181) * g_star_0 + (omega_i[2] * t180 - omega_i[0] * t182) * g_star_1 + (omega_i[0] * t181 -
-        omega_i[1] * t180) * g_star_2 + (t180 * t54 + t181 * t146 + t182 * t167) * alphadot[0]) + (t180 * f_star_0 +
-        t181 * f_star_1 + t182 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_0 * g_star_0 +
+    const jg_real t144 = s_j[0] * A_i[6];
+    const jg_real t145 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t144 * omega_i[1] - t145 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t146 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t146 - t144 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[3];
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t145 * omega_i[0] - omega_i[1] * t146) + omega_j_cross_s_j_0 * A_i[6];
+    const jg_real t147 = A_i[0] * C_j[6];
+    const jg_real t148 = A_i[3] * C_j[6];
+    const jg_real t149 = A_i[6] * C_j[6];
+    jac_phi_q_v_A_j[3] = (t147 * h_star_0 + t148 * h_star_1 + t149 * h_star_2) * alphadot[2] - ((omega_i[1] * t149 -
+        omega_i[2] * t148) * g_star_0 + (omega_i[2] * t147 - omega_i[0] * t149) * g_star_1 + (omega_i[0] * t148 -
+        omega_i[1] * t147) * g_star_2 + (t147 * t48 + t148 * t126 + t149 * t140) * alphadot[0]) + (t147 * f_star_0 +
+        t148 * f_star_1 + t149 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_0 * g_star_0 +
         A_i[3] * omega_j_cross_h_j_0 * g_star_1 + A_i[6] * omega_j_cross_h_j_0 * g_star_2);
-    const jg_real t183 = A_i[0] * C_j[0];
-    const jg_real t184 = A_i[3] * C_j[0];
-    const jg_real t185 = A_i[6] * C_j[0];
-    jac_phi_q_v_A_j[4] = alphadot[0] * (t68 * t183 + t147 * t184 + t168 * t185) - (h_star_0 * (omega_i[1] * t185 -
-        omega_i[2] * t184) + h_star_1 * (omega_i[2] * t183 - omega_i[0] * t185) + h_star_2 * (omega_i[0] * t184 -
-        omega_i[1] * t183)) - alphadot[2] * (g_star_0 * t183 + g_star_1 * t184 + g_star_2 * t185) + alphadot[1] *
-        (f_star_0 * t183 + f_star_1 * t184 + f_star_2 * t185) * cosine_2 + (A_i[0] * omega_j_cross_f_j_0 * h_star_0
+    const jg_real t150 = A_i[0] * C_j[0];
+    const jg_real t151 = A_i[3] * C_j[0];
+    const jg_real t152 = A_i[6] * C_j[0];
+    jac_phi_q_v_A_j[4] = alphadot[0] * (t62 * t150 + t127 * t151 + t141 * t152) - (h_star_0 * (omega_i[1] * t152 -
+        omega_i[2] * t151) + h_star_1 * (omega_i[2] * t150 - omega_i[0] * t152) + h_star_2 * (omega_i[0] * t151 -
+        omega_i[1] * t150)) - alphadot[2] * (g_star_0 * t150 + g_star_1 * t151 + g_star_2 * t152) + alphadot[1] *
+        (f_star_0 * t150 + f_star_1 * t151 + f_star_2 * t152) * cosine_2 + (A_i[0] * omega_j_cross_f_j_0 * h_star_0
         + A_i[3] * omega_j_cross_f_j_0 * h_star_1 + A_i[6] * omega_j_cross_f_j_0 * h_star_2);
-    const jg_real t186 = A_i[0] * C_j[3];
-    const jg_real t187 = A_i[3] * C_j[3];
-    const jg_real t188 = A_i[6] * C_j[3];
-    jac_phi_q_v_A_j[5] = alphadot[0] * (t82 * t186 + t149 * t187 + t169 * t188) - (f_star_0 * (omega_i[1] * t188 -
-        omega_i[2] * t187) + f_star_1 * (omega_i[2] * t186 - omega_i[0] * t188) + f_star_2 * (omega_i[0] * t187 -
-        omega_i[1] * t186)) - alphadot[1] * (t186 * t91 + t187 * t151 + t188 * t170) + (A_i[0] * omega_j_cross_g_j_0
+    const jg_real t153 = A_i[0] * C_j[3];
+    const jg_real t154 = A_i[3] * C_j[3];
+    const jg_real t155 = A_i[6] * C_j[3];
+    jac_phi_q_v_A_j[5] = alphadot[0] * (t76 * t153 + t129 * t154 + t142 * t155) - (f_star_0 * (omega_i[1] * t155 -
+        omega_i[2] * t154) + f_star_1 * (omega_i[2] * t153 - omega_i[0] * t155) + f_star_2 * (omega_i[0] * t154 -
+        omega_i[1] * t153)) - alphadot[1] * (t153 * t85 + t154 * t131 + t155 * t143) + (A_i[0] * omega_j_cross_g_j_0
         * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 + A_i[6] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t189 = s_j[0] * A_i[7];
-    const jg_real t190 = s_j[0] * A_i[4];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t189 * omega_i[1] - t190 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t191 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t191 - t189 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t190 * omega_i[0] - omega_i[1] * t191) + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t192 = A_i[1] * C_j[6];
-    const jg_real t193 = A_i[4] * C_j[6];
-    const jg_real t194 = A_i[7] * C_j[6];
-    jac_phi_q_v_A_j[9] = (t192 * h_star_0 + t193 * h_star_1 + t194 * h_star_2) * alphadot[2] - ((omega_i[1] * t194 -
-        omega_i[2] * t193) * g_star_0 + (omega_i[2] * t192 - omega_i[0] * t194) * g_star_1 + (omega_i[0] * t193 -
-        omega_i[1] * t192) * g_star_2 + (t192 * t54 + t193 * t146 + t194 * t167) * alphadot[0]) + (t192 * f_star_0 +
-        t193 * f_star_1 + t194 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_0 * g_star_0 +
+    const jg_real t156 = s_j[0] * A_i[7];
+    const jg_real t157 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t156 * omega_i[1] - t157 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t158 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t158 - t156 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[4];
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t157 * omega_i[0] - omega_i[1] * t158) + omega_j_cross_s_j_0 * A_i[7];
+    const jg_real t159 = A_i[1] * C_j[6];
+    const jg_real t160 = A_i[4] * C_j[6];
+    const jg_real t161 = A_i[7] * C_j[6];
+    jac_phi_q_v_A_j[9] = (t159 * h_star_0 + t160 * h_star_1 + t161 * h_star_2) * alphadot[2] - ((omega_i[1] * t161 -
+        omega_i[2] * t160) * g_star_0 + (omega_i[2] * t159 - omega_i[0] * t161) * g_star_1 + (omega_i[0] * t160 -
+        omega_i[1] * t159) * g_star_2 + (t159 * t48 + t160 * t126 + t161 * t140) * alphadot[0]) + (t159 * f_star_0 +
+        t160 * f_star_1 + t161 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_0 * g_star_0 +
         A_i[4] * omega_j_cross_h_j_0 * g_star_1 + A_i[7] * omega_j_cross_h_j_0 * g_star_2);
-    const jg_real t195 = A_i[1] * C_j[0];
-    const jg_real t196 = A_i[4] * C_j[0];
-    const jg_real t197 = A_i[7] * C_j[0];
-    jac_phi_q_v_A_j[10] = alphadot[0] * (t68 * t195 + t147 * t196 + t168 * t197) - (h_star_0 * (omega_i[1] * t197 -
-        omega_i[2] * t196) + h_star_1 * (omega_i[2] * t195 - omega_i[0] * t197) + h_star_2 * (omega_i[0] * t196 -
-        omega_i[1] * t195)) - alphadot[2] * (g_star_0 * t195 + g_star_1 * t196 + g_star_2 * t197) + alphadot[1] *
-        (f_star_0 * t195 + f_star_1 * t196 + f_star_2 * t197) * cosine_2 + (A_i[1] * omega_j_cross_f_j_0 * h_star_0
+    const jg_real t162 = A_i[1] * C_j[0];
+    const jg_real t163 = A_i[4] * C_j[0];
+    const jg_real t164 = A_i[7] * C_j[0];
+    jac_phi_q_v_A_j[10] = alphadot[0] * (t62 * t162 + t127 * t163 + t141 * t164) - (h_star_0 * (omega_i[1] * t164 -
+        omega_i[2] * t163) + h_star_1 * (omega_i[2] * t162 - omega_i[0] * t164) + h_star_2 * (omega_i[0] * t163 -
+        omega_i[1] * t162)) - alphadot[2] * (g_star_0 * t162 + g_star_1 * t163 + g_star_2 * t164) + alphadot[1] *
+        (f_star_0 * t162 + f_star_1 * t163 + f_star_2 * t164) * cosine_2 + (A_i[1] * omega_j_cross_f_j_0 * h_star_0
         + A_i[4] * omega_j_cross_f_j_0 * h_star_1 + A_i[7] * omega_j_cross_f_j_0 * h_star_2);
-    const jg_real t198 = A_i[1] * C_j[3];
-    const jg_real t199 = A_i[4] * C_j[3];
-    const jg_real t200 = A_i[7] * C_j[3];
-    jac_phi_q_v_A_j[11] = alphadot[0] * (t82 * t198 + t149 * t199 + t169 * t200) - (f_star_0 * (omega_i[1] * t200 -
-        omega_i[2] * t199) + f_star_1 * (omega_i[2] * t198 - omega_i[0] * t200) + f_star_2 * (omega_i[0] * t199 -
-        omega_i[1] * t198)) - alphadot[1] * (t198 * t91 + t199 * t151 + t200 * t170) + (A_i[1] * omega_j_cross_g_j_0
+    const jg_real t165 = A_i[1] * C_j[3];
+    const jg_real t166 = A_i[4] * C_j[3];
+    const jg_real t167 = A_i[7] * C_j[3];
+    jac_phi_q_v_A_j[11] = alphadot[0] * (t76 * t165 + t129 * t166 + t142 * t167) - (f_star_0 * (omega_i[1] * t167 -
+        omega_i[2] * t166) + f_star_1 * (omega_i[2] * t165 - omega_i[0] * t167) + f_star_2 * (omega_i[0] * t166 -
+        omega_i[1] * t165)) - alphadot[1] * (t165 * t85 + t166 * t131 + t167 * t143) + (A_i[1] * omega_j_cross_g_j_0
         * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 + A_i[7] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t201 = s_j[0] * A_i[8];
-    const jg_real t202 = s_j[0] * A_i[5];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t201 * omega_i[1] - t202 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t203 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t203 - t201 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t202 * omega_i[0] - omega_i[1] * t203) + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t204 = A_i[2] * C_j[6];
-    const jg_real t205 = A_i[5] * C_j[6];
-    const jg_real t206 = A_i[8] * C_j[6];
-    jac_phi_q_v_A_j[15] = (t204 * h_star_0 + t205 * h_star_1 + t206 * h_star_2) * alphadot[2] - ((omega_i[1] * t206
-        - omega_i[2] * t205) * g_star_0 + (omega_i[2] * t204 - omega_i[0] * t206) * g_star_1 + (omega_i[0] * t205 -
-        omega_i[1] * t204) * g_star_2 + (t204 * t54 + t205 * t146 + t206 * t167) * alphadot[0]) + (t204 * f_star_0 +
-        t205 * f_star_1 + t206 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_0 * g_star_0 +
+    const jg_real t168 = s_j[0] * A_i[8];
+    const jg_real t169 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t168 * omega_i[1] - t169 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t170 = A_i[2] * s_j[0];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t170 - t168 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[5];
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t169 * omega_i[0] - omega_i[1] * t170) + omega_j_cross_s_j_0 * A_i[8];
+    const jg_real t171 = A_i[2] * C_j[6];
+    const jg_real t172 = A_i[5] * C_j[6];
+    const jg_real t173 = A_i[8] * C_j[6];
+    jac_phi_q_v_A_j[15] = (t171 * h_star_0 + t172 * h_star_1 + t173 * h_star_2) * alphadot[2] - ((omega_i[1] * t173
+        - omega_i[2] * t172) * g_star_0 + (omega_i[2] * t171 - omega_i[0] * t173) * g_star_1 + (omega_i[0] * t172 -
+        omega_i[1] * t171) * g_star_2 + (t171 * t48 + t172 * t126 + t173 * t140) * alphadot[0]) + (t171 * f_star_0 +
+        t172 * f_star_1 + t173 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_0 * g_star_0 +
         A_i[5] * omega_j_cross_h_j_0 * g_star_1 + A_i[8] * omega_j_cross_h_j_0 * g_star_2);
-    const jg_real t207 = A_i[2] * C_j[0];
-    const jg_real t208 = A_i[5] * C_j[0];
-    const jg_real t209 = A_i[8] * C_j[0];
-    jac_phi_q_v_A_j[16] = alphadot[0] * (t68 * t207 + t147 * t208 + t168 * t209) - (h_star_0 * (omega_i[1] * t209 -
-        omega_i[2] * t208) + h_star_1 * (omega_i[2] * t207 - omega_i[0] * t209) + h_star_2 * (omega_i[0] * t208 -
-        omega_i[1] * t207)) - alphadot[2] * (g_star_0 * t207 + g_star_1 * t208 + g_star_2 * t209) + alphadot[1] *
-        (f_star_0 * t207 + f_star_1 * t208 + f_star_2 * t209) * cosine_2 + (A_i[2] * omega_j_cross_f_j_0 * h_star_0
+    const jg_real t174 = A_i[2] * C_j[0];
+    const jg_real t175 = A_i[5] * C_j[0];
+    const jg_real t176 = A_i[8] * C_j[0];
+    jac_phi_q_v_A_j[16] = alphadot[0] * (t62 * t174 + t127 * t175 + t141 * t176) - (h_star_0 * (omega_i[1] * t176 -
+        omega_i[2] * t175) + h_star_1 * (omega_i[2] * t174 - omega_i[0] * t176) + h_star_2 * (omega_i[0] * t175 -
+        omega_i[1] * t174)) - alphadot[2] * (g_star_0 * t174 + g_star_1 * t175 + g_star_2 * t176) + alphadot[1] *
+        (f_star_0 * t174 + f_star_1 * t175 + f_star_2 * t176) * cosine_2 + (A_i[2] * omega_j_cross_f_j_0 * h_star_0
         + A_i[5] * omega_j_cross_f_j_0 * h_star_1 + A_i[8] * omega_j_cross_f_j_0 * h_star_2);
-    const jg_real t210 = A_i[2] * C_j[3];
-    const jg_real t211 = A_i[5] * C_j[3];
-    const jg_real t212 = A_i[8] * C_j[3];
-    jac_phi_q_v_A_j[17] = alphadot[0] * (t82 * t210 + t149 * t211 + t169 * t212) - (f_star_0 * (omega_i[1] * t212 -
-        omega_i[2] * t211) + f_star_1 * (omega_i[2] * t210 - omega_i[0] * t212) + f_star_2 * (omega_i[0] * t211 -
-        omega_i[1] * t210)) - alphadot[1] * (t210 * t91 + t211 * t151 + t212 * t170) + (A_i[2] * omega_j_cross_g_j_0
+    const jg_real t177 = A_i[2] * C_j[3];
+    const jg_real t178 = A_i[5] * C_j[3];
+    const jg_real t179 = A_i[8] * C_j[3];
+    jac_phi_q_v_A_j[17] = alphadot[0] * (t76 * t177 + t129 * t178 + t142 * t179) - (f_star_0 * (omega_i[1] * t179 -
+        omega_i[2] * t178) + f_star_1 * (omega_i[2] * t177 - omega_i[0] * t179) + f_star_2 * (omega_i[0] * t178 -
+        omega_i[1] * t177)) - alphadot[1] * (t177 * t85 + t178 * t131 + t179 * t143) + (A_i[2] * omega_j_cross_g_j_0
         * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 + A_i[8] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t213 = s_j[1] * A_i[6];
-    const jg_real t214 = s_j[1] * A_i[3];
-    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t213 * omega_i[1] - t214 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t215 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t215 - t213 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t214 * omega_i[0] - omega_i[1] * t215) + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t216 = A_i[0] * C_j[7];
-    const jg_real t217 = A_i[3] * C_j[7];
-    const jg_real t218 = A_i[6] * C_j[7];
-    jac_phi_q_v_A_j[21] = (t216 * h_star_0 + t217 * h_star_1 + t218 * h_star_2) * alphadot[2] - ((omega_i[1] * t218
-        - omega_i[2] * t217) * g_star_0 + (omega_i[2] * t216 - omega_i[0] * t218) * g_star_1 + (omega_i[0] * t217 -
-        omega_i[1] * t216) * g_star_2 + (t216 * t54 + t217 * t146 + t218 * t167) * alphadot[0]) + (t216 * f_star_0 +
-        t217 * f_star_1 + t218 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_1 * g_star_0 +
+    const jg_real t180 = s_j[1] * A_i[6];
+    const jg_real t181 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t180 * omega_i[1] - t181 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t182 = A_i[0] * s_j[1];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t182 - t180 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[3];
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t181 * omega_i[0] - omega_i[1] * t182) + omega_j_cross_s_j_1 * A_i[6];
+    const jg_real t183 = A_i[0] * C_j[7];
+    const jg_real t184 = A_i[3] * C_j[7];
+    const jg_real t185 = A_i[6] * C_j[7];
+    jac_phi_q_v_A_j[21] = (t183 * h_star_0 + t184 * h_star_1 + t185 * h_star_2) * alphadot[2] - ((omega_i[1] * t185
+        - omega_i[2] * t184) * g_star_0 + (omega_i[2] * t183 - omega_i[0] * t185) * g_star_1 + (omega_i[0] * t184 -
+        omega_i[1] * t183) * g_star_2 + (t183 * t48 + t184 * t126 + t185 * t140) * alphadot[0]) + (t183 * f_star_0 +
+        t184 * f_star_1 + t185 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_1 * g_star_0 +
         A_i[3] * omega_j_cross_h_j_1 * g_star_1 + A_i[6] * omega_j_cross_h_j_1 * g_star_2);
-    const jg_real t219 = A_i[0] * C_j[1];
-    const jg_real t220 = A_i[3] * C_j[1];
-    const jg_real t221 = A_i[6] * C_j[1];
-    jac_phi_q_v_A_j[22] = alphadot[0] * (t68 * t219 + t147 * t220 + t168 * t221) - (h_star_0 * (omega_i[1] * t221 -
-        omega_i[2] * t220) + h_star_1 * (omega_i[2] * t219 - omega_i[0] * t221) + h_star_2 * (omega_i[0] * t220 -
-        omega_i[1] * t219)) - alphadot[2] * (g_star_0 * t219 + g_star_1 * t220 + g_star_2 * t221) + alphadot[1] *
-        (f_star_0 * t219 + f_star_1 * t220 + f_star_2 * t221) * cosine_2 + (A_i[0] * omega_j_cross_f_j_1 * h_star_0
+    const jg_real t186 = A_i[0] * C_j[1];
+    const jg_real t187 = A_i[3] * C_j[1];
+    const jg_real t188 = A_i[6] * C_j[1];
+    jac_phi_q_v_A_j[22] = alphadot[0] * (t62 * t186 + t127 * t187 + t141 * t188) - (h_star_0 * (omega_i[1] * t188 -
+        omega_i[2] * t187) + h_star_1 * (omega_i[2] * t186 - omega_i[0] * t188) + h_star_2 * (omega_i[0] * t187 -
+        omega_i[1] * t186)) - alphadot[2] * (g_star_0 * t186 + g_star_1 * t187 + g_star_2 * t188) + alphadot[1] *
+        (f_star_0 * t186 + f_star_1 * t187 + f_star_2 * t188) * cosine_2 + (A_i[0] * omega_j_cross_f_j_1 * h_star_0
         + A_i[3] * omega_j_cross_f_j_1 * h_star_1 + A_i[6] * omega_j_cross_f_j_1 * h_star_2);
-    const jg_real t222 = A_i[0] * C_j[4];
-    const jg_real t223 = A_i[3] * C_j[4];
-    const jg_real t224 = A_i[6] * C_j[4];
-    jac_phi_q_v_A_j[23] = alphadot[0] * (t82 * t222 + t149 * t223 + t169 * t224) - (f_star_0 * (omega_i[1] * t224 -
-        omega_i[2] * t223) + f_star_1 * (omega_i[2] * t222 - omega_i[0] * t224) + f_star_2 * (omega_i[0] * t223 -
-        omega_i[1] * t222)) - alphadot[1] * (t222 * t91 + t223 * t151 + t224 * t170) + (A_i[0] * omega_j_cross_g_j_1
+    const jg_real t189 = A_i[0] * C_j[4];
+    const jg_real t190 = A_i[3] * C_j[4];
+    const jg_real t191 = A_i[6] * C_j[4];
+    jac_phi_q_v_A_j[23] = alphadot[0] * (t76 * t189 + t129 * t190 + t142 * t191) - (f_star_0 * (omega_i[1] * t191 -
+        omega_i[2] * t190) + f_star_1 * (omega_i[2] * t189 - omega_i[0] * t191) + f_star_2 * (omega_i[0] * t190 -
+        omega_i[1] * t189)) - alphadot[1] * (t189 * t85 + t190 * t131 + t191 * t143) + (A_i[0] * omega_j_cross_g_j_1
         * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 + A_i[6] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t225 = s_j[1] * A_i[7];
-    const jg_real t226 = s_j[1] * A_i[4];
-    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t225 * omega_i[1] - t226 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t227 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t227 - t225 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t226 * omega_i[0] - omega_i[1] * t227) + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t228 = A_i[1] * C_j[7];
-    const jg_real t229 = A_i[4] * C_j[7];
-    const jg_real t230 = A_i[7] * C_j[7];
-    jac_phi_q_v_A_j[27] = (t228 * h_star_0 + t229 * h_star_1 + t230 * h_star_2) * alphadot[2] - ((omega_i[1] * t230
-        - omega_i[2] * t229) * g_star_0 + (omega_i[2] * t228 - omega_i[0] * t230) * g_star_1 + (omega_i[0] * t229 -
-        omega_i[1] * t228) * g_star_2 + (t228 * t54 + t229 * t146 + t230 * t167) * alphadot[0]) + (t228 * f_star_0 +
-        t229 * f_star_1 + t230 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_1 * g_star_0 +
+    const jg_real t192 = s_j[1] * A_i[7];
+    const jg_real t193 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t192 * omega_i[1] - t193 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t194 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t194 - t192 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[4];
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t193 * omega_i[0] - omega_i[1] * t194) + omega_j_cross_s_j_1 * A_i[7];
+    const jg_real t195 = A_i[1] * C_j[7];
+    const jg_real t196 = A_i[4] * C_j[7];
+    const jg_real t197 = A_i[7] * C_j[7];
+    jac_phi_q_v_A_j[27] = (t195 * h_star_0 + t196 * h_star_1 + t197 * h_star_2) * alphadot[2] - ((omega_i[1] * t197
+        - omega_i[2] * t196) * g_star_0 + (omega_i[2] * t195 - omega_i[0] * t197) * g_star_1 + (omega_i[0] * t196 -
+        omega_i[1] * t195) * g_star_2 + (t195 * t48 + t196 * t126 + t197 * t140) * alphadot[0]) + (t195 * f_star_0 +
+        t196 * f_star_1 + t197 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_1 * g_star_0 +
         A_i[4] * omega_j_cross_h_j_1 * g_star_1 + A_i[7] * omega_j_cross_h_j_1 * g_star_2);
-    const jg_real t231 = A_i[1] * C_j[1];
-    const jg_real t232 = A_i[4] * C_j[1];
-    const jg_real t233 = A_i[7] * C_j[1];
-    jac_phi_q_v_A_j[28] = alphadot[0] * (t68 * t231 + t147 * t232 + t168 * t233) - (h_star_0 * (omega_i[1] * t233 -
-        omega_i[2] * t232) + h_star_1 * (omega_i[2] * t231 - omega_i[0] * t233) + h_star_2 * (omega_i[0] * t232 -
-        omega_i[1] * t231)) - alphadot[2] * (g_star_0 * t231 + g_star_1 * t232 + g_star_2 * t233) + alphadot[1] *
-        (f_star_0 * t231 + f_star_1 * t232 + f_star_2 * t233) * cosine_2 + (A_i[1] * omega_j_cross_f_j_1 * h_star_0
+    const jg_real t198 = A_i[1] * C_j[1];
+    const jg_real t199 = A_i[4] * C_j[1];
+    const jg_real t200 = A_i[7] * C_j[1];
+    jac_phi_q_v_A_j[28] = alphadot[0] * (t62 * t198 + t127 * t199 + t141 * t200) - (h_star_0 * (omega_i[1] * t200 -
+        omega_i[2] * t199) + h_star_1 * (omega_i[2] * t198 - omega_i[0] * t200) + h_star_2 * (omega_i[0] * t199 -
+        omega_i[1] * t198)) - alphadot[2] * (g_star_0 * t198 + g_star_1 * t199 + g_star_2 * t200) + alphadot[1] *
+        (f_star_0 * t198 + f_star_1 * t199 + f_star_2 * t200) * cosine_2 + (A_i[1] * omega_j_cross_f_j_1 * h_star_0
         + A_i[4] * omega_j_cross_f_j_1 * h_star_1 + A_i[7] * omega_j_cross_f_j_1 * h_star_2);
-    const jg_real t234 = A_i[1] * C_j[4];
-    const jg_real t235 = A_i[4] * C_j[4];
-    const jg_real t236 = A_i[7] * C_j[4];
-    jac_phi_q_v_A_j[29] = alphadot[0] * (t82 * t234 + t149 * t235 + t169 * t236) - (f_star_0 * (omega_i[1] * t236 -
-        omega_i[2] * t235) + f_star_1 * (omega_i[2] * t234 - omega_i[0] * t236) + f_star_2 * (omega_i[0] * t235 -
-        omega_i[1] * t234)) - alphadot[1] * (t234 * t91 + t235 * t151 + t236 * t170) + (A_i[1] * omega_j_cross_g_j_1
+    const jg_real t201 = A_i[1] * C_j[4];
+    const jg_real t202 = A_i[4] * C_j[4];
+    const jg_real t203 = A_i[7] * C_j[4];
+    jac_phi_q_v_A_j[29] = alphadot[0] * (t76 * t201 + t129 * t202 + t142 * t203) - (f_star_0 * (omega_i[1] * t203 -
+        omega_i[2] * t202) + f_star_1 * (omega_i[2] * t201 - omega_i[0] * t203) + f_star_2 * (omega_i[0] * t202 -
+        omega_i[1] * t201)) - alphadot[1] * (t201 * t85 + t202 * t131 + t203 * t143) + (A_i[1] * omega_j_cross_g_j_1
         * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 + A_i[7] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t237 = s_j[1] * A_i[8];
-    const jg_real t238 = s_j[1] * A_i[5];
-    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t237 * omega_i[1] - t238 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t239 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t239 - t237 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t238 * omega_i[0] - omega_i[1] * t239) + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t240 = A_i[2] * C_j[7];
-    const jg_real t241 = A_i[5] * C_j[7];
-    const jg_real t242 = A_i[8] * C_j[7];
-    jac_phi_q_v_A_j[33] = (t240 * h_star_0 + t241 * h_star_1 + t242 * h_star_2) * alphadot[2] - ((omega_i[1] * t242
-        - omega_i[2] * t241) * g_star_0 + (omega_i[2] * t240 - omega_i[0] * t242) * g_star_1 + (omega_i[0] * t241 -
-        omega_i[1] * t240) * g_star_2 + (t240 * t54 + t241 * t146 + t242 * t167) * alphadot[0]) + (t240 * f_star_0 +
-        t241 * f_star_1 + t242 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_1 * g_star_0 +
+    const jg_real t204 = s_j[1] * A_i[8];
+    const jg_real t205 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t204 * omega_i[1] - t205 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t206 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t206 - t204 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[5];
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t205 * omega_i[0] - omega_i[1] * t206) + omega_j_cross_s_j_1 * A_i[8];
+    const jg_real t207 = A_i[2] * C_j[7];
+    const jg_real t208 = A_i[5] * C_j[7];
+    const jg_real t209 = A_i[8] * C_j[7];
+    jac_phi_q_v_A_j[33] = (t207 * h_star_0 + t208 * h_star_1 + t209 * h_star_2) * alphadot[2] - ((omega_i[1] * t209
+        - omega_i[2] * t208) * g_star_0 + (omega_i[2] * t207 - omega_i[0] * t209) * g_star_1 + (omega_i[0] * t208 -
+        omega_i[1] * t207) * g_star_2 + (t207 * t48 + t208 * t126 + t209 * t140) * alphadot[0]) + (t207 * f_star_0 +
+        t208 * f_star_1 + t209 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_1 * g_star_0 +
         A_i[5] * omega_j_cross_h_j_1 * g_star_1 + A_i[8] * omega_j_cross_h_j_1 * g_star_2);
-    const jg_real t243 = A_i[2] * C_j[1];
-    const jg_real t244 = A_i[5] * C_j[1];
-    const jg_real t245 = A_i[8] * C_j[1];
-    jac_phi_q_v_A_j[34] = alphadot[0] * (t68 * t243 + t147 * t244 + t168 * t245) - (h_star_0 * (omega_i[1] * t245 -
-        omega_i[2] * t244) + h_star_1 * (omega_i[2] * t243 - omega_i[0] * t245) + h_star_2 * (omega_i[0] * t244 -
-        omega_i[1] * t243)) - alphadot[2] * (g_star_0 * t243 + g_star_1 * t244 + g_star_2 * t245) + alphadot[1] *
-        (f_star_0 * t243 + f_star_1 * t244 + f_star_2 * t245) * cosine_2 + (A_i[2] * omega_j_cross_f_j_1 * h_star_0
+    const jg_real t210 = A_i[2] * C_j[1];
+    const jg_real t211 = A_i[5] * C_j[1];
+    const jg_real t212 = A_i[8] * C_j[1];
+    jac_phi_q_v_A_j[34] = alphadot[0] * (t62 * t210 + t127 * t211 + t141 * t212) - (h_star_0 * (omega_i[1] * t212 -
+        omega_i[2] * t211) + h_star_1 * (omega_i[2] * t210 - omega_i[0] * t212) + h_star_2 * (omega_i[0] * t211 -
+        omega_i[1] * t210)) - alphadot[2] * (g_star_0 * t210 + g_star_1 * t211 + g_star_2 * t212) + alphadot[1] *
+        (f_star_0 * t210 + f_star_1 * t211 + f_star_2 * t212) * cosine_2 + (A_i[2] * omega_j_cross_f_j_1 * h_star_0
         + A_i[5] * omega_j_cross_f_j_1 * h_star_1 + A_i[8] * omega_j_cross_f_j_1 * h_star_2);
-    const jg_real t246 = A_i[2] * C_j[4];
-    const jg_real t247 = A_i[5] * C_j[4];
-    const jg_real t248 = A_i[8] * C_j[4];
-    jac_phi_q_v_A_j[35] = alphadot[0] * (t82 * t246 + t149 * t247 + t169 * t248) - (f_star_0 * (omega_i[1] * t248 -
-        omega_i[2] * t247) + f_star_1 * (omega_i[2] * t246 - omega_i[0] * t248) + f_star_2 * (omega_i[0] * t247 -
-        omega_i[1] * t246)) - alphadot[1] * (t246 * t91 + t247 * t151 + t248 * t170) + (A_i[2] * omega_j_cross_g_j_1
+    const jg_real t213 = A_i[2] * C_j[4];
+    const jg_real t214 = A_i[5] * C_j[4];
+    const jg_real t215 = A_i[8] * C_j[4];
+    jac_phi_q_v_A_j[35] = alphadot[0] * (t76 * t213 + t129 * t214 + t142 * t215) - (f_star_0 * (omega_i[1] * t215 -
+        omega_i[2] * t214) + f_star_1 * (omega_i[2] * t213 - omega_i[0] * t215) + f_star_2 * (omega_i[0] * t214 -
+        omega_i[1] * t213)) - alphadot[1] * (t213 * t85 + t214 * t131 + t215 * t143) + (A_i[2] * omega_j_cross_g_j_1
         * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 + A_i[8] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t249 = s_j[2] * A_i[6];
-    const jg_real t250 = s_j[2] * A_i[3];
-    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t249 * omega_i[1] - t250 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t251 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t251 - t249 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t250 * omega_i[0] - omega_i[1] * t251) + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t252 = A_i[0] * C_j[8];
-    const jg_real t253 = A_i[3] * C_j[8];
-    const jg_real t254 = A_i[6] * C_j[8];
-    jac_phi_q_v_A_j[39] = (t252 * h_star_0 + t253 * h_star_1 + t254 * h_star_2) * alphadot[2] - ((omega_i[1] * t254
-        - omega_i[2] * t253) * g_star_0 + (omega_i[2] * t252 - omega_i[0] * t254) * g_star_1 + (omega_i[0] * t253 -
-        omega_i[1] * t252) * g_star_2 + (t252 * t54 + t253 * t146 + t254 * t167) * alphadot[0]) + (t252 * f_star_0 +
-        t253 * f_star_1 + t254 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_2 * g_star_0 +
+    const jg_real t216 = s_j[2] * A_i[6];
+    const jg_real t217 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t216 * omega_i[1] - t217 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t218 = A_i[0] * s_j[2];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t218 - t216 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[3];
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t217 * omega_i[0] - omega_i[1] * t218) + omega_j_cross_s_j_2 * A_i[6];
+    const jg_real t219 = A_i[0] * C_j[8];
+    const jg_real t220 = A_i[3] * C_j[8];
+    const jg_real t221 = A_i[6] * C_j[8];
+    jac_phi_q_v_A_j[39] = (t219 * h_star_0 + t220 * h_star_1 + t221 * h_star_2) * alphadot[2] - ((omega_i[1] * t221
+        - omega_i[2] * t220) * g_star_0 + (omega_i[2] * t219 - omega_i[0] * t221) * g_star_1 + (omega_i[0] * t220 -
+        omega_i[1] * t219) * g_star_2 + (t219 * t48 + t220 * t126 + t221 * t140) * alphadot[0]) + (t219 * f_star_0 +
+        t220 * f_star_1 + t221 * f_star_2) * alphadot[1] * sine_2 + (A_i[0] * omega_j_cross_h_j_2 * g_star_0 +
         A_i[3] * omega_j_cross_h_j_2 * g_star_1 + A_i[6] * omega_j_cross_h_j_2 * g_star_2);
-    const jg_real t255 = A_i[0] * C_j[2];
-    const jg_real t256 = A_i[3] * C_j[2];
-    const jg_real t257 = A_i[6] * C_j[2];
-    jac_phi_q_v_A_j[40] = alphadot[0] * (t68 * t255 + t147 * t256 + t168 * t257) - (h_star_0 * (omega_i[1] * t257 -
-        omega_i[2] * t256) + h_star_1 * (omega_i[2] * t255 - omega_i[0] * t257) + h_star_2 * (omega_i[0] * t256 -
-        omega_i[1] * t255)) - alphadot[2] * (g_star_0 * t255 + g_star_1 * t256 + g_star_2 * t257) + alphadot[1] *
-        (f_star_0 * t255 + f_star_1 * t256 + f_star_2 * t257) * cosine_2 + (A_i[0] * omega_j_cross_f_j_2 * h_star_0
+    const jg_real t222 = A_i[0] * C_j[2];
+    const jg_real t223 = A_i[3] * C_j[2];
+    const jg_real t224 = A_i[6] * C_j[2];
+    jac_phi_q_v_A_j[40] = alphadot[0] * (t62 * t222 + t127 * t223 + t141 * t224) - (h_star_0 * (omega_i[1] * t224 -
+        omega_i[2] * t223) + h_star_1 * (omega_i[2] * t222 - omega_i[0] * t224) + h_star_2 * (omega_i[0] * t223 -
+        omega_i[1] * t222)) - alphadot[2] * (g_star_0 * t222 + g_star_1 * t223 + g_star_2 * t224) + alphadot[1] *
+        (f_star_0 * t222 + f_star_1 * t223 + f_star_2 * t224) * cosine_2 + (A_i[0] * omega_j_cross_f_j_2 * h_star_0
         + A_i[3] * omega_j_cross_f_j_2 * h_star_1 + A_i[6] * omega_j_cross_f_j_2 * h_star_2);
-    const jg_real t258 = A_i[0] * C_j[5];
-    const jg_real t259 = A_i[3] * C_j[5];
-    const jg_real t260 = A_i[6] * C_j[5];
-    jac_phi_q_v_A_j[41] = alphadot[0] * (t82 * t258 + t149 * t259 + t169 * t260) - (f_star_0 * (omega_i[1] * t260 -
-        omega_i[2] * t259) + f_star_1 * (omega_i[2] * t258 - omega_i[0] * t260) + f_star_2 * (omega_i[0] * t259 -
-        omega_i[1] * t258)) - alphadot[1] * (t258 * t91 + t259 * t151 + t260 * t170) + (A_i[0] * omega_j_cross_g_j_2
+    const jg_real t225 = A_i[0] * C_j[5];
+    const jg_real t226 = A_i[3] * C_j[5];
+    const jg_real t227 = A_i[6] * C_j[5];
+    jac_phi_q_v_A_j[41] = alphadot[0] * (t76 * t225 + t129 * t226 + t142 * t227) - (f_star_0 * (omega_i[1] * t227 -
+        omega_i[2] * t226) + f_star_1 * (omega_i[2] * t225 - omega_i[0] * t227) + f_star_2 * (omega_i[0] * t226 -
+        omega_i[1] * t225)) - alphadot[1] * (t225 * t85 + t226 * t131 + t227 * t143) + (A_i[0] * omega_j_cross_g_j_2
         * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 + A_i[6] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t261 = s_j[2] * A_i[7];
-    const jg_real t262 = s_j[2] * A_i[4];
-    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t261 * omega_i[1] - t262 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t263 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t263 - t261 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t262 * omega_i[0] - omega_i[1] * t263) + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t264 = A_i[1] * C_j[8];
-    const jg_real t265 = A_i[4] * C_j[8];
-    const jg_real t266 = A_i[7] * C_j[8];
-    jac_phi_q_v_A_j[45] = (t264 * h_star_0 + t265 * h_star_1 + t266 * h_star_2) * alphadot[2] - ((omega_i[1] * t266
-        - omega_i[2] * t265) * g_star_0 + (omega_i[2] * t264 - omega_i[0] * t266) * g_star_1 + (omega_i[0] * t265 -
-        omega_i[1] * t264) * g_star_2 + (t264 * t54 + t265 * t146 + t266 * t167) * alphadot[0]) + (t264 * f_star_0 +
-        t265 * f_star_1 + t266 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_2 * g_star_0 +
+    const jg_real t228 = s_j[2] * A_i[7];
+    const jg_real t229 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t228 * omega_i[1] - t229 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t230 = A_i[1] * s_j[2];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t230 - t228 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[4];
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t229 * omega_i[0] - omega_i[1] * t230) + omega_j_cross_s_j_2 * A_i[7];
+    const jg_real t231 = A_i[1] * C_j[8];
+    const jg_real t232 = A_i[4] * C_j[8];
+    const jg_real t233 = A_i[7] * C_j[8];
+    jac_phi_q_v_A_j[45] = (t231 * h_star_0 + t232 * h_star_1 + t233 * h_star_2) * alphadot[2] - ((omega_i[1] * t233
+        - omega_i[2] * t232) * g_star_0 + (omega_i[2] * t231 - omega_i[0] * t233) * g_star_1 + (omega_i[0] * t232 -
+        omega_i[1] * t231) * g_star_2 + (t231 * t48 + t232 * t126 + t233 * t140) * alphadot[0]) + (t231 * f_star_0 +
+        t232 * f_star_1 + t233 * f_star_2) * alphadot[1] * sine_2 + (A_i[1] * omega_j_cross_h_j_2 * g_star_0 +
         A_i[4] * omega_j_cross_h_j_2 * g_star_1 + A_i[7] * omega_j_cross_h_j_2 * g_star_2);
-    const jg_real t267 = A_i[1] * C_j[2];
-    const jg_real t268 = A_i[4] * C_j[2];
-    const jg_real t269 = A_i[7] * C_j[2];
-    jac_phi_q_v_A_j[46] = alphadot[0] * (t68 * t267 + t147 * t268 + t168 * t269) - (h_star_0 * (omega_i[1] * t269 -
-        omega_i[2] * t268) + h_star_1 * (omega_i[2] * t267 - omega_i[0] * t269) + h_star_2 * (omega_i[0] * t268 -
-        omega_i[1] * t267)) - alphadot[2] * (g_star_0 * t267 + g_star_1 * t268 + g_star_2 * t269) + alphadot[1] *
-        (f_star_0 * t267 + f_star_1 * t268 + f_star_2 * t269) * cosine_2 + (A_i[1] * omega_j_cross_f_j_2 * h_star_0
+    const jg_real t234 = A_i[1] * C_j[2];
+    const jg_real t235 = A_i[4] * C_j[2];
+    const jg_real t236 = A_i[7] * C_j[2];
+    jac_phi_q_v_A_j[46] = alphadot[0] * (t62 * t234 + t127 * t235 + t141 * t236) - (h_star_0 * (omega_i[1] * t236 -
+        omega_i[2] * t235) + h_star_1 * (omega_i[2] * t234 - omega_i[0] * t236) + h_star_2 * (omega_i[0] * t235 -
+        omega_i[1] * t234)) - alphadot[2] * (g_star_0 * t234 + g_star_1 * t235 + g_star_2 * t236) + alphadot[1] *
+        (f_star_0 * t234 + f_star_1 * t235 + f_star_2 * t236) * cosine_2 + (A_i[1] * omega_j_cross_f_j_2 * h_star_0
         + A_i[4] * omega_j_cross_f_j_2 * h_star_1 + A_i[7] * omega_j_cross_f_j_2 * h_star_2);
-    const jg_real t270 = A_i[1] * C_j[5];
-    const jg_real t271 = A_i[4] * C_j[5];
-    const jg_real t272 = A_i[7] * C_j[5];
-    jac_phi_q_v_A_j[47] = alphadot[0] * (t82 * t270 + t149 * t271 + t169 * t272) - (f_star_0 * (omega_i[1] * t272 -
-        omega_i[2] * t271) + f_star_1 * (omega_i[2] * t270 - omega_i[0] * t272) + f_star_2 * (omega_i[0] * t271 -
-        omega_i[1] * t270)) - alphadot[1] * (t270 * t91 + t271 * t151 + t272 * t170) + (A_i[1] * omega_j_cross_g_j_2
+    const jg_real t237 = A_i[1] * C_j[5];
+    const jg_real t238 = A_i[4] * C_j[5];
+    const jg_real t239 = A_i[7] * C_j[5];
+    jac_phi_q_v_A_j[47] = alphadot[0] * (t76 * t237 + t129 * t238 + t142 * t239) - (f_star_0 * (omega_i[1] * t239 -
+        omega_i[2] * t238) + f_star_1 * (omega_i[2] * t237 - omega_i[0] * t239) + f_star_2 * (omega_i[0] * t238 -
+        omega_i[1] * t237)) - alphadot[1] * (t237 * t85 + t238 * t131 + t239 * t143) + (A_i[1] * omega_j_cross_g_j_2
         * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 + A_i[7] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t273 = s_j[2] * A_i[8];
-    const jg_real t274 = s_j[2] * A_i[5];
-    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t273 * omega_i[1] - t274 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t275 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t275 - t273 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t274 * omega_i[0] - omega_i[1] * t275) + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t276 = A_i[2] * C_j[8];
-    const jg_real t277 = A_i[5] * C_j[8];
-    const jg_real t278 = A_i[8] * C_j[8];
-    jac_phi_q_v_A_j[51] = (t276 * h_star_0 + t277 * h_star_1 + t278 * h_star_2) * alphadot[2] - ((omega_i[1] * t278
-        - omega_i[2] * t277) * g_star_0 + (omega_i[2] * t276 - omega_i[0] * t278) * g_star_1 + (omega_i[0] * t277 -
-        omega_i[1] * t276) * g_star_2 + (t276 * t54 + t277 * t146 + t278 * t167) * alphadot[0]) + (t276 * f_star_0 +
-        t277 * f_star_1 + t278 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_2 * g_star_0 +
+    const jg_real t240 = s_j[2] * A_i[8];
+    const jg_real t241 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t240 * omega_i[1] - t241 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t242 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t242 - t240 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[5];
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t241 * omega_i[0] - omega_i[1] * t242) + omega_j_cross_s_j_2 * A_i[8];
+    const jg_real t243 = A_i[2] * C_j[8];
+    const jg_real t244 = A_i[5] * C_j[8];
+    const jg_real t245 = A_i[8] * C_j[8];
+    jac_phi_q_v_A_j[51] = (t243 * h_star_0 + t244 * h_star_1 + t245 * h_star_2) * alphadot[2] - ((omega_i[1] * t245
+        - omega_i[2] * t244) * g_star_0 + (omega_i[2] * t243 - omega_i[0] * t245) * g_star_1 + (omega_i[0] * t244 -
+        omega_i[1] * t243) * g_star_2 + (t243 * t48 + t244 * t126 + t245 * t140) * alphadot[0]) + (t243 * f_star_0 +
+        t244 * f_star_1 + t245 * f_star_2) * alphadot[1] * sine_2 + (A_i[2] * omega_j_cross_h_j_2 * g_star_0 +
         A_i[5] * omega_j_cross_h_j_2 * g_star_1 + A_i[8] * omega_j_cross_h_j_2 * g_star_2);
-    const jg_real t279 = A_i[2] * C_j[2];
-    const jg_real t280 = A_i[5] * C_j[2];
-    const jg_real t281 = A_i[8] * C_j[2];
-    jac_phi_q_v_A_j[52] = alphadot[0] * (t68 * t279 + t147 * t280 + t168 * t281) - (h_star_0 * (omega_i[1] * t281 -
-        omega_i[2] * t280) + h_star_1 * (omega_i[2] * t279 - omega_i[0] * t281) + h_star_2 * (omega_i[0] * t280 -
-        omega_i[1] * t279)) - alphadot[2] * (g_star_0 * t279 + g_star_1 * t280 + g_star_2 * t281) + alphadot[1] *
-        (f_star_0 * t279 + f_star_1 * t280 + f_star_2 * t281) * cosine_2 + (A_i[2] * omega_j_cross_f_j_2 * h_star_0
+    const jg_real t246 = A_i[2] * C_j[2];
+    const jg_real t247 = A_i[5] * C_j[2];
+    const jg_real t248 = A_i[8] * C_j[2];
+    jac_phi_q_v_A_j[52] = alphadot[0] * (t62 * t246 + t127 * t247 + t141 * t248) - (h_star_0 * (omega_i[1] * t248 -
+        omega_i[2] * t247) + h_star_1 * (omega_i[2] * t246 - omega_i[0] * t248) + h_star_2 * (omega_i[0] * t247 -
+        omega_i[1] * t246)) - alphadot[2] * (g_star_0 * t246 + g_star_1 * t247 + g_star_2 * t248) + alphadot[1] *
+        (f_star_0 * t246 + f_star_1 * t247 + f_star_2 * t248) * cosine_2 + (A_i[2] * omega_j_cross_f_j_2 * h_star_0
         + A_i[5] * omega_j_cross_f_j_2 * h_star_1 + A_i[8] * omega_j_cross_f_j_2 * h_star_2);
-    const jg_real t282 = A_i[2] * C_j[5];
-    const jg_real t283 = A_i[5] * C_j[5];
-    const jg_real t284 = A_i[8] * C_j[5];
-    jac_phi_q_v_A_j[53] = alphadot[0] * (t82 * t282 + t149 * t283 + t169 * t284) - (f_star_0 * (omega_i[1] * t284 -
-        omega_i[2] * t283) + f_star_1 * (omega_i[2] * t282 - omega_i[0] * t284) + f_star_2 * (omega_i[0] * t283 -
-        omega_i[1] * t282)) - alphadot[1] * (t282 * t91 + t283 * t151 + t284 * t170) + (A_i[2] * omega_j_cross_g_j_2
+    const jg_real t249 = A_i[2] * C_j[5];
+    const jg_real t250 = A_i[5] * C_j[5];
+    const jg_real t251 = A_i[8] * C_j[5];
+    jac_phi_q_v_A_j[53] = alphadot[0] * (t76 * t249 + t129 * t250 + t142 * t251) - (f_star_0 * (omega_i[1] * t251 -
+        omega_i[2] * t250) + f_star_1 * (omega_i[2] * t249 - omega_i[0] * t251) + f_star_2 * (omega_i[0] * t250 -
+        omega_i[1] * t249)) - alphadot[1] * (t249 * t85 + t250 * t131 + t251 * t143) + (A_i[2] * omega_j_cross_g_j_2
         * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 + A_i[8] * omega_j_cross_g_j_2 * f_star_2);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
@@ -926,24 +899,24 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t294 = H_3 * C_i[3] - H_4 * C_i[0];
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t261 = H_3 * C_i[3] - H_4 * C_i[0];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jac_phi_q_v_velocity[21] = A_ij_3;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t300 = H_3 * C_i[4] - H_4 * C_i[1];
+    const jg_real t267 = H_3 * C_i[4] - H_4 * C_i[1];
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    const jg_real t302 = H_3 * C_i[5] - H_4 * C_i[2];
-    const jg_real t303 = C_i[0] * t50 + C_i[3] * H_6;
-    const jg_real t304 = C_i[1] * t50 + C_i[4] * H_6;
-    const jg_real t305 = C_i[2] * t50 + C_i[5] * H_6;
-    const jg_real t306 = H_0 * C_i[3] - C_i[0] * H_1;
-    const jg_real t307 = H_0 * C_i[4] - H_1 * C_i[1];
-    const jg_real t308 = H_0 * C_i[5] - H_1 * C_i[2];
+    const jg_real t269 = H_3 * C_i[5] - H_4 * C_i[2];
+    const jg_real t270 = C_i[0] * t44 + C_i[3] * H_6;
+    const jg_real t271 = C_i[1] * t44 + C_i[4] * H_6;
+    const jg_real t272 = C_i[2] * t44 + C_i[5] * H_6;
+    const jg_real t273 = H_0 * C_i[3] - C_i[0] * H_1;
+    const jg_real t274 = H_0 * C_i[4] - H_1 * C_i[1];
+    const jg_real t275 = H_0 * C_i[5] - H_1 * C_i[2];
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -951,11 +924,11 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
-    jac_phi_q_v_alpha[0] = (A_ij_h_j_0 * t303 + A_ij_h_j_1 * t304 + A_ij_h_j_2 * t305) * alphadot[2] -
-        (omega_i_cross_A_ij_h_j_0 * t294 + omega_i_cross_A_ij_h_j_1 * t300 + omega_i_cross_A_ij_h_j_2 * t302 +
-        (A_ij_h_j_0 * (C_i[0] * t53 + C_i[3] * t48) + A_ij_h_j_1 * (C_i[1] * t53 + C_i[4] * t48) + A_ij_h_j_2 *
-        (C_i[2] * t53 + C_i[5] * t48)) * alphadot[0]) + (A_ij_h_j_0 * t306 + A_ij_h_j_1 * t307 + A_ij_h_j_2 * t308)
-        * alphadot[1] * sine_2 + (t294 * A_ij_omega_j_cross_h_j_0 + t300 * A_ij_omega_j_cross_h_j_1 + t302 *
+    jac_phi_q_v_alpha[0] = (A_ij_h_j_0 * t270 + A_ij_h_j_1 * t271 + A_ij_h_j_2 * t272) * alphadot[2] -
+        (omega_i_cross_A_ij_h_j_0 * t261 + omega_i_cross_A_ij_h_j_1 * t267 + omega_i_cross_A_ij_h_j_2 * t269 +
+        (A_ij_h_j_0 * (C_i[0] * t47 + C_i[3] * t42) + A_ij_h_j_1 * (C_i[1] * t47 + C_i[4] * t42) + A_ij_h_j_2 *
+        (C_i[2] * t47 + C_i[5] * t42)) * alphadot[0]) + (A_ij_h_j_0 * t273 + A_ij_h_j_1 * t274 + A_ij_h_j_2 * t275)
+        * alphadot[1] * sine_2 + (t261 * A_ij_omega_j_cross_h_j_0 + t267 * A_ij_omega_j_cross_h_j_1 + t269 *
         A_ij_omega_j_cross_h_j_2);
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
@@ -972,11 +945,11 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         omega_j_cross_f_j_2;
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
-    jac_phi_q_v_alpha[1] = alphadot[0] * ((C_i[3] * t65 - C_i[0] * t67) * A_ij_f_j_0 + (C_i[4] * t65 - C_i[1] * t67)
-        * A_ij_f_j_1 + (C_i[5] * t65 - C_i[2] * t67) * A_ij_f_j_2) - (t303 * omega_i_cross_A_ij_f_j_0 + t304 *
-        omega_i_cross_A_ij_f_j_1 + t305 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t294 * A_ij_f_j_0 + t300 *
-        A_ij_f_j_1 + t302 * A_ij_f_j_2) + alphadot[1] * (t306 * A_ij_f_j_0 + t307 * A_ij_f_j_1 + t308 * A_ij_f_j_2)
-        * cosine_2 + (t303 * A_ij_omega_j_cross_f_j_0 + t304 * A_ij_omega_j_cross_f_j_1 + t305 *
+    jac_phi_q_v_alpha[1] = alphadot[0] * ((C_i[3] * t59 - C_i[0] * t61) * A_ij_f_j_0 + (C_i[4] * t59 - C_i[1] * t61)
+        * A_ij_f_j_1 + (C_i[5] * t59 - C_i[2] * t61) * A_ij_f_j_2) - (t270 * omega_i_cross_A_ij_f_j_0 + t271 *
+        omega_i_cross_A_ij_f_j_1 + t272 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t261 * A_ij_f_j_0 + t267 *
+        A_ij_f_j_1 + t269 * A_ij_f_j_2) + alphadot[1] * (t273 * A_ij_f_j_0 + t274 * A_ij_f_j_1 + t275 * A_ij_f_j_2)
+        * cosine_2 + (t270 * A_ij_omega_j_cross_f_j_0 + t271 * A_ij_omega_j_cross_f_j_1 + t272 *
         A_ij_omega_j_cross_f_j_2);
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
@@ -993,238 +966,220 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         omega_j_cross_g_j_2;
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
-    jac_phi_q_v_alpha[2] = alphadot[0] * ((C_i[3] * t80 - C_i[0] * t81) * A_ij_g_j_0 + (C_i[4] * t80 - C_i[1] * t81)
-        * A_ij_g_j_1 + (C_i[5] * t80 - C_i[2] * t81) * A_ij_g_j_2) - (t306 * omega_i_cross_A_ij_g_j_0 + t307 *
-        omega_i_cross_A_ij_g_j_1 + t308 * omega_i_cross_A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 * (C_i[0] * t89 +
-        C_i[3] * t88) + A_ij_g_j_1 * (C_i[1] * t89 + C_i[4] * t88) + A_ij_g_j_2 * (C_i[2] * t89 + C_i[5] * t88)) +
-        (t306 * A_ij_omega_j_cross_g_j_0 + t307 * A_ij_omega_j_cross_g_j_1 + t308 * A_ij_omega_j_cross_g_j_2);
-    const jg_real t330 = H_0 * sine_2;
-    const jg_real t331 = sine_2 * H_1;
-    const jg_real t332 = sine_1 * sine_2;
-    const jg_real t333 = t330 * C_i[0] + t331 * C_i[3] - t332 * C_i[6];
-    const jg_real t334 = t330 * C_i[1] + t331 * C_i[4] - t332 * C_i[7];
-    const jg_real t335 = t330 * C_i[2] + t331 * C_i[5] - t332 * C_i[8];
-    const jg_real t336 = sine_1 * cosine_2;
-    const jg_real t337 = cosine_1 * t33;
-    const jg_real t338 = cosine_1 * H_6 + sine_1 * t337 - (t27 * H_8 + H_0 * t336);
-    const jg_real t339 = cosine_1 * t30;
-    const jg_real t340 = sine_1 * t339 - cosine_1 * t50 - (t32 * H_8 + H_1 * t336);
-    const jg_real t341 = C_i[0] * t337 + C_i[3] * t339 - C_i[6] * t336;
-    const jg_real t342 = C_i[1] * t337 + C_i[4] * t339 - C_i[7] * t336;
-    const jg_real t343 = C_i[2] * t337 + C_i[5] * t339 - C_i[8] * t336;
-    const jg_real t344 = t27 * C_i[0] + t32 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real t345 = t27 * C_i[1] + t32 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real t346 = t27 * C_i[2] + t32 * C_i[5] + cosine_1 * C_i[8];
-    jac_phi_q_v_alpha[3] = (A_ij_h_j_0 * t341 + A_ij_h_j_1 * t342 + A_ij_h_j_2 * t343) * alphadot[2] -
-        (omega_i_cross_A_ij_h_j_0 * t333 + omega_i_cross_A_ij_h_j_1 * t334 + omega_i_cross_A_ij_h_j_2 * t335 +
-        (A_ij_h_j_0 * (C_i[0] * t338 + C_i[3] * t340) + A_ij_h_j_1 * (C_i[1] * t338 + C_i[4] * t340) + A_ij_h_j_2 *
-        (C_i[2] * t338 + C_i[5] * t340)) * alphadot[0]) - (A_ij_h_j_0 * t344 + A_ij_h_j_1 * t345 + A_ij_h_j_2 *
-        t346) * alphadot[1] * sine_2 + (t333 * A_ij_omega_j_cross_h_j_0 + t334 * A_ij_omega_j_cross_h_j_1 + t335 *
+    jac_phi_q_v_alpha[2] = alphadot[0] * ((C_i[3] * t74 - C_i[0] * t75) * A_ij_g_j_0 + (C_i[4] * t74 - C_i[1] * t75)
+        * A_ij_g_j_1 + (C_i[5] * t74 - C_i[2] * t75) * A_ij_g_j_2) - (t273 * omega_i_cross_A_ij_g_j_0 + t274 *
+        omega_i_cross_A_ij_g_j_1 + t275 * omega_i_cross_A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 * (C_i[0] * t83 +
+        C_i[3] * t82) + A_ij_g_j_1 * (C_i[1] * t83 + C_i[4] * t82) + A_ij_g_j_2 * (C_i[2] * t83 + C_i[5] * t82)) +
+        (t273 * A_ij_omega_j_cross_g_j_0 + t274 * A_ij_omega_j_cross_g_j_1 + t275 * A_ij_omega_j_cross_g_j_2);
+    const jg_real t297 = H_0 * sine_2;
+    const jg_real t298 = sine_2 * H_1;
+    const jg_real t299 = sine_1 * sine_2;
+    const jg_real t300 = t297 * C_i[0] + t298 * C_i[3] - t299 * C_i[6];
+    const jg_real t301 = t297 * C_i[1] + t298 * C_i[4] - t299 * C_i[7];
+    const jg_real t302 = t297 * C_i[2] + t298 * C_i[5] - t299 * C_i[8];
+    const jg_real t303 = sine_1 * cosine_2;
+    const jg_real t304 = cosine_1 * t27;
+    const jg_real t305 = cosine_1 * H_6 + sine_1 * t304 - (t21 * H_8 + H_0 * t303);
+    const jg_real t306 = cosine_1 * t24;
+    const jg_real t307 = sine_1 * t306 - cosine_1 * t44 - (t26 * H_8 + H_1 * t303);
+    const jg_real t308 = C_i[0] * t304 + C_i[3] * t306 - C_i[6] * t303;
+    const jg_real t309 = C_i[1] * t304 + C_i[4] * t306 - C_i[7] * t303;
+    const jg_real t310 = C_i[2] * t304 + C_i[5] * t306 - C_i[8] * t303;
+    const jg_real t311 = t21 * C_i[0] + t26 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t312 = t21 * C_i[1] + t26 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real t313 = t21 * C_i[2] + t26 * C_i[5] + cosine_1 * C_i[8];
+    jac_phi_q_v_alpha[3] = (A_ij_h_j_0 * t308 + A_ij_h_j_1 * t309 + A_ij_h_j_2 * t310) * alphadot[2] -
+        (omega_i_cross_A_ij_h_j_0 * t300 + omega_i_cross_A_ij_h_j_1 * t301 + omega_i_cross_A_ij_h_j_2 * t302 +
+        (A_ij_h_j_0 * (C_i[0] * t305 + C_i[3] * t307) + A_ij_h_j_1 * (C_i[1] * t305 + C_i[4] * t307) + A_ij_h_j_2 *
+        (C_i[2] * t305 + C_i[5] * t307)) * alphadot[0]) - (A_ij_h_j_0 * t311 + A_ij_h_j_1 * t312 + A_ij_h_j_2 *
+        t313) * alphadot[1] * sine_2 + (t300 * A_ij_omega_j_cross_h_j_0 + t301 * A_ij_omega_j_cross_h_j_1 + t302 *
         A_ij_omega_j_cross_h_j_2);
-    const jg_real t347 = cosine_1 * H_3 + sine_1 * t330 - (t27 * H_5 + H_0 * t332);
-    const jg_real t348 = cosine_1 * H_4 + sine_1 * t331 - (t32 * H_5 + H_1 * t332);
-    jac_phi_q_v_alpha[4] = alphadot[0] * ((C_i[0] * t347 + C_i[3] * t348) * A_ij_f_j_0 + (C_i[1] * t347 + C_i[4] *
-        t348) * A_ij_f_j_1 + (C_i[2] * t347 + C_i[5] * t348) * A_ij_f_j_2) - (t341 * omega_i_cross_A_ij_f_j_0 + t342
-        * omega_i_cross_A_ij_f_j_1 + t343 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t333 * A_ij_f_j_0 + t334 *
-        A_ij_f_j_1 + t335 * A_ij_f_j_2) - alphadot[1] * (t344 * A_ij_f_j_0 + t345 * A_ij_f_j_1 + t346 * A_ij_f_j_2)
-        * cosine_2 + (t341 * A_ij_omega_j_cross_f_j_0 + t342 * A_ij_omega_j_cross_f_j_1 + t343 *
+    const jg_real t314 = cosine_1 * H_3 + sine_1 * t297 - (t21 * H_5 + H_0 * t299);
+    const jg_real t315 = cosine_1 * H_4 + sine_1 * t298 - (t26 * H_5 + H_1 * t299);
+    jac_phi_q_v_alpha[4] = alphadot[0] * ((C_i[0] * t314 + C_i[3] * t315) * A_ij_f_j_0 + (C_i[1] * t314 + C_i[4] *
+        t315) * A_ij_f_j_1 + (C_i[2] * t314 + C_i[5] * t315) * A_ij_f_j_2) - (t308 * omega_i_cross_A_ij_f_j_0 + t309
+        * omega_i_cross_A_ij_f_j_1 + t310 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t300 * A_ij_f_j_0 + t301 *
+        A_ij_f_j_1 + t302 * A_ij_f_j_2) - alphadot[1] * (t311 * A_ij_f_j_0 + t312 * A_ij_f_j_1 + t313 * A_ij_f_j_2)
+        * cosine_2 + (t308 * A_ij_omega_j_cross_f_j_0 + t309 * A_ij_omega_j_cross_f_j_1 + t310 *
         A_ij_omega_j_cross_f_j_2);
-    const jg_real t349 = t330 * H_8 - H_3 * t336 - (H_5 * t337 - t332 * H_6);
-    const jg_real t350 = t331 * H_8 - H_4 * t336 - (H_5 * t339 + t332 * t50);
-    const jg_real t351 = sine_2 * t330 + cosine_2 * t337;
-    const jg_real t352 = sine_2 * t331 + cosine_2 * t339;
-    const jg_real t353 = sine_2 * t332 + cosine_2 * t336;
-    jac_phi_q_v_alpha[5] = t344 * omega_i_cross_A_ij_g_j_0 + t345 * omega_i_cross_A_ij_g_j_1 + t346 *
-        omega_i_cross_A_ij_g_j_2 + alphadot[0] * ((C_i[0] * t349 + C_i[3] * t350) * A_ij_g_j_0 + (C_i[1] * t349 +
-        C_i[4] * t350) * A_ij_g_j_1 + (C_i[2] * t349 + C_i[5] * t350) * A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 *
-        (C_i[0] * t351 + C_i[3] * t352 - C_i[6] * t353) + A_ij_g_j_1 * (C_i[1] * t351 + C_i[4] * t352 - C_i[7] *
-        t353) + A_ij_g_j_2 * (C_i[2] * t351 + C_i[5] * t352 - C_i[8] * t353)) - (t344 * A_ij_omega_j_cross_g_j_0 +
-        t345 * A_ij_omega_j_cross_g_j_1 + t346 * A_ij_omega_j_cross_g_j_2);
-    const jg_real t354 = t27 * cosine_2 + t46;
-    const jg_real t355 = t32 * cosine_2 - t49;
-    const jg_real t356 = t354 * C_i[0] + t355 * C_i[3] + t55;
-    const jg_real t357 = t354 * C_i[1] + t355 * C_i[4] + t70;
-    const jg_real t358 = t354 * C_i[2] + t355 * C_i[5] + t73;
-    const jg_real t359 = t30 - sine_1 * t49;
-    const jg_real t360 = sine_1 * t359 - t64;
-    const jg_real t361 = t33 + sine_1 * t46;
-    const jg_real t362 = t66 + sine_1 * t361;
-    const jg_real t363 = C_i[0] * t359 - C_i[3] * t361 - t58;
-    const jg_real t364 = C_i[1] * t359 - C_i[4] * t361 - t36;
-    const jg_real t365 = C_i[2] * t359 - C_i[5] * t361 - t40;
-    const jg_real t366 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    jac_phi_q_v_alpha[6] = (A_ij_h_j_0 * t363 + A_ij_h_j_1 * t364 + A_ij_h_j_2 * t365) * alphadot[2] -
-        (omega_i_cross_A_ij_h_j_0 * t356 + omega_i_cross_A_ij_h_j_1 * t357 + omega_i_cross_A_ij_h_j_2 * t358 +
-        (A_ij_h_j_0 * (C_i[0] * t360 - C_i[3] * t362) + A_ij_h_j_1 * (C_i[1] * t360 - C_i[4] * t362) + A_ij_h_j_2 *
-        (C_i[2] * t360 - C_i[5] * t362)) * alphadot[0]) + t366 * alphadot[1] * cosine_2 + (t356 *
-        A_ij_omega_j_cross_h_j_0 + t357 * A_ij_omega_j_cross_h_j_1 + t358 * A_ij_omega_j_cross_h_j_2);
-    const jg_real t367 = t45 + sine_1 * t354;
-    const jg_real t368 = t52 + sine_1 * t355;
-    const jg_real t369 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
-    jac_phi_q_v_alpha[7] = alphadot[0] * ((C_i[0] * t367 + C_i[3] * t368) * A_ij_f_j_0 + (C_i[1] * t367 + C_i[4] *
-        t368) * A_ij_f_j_1 + (C_i[2] * t367 + C_i[5] * t368) * A_ij_f_j_2) - (t363 * omega_i_cross_A_ij_f_j_0 + t364
-        * omega_i_cross_A_ij_f_j_1 + t365 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t356 * A_ij_f_j_0 + t357 *
-        A_ij_f_j_1 + t358 * A_ij_f_j_2) - alphadot[1] * t369 * sine_2 + (t363 * A_ij_omega_j_cross_f_j_0 + t364 *
-        A_ij_omega_j_cross_f_j_1 + t365 * A_ij_omega_j_cross_f_j_2);
-    const jg_real t370 = t354 * H_8 - H_3 * H_5 - (H_5 * t359 + H_8 * H_6);
-    const jg_real t371 = t355 * H_8 - H_4 * H_5 + (H_5 * t361 + H_8 * t50);
-    const jg_real t372 = cosine_2 * H_3 + sine_2 * t354 + (cosine_2 * t359 - sine_2 * H_6);
-    const jg_real t373 = cosine_2 * H_4 + sine_2 * t355 + (sine_2 * t50 - cosine_2 * t361);
-    jac_phi_q_v_alpha[8] = alphadot[0] * ((C_i[0] * t370 + C_i[3] * t371) * A_ij_g_j_0 + (C_i[1] * t370 + C_i[4] *
-        t371) * A_ij_g_j_1 + (C_i[2] * t370 + C_i[5] * t371) * A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 * (C_i[0] *
-        t372 + C_i[3] * t373) + A_ij_g_j_1 * (C_i[1] * t372 + C_i[4] * t373) + A_ij_g_j_2 * (C_i[2] * t372 + C_i[5]
-        * t373));
-    const jg_real t374 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t375 = t374 * omega_i[1];
-    const jg_real t376 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t377 = t376 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t375 - t377;
-    const jg_real t378 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = -(t374 * omega_i[0] - omega_i[2] * t378 + omega_i[2]);
-    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t378 - t376 * omega_i[0]);
-    const jg_real t379 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t380 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_q_v_geometry[3] = omega_i[2] - (t379 * omega_i[2] - t380 * omega_i[1]);
-    const jg_real t381 = t380 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t377 - t381;
-    jac_phi_q_v_geometry[5] = -(omega_i[1] * t376 - t379 * omega_i[0] + omega_i[0]);
-    const jg_real t382 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = -(t380 * omega_i[2] - t382 * omega_i[1] + omega_i[1]);
-    jac_phi_q_v_geometry[7] = omega_i[0] - (t382 * omega_i[0] - t374 * omega_i[2]);
-    jac_phi_q_v_geometry[8] = t381 - t375;
-    jac_phi_q_v_geometry[9] = A_ij_h_j_0 * H_6 * alphadot[2] - (omega_i_cross_A_ij_h_j_0 * H_3 + A_ij_h_j_0 * t48 *
+    const jg_real t316 = t297 * H_8 - H_3 * t303 - (H_5 * t304 - t299 * H_6);
+    const jg_real t317 = t298 * H_8 - H_4 * t303 - (H_5 * t306 + t299 * t44);
+    const jg_real t318 = sine_2 * t297 + cosine_2 * t304;
+    const jg_real t319 = sine_2 * t298 + cosine_2 * t306;
+    const jg_real t320 = sine_2 * t299 + cosine_2 * t303;
+    jac_phi_q_v_alpha[5] = t311 * omega_i_cross_A_ij_g_j_0 + t312 * omega_i_cross_A_ij_g_j_1 + t313 *
+        omega_i_cross_A_ij_g_j_2 + alphadot[0] * ((C_i[0] * t316 + C_i[3] * t317) * A_ij_g_j_0 + (C_i[1] * t316 +
+        C_i[4] * t317) * A_ij_g_j_1 + (C_i[2] * t316 + C_i[5] * t317) * A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 *
+        (C_i[0] * t318 + C_i[3] * t319 - C_i[6] * t320) + A_ij_g_j_1 * (C_i[1] * t318 + C_i[4] * t319 - C_i[7] *
+        t320) + A_ij_g_j_2 * (C_i[2] * t318 + C_i[5] * t319 - C_i[8] * t320)) - (t311 * A_ij_omega_j_cross_g_j_0 +
+        t312 * A_ij_omega_j_cross_g_j_1 + t313 * A_ij_omega_j_cross_g_j_2);
+    const jg_real t321 = t21 * cosine_2 + t40;
+    const jg_real t322 = t26 * cosine_2 - t43;
+    const jg_real t323 = t321 * C_i[0] + t322 * C_i[3] + t49;
+    const jg_real t324 = t321 * C_i[1] + t322 * C_i[4] + t64;
+    const jg_real t325 = t321 * C_i[2] + t322 * C_i[5] + t67;
+    const jg_real t326 = t24 - sine_1 * t43;
+    const jg_real t327 = sine_1 * t326 - t58;
+    const jg_real t328 = t27 + sine_1 * t40;
+    const jg_real t329 = t60 + sine_1 * t328;
+    const jg_real t330 = C_i[0] * t326 - C_i[3] * t328 - t52;
+    const jg_real t331 = C_i[1] * t326 - C_i[4] * t328 - t30;
+    const jg_real t332 = C_i[2] * t326 - C_i[5] * t328 - t34;
+    const jg_real t333 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    jac_phi_q_v_alpha[6] = (A_ij_h_j_0 * t330 + A_ij_h_j_1 * t331 + A_ij_h_j_2 * t332) * alphadot[2] -
+        (omega_i_cross_A_ij_h_j_0 * t323 + omega_i_cross_A_ij_h_j_1 * t324 + omega_i_cross_A_ij_h_j_2 * t325 +
+        (A_ij_h_j_0 * (C_i[0] * t327 - C_i[3] * t329) + A_ij_h_j_1 * (C_i[1] * t327 - C_i[4] * t329) + A_ij_h_j_2 *
+        (C_i[2] * t327 - C_i[5] * t329)) * alphadot[0]) + t333 * alphadot[1] * cosine_2 + (t323 *
+        A_ij_omega_j_cross_h_j_0 + t324 * A_ij_omega_j_cross_h_j_1 + t325 * A_ij_omega_j_cross_h_j_2);
+    const jg_real t334 = t39 + sine_1 * t321;
+    const jg_real t335 = t46 + sine_1 * t322;
+    const jg_real t336 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
+    jac_phi_q_v_alpha[7] = alphadot[0] * ((C_i[0] * t334 + C_i[3] * t335) * A_ij_f_j_0 + (C_i[1] * t334 + C_i[4] *
+        t335) * A_ij_f_j_1 + (C_i[2] * t334 + C_i[5] * t335) * A_ij_f_j_2) - (t330 * omega_i_cross_A_ij_f_j_0 + t331
+        * omega_i_cross_A_ij_f_j_1 + t332 * omega_i_cross_A_ij_f_j_2) - alphadot[2] * (t323 * A_ij_f_j_0 + t324 *
+        A_ij_f_j_1 + t325 * A_ij_f_j_2) - alphadot[1] * t336 * sine_2 + (t330 * A_ij_omega_j_cross_f_j_0 + t331 *
+        A_ij_omega_j_cross_f_j_1 + t332 * A_ij_omega_j_cross_f_j_2);
+    const jg_real t337 = t321 * H_8 - H_3 * H_5 - (H_5 * t326 + H_8 * H_6);
+    const jg_real t338 = t322 * H_8 - H_4 * H_5 + (H_5 * t328 + H_8 * t44);
+    const jg_real t339 = cosine_2 * H_3 + sine_2 * t321 + (cosine_2 * t326 - sine_2 * H_6);
+    const jg_real t340 = cosine_2 * H_4 + sine_2 * t322 + (sine_2 * t44 - cosine_2 * t328);
+    jac_phi_q_v_alpha[8] = alphadot[0] * ((C_i[0] * t337 + C_i[3] * t338) * A_ij_g_j_0 + (C_i[1] * t337 + C_i[4] *
+        t338) * A_ij_g_j_1 + (C_i[2] * t337 + C_i[5] * t338) * A_ij_g_j_2) - alphadot[1] * (A_ij_g_j_0 * (C_i[0] *
+        t339 + C_i[3] * t340) + A_ij_g_j_1 * (C_i[1] * t339 + C_i[4] * t340) + A_ij_g_j_2 * (C_i[2] * t339 + C_i[5]
+        * t340));
+    jac_phi_q_v_geometry[0] = A_ij_h_j_0 * H_6 * alphadot[2] - (omega_i_cross_A_ij_h_j_0 * H_3 + A_ij_h_j_0 * t42 *
         alphadot[0]) + H_0 * A_ij_h_j_0 * alphadot[1] * sine_2 + H_3 * A_ij_omega_j_cross_h_j_0;
-    jac_phi_q_v_geometry[10] = t65 * A_ij_f_j_0 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_0 - H_3 * A_ij_f_j_0 *
+    jac_phi_q_v_geometry[1] = t59 * A_ij_f_j_0 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_0 - H_3 * A_ij_f_j_0 *
         alphadot[2] + H_0 * A_ij_f_j_0 * alphadot[1] * cosine_2 + H_6 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[11] = t80 * A_ij_g_j_0 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_0 - A_ij_g_j_0 * t88 *
+    jac_phi_q_v_geometry[2] = t74 * A_ij_g_j_0 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_0 - A_ij_g_j_0 * t82 *
         alphadot[1] + H_0 * A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[12] = A_ij_h_j_1 * H_6 * alphadot[2] - (H_3 * omega_i_cross_A_ij_h_j_1 + A_ij_h_j_1 * t48 *
+    jac_phi_q_v_geometry[3] = A_ij_h_j_1 * H_6 * alphadot[2] - (H_3 * omega_i_cross_A_ij_h_j_1 + A_ij_h_j_1 * t42 *
         alphadot[0]) + A_ij_h_j_1 * H_0 * alphadot[1] * sine_2 + H_3 * A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[13] = t65 * A_ij_f_j_1 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_1 - H_3 * A_ij_f_j_1 *
+    jac_phi_q_v_geometry[4] = t59 * A_ij_f_j_1 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_1 - H_3 * A_ij_f_j_1 *
         alphadot[2] + H_0 * A_ij_f_j_1 * alphadot[1] * cosine_2 + H_6 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[14] = t80 * A_ij_g_j_1 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_1 - A_ij_g_j_1 * t88 *
+    jac_phi_q_v_geometry[5] = t74 * A_ij_g_j_1 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_1 - A_ij_g_j_1 * t82 *
         alphadot[1] + H_0 * A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[15] = A_ij_h_j_2 * H_6 * alphadot[2] - (H_3 * omega_i_cross_A_ij_h_j_2 + A_ij_h_j_2 * t48 *
+    jac_phi_q_v_geometry[6] = A_ij_h_j_2 * H_6 * alphadot[2] - (H_3 * omega_i_cross_A_ij_h_j_2 + A_ij_h_j_2 * t42 *
         alphadot[0]) + A_ij_h_j_2 * H_0 * alphadot[1] * sine_2 + H_3 * A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[16] = t65 * A_ij_f_j_2 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_2 - H_3 * A_ij_f_j_2 *
+    jac_phi_q_v_geometry[7] = t59 * A_ij_f_j_2 * alphadot[0] - H_6 * omega_i_cross_A_ij_f_j_2 - H_3 * A_ij_f_j_2 *
         alphadot[2] + H_0 * A_ij_f_j_2 * alphadot[1] * cosine_2 + H_6 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[17] = t80 * A_ij_g_j_2 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_2 - A_ij_g_j_2 * t88 *
+    jac_phi_q_v_geometry[8] = t74 * A_ij_g_j_2 * alphadot[0] - H_0 * omega_i_cross_A_ij_g_j_2 - A_ij_g_j_2 * t82 *
         alphadot[1] + H_0 * A_ij_omega_j_cross_g_j_2;
-    jac_phi_q_v_geometry[18] = H_1 * A_ij_h_j_0 * alphadot[1] * sine_2 - (omega_i_cross_A_ij_h_j_0 * H_4 -
-        A_ij_h_j_0 * t53 * alphadot[0] + A_ij_h_j_0 * t50 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_0;
-    jac_phi_q_v_geometry[19] = t67 * A_ij_f_j_0 * alphadot[0] + t50 * omega_i_cross_A_ij_f_j_0 - H_4 * A_ij_f_j_0 *
-        alphadot[2] + H_1 * A_ij_f_j_0 * alphadot[1] * cosine_2 - t50 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[20] = t81 * A_ij_g_j_0 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_0 + A_ij_g_j_0 * t89 *
+    jac_phi_q_v_geometry[9] = H_1 * A_ij_h_j_0 * alphadot[1] * sine_2 - (omega_i_cross_A_ij_h_j_0 * H_4 - A_ij_h_j_0
+        * t47 * alphadot[0] + A_ij_h_j_0 * t44 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_0;
+    jac_phi_q_v_geometry[10] = t61 * A_ij_f_j_0 * alphadot[0] + t44 * omega_i_cross_A_ij_f_j_0 - H_4 * A_ij_f_j_0 *
+        alphadot[2] + H_1 * A_ij_f_j_0 * alphadot[1] * cosine_2 - t44 * A_ij_omega_j_cross_f_j_0;
+    jac_phi_q_v_geometry[11] = t75 * A_ij_g_j_0 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_0 + A_ij_g_j_0 * t83 *
         alphadot[1] + H_1 * A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[21] = A_ij_h_j_1 * H_1 * alphadot[1] * sine_2 - (H_4 * omega_i_cross_A_ij_h_j_1 -
-        A_ij_h_j_1 * t53 * alphadot[0] + A_ij_h_j_1 * t50 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[22] = t67 * A_ij_f_j_1 * alphadot[0] + t50 * omega_i_cross_A_ij_f_j_1 - H_4 * A_ij_f_j_1 *
-        alphadot[2] + H_1 * A_ij_f_j_1 * alphadot[1] * cosine_2 - t50 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[23] = t81 * A_ij_g_j_1 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_1 + A_ij_g_j_1 * t89 *
+    jac_phi_q_v_geometry[12] = A_ij_h_j_1 * H_1 * alphadot[1] * sine_2 - (H_4 * omega_i_cross_A_ij_h_j_1 -
+        A_ij_h_j_1 * t47 * alphadot[0] + A_ij_h_j_1 * t44 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_1;
+    jac_phi_q_v_geometry[13] = t61 * A_ij_f_j_1 * alphadot[0] + t44 * omega_i_cross_A_ij_f_j_1 - H_4 * A_ij_f_j_1 *
+        alphadot[2] + H_1 * A_ij_f_j_1 * alphadot[1] * cosine_2 - t44 * A_ij_omega_j_cross_f_j_1;
+    jac_phi_q_v_geometry[14] = t75 * A_ij_g_j_1 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_1 + A_ij_g_j_1 * t83 *
         alphadot[1] + H_1 * A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[24] = A_ij_h_j_2 * H_1 * alphadot[1] * sine_2 - (H_4 * omega_i_cross_A_ij_h_j_2 -
-        A_ij_h_j_2 * t53 * alphadot[0] + A_ij_h_j_2 * t50 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[25] = t67 * A_ij_f_j_2 * alphadot[0] + t50 * omega_i_cross_A_ij_f_j_2 - H_4 * A_ij_f_j_2 *
-        alphadot[2] + H_1 * A_ij_f_j_2 * alphadot[1] * cosine_2 - t50 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[26] = t81 * A_ij_g_j_2 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_2 + A_ij_g_j_2 * t89 *
+    jac_phi_q_v_geometry[15] = A_ij_h_j_2 * H_1 * alphadot[1] * sine_2 - (H_4 * omega_i_cross_A_ij_h_j_2 -
+        A_ij_h_j_2 * t47 * alphadot[0] + A_ij_h_j_2 * t44 * alphadot[2]) + H_4 * A_ij_omega_j_cross_h_j_2;
+    jac_phi_q_v_geometry[16] = t61 * A_ij_f_j_2 * alphadot[0] + t44 * omega_i_cross_A_ij_f_j_2 - H_4 * A_ij_f_j_2 *
+        alphadot[2] + H_1 * A_ij_f_j_2 * alphadot[1] * cosine_2 - t44 * A_ij_omega_j_cross_f_j_2;
+    jac_phi_q_v_geometry[17] = t75 * A_ij_g_j_2 * alphadot[0] - H_1 * omega_i_cross_A_ij_g_j_2 + A_ij_g_j_2 * t83 *
         alphadot[1] + H_1 * A_ij_omega_j_cross_g_j_2;
-    jac_phi_q_v_geometry[27] = H_8 * A_ij_h_j_0 * alphadot[2] - omega_i_cross_A_ij_h_j_0 * H_5 - sine_1 * A_ij_h_j_0
+    jac_phi_q_v_geometry[18] = H_8 * A_ij_h_j_0 * alphadot[2] - omega_i_cross_A_ij_h_j_0 * H_5 - sine_1 * A_ij_h_j_0
         * alphadot[1] * sine_2 + H_5 * A_ij_omega_j_cross_h_j_0;
-    jac_phi_q_v_geometry[28] = H_8 * A_ij_omega_j_cross_f_j_0 - (H_8 * omega_i_cross_A_ij_f_j_0 + H_5 * A_ij_f_j_0 *
+    jac_phi_q_v_geometry[19] = H_8 * A_ij_omega_j_cross_f_j_0 - (H_8 * omega_i_cross_A_ij_f_j_0 + H_5 * A_ij_f_j_0 *
         alphadot[2] + sine_1 * A_ij_f_j_0 * alphadot[1] * cosine_2);
-    jac_phi_q_v_geometry[29] = sine_1 * omega_i_cross_A_ij_g_j_0 - A_ij_g_j_0 * t90 * alphadot[1] - sine_1 *
+    jac_phi_q_v_geometry[20] = sine_1 * omega_i_cross_A_ij_g_j_0 - A_ij_g_j_0 * t84 * alphadot[1] - sine_1 *
         A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[30] = A_ij_h_j_1 * H_8 * alphadot[2] - H_5 * omega_i_cross_A_ij_h_j_1 - A_ij_h_j_1 * sine_1
+    jac_phi_q_v_geometry[21] = A_ij_h_j_1 * H_8 * alphadot[2] - H_5 * omega_i_cross_A_ij_h_j_1 - A_ij_h_j_1 * sine_1
         * alphadot[1] * sine_2 + H_5 * A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[31] = H_8 * A_ij_omega_j_cross_f_j_1 - (H_8 * omega_i_cross_A_ij_f_j_1 + H_5 * A_ij_f_j_1 *
+    jac_phi_q_v_geometry[22] = H_8 * A_ij_omega_j_cross_f_j_1 - (H_8 * omega_i_cross_A_ij_f_j_1 + H_5 * A_ij_f_j_1 *
         alphadot[2] + sine_1 * A_ij_f_j_1 * alphadot[1] * cosine_2);
-    jac_phi_q_v_geometry[32] = sine_1 * omega_i_cross_A_ij_g_j_1 - A_ij_g_j_1 * t90 * alphadot[1] - sine_1 *
+    jac_phi_q_v_geometry[23] = sine_1 * omega_i_cross_A_ij_g_j_1 - A_ij_g_j_1 * t84 * alphadot[1] - sine_1 *
         A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[33] = A_ij_h_j_2 * H_8 * alphadot[2] - H_5 * omega_i_cross_A_ij_h_j_2 - A_ij_h_j_2 * sine_1
+    jac_phi_q_v_geometry[24] = A_ij_h_j_2 * H_8 * alphadot[2] - H_5 * omega_i_cross_A_ij_h_j_2 - A_ij_h_j_2 * sine_1
         * alphadot[1] * sine_2 + H_5 * A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[34] = H_8 * A_ij_omega_j_cross_f_j_2 - (H_8 * omega_i_cross_A_ij_f_j_2 + H_5 * A_ij_f_j_2 *
+    jac_phi_q_v_geometry[25] = H_8 * A_ij_omega_j_cross_f_j_2 - (H_8 * omega_i_cross_A_ij_f_j_2 + H_5 * A_ij_f_j_2 *
         alphadot[2] + sine_1 * A_ij_f_j_2 * alphadot[1] * cosine_2);
-    jac_phi_q_v_geometry[35] = sine_1 * omega_i_cross_A_ij_g_j_2 - A_ij_g_j_2 * t90 * alphadot[1] - sine_1 *
+    jac_phi_q_v_geometry[26] = sine_1 * omega_i_cross_A_ij_g_j_2 - A_ij_g_j_2 * t84 * alphadot[1] - sine_1 *
         A_ij_omega_j_cross_g_j_2;
-    const jg_real t383 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    const jg_real t384 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    jac_phi_q_v_geometry[36] = t383 - t384;
-    const jg_real t385 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    const jg_real t386 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
-    jac_phi_q_v_geometry[37] = t385 - t386;
-    const jg_real t387 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    const jg_real t388 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
-    jac_phi_q_v_geometry[38] = t387 - t388;
-    const jg_real t389 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    const jg_real t390 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    jac_phi_q_v_geometry[39] = t389 - t390;
-    const jg_real t391 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    const jg_real t392 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
-    jac_phi_q_v_geometry[40] = t391 - t392;
-    const jg_real t393 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    const jg_real t394 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
-    jac_phi_q_v_geometry[41] = t393 - t394;
-    const jg_real t395 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t396 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    jac_phi_q_v_geometry[42] = t395 - t396;
-    const jg_real t397 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    const jg_real t398 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
-    jac_phi_q_v_geometry[43] = t397 - t398;
-    const jg_real t399 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    const jg_real t400 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
-    jac_phi_q_v_geometry[44] = t399 - t400;
-    const jg_real t401 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[1];
-    jac_phi_q_v_geometry[45] = alphadot[0] * (A_ij_0 * t68 + A_ij_1 * t147 + A_ij_2 * t168) - (t384 * h_star_0 +
-        t386 * h_star_1 + t388 * h_star_2) - alphadot[2] * (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 *
-        g_star_2) + cosine_2 * t401 + (t383 * h_star_0 + t385 * h_star_1 + t387 * h_star_2);
-    const jg_real t402 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[1];
-    jac_phi_q_v_geometry[46] = alphadot[0] * (A_ij_3 * t68 + A_ij_4 * t147 + A_ij_5 * t168) - (t390 * h_star_0 +
-        t392 * h_star_1 + t394 * h_star_2) - alphadot[2] * (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 *
-        g_star_2) + cosine_2 * t402 + (t389 * h_star_0 + t391 * h_star_1 + t393 * h_star_2);
-    const jg_real t403 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[1];
-    jac_phi_q_v_geometry[47] = alphadot[0] * (A_ij_6 * t68 + A_ij_7 * t147 + A_ij_8 * t168) - (t396 * h_star_0 +
-        t398 * h_star_1 + t400 * h_star_2) - alphadot[2] * (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 *
-        g_star_2) + cosine_2 * t403 + (t395 * h_star_0 + t397 * h_star_1 + t399 * h_star_2);
-    jac_phi_q_v_geometry[48] = alphadot[0] * (A_ij_0 * t82 + A_ij_1 * t149 + A_ij_2 * t169) - (t384 * f_star_0 +
-        t386 * f_star_1 + t388 * f_star_2) - alphadot[1] * (A_ij_0 * t91 + A_ij_1 * t151 + A_ij_2 * t170) + (t383 *
-        f_star_0 + t385 * f_star_1 + t387 * f_star_2);
-    jac_phi_q_v_geometry[49] = alphadot[0] * (A_ij_3 * t82 + A_ij_4 * t149 + A_ij_5 * t169) - (t390 * f_star_0 +
-        t392 * f_star_1 + t394 * f_star_2) - alphadot[1] * (A_ij_3 * t91 + A_ij_4 * t151 + A_ij_5 * t170) + (t389 *
-        f_star_0 + t391 * f_star_1 + t393 * f_star_2);
-    jac_phi_q_v_geometry[50] = alphadot[0] * (A_ij_6 * t82 + A_ij_7 * t149 + A_ij_8 * t169) - (t396 * f_star_0 +
-        t398 * f_star_1 + t400 * f_star_2) - alphadot[1] * (A_ij_6 * t91 + A_ij_7 * t151 + A_ij_8 * t170) + (t395 *
-        f_star_0 + t397 * f_star_1 + t399 * f_star_2);
-    jac_phi_q_v_geometry[51] = (A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2) * alphadot[2] - (t384 *
-        g_star_0 + t386 * g_star_1 + t388 * g_star_2 + (A_ij_0 * t54 + A_ij_1 * t146 + A_ij_2 * t167) * alphadot[0])
-        + sine_2 * t401 + (t383 * g_star_0 + t385 * g_star_1 + t387 * g_star_2);
-    jac_phi_q_v_geometry[52] = (A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2) * alphadot[2] - (t390 *
-        g_star_0 + t392 * g_star_1 + t394 * g_star_2 + (A_ij_3 * t54 + A_ij_4 * t146 + A_ij_5 * t167) * alphadot[0])
-        + sine_2 * t402 + (t389 * g_star_0 + t391 * g_star_1 + t393 * g_star_2);
-    jac_phi_q_v_geometry[53] = (A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2) * alphadot[2] - (t396 *
-        g_star_0 + t398 * g_star_1 + t400 * g_star_2 + (A_ij_6 * t54 + A_ij_7 * t146 + A_ij_8 * t167) * alphadot[0])
-        + sine_2 * t403 + (t395 * g_star_0 + t397 * g_star_1 + t399 * g_star_2);
+    const jg_real t341 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t342 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[27] = t341 - t342;
+    const jg_real t343 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t344 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[28] = t343 - t344;
+    const jg_real t345 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t346 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    jac_phi_q_v_geometry[29] = t345 - t346;
+    const jg_real t347 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t348 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[30] = t347 - t348;
+    const jg_real t349 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t350 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[31] = t349 - t350;
+    const jg_real t351 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t352 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    jac_phi_q_v_geometry[32] = t351 - t352;
+    const jg_real t353 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t354 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[33] = t353 - t354;
+    const jg_real t355 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t356 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[34] = t355 - t356;
+    const jg_real t357 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t358 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    jac_phi_q_v_geometry[35] = t357 - t358;
+    const jg_real t359 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[1];
+    jac_phi_q_v_geometry[36] = alphadot[0] * (A_ij_0 * t62 + A_ij_1 * t127 + A_ij_2 * t141) - (t342 * h_star_0 +
+        t344 * h_star_1 + t346 * h_star_2) - alphadot[2] * (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 *
+        g_star_2) + cosine_2 * t359 + (t341 * h_star_0 + t343 * h_star_1 + t345 * h_star_2);
+    const jg_real t360 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[1];
+    jac_phi_q_v_geometry[37] = alphadot[0] * (A_ij_3 * t62 + A_ij_4 * t127 + A_ij_5 * t141) - (t348 * h_star_0 +
+        t350 * h_star_1 + t352 * h_star_2) - alphadot[2] * (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 *
+        g_star_2) + cosine_2 * t360 + (t347 * h_star_0 + t349 * h_star_1 + t351 * h_star_2);
+    const jg_real t361 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[1];
+    jac_phi_q_v_geometry[38] = alphadot[0] * (A_ij_6 * t62 + A_ij_7 * t127 + A_ij_8 * t141) - (t354 * h_star_0 +
+        t356 * h_star_1 + t358 * h_star_2) - alphadot[2] * (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 *
+        g_star_2) + cosine_2 * t361 + (t353 * h_star_0 + t355 * h_star_1 + t357 * h_star_2);
+    jac_phi_q_v_geometry[39] = alphadot[0] * (A_ij_0 * t76 + A_ij_1 * t129 + A_ij_2 * t142) - (t342 * f_star_0 +
+        t344 * f_star_1 + t346 * f_star_2) - alphadot[1] * (A_ij_0 * t85 + A_ij_1 * t131 + A_ij_2 * t143) + (t341 *
+        f_star_0 + t343 * f_star_1 + t345 * f_star_2);
+    jac_phi_q_v_geometry[40] = alphadot[0] * (A_ij_3 * t76 + A_ij_4 * t129 + A_ij_5 * t142) - (t348 * f_star_0 +
+        t350 * f_star_1 + t352 * f_star_2) - alphadot[1] * (A_ij_3 * t85 + A_ij_4 * t131 + A_ij_5 * t143) + (t347 *
+        f_star_0 + t349 * f_star_1 + t351 * f_star_2);
+    jac_phi_q_v_geometry[41] = alphadot[0] * (A_ij_6 * t76 + A_ij_7 * t129 + A_ij_8 * t142) - (t354 * f_star_0 +
+        t356 * f_star_1 + t358 * f_star_2) - alphadot[1] * (A_ij_6 * t85 + A_ij_7 * t131 + A_ij_8 * t143) + (t353 *
+        f_star_0 + t355 * f_star_1 + t357 * f_star_2);
+    jac_phi_q_v_geometry[42] = (A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2) * alphadot[2] - (t342 *
+        g_star_0 + t344 * g_star_1 + t346 * g_star_2 + (A_ij_0 * t48 + A_ij_1 * t126 + A_ij_2 * t140) * alphadot[0])
+        + sine_2 * t359 + (t341 * g_star_0 + t343 * g_star_1 + t345 * g_star_2);
+    jac_phi_q_v_geometry[43] = (A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2) * alphadot[2] - (t348 *
+        g_star_0 + t350 * g_star_1 + t352 * g_star_2 + (A_ij_3 * t48 + A_ij_4 * t126 + A_ij_5 * t140) * alphadot[0])
+        + sine_2 * t360 + (t347 * g_star_0 + t349 * g_star_1 + t351 * g_star_2);
+    jac_phi_q_v_geometry[44] = (A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2) * alphadot[2] - (t354 *
+        g_star_0 + t356 * g_star_1 + t358 * g_star_2 + (A_ij_6 * t48 + A_ij_7 * t126 + A_ij_8 * t140) * alphadot[0])
+        + sine_2 * t361 + (t353 * g_star_0 + t355 * g_star_1 + t357 * g_star_2);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t405 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t405;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t407 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t407;
-    jac_phi_q_v_velocity[4] = -t407;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    const jg_real t363 = ep_ij_2 - s_i[2] + s_i[2];
+    jac_phi_q_v_velocity[3] = t363;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    const jg_real t365 = ep_ij_1 - s_i[1] + s_i[1];
+    jac_phi_q_v_velocity[13] = t365;
+    jac_phi_q_v_velocity[4] = -t365;
     jac_phi_q_v_velocity[5] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
     jac_phi_q_v_velocity[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     jac_phi_q_v_velocity[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    jac_phi_q_v_velocity[8] = -t405;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t409 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t409;
+    jac_phi_q_v_velocity[8] = -t363;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t367 = ep_ij_0 - s_i[0] + s_i[0];
+    jac_phi_q_v_velocity[9] = t367;
     jac_phi_q_v_velocity[10] = A_ij_h_j_0 * g_star_2 - A_ij_h_j_2 * g_star_0;
     jac_phi_q_v_velocity[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     jac_phi_q_v_velocity[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -t409;
+    jac_phi_q_v_velocity[14] = -t367;
     jac_phi_q_v_velocity[15] = A_ij_h_j_1 * g_star_0 - A_ij_h_j_0 * g_star_1;
     jac_phi_q_v_velocity[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     jac_phi_q_v_velocity[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1237,7 +1192,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         * C_j[2]) + h_star_2 * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
     jac_phi_q_v_velocity[32] = f_star_0 * (A_ij_6 * C_j[4] - A_ij_3 * C_j[5]) + f_star_1 * (A_ij_7 * C_j[4] - A_ij_4
         * C_j[5]) + f_star_2 * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
-    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[33] = A_ij_0 * s_j[2] - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[36] = g_star_0 * (A_ij_0 * C_j[8] - A_ij_6 * C_j[6]) + g_star_1 * (A_ij_1 * C_j[8] - A_ij_7
@@ -1246,7 +1201,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         * C_j[0]) + h_star_2 * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
     jac_phi_q_v_velocity[38] = f_star_0 * (A_ij_0 * C_j[5] - A_ij_6 * C_j[3]) + f_star_1 * (A_ij_1 * C_j[5] - A_ij_7
         * C_j[3]) + f_star_2 * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
-    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[42] = g_star_0 * (A_ij_3 * C_j[6] - A_ij_0 * C_j[7]) + g_star_1 * (A_ij_4 * C_j[6] - A_ij_1
@@ -1255,12 +1210,12 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         * C_j[1]) + h_star_2 * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
     jac_phi_q_v_velocity[44] = f_star_0 * (A_ij_3 * C_j[3] - A_ij_0 * C_j[4]) + f_star_1 * (A_ij_4 * C_j[3] - A_ij_1
         * C_j[4]) + f_star_2 * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
-    jac_phi_q_v_velocity[45] = -(A_ij_h_j_0 * t54 + A_ij_h_j_1 * t146 + A_ij_h_j_2 * t167);
-    jac_phi_q_v_velocity[46] = t68 * A_ij_f_j_0 + t147 * A_ij_f_j_1 + t168 * A_ij_f_j_2;
-    jac_phi_q_v_velocity[47] = t82 * A_ij_g_j_0 + t149 * A_ij_g_j_1 + t169 * A_ij_g_j_2;
-    jac_phi_q_v_velocity[48] = sine_2 * t366;
-    jac_phi_q_v_velocity[49] = cosine_2 * t369;
-    jac_phi_q_v_velocity[50] = -(A_ij_g_j_0 * t91 + A_ij_g_j_1 * t151 + A_ij_g_j_2 * t170);
+    jac_phi_q_v_velocity[45] = -(A_ij_h_j_0 * t48 + A_ij_h_j_1 * t126 + A_ij_h_j_2 * t140);
+    jac_phi_q_v_velocity[46] = t62 * A_ij_f_j_0 + t127 * A_ij_f_j_1 + t141 * A_ij_f_j_2;
+    jac_phi_q_v_velocity[47] = t76 * A_ij_g_j_0 + t129 * A_ij_g_j_1 + t142 * A_ij_g_j_2;
+    jac_phi_q_v_velocity[48] = sine_2 * t333;
+    jac_phi_q_v_velocity[49] = cosine_2 * t336;
+    jac_phi_q_v_velocity[50] = -(A_ij_g_j_0 * t85 + A_ij_g_j_1 * t131 + A_ij_g_j_2 * t143);
     jac_phi_q_v_velocity[51] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     jac_phi_q_v_velocity[52] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -1273,7 +1228,6 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -1304,743 +1258,685 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     const jg_real t8 = lambda[0] * A_i[5] - lambda[1] * A_i[2];
     jac_phi_q_t_lambda_r_j[8] = t8;
     jac_phi_q_t_lambda_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[3];
-    const jg_real t10 = s_i[0] * A_i[6];
-    jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real t15 = cosine_0 * sine_1;
+    const jg_real t13 = cosine_0 * sine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t18 = sine_0 * cosine_2;
+    const jg_real t16 = sine_0 * cosine_2;
     /* H = [cos(alpha_0)*cos(alpha_1), -sin(alpha_0)*cos(alpha_2) + sin(alpha_1)*sin(alpha_2)*cos(alpha_0),
         sin(alpha_0)*sin(alpha_2) + sin(alpha_1)*cos(alpha_0)*cos(alpha_2); sin(alpha_0)*cos(alpha_1),
         sin(alpha_0)*sin(alpha_1)*sin(alpha_2) + cos(alpha_0)*cos(alpha_2), sin(alpha_0)*sin(alpha_1)*cos(alpha_2) -
         sin(alpha_2)*cos(alpha_0); -sin(alpha_1), sin(alpha_2)*cos(alpha_1), cos(alpha_1)*cos(alpha_2)] */
-    const jg_real H_3 = t15 * sine_2 - t18;
-    const jg_real t20 = sine_0 * sine_1;
-    const jg_real t21 = cosine_0 * cosine_2;
-    const jg_real H_4 = t20 * sine_2 + t21;
+    const jg_real H_3 = t13 * sine_2 - t16;
+    const jg_real t18 = sine_0 * sine_1;
+    const jg_real t19 = cosine_0 * cosine_2;
+    const jg_real H_4 = t18 * sine_2 + t19;
     const jg_real H_5 = cosine_1 * sine_2;
-    const jg_real t24 = H_5 * C_i[8];
+    const jg_real t22 = H_5 * C_i[8];
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t24;
-    const jg_real t26 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t27 = t26 * g_star_2 * lambda[3];
+    const jg_real g_star_2 = H_3 * C_i[2] + H_4 * C_i[5] + t22;
+    const jg_real t24 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t29 = A_i[0] * s_i[0];
-    const jg_real t30 = A_i[3] * s_i[1];
-    const jg_real t31 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t29 + t30 + t31;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t34 = d_ij_0 - t29;
-    const jg_real t35 = sine_0 * sine_2;
-    const jg_real H_6 = t35 + sine_1 * t21;
-    const jg_real t37 = cosine_0 * sine_2;
-    const jg_real t38 = t37 - sine_1 * t18;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t27 = sine_0 * sine_2;
+    const jg_real H_6 = t27 + sine_1 * t19;
+    const jg_real t29 = cosine_0 * sine_2;
+    const jg_real t30 = t29 - sine_1 * t16;
     const jg_real H_8 = cosine_1 * cosine_2;
-    const jg_real t40 = H_8 * C_i[8];
+    const jg_real t32 = H_8 * C_i[8];
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t38 + t40;
-    const jg_real t42 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t43 = t42 * h_star_2 * lambda[4];
-    const jg_real t44 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_2 = C_i[2] * H_6 - C_i[5] * t30 + t32;
+    const jg_real t34 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t35 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real H_0 = cosine_0 * cosine_1;
     const jg_real H_1 = sine_0 * cosine_1;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = H_0 * C_i[2] + H_1 * C_i[5] - sine_1 * C_i[8];
-    const jg_real t48 = t44 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t34 + lambda[0] * t10 + t27 + t43 + t48;
-    const jg_real t49 = H_5 * C_i[7];
-    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t49;
-    const jg_real t51 = t26 * g_star_1 * lambda[3];
-    const jg_real t52 = H_8 * C_i[7];
-    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t38 + t52;
-    const jg_real t54 = t42 * h_star_1 * lambda[4];
+    const jg_real t39 = t24 * g_star_2 * lambda[3] + lambda[2] * e_ij_0 + t34 * h_star_2 * lambda[4] + t35 *
+        f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[0] = t39;
+    const jg_real t40 = H_5 * C_i[7];
+    const jg_real g_star_1 = H_3 * C_i[1] + H_4 * C_i[4] + t40;
+    const jg_real t42 = H_8 * C_i[7];
+    const jg_real h_star_1 = C_i[1] * H_6 - C_i[4] * t30 + t42;
     const jg_real f_star_1 = H_0 * C_i[1] + H_1 * C_i[4] - sine_1 * C_i[7];
-    const jg_real t56 = t44 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t34 + t51 + t54 + t56);
-    const jg_real t57 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t57;
-    const jg_real t58 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t58;
-    const jg_real t59 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t59;
-    const jg_real t60 = H_5 * C_i[6];
-    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t60;
-    const jg_real t62 = A_j[6] * g_star_0;
-    const jg_real t63 = A_j[3] * g_star_0;
-    const jg_real t64 = H_8 * C_i[6];
-    const jg_real h_star_0 = H_6 * C_i[0] - t38 * C_i[3] + t64;
-    const jg_real t66 = A_j[6] * h_star_0;
-    const jg_real t67 = A_j[3] * h_star_0;
+    const jg_real t45 = t24 * g_star_1 * lambda[3] + lambda[1] * e_ij_0 + t34 * h_star_1 * lambda[4] + t35 *
+        f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[66] = t45;
+    jac_phi_q_t_lambda_A_i[1] = -t45;
+    const jg_real t46 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[2] = t46;
+    const jg_real t47 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[3] = t47;
+    const jg_real t48 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[4] = t48;
+    const jg_real t49 = H_5 * C_i[6];
+    const jg_real g_star_0 = H_3 * C_i[0] + H_4 * C_i[3] + t49;
+    const jg_real t51 = A_j[6] * g_star_0;
+    const jg_real t52 = A_j[3] * g_star_0;
+    const jg_real t53 = H_8 * C_i[6];
+    const jg_real h_star_0 = H_6 * C_i[0] - t30 * C_i[3] + t53;
+    const jg_real t55 = A_j[6] * h_star_0;
+    const jg_real t56 = A_j[3] * h_star_0;
     const jg_real f_star_0 = H_0 * C_i[0] + H_1 * C_i[3] - sine_1 * C_i[6];
-    const jg_real t69 = A_j[6] * f_star_0;
-    const jg_real t70 = A_j[3] * f_star_0;
-    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[7] * t62 - C_j[8] * t63) + lambda[4] * (C_j[1] * t66 - C_j[2] *
-        t67) + lambda[5] * (C_j[4] * t69 - C_j[5] * t70) + (s_j[1] * t59 - s_j[2] * t58);
-    const jg_real t71 = A_j[0] * g_star_0;
-    const jg_real t72 = A_j[0] * h_star_0;
-    const jg_real t73 = A_j[0] * f_star_0;
-    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[8] * t71 - C_j[6] * t62) + lambda[4] * (C_j[2] * t72 - C_j[0] *
-        t66) + lambda[5] * (C_j[5] * t73 - C_j[3] * t69) + (s_j[2] * t57 - s_j[0] * t59);
-    jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[6] * t63 - C_j[7] * t71) + lambda[4] * (C_j[0] * t67 - C_j[1] *
-        t72) + lambda[5] * (C_j[3] * t70 - C_j[4] * t73) + (s_j[0] * t58 - s_j[1] * t57);
-    const jg_real t74 = H_0 * H_5;
-    const jg_real t75 = t74 + sine_1 * H_3;
-    const jg_real t76 = H_1 * H_5;
-    const jg_real t77 = t76 + sine_1 * H_4;
-    const jg_real t78 = C_i[0] * t75 + C_i[3] * t77;
-    const jg_real t79 = H_0 * H_8;
-    const jg_real t80 = t79 + sine_1 * H_6;
-    const jg_real t81 = H_1 * H_8;
-    const jg_real t82 = sine_1 * t38 - t81;
-    const jg_real t83 = C_i[0] * t80 - C_i[3] * t82;
-    const jg_real t84 = H_3 * H_8 - H_5 * H_6;
-    const jg_real t85 = H_4 * H_8 + H_5 * t38;
-    const jg_real t86 = C_i[0] * t84 + C_i[3] * t85;
-    jac_phi_q_t_lambda_A_i[9] = t42 * t78 * lambda[4] - t26 * t83 * lambda[3] + t44 * t86 * lambda[5];
-    const jg_real t87 = sine_2 * H_3 + cosine_2 * H_6;
-    const jg_real t88 = cosine_2 * t38 - sine_2 * H_4;
-    const jg_real t89 = sine_2 * H_5 + cosine_2 * H_8;
-    const jg_real t90 = C_i[0] * t87 - C_i[3] * t88 + C_i[6] * t89;
-    jac_phi_q_t_lambda_A_i[10] = t26 * f_star_0 * lambda[3] * sine_2 - t44 * t90 * lambda[5] + t42 * f_star_0 *
+    const jg_real t58 = A_j[6] * f_star_0;
+    const jg_real t59 = A_j[3] * f_star_0;
+    jac_phi_q_t_lambda_A_i[5] = lambda[3] * (C_j[7] * t51 - C_j[8] * t52) + lambda[4] * (C_j[1] * t55 - C_j[2] *
+        t56) + lambda[5] * (C_j[4] * t58 - C_j[5] * t59) + (s_j[1] * t48 - s_j[2] * t47);
+    const jg_real t60 = A_j[0] * g_star_0;
+    const jg_real t61 = A_j[0] * h_star_0;
+    const jg_real t62 = A_j[0] * f_star_0;
+    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[8] * t60 - C_j[6] * t51) + lambda[4] * (C_j[2] * t61 - C_j[0] *
+        t55) + lambda[5] * (C_j[5] * t62 - C_j[3] * t58) + (s_j[2] * t46 - s_j[0] * t48);
+    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[6] * t52 - C_j[7] * t60) + lambda[4] * (C_j[0] * t56 - C_j[1] *
+        t61) + lambda[5] * (C_j[3] * t59 - C_j[4] * t62) + (s_j[0] * t47 - s_j[1] * t46);
+    const jg_real t63 = H_0 * H_5;
+    const jg_real t64 = t63 + sine_1 * H_3;
+    const jg_real t65 = H_1 * H_5;
+    const jg_real t66 = t65 + sine_1 * H_4;
+    const jg_real t67 = C_i[0] * t64 + C_i[3] * t66;
+    const jg_real t68 = H_0 * H_8;
+    const jg_real t69 = t68 + sine_1 * H_6;
+    const jg_real t70 = H_1 * H_8;
+    const jg_real t71 = sine_1 * t30 - t70;
+    const jg_real t72 = C_i[0] * t69 - C_i[3] * t71;
+    const jg_real t73 = H_3 * H_8 - H_5 * H_6;
+    const jg_real t74 = H_4 * H_8 + H_5 * t30;
+    const jg_real t75 = C_i[0] * t73 + C_i[3] * t74;
+    jac_phi_q_t_lambda_A_i[8] = t34 * t67 * lambda[4] - t24 * t72 * lambda[3] + t35 * t75 * lambda[5];
+    const jg_real t76 = sine_2 * H_3 + cosine_2 * H_6;
+    const jg_real t77 = cosine_2 * t30 - sine_2 * H_4;
+    const jg_real t78 = sine_2 * H_5 + cosine_2 * H_8;
+    const jg_real t79 = C_i[0] * t76 - C_i[3] * t77 + C_i[6] * t78;
+    jac_phi_q_t_lambda_A_i[9] = t24 * f_star_0 * lambda[3] * sine_2 - t35 * t79 * lambda[5] + t34 * f_star_0 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[11] = t26 * h_star_0 * lambda[3] - t42 * g_star_0 * lambda[4];
-    const jg_real t91 = s_i[0] * A_i[4];
-    const jg_real t92 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[12] = lambda[2] * t91 - lambda[1] * t92;
-    const jg_real t93 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t94 = t93 * g_star_2 * lambda[3];
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t96 = s_i[0] * A_i[1];
-    const jg_real t97 = s_i[1] * A_i[4];
-    const jg_real t98 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t96 + t97 + t98;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t101 = d_ij_1 - t96;
-    const jg_real t102 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t103 = t102 * h_star_2 * lambda[4];
-    const jg_real t104 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t105 = t104 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[13] = lambda[2] * t101 + lambda[0] * t92 + t94 + t103 + t105;
-    const jg_real t106 = t93 * g_star_1 * lambda[3];
-    const jg_real t107 = t102 * h_star_1 * lambda[4];
-    const jg_real t108 = t104 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[14] = -(lambda[0] * t91 + lambda[1] * t101 + t106 + t107 + t108);
-    const jg_real t109 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[15] = t109;
-    const jg_real t110 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[16] = t110;
-    const jg_real t111 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[17] = t111;
-    const jg_real t112 = A_j[7] * g_star_0;
-    const jg_real t113 = A_j[4] * g_star_0;
-    const jg_real t114 = A_j[7] * h_star_0;
-    const jg_real t115 = A_j[4] * h_star_0;
-    const jg_real t116 = A_j[7] * f_star_0;
-    const jg_real t117 = A_j[4] * f_star_0;
-    jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[7] * t112 - C_j[8] * t113) + lambda[4] * (C_j[1] * t114 - C_j[2] *
-        t115) + lambda[5] * (C_j[4] * t116 - C_j[5] * t117) + (s_j[1] * t111 - s_j[2] * t110);
-    const jg_real t118 = A_j[1] * g_star_0;
-    const jg_real t119 = A_j[1] * h_star_0;
-    const jg_real t120 = A_j[1] * f_star_0;
-    jac_phi_q_t_lambda_A_i[19] = lambda[3] * (C_j[8] * t118 - C_j[6] * t112) + lambda[4] * (C_j[2] * t119 - C_j[0] *
-        t114) + lambda[5] * (C_j[5] * t120 - C_j[3] * t116) + (s_j[2] * t109 - s_j[0] * t111);
-    jac_phi_q_t_lambda_A_i[20] = lambda[3] * (C_j[6] * t113 - C_j[7] * t118) + lambda[4] * (C_j[0] * t115 - C_j[1] *
-        t119) + lambda[5] * (C_j[3] * t117 - C_j[4] * t120) + (s_j[0] * t110 - s_j[1] * t109);
-    jac_phi_q_t_lambda_A_i[21] = t102 * t78 * lambda[4] - t93 * t83 * lambda[3] + t104 * t86 * lambda[5];
-    jac_phi_q_t_lambda_A_i[22] = t93 * f_star_0 * lambda[3] * sine_2 - t104 * t90 * lambda[5] + t102 * f_star_0 *
+    jac_phi_q_t_lambda_A_i[10] = t24 * h_star_0 * lambda[3] - t34 * g_star_0 * lambda[4];
+    const jg_real t80 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t83 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t84 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t85 = t80 * g_star_2 * lambda[3] + lambda[2] * e_ij_1 + t83 * h_star_2 * lambda[4] + t84 *
+        f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[11] = t85;
+    const jg_real t86 = t80 * g_star_1 * lambda[3] + lambda[1] * e_ij_1 + t83 * h_star_1 * lambda[4] + t84 *
+        f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[77] = t86;
+    jac_phi_q_t_lambda_A_i[12] = -t86;
+    const jg_real t87 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[13] = t87;
+    const jg_real t88 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[14] = t88;
+    const jg_real t89 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[15] = t89;
+    const jg_real t90 = A_j[7] * g_star_0;
+    const jg_real t91 = A_j[4] * g_star_0;
+    const jg_real t92 = A_j[7] * h_star_0;
+    const jg_real t93 = A_j[4] * h_star_0;
+    const jg_real t94 = A_j[7] * f_star_0;
+    const jg_real t95 = A_j[4] * f_star_0;
+    jac_phi_q_t_lambda_A_i[16] = lambda[3] * (C_j[7] * t90 - C_j[8] * t91) + lambda[4] * (C_j[1] * t92 - C_j[2] *
+        t93) + lambda[5] * (C_j[4] * t94 - C_j[5] * t95) + (s_j[1] * t89 - s_j[2] * t88);
+    const jg_real t96 = A_j[1] * g_star_0;
+    const jg_real t97 = A_j[1] * h_star_0;
+    const jg_real t98 = A_j[1] * f_star_0;
+    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[8] * t96 - C_j[6] * t90) + lambda[4] * (C_j[2] * t97 - C_j[0] *
+        t92) + lambda[5] * (C_j[5] * t98 - C_j[3] * t94) + (s_j[2] * t87 - s_j[0] * t89);
+    jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[6] * t91 - C_j[7] * t96) + lambda[4] * (C_j[0] * t93 - C_j[1] *
+        t97) + lambda[5] * (C_j[3] * t95 - C_j[4] * t98) + (s_j[0] * t88 - s_j[1] * t87);
+    jac_phi_q_t_lambda_A_i[19] = t83 * t67 * lambda[4] - t80 * t72 * lambda[3] + t84 * t75 * lambda[5];
+    jac_phi_q_t_lambda_A_i[20] = t80 * f_star_0 * lambda[3] * sine_2 - t84 * t79 * lambda[5] + t83 * f_star_0 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[23] = t93 * h_star_0 * lambda[3] - t102 * g_star_0 * lambda[4];
-    const jg_real t121 = s_i[0] * A_i[5];
-    const jg_real t122 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[24] = lambda[2] * t121 - lambda[1] * t122;
-    const jg_real t123 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t124 = t123 * g_star_2 * lambda[3];
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t126 = s_i[0] * A_i[2];
-    const jg_real t127 = s_i[1] * A_i[5];
-    const jg_real t128 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t126 + t127 + t128;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t131 = d_ij_2 - t126;
-    const jg_real t132 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t133 = t132 * h_star_2 * lambda[4];
-    const jg_real t134 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t135 = t134 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[25] = lambda[2] * t131 + lambda[0] * t122 + t124 + t133 + t135;
-    const jg_real t136 = t123 * g_star_1 * lambda[3];
-    const jg_real t137 = t132 * h_star_1 * lambda[4];
-    const jg_real t138 = t134 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[26] = -(lambda[0] * t121 + lambda[1] * t131 + t136 + t137 + t138);
-    const jg_real t139 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[27] = t139;
-    const jg_real t140 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[28] = t140;
-    const jg_real t141 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[29] = t141;
-    const jg_real t142 = A_j[8] * g_star_0;
-    const jg_real t143 = A_j[5] * g_star_0;
-    const jg_real t144 = A_j[8] * h_star_0;
-    const jg_real t145 = A_j[5] * h_star_0;
-    const jg_real t146 = A_j[8] * f_star_0;
-    const jg_real t147 = A_j[5] * f_star_0;
-    jac_phi_q_t_lambda_A_i[30] = lambda[3] * (C_j[7] * t142 - C_j[8] * t143) + lambda[4] * (C_j[1] * t144 - C_j[2] *
-        t145) + lambda[5] * (C_j[4] * t146 - C_j[5] * t147) + (s_j[1] * t141 - s_j[2] * t140);
-    const jg_real t148 = A_j[2] * g_star_0;
-    const jg_real t149 = A_j[2] * h_star_0;
-    const jg_real t150 = A_j[2] * f_star_0;
-    jac_phi_q_t_lambda_A_i[31] = lambda[3] * (C_j[8] * t148 - C_j[6] * t142) + lambda[4] * (C_j[2] * t149 - C_j[0] *
-        t144) + lambda[5] * (C_j[5] * t150 - C_j[3] * t146) + (s_j[2] * t139 - s_j[0] * t141);
-    jac_phi_q_t_lambda_A_i[32] = lambda[3] * (C_j[6] * t143 - C_j[7] * t148) + lambda[4] * (C_j[0] * t145 - C_j[1] *
-        t149) + lambda[5] * (C_j[3] * t147 - C_j[4] * t150) + (s_j[0] * t140 - s_j[1] * t139);
-    jac_phi_q_t_lambda_A_i[33] = t132 * t78 * lambda[4] - t123 * t83 * lambda[3] + t134 * t86 * lambda[5];
-    jac_phi_q_t_lambda_A_i[34] = t123 * f_star_0 * lambda[3] * sine_2 - t134 * t90 * lambda[5] + t132 * f_star_0 *
+    jac_phi_q_t_lambda_A_i[21] = t80 * h_star_0 * lambda[3] - t83 * g_star_0 * lambda[4];
+    const jg_real t99 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t102 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t103 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t104 = t99 * g_star_2 * lambda[3] + lambda[2] * e_ij_2 + t102 * h_star_2 * lambda[4] + t103 *
+        f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[22] = t104;
+    const jg_real t105 = t99 * g_star_1 * lambda[3] + lambda[1] * e_ij_2 + t102 * h_star_1 * lambda[4] + t103 *
+        f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[88] = t105;
+    jac_phi_q_t_lambda_A_i[23] = -t105;
+    const jg_real t106 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[24] = t106;
+    const jg_real t107 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[25] = t107;
+    const jg_real t108 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[26] = t108;
+    const jg_real t109 = A_j[8] * g_star_0;
+    const jg_real t110 = A_j[5] * g_star_0;
+    const jg_real t111 = A_j[8] * h_star_0;
+    const jg_real t112 = A_j[5] * h_star_0;
+    const jg_real t113 = A_j[8] * f_star_0;
+    const jg_real t114 = A_j[5] * f_star_0;
+    jac_phi_q_t_lambda_A_i[27] = lambda[3] * (C_j[7] * t109 - C_j[8] * t110) + lambda[4] * (C_j[1] * t111 - C_j[2] *
+        t112) + lambda[5] * (C_j[4] * t113 - C_j[5] * t114) + (s_j[1] * t108 - s_j[2] * t107);
+    const jg_real t115 = A_j[2] * g_star_0;
+    const jg_real t116 = A_j[2] * h_star_0;
+    const jg_real t117 = A_j[2] * f_star_0;
+    jac_phi_q_t_lambda_A_i[28] = lambda[3] * (C_j[8] * t115 - C_j[6] * t109) + lambda[4] * (C_j[2] * t116 - C_j[0] *
+        t111) + lambda[5] * (C_j[5] * t117 - C_j[3] * t113) + (s_j[2] * t106 - s_j[0] * t108);
+    jac_phi_q_t_lambda_A_i[29] = lambda[3] * (C_j[6] * t110 - C_j[7] * t115) + lambda[4] * (C_j[0] * t112 - C_j[1] *
+        t116) + lambda[5] * (C_j[3] * t114 - C_j[4] * t117) + (s_j[0] * t107 - s_j[1] * t106);
+    jac_phi_q_t_lambda_A_i[30] = t102 * t67 * lambda[4] - t99 * t72 * lambda[3] + t103 * t75 * lambda[5];
+    jac_phi_q_t_lambda_A_i[31] = t99 * f_star_0 * lambda[3] * sine_2 - t103 * t79 * lambda[5] + t102 * f_star_0 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[35] = t123 * h_star_0 * lambda[3] - t132 * g_star_0 * lambda[4];
-    const jg_real t151 = d_ij_0 - t30;
-    const jg_real t152 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[36] = -(lambda[1] * t152 + lambda[2] * t151 + t27 + t43 + t48);
-    const jg_real t153 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[37] = lambda[0] * t152 - lambda[2] * t153;
-    const jg_real t154 = t26 * g_star_0 * lambda[3];
-    const jg_real t155 = t42 * h_star_0 * lambda[4];
-    const jg_real t156 = t44 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[38] = lambda[0] * t151 + lambda[1] * t153 + t154 + t155 + t156;
-    const jg_real t157 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[39] = t157;
-    const jg_real t158 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[40] = t158;
-    const jg_real t159 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[41] = t159;
-    const jg_real t160 = A_j[6] * g_star_1;
-    const jg_real t161 = A_j[3] * g_star_1;
-    const jg_real t162 = A_j[6] * h_star_1;
-    const jg_real t163 = A_j[3] * h_star_1;
-    const jg_real t164 = A_j[6] * f_star_1;
-    const jg_real t165 = A_j[3] * f_star_1;
-    jac_phi_q_t_lambda_A_i[42] = lambda[3] * (C_j[7] * t160 - C_j[8] * t161) + lambda[4] * (C_j[1] * t162 - C_j[2] *
-        t163) + lambda[5] * (C_j[4] * t164 - C_j[5] * t165) + (s_j[1] * t159 - s_j[2] * t158);
-    const jg_real t166 = A_j[0] * g_star_1;
-    const jg_real t167 = A_j[0] * h_star_1;
-    const jg_real t168 = A_j[0] * f_star_1;
-    jac_phi_q_t_lambda_A_i[43] = lambda[3] * (C_j[8] * t166 - C_j[6] * t160) + lambda[4] * (C_j[2] * t167 - C_j[0] *
-        t162) + lambda[5] * (C_j[5] * t168 - C_j[3] * t164) + (s_j[2] * t157 - s_j[0] * t159);
-    jac_phi_q_t_lambda_A_i[44] = lambda[3] * (C_j[6] * t161 - C_j[7] * t166) + lambda[4] * (C_j[0] * t163 - C_j[1] *
-        t167) + lambda[5] * (C_j[3] * t165 - C_j[4] * t168) + (s_j[0] * t158 - s_j[1] * t157);
-    const jg_real t169 = C_i[1] * t75 + C_i[4] * t77;
-    const jg_real t170 = C_i[1] * t80 - C_i[4] * t82;
-    const jg_real t171 = C_i[1] * t84 + C_i[4] * t85;
-    jac_phi_q_t_lambda_A_i[45] = t42 * t169 * lambda[4] - t26 * t170 * lambda[3] + t44 * t171 * lambda[5];
-    const jg_real t172 = C_i[1] * t87 - C_i[4] * t88 + C_i[7] * t89;
-    jac_phi_q_t_lambda_A_i[46] = t26 * f_star_1 * lambda[3] * sine_2 - t44 * t172 * lambda[5] + t42 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[32] = t99 * h_star_0 * lambda[3] - t102 * g_star_0 * lambda[4];
+    jac_phi_q_t_lambda_A_i[33] = -t39;
+    const jg_real t118 = t24 * g_star_0 * lambda[3] + lambda[0] * e_ij_0 + t34 * h_star_0 * lambda[4] + t35 *
+        f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[34] = t118;
+    const jg_real t119 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[35] = t119;
+    const jg_real t120 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[36] = t120;
+    const jg_real t121 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[37] = t121;
+    const jg_real t122 = A_j[6] * g_star_1;
+    const jg_real t123 = A_j[3] * g_star_1;
+    const jg_real t124 = A_j[6] * h_star_1;
+    const jg_real t125 = A_j[3] * h_star_1;
+    const jg_real t126 = A_j[6] * f_star_1;
+    const jg_real t127 = A_j[3] * f_star_1;
+    jac_phi_q_t_lambda_A_i[38] = lambda[3] * (C_j[7] * t122 - C_j[8] * t123) + lambda[4] * (C_j[1] * t124 - C_j[2] *
+        t125) + lambda[5] * (C_j[4] * t126 - C_j[5] * t127) + (s_j[1] * t121 - s_j[2] * t120);
+    const jg_real t128 = A_j[0] * g_star_1;
+    const jg_real t129 = A_j[0] * h_star_1;
+    const jg_real t130 = A_j[0] * f_star_1;
+    jac_phi_q_t_lambda_A_i[39] = lambda[3] * (C_j[8] * t128 - C_j[6] * t122) + lambda[4] * (C_j[2] * t129 - C_j[0] *
+        t124) + lambda[5] * (C_j[5] * t130 - C_j[3] * t126) + (s_j[2] * t119 - s_j[0] * t121);
+    jac_phi_q_t_lambda_A_i[40] = lambda[3] * (C_j[6] * t123 - C_j[7] * t128) + lambda[4] * (C_j[0] * t125 - C_j[1] *
+        t129) + lambda[5] * (C_j[3] * t127 - C_j[4] * t130) + (s_j[0] * t120 - s_j[1] * t119);
+    const jg_real t131 = C_i[1] * t64 + C_i[4] * t66;
+    const jg_real t132 = C_i[1] * t69 - C_i[4] * t71;
+    const jg_real t133 = C_i[1] * t73 + C_i[4] * t74;
+    jac_phi_q_t_lambda_A_i[41] = t34 * t131 * lambda[4] - t24 * t132 * lambda[3] + t35 * t133 * lambda[5];
+    const jg_real t134 = C_i[1] * t76 - C_i[4] * t77 + C_i[7] * t78;
+    jac_phi_q_t_lambda_A_i[42] = t24 * f_star_1 * lambda[3] * sine_2 - t35 * t134 * lambda[5] + t34 * f_star_1 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[47] = t26 * h_star_1 * lambda[3] - g_star_1 * t42 * lambda[4];
-    const jg_real t173 = d_ij_1 - t97;
-    const jg_real t174 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[48] = -(lambda[1] * t174 + lambda[2] * t173 + t94 + t103 + t105);
-    const jg_real t175 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[49] = lambda[0] * t174 - lambda[2] * t175;
-    const jg_real t176 = t93 * g_star_0 * lambda[3];
-    const jg_real t177 = t102 * h_star_0 * lambda[4];
-    const jg_real t178 = t104 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[50] = lambda[0] * t173 + lambda[1] * t175 + t176 + t177 + t178;
-    const jg_real t179 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[51] = t179;
-    const jg_real t180 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[52] = t180;
-    const jg_real t181 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[53] = t181;
-    const jg_real t182 = A_j[7] * g_star_1;
-    const jg_real t183 = A_j[4] * g_star_1;
-    const jg_real t184 = A_j[7] * h_star_1;
-    const jg_real t185 = A_j[4] * h_star_1;
-    const jg_real t186 = A_j[7] * f_star_1;
-    const jg_real t187 = A_j[4] * f_star_1;
-    jac_phi_q_t_lambda_A_i[54] = lambda[3] * (C_j[7] * t182 - C_j[8] * t183) + lambda[4] * (C_j[1] * t184 - C_j[2] *
-        t185) + lambda[5] * (C_j[4] * t186 - C_j[5] * t187) + (s_j[1] * t181 - s_j[2] * t180);
-    const jg_real t188 = A_j[1] * g_star_1;
-    const jg_real t189 = A_j[1] * h_star_1;
-    const jg_real t190 = A_j[1] * f_star_1;
-    jac_phi_q_t_lambda_A_i[55] = lambda[3] * (C_j[8] * t188 - C_j[6] * t182) + lambda[4] * (C_j[2] * t189 - C_j[0] *
-        t184) + lambda[5] * (C_j[5] * t190 - C_j[3] * t186) + (s_j[2] * t179 - s_j[0] * t181);
-    jac_phi_q_t_lambda_A_i[56] = lambda[3] * (C_j[6] * t183 - C_j[7] * t188) + lambda[4] * (C_j[0] * t185 - C_j[1] *
-        t189) + lambda[5] * (C_j[3] * t187 - C_j[4] * t190) + (s_j[0] * t180 - s_j[1] * t179);
-    jac_phi_q_t_lambda_A_i[57] = t102 * t169 * lambda[4] - t93 * t170 * lambda[3] + t104 * t171 * lambda[5];
-    jac_phi_q_t_lambda_A_i[58] = t93 * f_star_1 * lambda[3] * sine_2 - t104 * t172 * lambda[5] + t102 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[43] = t24 * h_star_1 * lambda[3] - g_star_1 * t34 * lambda[4];
+    jac_phi_q_t_lambda_A_i[44] = -t85;
+    const jg_real t135 = t80 * g_star_0 * lambda[3] + lambda[0] * e_ij_1 + t83 * h_star_0 * lambda[4] + t84 *
+        f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[45] = t135;
+    const jg_real t136 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[46] = t136;
+    const jg_real t137 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[47] = t137;
+    const jg_real t138 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[48] = t138;
+    const jg_real t139 = A_j[7] * g_star_1;
+    const jg_real t140 = A_j[4] * g_star_1;
+    const jg_real t141 = A_j[7] * h_star_1;
+    const jg_real t142 = A_j[4] * h_star_1;
+    const jg_real t143 = A_j[7] * f_star_1;
+    const jg_real t144 = A_j[4] * f_star_1;
+    jac_phi_q_t_lambda_A_i[49] = lambda[3] * (C_j[7] * t139 - C_j[8] * t140) + lambda[4] * (C_j[1] * t141 - C_j[2] *
+        t142) + lambda[5] * (C_j[4] * t143 - C_j[5] * t144) + (s_j[1] * t138 - s_j[2] * t137);
+    const jg_real t145 = A_j[1] * g_star_1;
+    const jg_real t146 = A_j[1] * h_star_1;
+    const jg_real t147 = A_j[1] * f_star_1;
+    jac_phi_q_t_lambda_A_i[50] = lambda[3] * (C_j[8] * t145 - C_j[6] * t139) + lambda[4] * (C_j[2] * t146 - C_j[0] *
+        t141) + lambda[5] * (C_j[5] * t147 - C_j[3] * t143) + (s_j[2] * t136 - s_j[0] * t138);
+    jac_phi_q_t_lambda_A_i[51] = lambda[3] * (C_j[6] * t140 - C_j[7] * t145) + lambda[4] * (C_j[0] * t142 - C_j[1] *
+        t146) + lambda[5] * (C_j[3] * t144 - C_j[4] * t147) + (s_j[0] * t137 - s_j[1] * t136);
+    jac_phi_q_t_lambda_A_i[52] = t83 * t131 * lambda[4] - t80 * t132 * lambda[3] + t84 * t133 * lambda[5];
+    jac_phi_q_t_lambda_A_i[53] = t80 * f_star_1 * lambda[3] * sine_2 - t84 * t134 * lambda[5] + t83 * f_star_1 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[59] = t93 * h_star_1 * lambda[3] - g_star_1 * t102 * lambda[4];
-    const jg_real t191 = d_ij_2 - t127;
-    const jg_real t192 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[60] = -(lambda[1] * t192 + lambda[2] * t191 + t124 + t133 + t135);
-    const jg_real t193 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[61] = lambda[0] * t192 - lambda[2] * t193;
-    const jg_real t194 = t123 * g_star_0 * lambda[3];
-    const jg_real t195 = t132 * h_star_0 * lambda[4];
-    const jg_real t196 = t134 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[62] = lambda[0] * t191 + lambda[1] * t193 + t194 + t195 + t196;
-    const jg_real t197 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[63] = t197;
-    const jg_real t198 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[64] = t198;
-    const jg_real t199 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[65] = t199;
-    const jg_real t200 = A_j[8] * g_star_1;
-    const jg_real t201 = A_j[5] * g_star_1;
-    const jg_real t202 = A_j[8] * h_star_1;
-    const jg_real t203 = A_j[5] * h_star_1;
-    const jg_real t204 = A_j[8] * f_star_1;
-    const jg_real t205 = A_j[5] * f_star_1;
-    jac_phi_q_t_lambda_A_i[66] = lambda[3] * (C_j[7] * t200 - C_j[8] * t201) + lambda[4] * (C_j[1] * t202 - C_j[2] *
-        t203) + lambda[5] * (C_j[4] * t204 - C_j[5] * t205) + (s_j[1] * t199 - s_j[2] * t198);
-    const jg_real t206 = A_j[2] * g_star_1;
-    const jg_real t207 = A_j[2] * h_star_1;
-    const jg_real t208 = A_j[2] * f_star_1;
-    jac_phi_q_t_lambda_A_i[67] = lambda[3] * (C_j[8] * t206 - C_j[6] * t200) + lambda[4] * (C_j[2] * t207 - C_j[0] *
-        t202) + lambda[5] * (C_j[5] * t208 - C_j[3] * t204) + (s_j[2] * t197 - s_j[0] * t199);
-    jac_phi_q_t_lambda_A_i[68] = lambda[3] * (C_j[6] * t201 - C_j[7] * t206) + lambda[4] * (C_j[0] * t203 - C_j[1] *
-        t207) + lambda[5] * (C_j[3] * t205 - C_j[4] * t208) + (s_j[0] * t198 - s_j[1] * t197);
-    jac_phi_q_t_lambda_A_i[69] = t132 * t169 * lambda[4] - t123 * t170 * lambda[3] + t134 * t171 * lambda[5];
-    jac_phi_q_t_lambda_A_i[70] = t123 * f_star_1 * lambda[3] * sine_2 - t134 * t172 * lambda[5] + t132 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[54] = t80 * h_star_1 * lambda[3] - g_star_1 * t83 * lambda[4];
+    jac_phi_q_t_lambda_A_i[55] = -t104;
+    const jg_real t148 = t99 * g_star_0 * lambda[3] + lambda[0] * e_ij_2 + t102 * h_star_0 * lambda[4] + t103 *
+        f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[56] = t148;
+    const jg_real t149 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[57] = t149;
+    const jg_real t150 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[58] = t150;
+    const jg_real t151 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[59] = t151;
+    const jg_real t152 = A_j[8] * g_star_1;
+    const jg_real t153 = A_j[5] * g_star_1;
+    const jg_real t154 = A_j[8] * h_star_1;
+    const jg_real t155 = A_j[5] * h_star_1;
+    const jg_real t156 = A_j[8] * f_star_1;
+    const jg_real t157 = A_j[5] * f_star_1;
+    jac_phi_q_t_lambda_A_i[60] = lambda[3] * (C_j[7] * t152 - C_j[8] * t153) + lambda[4] * (C_j[1] * t154 - C_j[2] *
+        t155) + lambda[5] * (C_j[4] * t156 - C_j[5] * t157) + (s_j[1] * t151 - s_j[2] * t150);
+    const jg_real t158 = A_j[2] * g_star_1;
+    const jg_real t159 = A_j[2] * h_star_1;
+    const jg_real t160 = A_j[2] * f_star_1;
+    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[8] * t158 - C_j[6] * t152) + lambda[4] * (C_j[2] * t159 - C_j[0] *
+        t154) + lambda[5] * (C_j[5] * t160 - C_j[3] * t156) + (s_j[2] * t149 - s_j[0] * t151);
+    jac_phi_q_t_lambda_A_i[62] = lambda[3] * (C_j[6] * t153 - C_j[7] * t158) + lambda[4] * (C_j[0] * t155 - C_j[1] *
+        t159) + lambda[5] * (C_j[3] * t157 - C_j[4] * t160) + (s_j[0] * t150 - s_j[1] * t149);
+    jac_phi_q_t_lambda_A_i[63] = t102 * t131 * lambda[4] - t99 * t132 * lambda[3] + t103 * t133 * lambda[5];
+    jac_phi_q_t_lambda_A_i[64] = t99 * f_star_1 * lambda[3] * sine_2 - t103 * t134 * lambda[5] + t102 * f_star_1 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[71] = t123 * h_star_1 * lambda[3] - g_star_1 * t132 * lambda[4];
-    const jg_real t209 = d_ij_0 - t31;
-    const jg_real t210 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[72] = lambda[1] * t209 + lambda[2] * t210 + t51 + t54 + t56;
-    const jg_real t211 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[73] = -(lambda[2] * t211 + lambda[0] * t209 + t154 + t155 + t156);
-    jac_phi_q_t_lambda_A_i[74] = lambda[1] * t211 - lambda[0] * t210;
-    const jg_real t212 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[75] = t212;
-    const jg_real t213 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[76] = t213;
-    const jg_real t214 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[77] = t214;
-    const jg_real t215 = A_j[6] * g_star_2;
-    const jg_real t216 = A_j[3] * g_star_2;
-    const jg_real t217 = A_j[6] * h_star_2;
-    const jg_real t218 = A_j[3] * h_star_2;
-    const jg_real t219 = A_j[6] * f_star_2;
-    const jg_real t220 = A_j[3] * f_star_2;
-    jac_phi_q_t_lambda_A_i[78] = lambda[3] * (C_j[7] * t215 - C_j[8] * t216) + lambda[4] * (C_j[1] * t217 - C_j[2] *
-        t218) + lambda[5] * (C_j[4] * t219 - C_j[5] * t220) + (s_j[1] * t214 - s_j[2] * t213);
-    const jg_real t221 = A_j[0] * g_star_2;
-    const jg_real t222 = A_j[0] * h_star_2;
-    const jg_real t223 = A_j[0] * f_star_2;
-    jac_phi_q_t_lambda_A_i[79] = lambda[3] * (C_j[8] * t221 - C_j[6] * t215) + lambda[4] * (C_j[2] * t222 - C_j[0] *
-        t217) + lambda[5] * (C_j[5] * t223 - C_j[3] * t219) + (s_j[2] * t212 - s_j[0] * t214);
-    jac_phi_q_t_lambda_A_i[80] = lambda[3] * (C_j[6] * t216 - C_j[7] * t221) + lambda[4] * (C_j[0] * t218 - C_j[1] *
-        t222) + lambda[5] * (C_j[3] * t220 - C_j[4] * t223) + (s_j[0] * t213 - s_j[1] * t212);
-    const jg_real t224 = C_i[2] * t75 + C_i[5] * t77;
-    const jg_real t225 = C_i[2] * t80 - C_i[5] * t82;
-    const jg_real t226 = C_i[2] * t84 + C_i[5] * t85;
-    jac_phi_q_t_lambda_A_i[81] = t42 * t224 * lambda[4] - t26 * t225 * lambda[3] + t44 * t226 * lambda[5];
-    const jg_real t227 = C_i[2] * t87 - C_i[5] * t88 + C_i[8] * t89;
-    jac_phi_q_t_lambda_A_i[82] = t26 * f_star_2 * lambda[3] * sine_2 - t44 * t227 * lambda[5] + t42 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[65] = t99 * h_star_1 * lambda[3] - g_star_1 * t102 * lambda[4];
+    jac_phi_q_t_lambda_A_i[67] = -t118;
+    const jg_real t161 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[68] = t161;
+    const jg_real t162 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[69] = t162;
+    const jg_real t163 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[70] = t163;
+    const jg_real t164 = A_j[6] * g_star_2;
+    const jg_real t165 = A_j[3] * g_star_2;
+    const jg_real t166 = A_j[6] * h_star_2;
+    const jg_real t167 = A_j[3] * h_star_2;
+    const jg_real t168 = A_j[6] * f_star_2;
+    const jg_real t169 = A_j[3] * f_star_2;
+    jac_phi_q_t_lambda_A_i[71] = lambda[3] * (C_j[7] * t164 - C_j[8] * t165) + lambda[4] * (C_j[1] * t166 - C_j[2] *
+        t167) + lambda[5] * (C_j[4] * t168 - C_j[5] * t169) + (s_j[1] * t163 - s_j[2] * t162);
+    const jg_real t170 = A_j[0] * g_star_2;
+    const jg_real t171 = A_j[0] * h_star_2;
+    const jg_real t172 = A_j[0] * f_star_2;
+    jac_phi_q_t_lambda_A_i[72] = lambda[3] * (C_j[8] * t170 - C_j[6] * t164) + lambda[4] * (C_j[2] * t171 - C_j[0] *
+        t166) + lambda[5] * (C_j[5] * t172 - C_j[3] * t168) + (s_j[2] * t161 - s_j[0] * t163);
+    jac_phi_q_t_lambda_A_i[73] = lambda[3] * (C_j[6] * t165 - C_j[7] * t170) + lambda[4] * (C_j[0] * t167 - C_j[1] *
+        t171) + lambda[5] * (C_j[3] * t169 - C_j[4] * t172) + (s_j[0] * t162 - s_j[1] * t161);
+    const jg_real t173 = C_i[2] * t64 + C_i[5] * t66;
+    const jg_real t174 = C_i[2] * t69 - C_i[5] * t71;
+    const jg_real t175 = C_i[2] * t73 + C_i[5] * t74;
+    jac_phi_q_t_lambda_A_i[74] = t34 * t173 * lambda[4] - t24 * t174 * lambda[3] + t35 * t175 * lambda[5];
+    const jg_real t176 = C_i[2] * t76 - C_i[5] * t77 + C_i[8] * t78;
+    jac_phi_q_t_lambda_A_i[75] = t24 * f_star_2 * lambda[3] * sine_2 - t35 * t176 * lambda[5] + t34 * f_star_2 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[83] = t26 * h_star_2 * lambda[3] - g_star_2 * t42 * lambda[4];
-    const jg_real t228 = d_ij_1 - t98;
-    const jg_real t229 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[84] = lambda[1] * t228 + lambda[2] * t229 + t106 + t107 + t108;
-    const jg_real t230 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[85] = -(lambda[2] * t230 + lambda[0] * t228 + t176 + t177 + t178);
-    jac_phi_q_t_lambda_A_i[86] = lambda[1] * t230 - lambda[0] * t229;
-    const jg_real t231 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[87] = t231;
-    const jg_real t232 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[88] = t232;
-    const jg_real t233 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[89] = t233;
-    const jg_real t234 = A_j[7] * g_star_2;
-    const jg_real t235 = A_j[4] * g_star_2;
-    const jg_real t236 = A_j[7] * h_star_2;
-    const jg_real t237 = A_j[4] * h_star_2;
-    const jg_real t238 = A_j[7] * f_star_2;
-    const jg_real t239 = A_j[4] * f_star_2;
-    jac_phi_q_t_lambda_A_i[90] = lambda[3] * (C_j[7] * t234 - C_j[8] * t235) + lambda[4] * (C_j[1] * t236 - C_j[2] *
-        t237) + lambda[5] * (C_j[4] * t238 - C_j[5] * t239) + (s_j[1] * t233 - s_j[2] * t232);
-    const jg_real t240 = A_j[1] * g_star_2;
-    const jg_real t241 = A_j[1] * h_star_2;
-    const jg_real t242 = A_j[1] * f_star_2;
-    jac_phi_q_t_lambda_A_i[91] = lambda[3] * (C_j[8] * t240 - C_j[6] * t234) + lambda[4] * (C_j[2] * t241 - C_j[0] *
-        t236) + lambda[5] * (C_j[5] * t242 - C_j[3] * t238) + (s_j[2] * t231 - s_j[0] * t233);
-    jac_phi_q_t_lambda_A_i[92] = lambda[3] * (C_j[6] * t235 - C_j[7] * t240) + lambda[4] * (C_j[0] * t237 - C_j[1] *
-        t241) + lambda[5] * (C_j[3] * t239 - C_j[4] * t242) + (s_j[0] * t232 - s_j[1] * t231);
-    jac_phi_q_t_lambda_A_i[93] = t102 * t224 * lambda[4] - t93 * t225 * lambda[3] + t104 * t226 * lambda[5];
-    jac_phi_q_t_lambda_A_i[94] = t93 * f_star_2 * lambda[3] * sine_2 - t104 * t227 * lambda[5] + t102 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[76] = t24 * h_star_2 * lambda[3] - g_star_2 * t34 * lambda[4];
+    jac_phi_q_t_lambda_A_i[78] = -t135;
+    const jg_real t177 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[79] = t177;
+    const jg_real t178 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[80] = t178;
+    const jg_real t179 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[81] = t179;
+    const jg_real t180 = A_j[7] * g_star_2;
+    const jg_real t181 = A_j[4] * g_star_2;
+    const jg_real t182 = A_j[7] * h_star_2;
+    const jg_real t183 = A_j[4] * h_star_2;
+    const jg_real t184 = A_j[7] * f_star_2;
+    const jg_real t185 = A_j[4] * f_star_2;
+    jac_phi_q_t_lambda_A_i[82] = lambda[3] * (C_j[7] * t180 - C_j[8] * t181) + lambda[4] * (C_j[1] * t182 - C_j[2] *
+        t183) + lambda[5] * (C_j[4] * t184 - C_j[5] * t185) + (s_j[1] * t179 - s_j[2] * t178);
+    const jg_real t186 = A_j[1] * g_star_2;
+    const jg_real t187 = A_j[1] * h_star_2;
+    const jg_real t188 = A_j[1] * f_star_2;
+    jac_phi_q_t_lambda_A_i[83] = lambda[3] * (C_j[8] * t186 - C_j[6] * t180) + lambda[4] * (C_j[2] * t187 - C_j[0] *
+        t182) + lambda[5] * (C_j[5] * t188 - C_j[3] * t184) + (s_j[2] * t177 - s_j[0] * t179);
+    jac_phi_q_t_lambda_A_i[84] = lambda[3] * (C_j[6] * t181 - C_j[7] * t186) + lambda[4] * (C_j[0] * t183 - C_j[1] *
+        t187) + lambda[5] * (C_j[3] * t185 - C_j[4] * t188) + (s_j[0] * t178 - s_j[1] * t177);
+    jac_phi_q_t_lambda_A_i[85] = t83 * t173 * lambda[4] - t80 * t174 * lambda[3] + t84 * t175 * lambda[5];
+    jac_phi_q_t_lambda_A_i[86] = t80 * f_star_2 * lambda[3] * sine_2 - t84 * t176 * lambda[5] + t83 * f_star_2 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[95] = t93 * h_star_2 * lambda[3] - g_star_2 * t102 * lambda[4];
-    const jg_real t243 = d_ij_2 - t128;
-    const jg_real t244 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[96] = lambda[1] * t243 + lambda[2] * t244 + t136 + t137 + t138;
-    const jg_real t245 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[97] = -(lambda[2] * t245 + lambda[0] * t243 + t194 + t195 + t196);
-    jac_phi_q_t_lambda_A_i[98] = lambda[1] * t245 - lambda[0] * t244;
-    const jg_real t246 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[99] = t246;
-    const jg_real t247 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[100] = t247;
-    const jg_real t248 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[101] = t248;
-    const jg_real t249 = A_j[8] * g_star_2;
-    const jg_real t250 = A_j[5] * g_star_2;
-    const jg_real t251 = A_j[8] * h_star_2;
-    const jg_real t252 = A_j[5] * h_star_2;
-    const jg_real t253 = A_j[8] * f_star_2;
-    const jg_real t254 = A_j[5] * f_star_2;
-    jac_phi_q_t_lambda_A_i[102] = lambda[3] * (C_j[7] * t249 - C_j[8] * t250) + lambda[4] * (C_j[1] * t251 - C_j[2]
-        * t252) + lambda[5] * (C_j[4] * t253 - C_j[5] * t254) + (s_j[1] * t248 - s_j[2] * t247);
-    const jg_real t255 = A_j[2] * g_star_2;
-    const jg_real t256 = A_j[2] * h_star_2;
-    const jg_real t257 = A_j[2] * f_star_2;
-    jac_phi_q_t_lambda_A_i[103] = lambda[3] * (C_j[8] * t255 - C_j[6] * t249) + lambda[4] * (C_j[2] * t256 - C_j[0]
-        * t251) + lambda[5] * (C_j[5] * t257 - C_j[3] * t253) + (s_j[2] * t246 - s_j[0] * t248);
-    jac_phi_q_t_lambda_A_i[104] = lambda[3] * (C_j[6] * t250 - C_j[7] * t255) + lambda[4] * (C_j[0] * t252 - C_j[1]
-        * t256) + lambda[5] * (C_j[3] * t254 - C_j[4] * t257) + (s_j[0] * t247 - s_j[1] * t246);
-    jac_phi_q_t_lambda_A_i[105] = t132 * t224 * lambda[4] - t123 * t225 * lambda[3] + t134 * t226 * lambda[5];
-    jac_phi_q_t_lambda_A_i[106] = t123 * f_star_2 * lambda[3] * sine_2 - t134 * t227 * lambda[5] + t132 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[87] = t80 * h_star_2 * lambda[3] - g_star_2 * t83 * lambda[4];
+    jac_phi_q_t_lambda_A_i[89] = -t148;
+    const jg_real t189 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[90] = t189;
+    const jg_real t190 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[91] = t190;
+    const jg_real t191 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[92] = t191;
+    const jg_real t192 = A_j[8] * g_star_2;
+    const jg_real t193 = A_j[5] * g_star_2;
+    const jg_real t194 = A_j[8] * h_star_2;
+    const jg_real t195 = A_j[5] * h_star_2;
+    const jg_real t196 = A_j[8] * f_star_2;
+    const jg_real t197 = A_j[5] * f_star_2;
+    jac_phi_q_t_lambda_A_i[93] = lambda[3] * (C_j[7] * t192 - C_j[8] * t193) + lambda[4] * (C_j[1] * t194 - C_j[2] *
+        t195) + lambda[5] * (C_j[4] * t196 - C_j[5] * t197) + (s_j[1] * t191 - s_j[2] * t190);
+    const jg_real t198 = A_j[2] * g_star_2;
+    const jg_real t199 = A_j[2] * h_star_2;
+    const jg_real t200 = A_j[2] * f_star_2;
+    jac_phi_q_t_lambda_A_i[94] = lambda[3] * (C_j[8] * t198 - C_j[6] * t192) + lambda[4] * (C_j[2] * t199 - C_j[0] *
+        t194) + lambda[5] * (C_j[5] * t200 - C_j[3] * t196) + (s_j[2] * t189 - s_j[0] * t191);
+    jac_phi_q_t_lambda_A_i[95] = lambda[3] * (C_j[6] * t193 - C_j[7] * t198) + lambda[4] * (C_j[0] * t195 - C_j[1] *
+        t199) + lambda[5] * (C_j[3] * t197 - C_j[4] * t200) + (s_j[0] * t190 - s_j[1] * t189);
+    jac_phi_q_t_lambda_A_i[96] = t102 * t173 * lambda[4] - t99 * t174 * lambda[3] + t103 * t175 * lambda[5];
+    jac_phi_q_t_lambda_A_i[97] = t99 * f_star_2 * lambda[3] * sine_2 - t103 * t176 * lambda[5] + t102 * f_star_2 *
         lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_A_i[107] = t123 * h_star_2 * lambda[3] - g_star_2 * t132 * lambda[4];
-    const jg_real t258 = A_i[3] * C_j[6];
-    const jg_real t259 = A_i[6] * C_j[6];
-    const jg_real t260 = s_j[0] * A_i[6];
-    const jg_real t261 = s_j[0] * A_i[3];
-    const jg_real t262 = A_i[3] * C_j[0];
-    const jg_real t263 = A_i[6] * C_j[0];
-    const jg_real t264 = A_i[3] * C_j[3];
-    const jg_real t265 = A_i[6] * C_j[3];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t260 - lambda[2] * t261 - (t258 * g_star_2 - t259 * g_star_1) *
-        lambda[3] - (t262 * h_star_2 - t263 * h_star_1) * lambda[4] - (t264 * f_star_2 - t265 * f_star_1) *
+    jac_phi_q_t_lambda_A_i[98] = t99 * h_star_2 * lambda[3] - g_star_2 * t102 * lambda[4];
+    const jg_real t201 = A_i[3] * C_j[6];
+    const jg_real t202 = C_j[6] * A_i[6];
+    const jg_real t203 = A_i[6] * s_j[0];
+    const jg_real t204 = A_i[3] * s_j[0];
+    const jg_real t205 = A_i[3] * C_j[0];
+    const jg_real t206 = A_i[6] * C_j[0];
+    const jg_real t207 = A_i[3] * C_j[3];
+    const jg_real t208 = A_i[6] * C_j[3];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t203 - lambda[2] * t204 - (t201 * g_star_2 - t202 * g_star_1) *
+        lambda[3] - (t205 * h_star_2 - t206 * h_star_1) * lambda[4] - (t207 * f_star_2 - t208 * f_star_1) *
         lambda[5];
-    const jg_real t266 = A_i[0] * C_j[6];
-    const jg_real t267 = s_j[0] * A_i[0];
-    const jg_real t268 = A_i[0] * C_j[0];
-    const jg_real t269 = A_i[0] * C_j[3];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t267 - lambda[0] * t260 - lambda[3] * (t259 * g_star_0 - g_star_2 *
-        t266) - lambda[4] * (t263 * h_star_0 - h_star_2 * t268) - lambda[5] * (t265 * f_star_0 - f_star_2 * t269);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t261 - lambda[1] * t267 - lambda[3] * (g_star_1 * t266 - t258 *
-        g_star_0) - lambda[4] * (h_star_1 * t268 - t262 * h_star_0) - lambda[5] * (f_star_1 * t269 - t264 *
+    const jg_real t209 = C_j[6] * A_i[0];
+    const jg_real t210 = s_j[0] * A_i[0];
+    const jg_real t211 = C_j[0] * A_i[0];
+    const jg_real t212 = C_j[3] * A_i[0];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t210 - lambda[0] * t203 - lambda[3] * (t202 * g_star_0 - g_star_2 *
+        t209) - lambda[4] * (t206 * h_star_0 - h_star_2 * t211) - lambda[5] * (t208 * f_star_0 - f_star_2 * t212);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t204 - lambda[1] * t210 - lambda[3] * (g_star_1 * t209 - t201 *
+        g_star_0) - lambda[4] * (h_star_1 * t211 - t205 * h_star_0) - lambda[5] * (f_star_1 * t212 - t207 *
         f_star_0);
-    const jg_real t270 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t270;
-    jac_phi_q_t_lambda_A_j[30] = t270;
-    jac_phi_q_t_lambda_A_j[57] = t270;
-    const jg_real t271 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
-    const jg_real t272 = A_i[0] * h_star_0 + A_i[3] * h_star_1 + A_i[6] * h_star_2;
-    const jg_real t273 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
-    const jg_real t274 = C_j[8] * t271 * lambda[3] + C_j[2] * t272 * lambda[4] + C_j[5] * t273 * lambda[5] + s_j[2]
-        * t270;
-    jac_phi_q_t_lambda_A_j[4] = t274;
-    const jg_real t275 = C_j[7] * t271 * lambda[3] + C_j[1] * t272 * lambda[4] + C_j[4] * t273 * lambda[5] + s_j[1]
-        * t270;
-    jac_phi_q_t_lambda_A_j[58] = t275;
-    jac_phi_q_t_lambda_A_j[5] = -t275;
-    jac_phi_q_t_lambda_A_j[6] = lambda[4] * (t268 * t78 + t262 * t169 + t263 * t224) - lambda[3] * (t266 * t83 +
-        t258 * t170 + t259 * t225) + lambda[5] * (t269 * t86 + t264 * t171 + t265 * t226);
-    jac_phi_q_t_lambda_A_j[7] = lambda[3] * (t266 * f_star_0 + t258 * f_star_1 + t259 * f_star_2) * sine_2 -
-        lambda[5] * (t269 * t90 + t264 * t172 + t265 * t227) + lambda[4] * (t268 * f_star_0 + t262 * f_star_1 + t263
+    const jg_real t213 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t213;
+    jac_phi_q_t_lambda_A_j[30] = t213;
+    jac_phi_q_t_lambda_A_j[57] = t213;
+    const jg_real t214 = g_star_0 * A_i[0] + A_i[3] * g_star_1 + g_star_2 * A_i[6];
+    const jg_real t215 = A_i[0] * h_star_0 + A_i[3] * h_star_1 + A_i[6] * h_star_2;
+    const jg_real t216 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
+    const jg_real t217 = C_j[8] * t214 * lambda[3] + C_j[2] * t215 * lambda[4] + C_j[5] * t216 * lambda[5] + s_j[2]
+        * t213;
+    jac_phi_q_t_lambda_A_j[4] = t217;
+    const jg_real t218 = C_j[7] * t214 * lambda[3] + C_j[1] * t215 * lambda[4] + C_j[4] * t216 * lambda[5] + s_j[1]
+        * t213;
+    jac_phi_q_t_lambda_A_j[58] = t218;
+    jac_phi_q_t_lambda_A_j[5] = -t218;
+    jac_phi_q_t_lambda_A_j[6] = lambda[4] * (t211 * t67 + t205 * t131 + t206 * t173) - lambda[3] * (t209 * t72 +
+        t201 * t132 + t202 * t174) + lambda[5] * (t212 * t75 + t207 * t133 + t208 * t175);
+    jac_phi_q_t_lambda_A_j[7] = lambda[3] * (t209 * f_star_0 + t201 * f_star_1 + t202 * f_star_2) * sine_2 -
+        lambda[5] * (t212 * t79 + t207 * t134 + t208 * t176) + lambda[4] * (t211 * f_star_0 + t205 * f_star_1 + t206
         * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[8] = lambda[3] * (t266 * h_star_0 + t258 * h_star_1 + t259 * h_star_2) - lambda[4] *
-        (g_star_0 * t268 + g_star_1 * t262 + g_star_2 * t263);
-    const jg_real t276 = A_i[4] * C_j[6];
-    const jg_real t277 = A_i[7] * C_j[6];
-    const jg_real t278 = s_j[0] * A_i[7];
-    const jg_real t279 = s_j[0] * A_i[4];
-    const jg_real t280 = A_i[4] * C_j[0];
-    const jg_real t281 = A_i[7] * C_j[0];
-    const jg_real t282 = A_i[4] * C_j[3];
-    const jg_real t283 = A_i[7] * C_j[3];
-    jac_phi_q_t_lambda_A_j[9] = lambda[1] * t278 - lambda[2] * t279 - (t276 * g_star_2 - t277 * g_star_1) *
-        lambda[3] - (t280 * h_star_2 - t281 * h_star_1) * lambda[4] - (t282 * f_star_2 - t283 * f_star_1) *
+    jac_phi_q_t_lambda_A_j[8] = lambda[3] * (t209 * h_star_0 + t201 * h_star_1 + t202 * h_star_2) - lambda[4] *
+        (g_star_0 * t211 + g_star_1 * t205 + g_star_2 * t206);
+    const jg_real t219 = A_i[4] * C_j[6];
+    const jg_real t220 = C_j[6] * A_i[7];
+    const jg_real t221 = A_i[7] * s_j[0];
+    const jg_real t222 = A_i[4] * s_j[0];
+    const jg_real t223 = A_i[4] * C_j[0];
+    const jg_real t224 = A_i[7] * C_j[0];
+    const jg_real t225 = A_i[4] * C_j[3];
+    const jg_real t226 = A_i[7] * C_j[3];
+    jac_phi_q_t_lambda_A_j[9] = lambda[1] * t221 - lambda[2] * t222 - (t219 * g_star_2 - t220 * g_star_1) *
+        lambda[3] - (t223 * h_star_2 - t224 * h_star_1) * lambda[4] - (t225 * f_star_2 - t226 * f_star_1) *
         lambda[5];
-    const jg_real t284 = A_i[1] * C_j[6];
-    const jg_real t285 = s_j[0] * A_i[1];
-    const jg_real t286 = A_i[1] * C_j[0];
-    const jg_real t287 = A_i[1] * C_j[3];
-    jac_phi_q_t_lambda_A_j[10] = lambda[2] * t285 - lambda[0] * t278 - lambda[3] * (t277 * g_star_0 - g_star_2 *
-        t284) - lambda[4] * (t281 * h_star_0 - h_star_2 * t286) - lambda[5] * (t283 * f_star_0 - f_star_2 * t287);
-    jac_phi_q_t_lambda_A_j[11] = lambda[0] * t279 - lambda[1] * t285 - lambda[3] * (g_star_1 * t284 - t276 *
-        g_star_0) - lambda[4] * (h_star_1 * t286 - t280 * h_star_0) - lambda[5] * (f_star_1 * t287 - t282 *
+    const jg_real t227 = C_j[6] * A_i[1];
+    const jg_real t228 = s_j[0] * A_i[1];
+    const jg_real t229 = C_j[0] * A_i[1];
+    const jg_real t230 = C_j[3] * A_i[1];
+    jac_phi_q_t_lambda_A_j[10] = lambda[2] * t228 - lambda[0] * t221 - lambda[3] * (t220 * g_star_0 - g_star_2 *
+        t227) - lambda[4] * (t224 * h_star_0 - h_star_2 * t229) - lambda[5] * (t226 * f_star_0 - f_star_2 * t230);
+    jac_phi_q_t_lambda_A_j[11] = lambda[0] * t222 - lambda[1] * t228 - lambda[3] * (g_star_1 * t227 - t219 *
+        g_star_0) - lambda[4] * (h_star_1 * t229 - t223 * h_star_0) - lambda[5] * (f_star_1 * t230 - t225 *
         f_star_0);
-    const jg_real t288 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[12] = t288;
-    jac_phi_q_t_lambda_A_j[39] = t288;
-    jac_phi_q_t_lambda_A_j[66] = t288;
-    const jg_real t289 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
-    const jg_real t290 = A_i[1] * h_star_0 + A_i[4] * h_star_1 + A_i[7] * h_star_2;
-    const jg_real t291 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
-    const jg_real t292 = C_j[8] * t289 * lambda[3] + C_j[2] * t290 * lambda[4] + C_j[5] * t291 * lambda[5] + s_j[2]
-        * t288;
-    jac_phi_q_t_lambda_A_j[13] = t292;
-    const jg_real t293 = C_j[7] * t289 * lambda[3] + C_j[1] * t290 * lambda[4] + C_j[4] * t291 * lambda[5] + s_j[1]
-        * t288;
-    jac_phi_q_t_lambda_A_j[67] = t293;
-    jac_phi_q_t_lambda_A_j[14] = -t293;
-    jac_phi_q_t_lambda_A_j[15] = lambda[4] * (t286 * t78 + t280 * t169 + t281 * t224) - lambda[3] * (t284 * t83 +
-        t276 * t170 + t277 * t225) + lambda[5] * (t287 * t86 + t282 * t171 + t283 * t226);
-    jac_phi_q_t_lambda_A_j[16] = lambda[3] * (t284 * f_star_0 + t276 * f_star_1 + t277 * f_star_2) * sine_2 -
-        lambda[5] * (t287 * t90 + t282 * t172 + t283 * t227) + lambda[4] * (t286 * f_star_0 + t280 * f_star_1 + t281
+    const jg_real t231 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[12] = t231;
+    jac_phi_q_t_lambda_A_j[39] = t231;
+    jac_phi_q_t_lambda_A_j[66] = t231;
+    const jg_real t232 = g_star_0 * A_i[1] + A_i[4] * g_star_1 + g_star_2 * A_i[7];
+    const jg_real t233 = A_i[1] * h_star_0 + A_i[4] * h_star_1 + A_i[7] * h_star_2;
+    const jg_real t234 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
+    const jg_real t235 = C_j[8] * t232 * lambda[3] + C_j[2] * t233 * lambda[4] + C_j[5] * t234 * lambda[5] + s_j[2]
+        * t231;
+    jac_phi_q_t_lambda_A_j[13] = t235;
+    const jg_real t236 = C_j[7] * t232 * lambda[3] + C_j[1] * t233 * lambda[4] + C_j[4] * t234 * lambda[5] + s_j[1]
+        * t231;
+    jac_phi_q_t_lambda_A_j[67] = t236;
+    jac_phi_q_t_lambda_A_j[14] = -t236;
+    jac_phi_q_t_lambda_A_j[15] = lambda[4] * (t229 * t67 + t223 * t131 + t224 * t173) - lambda[3] * (t227 * t72 +
+        t219 * t132 + t220 * t174) + lambda[5] * (t230 * t75 + t225 * t133 + t226 * t175);
+    jac_phi_q_t_lambda_A_j[16] = lambda[3] * (t227 * f_star_0 + t219 * f_star_1 + t220 * f_star_2) * sine_2 -
+        lambda[5] * (t230 * t79 + t225 * t134 + t226 * t176) + lambda[4] * (t229 * f_star_0 + t223 * f_star_1 + t224
         * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[17] = lambda[3] * (t284 * h_star_0 + t276 * h_star_1 + t277 * h_star_2) - lambda[4] *
-        (g_star_0 * t286 + g_star_1 * t280 + g_star_2 * t281);
-    const jg_real t294 = A_i[5] * C_j[6];
-    const jg_real t295 = A_i[8] * C_j[6];
-    const jg_real t296 = s_j[0] * A_i[8];
-    const jg_real t297 = s_j[0] * A_i[5];
-    const jg_real t298 = A_i[5] * C_j[0];
-    const jg_real t299 = A_i[8] * C_j[0];
-    const jg_real t300 = A_i[5] * C_j[3];
-    const jg_real t301 = A_i[8] * C_j[3];
-    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t296 - lambda[2] * t297 - (t294 * g_star_2 - t295 * g_star_1) *
+    jac_phi_q_t_lambda_A_j[17] = lambda[3] * (t227 * h_star_0 + t219 * h_star_1 + t220 * h_star_2) - lambda[4] *
+        (g_star_0 * t229 + g_star_1 * t223 + g_star_2 * t224);
+    const jg_real t237 = A_i[5] * C_j[6];
+    const jg_real t238 = C_j[6] * A_i[8];
+    const jg_real t239 = A_i[8] * s_j[0];
+    const jg_real t240 = A_i[5] * s_j[0];
+    const jg_real t241 = A_i[5] * C_j[0];
+    const jg_real t242 = A_i[8] * C_j[0];
+    const jg_real t243 = A_i[5] * C_j[3];
+    const jg_real t244 = A_i[8] * C_j[3];
+    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t239 - lambda[2] * t240 - (t237 * g_star_2 - t238 * g_star_1) *
+        lambda[3] - (t241 * h_star_2 - t242 * h_star_1) * lambda[4] - (t243 * f_star_2 - t244 * f_star_1) *
+        lambda[5];
+    const jg_real t245 = C_j[6] * A_i[2];
+    const jg_real t246 = s_j[0] * A_i[2];
+    const jg_real t247 = C_j[0] * A_i[2];
+    const jg_real t248 = C_j[3] * A_i[2];
+    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t246 - lambda[0] * t239 - lambda[3] * (t238 * g_star_0 - g_star_2 *
+        t245) - lambda[4] * (t242 * h_star_0 - h_star_2 * t247) - lambda[5] * (t244 * f_star_0 - f_star_2 * t248);
+    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t240 - lambda[1] * t246 - lambda[3] * (g_star_1 * t245 - t237 *
+        g_star_0) - lambda[4] * (h_star_1 * t247 - t241 * h_star_0) - lambda[5] * (f_star_1 * t248 - t243 *
+        f_star_0);
+    const jg_real t249 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[21] = t249;
+    jac_phi_q_t_lambda_A_j[48] = t249;
+    jac_phi_q_t_lambda_A_j[75] = t249;
+    const jg_real t250 = g_star_0 * A_i[2] + A_i[5] * g_star_1 + g_star_2 * A_i[8];
+    const jg_real t251 = A_i[2] * h_star_0 + A_i[5] * h_star_1 + A_i[8] * h_star_2;
+    const jg_real t252 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
+    const jg_real t253 = C_j[8] * t250 * lambda[3] + C_j[2] * t251 * lambda[4] + C_j[5] * t252 * lambda[5] + s_j[2]
+        * t249;
+    jac_phi_q_t_lambda_A_j[22] = t253;
+    const jg_real t254 = C_j[7] * t250 * lambda[3] + C_j[1] * t251 * lambda[4] + C_j[4] * t252 * lambda[5] + s_j[1]
+        * t249;
+    jac_phi_q_t_lambda_A_j[76] = t254;
+    jac_phi_q_t_lambda_A_j[23] = -t254;
+    jac_phi_q_t_lambda_A_j[24] = lambda[4] * (t247 * t67 + t241 * t131 + t242 * t173) - lambda[3] * (t245 * t72 +
+        t237 * t132 + t238 * t174) + lambda[5] * (t248 * t75 + t243 * t133 + t244 * t175);
+    jac_phi_q_t_lambda_A_j[25] = lambda[3] * (t245 * f_star_0 + t237 * f_star_1 + t238 * f_star_2) * sine_2 -
+        lambda[5] * (t248 * t79 + t243 * t134 + t244 * t176) + lambda[4] * (t247 * f_star_0 + t241 * f_star_1 + t242
+        * f_star_2) * cosine_2;
+    jac_phi_q_t_lambda_A_j[26] = lambda[3] * (t245 * h_star_0 + t237 * h_star_1 + t238 * h_star_2) - lambda[4] *
+        (g_star_0 * t247 + g_star_1 * t241 + g_star_2 * t242);
+    const jg_real t255 = A_i[3] * C_j[7];
+    const jg_real t256 = C_j[7] * A_i[6];
+    const jg_real t257 = A_i[6] * s_j[1];
+    const jg_real t258 = A_i[3] * s_j[1];
+    const jg_real t259 = A_i[3] * C_j[1];
+    const jg_real t260 = A_i[6] * C_j[1];
+    const jg_real t261 = A_i[3] * C_j[4];
+    const jg_real t262 = A_i[6] * C_j[4];
+    jac_phi_q_t_lambda_A_j[27] = lambda[1] * t257 - lambda[2] * t258 - (t255 * g_star_2 - t256 * g_star_1) *
+        lambda[3] - (t259 * h_star_2 - t260 * h_star_1) * lambda[4] - (t261 * f_star_2 - t262 * f_star_1) *
+        lambda[5];
+    const jg_real t263 = C_j[7] * A_i[0];
+    const jg_real t264 = s_j[1] * A_i[0];
+    const jg_real t265 = C_j[1] * A_i[0];
+    const jg_real t266 = C_j[4] * A_i[0];
+    jac_phi_q_t_lambda_A_j[28] = lambda[2] * t264 - lambda[0] * t257 - lambda[3] * (t256 * g_star_0 - g_star_2 *
+        t263) - lambda[4] * (t260 * h_star_0 - h_star_2 * t265) - lambda[5] * (t262 * f_star_0 - f_star_2 * t266);
+    jac_phi_q_t_lambda_A_j[29] = lambda[0] * t258 - lambda[1] * t264 - lambda[3] * (g_star_1 * t263 - t255 *
+        g_star_0) - lambda[4] * (h_star_1 * t265 - t259 * h_star_0) - lambda[5] * (f_star_1 * t266 - t261 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[31] = -t217;
+    const jg_real t267 = C_j[6] * t214 * lambda[3] + C_j[0] * t215 * lambda[4] + C_j[3] * t216 * lambda[5] + s_j[0]
+        * t213;
+    jac_phi_q_t_lambda_A_j[32] = t267;
+    jac_phi_q_t_lambda_A_j[33] = lambda[4] * (t265 * t67 + t259 * t131 + t260 * t173) - lambda[3] * (t263 * t72 +
+        t255 * t132 + t256 * t174) + lambda[5] * (t266 * t75 + t261 * t133 + t262 * t175);
+    jac_phi_q_t_lambda_A_j[34] = lambda[3] * (t263 * f_star_0 + t255 * f_star_1 + t256 * f_star_2) * sine_2 -
+        lambda[5] * (t266 * t79 + t261 * t134 + t262 * t176) + lambda[4] * (t265 * f_star_0 + t259 * f_star_1 + t260
+        * f_star_2) * cosine_2;
+    jac_phi_q_t_lambda_A_j[35] = lambda[3] * (t263 * h_star_0 + t255 * h_star_1 + t256 * h_star_2) - lambda[4] *
+        (g_star_0 * t265 + g_star_1 * t259 + g_star_2 * t260);
+    const jg_real t268 = A_i[4] * C_j[7];
+    const jg_real t269 = C_j[7] * A_i[7];
+    const jg_real t270 = A_i[7] * s_j[1];
+    const jg_real t271 = A_i[4] * s_j[1];
+    const jg_real t272 = A_i[4] * C_j[1];
+    const jg_real t273 = A_i[7] * C_j[1];
+    const jg_real t274 = A_i[4] * C_j[4];
+    const jg_real t275 = A_i[7] * C_j[4];
+    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t270 - lambda[2] * t271 - (t268 * g_star_2 - t269 * g_star_1) *
+        lambda[3] - (t272 * h_star_2 - t273 * h_star_1) * lambda[4] - (t274 * f_star_2 - t275 * f_star_1) *
+        lambda[5];
+    const jg_real t276 = C_j[7] * A_i[1];
+    const jg_real t277 = s_j[1] * A_i[1];
+    const jg_real t278 = C_j[1] * A_i[1];
+    const jg_real t279 = C_j[4] * A_i[1];
+    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t277 - lambda[0] * t270 - lambda[3] * (t269 * g_star_0 - g_star_2 *
+        t276) - lambda[4] * (t273 * h_star_0 - h_star_2 * t278) - lambda[5] * (t275 * f_star_0 - f_star_2 * t279);
+    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t271 - lambda[1] * t277 - lambda[3] * (g_star_1 * t276 - t268 *
+        g_star_0) - lambda[4] * (h_star_1 * t278 - t272 * h_star_0) - lambda[5] * (f_star_1 * t279 - t274 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[40] = -t235;
+    const jg_real t280 = C_j[6] * t232 * lambda[3] + C_j[0] * t233 * lambda[4] + C_j[3] * t234 * lambda[5] + s_j[0]
+        * t231;
+    jac_phi_q_t_lambda_A_j[41] = t280;
+    jac_phi_q_t_lambda_A_j[42] = lambda[4] * (t278 * t67 + t272 * t131 + t273 * t173) - lambda[3] * (t276 * t72 +
+        t268 * t132 + t269 * t174) + lambda[5] * (t279 * t75 + t274 * t133 + t275 * t175);
+    jac_phi_q_t_lambda_A_j[43] = lambda[3] * (t276 * f_star_0 + t268 * f_star_1 + t269 * f_star_2) * sine_2 -
+        lambda[5] * (t279 * t79 + t274 * t134 + t275 * t176) + lambda[4] * (t278 * f_star_0 + t272 * f_star_1 + t273
+        * f_star_2) * cosine_2;
+    jac_phi_q_t_lambda_A_j[44] = lambda[3] * (t276 * h_star_0 + t268 * h_star_1 + t269 * h_star_2) - lambda[4] *
+        (g_star_0 * t278 + g_star_1 * t272 + g_star_2 * t273);
+    const jg_real t281 = A_i[5] * C_j[7];
+    const jg_real t282 = C_j[7] * A_i[8];
+    const jg_real t283 = A_i[8] * s_j[1];
+    const jg_real t284 = A_i[5] * s_j[1];
+    const jg_real t285 = A_i[5] * C_j[1];
+    const jg_real t286 = A_i[8] * C_j[1];
+    const jg_real t287 = A_i[5] * C_j[4];
+    const jg_real t288 = A_i[8] * C_j[4];
+    jac_phi_q_t_lambda_A_j[45] = lambda[1] * t283 - lambda[2] * t284 - (t281 * g_star_2 - t282 * g_star_1) *
+        lambda[3] - (t285 * h_star_2 - t286 * h_star_1) * lambda[4] - (t287 * f_star_2 - t288 * f_star_1) *
+        lambda[5];
+    const jg_real t289 = C_j[7] * A_i[2];
+    const jg_real t290 = s_j[1] * A_i[2];
+    const jg_real t291 = C_j[1] * A_i[2];
+    const jg_real t292 = C_j[4] * A_i[2];
+    jac_phi_q_t_lambda_A_j[46] = lambda[2] * t290 - lambda[0] * t283 - lambda[3] * (t282 * g_star_0 - g_star_2 *
+        t289) - lambda[4] * (t286 * h_star_0 - h_star_2 * t291) - lambda[5] * (t288 * f_star_0 - f_star_2 * t292);
+    jac_phi_q_t_lambda_A_j[47] = lambda[0] * t284 - lambda[1] * t290 - lambda[3] * (g_star_1 * t289 - t281 *
+        g_star_0) - lambda[4] * (h_star_1 * t291 - t285 * h_star_0) - lambda[5] * (f_star_1 * t292 - t287 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[49] = -t253;
+    const jg_real t293 = C_j[6] * t250 * lambda[3] + C_j[0] * t251 * lambda[4] + C_j[3] * t252 * lambda[5] + s_j[0]
+        * t249;
+    jac_phi_q_t_lambda_A_j[50] = t293;
+    jac_phi_q_t_lambda_A_j[51] = lambda[4] * (t291 * t67 + t285 * t131 + t286 * t173) - lambda[3] * (t289 * t72 +
+        t281 * t132 + t282 * t174) + lambda[5] * (t292 * t75 + t287 * t133 + t288 * t175);
+    jac_phi_q_t_lambda_A_j[52] = lambda[3] * (t289 * f_star_0 + t281 * f_star_1 + t282 * f_star_2) * sine_2 -
+        lambda[5] * (t292 * t79 + t287 * t134 + t288 * t176) + lambda[4] * (t291 * f_star_0 + t285 * f_star_1 + t286
+        * f_star_2) * cosine_2;
+    jac_phi_q_t_lambda_A_j[53] = lambda[3] * (t289 * h_star_0 + t281 * h_star_1 + t282 * h_star_2) - lambda[4] *
+        (g_star_0 * t291 + g_star_1 * t285 + g_star_2 * t286);
+    const jg_real t294 = A_i[3] * C_j[8];
+    const jg_real t295 = C_j[8] * A_i[6];
+    const jg_real t296 = A_i[6] * s_j[2];
+    const jg_real t297 = A_i[3] * s_j[2];
+    const jg_real t298 = A_i[3] * C_j[2];
+    const jg_real t299 = A_i[6] * C_j[2];
+    const jg_real t300 = A_i[3] * C_j[5];
+    const jg_real t301 = A_i[6] * C_j[5];
+    jac_phi_q_t_lambda_A_j[54] = lambda[1] * t296 - lambda[2] * t297 - (t294 * g_star_2 - t295 * g_star_1) *
         lambda[3] - (t298 * h_star_2 - t299 * h_star_1) * lambda[4] - (t300 * f_star_2 - t301 * f_star_1) *
         lambda[5];
-    const jg_real t302 = A_i[2] * C_j[6];
-    const jg_real t303 = s_j[0] * A_i[2];
-    const jg_real t304 = A_i[2] * C_j[0];
-    const jg_real t305 = A_i[2] * C_j[3];
-    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t303 - lambda[0] * t296 - lambda[3] * (t295 * g_star_0 - g_star_2 *
+    const jg_real t302 = C_j[8] * A_i[0];
+    const jg_real t303 = s_j[2] * A_i[0];
+    const jg_real t304 = C_j[2] * A_i[0];
+    const jg_real t305 = C_j[5] * A_i[0];
+    jac_phi_q_t_lambda_A_j[55] = lambda[2] * t303 - lambda[0] * t296 - lambda[3] * (t295 * g_star_0 - g_star_2 *
         t302) - lambda[4] * (t299 * h_star_0 - h_star_2 * t304) - lambda[5] * (t301 * f_star_0 - f_star_2 * t305);
-    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t297 - lambda[1] * t303 - lambda[3] * (g_star_1 * t302 - t294 *
+    jac_phi_q_t_lambda_A_j[56] = lambda[0] * t297 - lambda[1] * t303 - lambda[3] * (g_star_1 * t302 - t294 *
         g_star_0) - lambda[4] * (h_star_1 * t304 - t298 * h_star_0) - lambda[5] * (f_star_1 * t305 - t300 *
         f_star_0);
-    const jg_real t306 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[21] = t306;
-    jac_phi_q_t_lambda_A_j[48] = t306;
-    jac_phi_q_t_lambda_A_j[75] = t306;
-    const jg_real t307 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
-    const jg_real t308 = A_i[2] * h_star_0 + A_i[5] * h_star_1 + A_i[8] * h_star_2;
-    const jg_real t309 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
-    const jg_real t310 = C_j[8] * t307 * lambda[3] + C_j[2] * t308 * lambda[4] + C_j[5] * t309 * lambda[5] + s_j[2]
-        * t306;
-    jac_phi_q_t_lambda_A_j[22] = t310;
-    const jg_real t311 = C_j[7] * t307 * lambda[3] + C_j[1] * t308 * lambda[4] + C_j[4] * t309 * lambda[5] + s_j[1]
-        * t306;
-    jac_phi_q_t_lambda_A_j[76] = t311;
-    jac_phi_q_t_lambda_A_j[23] = -t311;
-    jac_phi_q_t_lambda_A_j[24] = lambda[4] * (t304 * t78 + t298 * t169 + t299 * t224) - lambda[3] * (t302 * t83 +
-        t294 * t170 + t295 * t225) + lambda[5] * (t305 * t86 + t300 * t171 + t301 * t226);
-    jac_phi_q_t_lambda_A_j[25] = lambda[3] * (t302 * f_star_0 + t294 * f_star_1 + t295 * f_star_2) * sine_2 -
-        lambda[5] * (t305 * t90 + t300 * t172 + t301 * t227) + lambda[4] * (t304 * f_star_0 + t298 * f_star_1 + t299
+    jac_phi_q_t_lambda_A_j[59] = -t267;
+    jac_phi_q_t_lambda_A_j[60] = lambda[4] * (t304 * t67 + t298 * t131 + t299 * t173) - lambda[3] * (t302 * t72 +
+        t294 * t132 + t295 * t174) + lambda[5] * (t305 * t75 + t300 * t133 + t301 * t175);
+    jac_phi_q_t_lambda_A_j[61] = lambda[3] * (t302 * f_star_0 + t294 * f_star_1 + t295 * f_star_2) * sine_2 -
+        lambda[5] * (t305 * t79 + t300 * t134 + t301 * t176) + lambda[4] * (t304 * f_star_0 + t298 * f_star_1 + t299
         * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[26] = lambda[3] * (t302 * h_star_0 + t294 * h_star_1 + t295 * h_star_2) - lambda[4] *
+    jac_phi_q_t_lambda_A_j[62] = lambda[3] * (t302 * h_star_0 + t294 * h_star_1 + t295 * h_star_2) - lambda[4] *
         (g_star_0 * t304 + g_star_1 * t298 + g_star_2 * t299);
-    const jg_real t312 = A_i[3] * C_j[7];
-    const jg_real t313 = A_i[6] * C_j[7];
-    const jg_real t314 = s_j[1] * A_i[6];
-    const jg_real t315 = s_j[1] * A_i[3];
-    const jg_real t316 = A_i[3] * C_j[1];
-    const jg_real t317 = A_i[6] * C_j[1];
-    const jg_real t318 = A_i[3] * C_j[4];
-    const jg_real t319 = A_i[6] * C_j[4];
-    jac_phi_q_t_lambda_A_j[27] = lambda[1] * t314 - lambda[2] * t315 - (t312 * g_star_2 - t313 * g_star_1) *
-        lambda[3] - (t316 * h_star_2 - t317 * h_star_1) * lambda[4] - (t318 * f_star_2 - t319 * f_star_1) *
+    const jg_real t306 = A_i[4] * C_j[8];
+    const jg_real t307 = C_j[8] * A_i[7];
+    const jg_real t308 = A_i[7] * s_j[2];
+    const jg_real t309 = A_i[4] * s_j[2];
+    const jg_real t310 = A_i[4] * C_j[2];
+    const jg_real t311 = A_i[7] * C_j[2];
+    const jg_real t312 = A_i[4] * C_j[5];
+    const jg_real t313 = A_i[7] * C_j[5];
+    jac_phi_q_t_lambda_A_j[63] = lambda[1] * t308 - lambda[2] * t309 - (t306 * g_star_2 - t307 * g_star_1) *
+        lambda[3] - (t310 * h_star_2 - t311 * h_star_1) * lambda[4] - (t312 * f_star_2 - t313 * f_star_1) *
         lambda[5];
-    const jg_real t320 = A_i[0] * C_j[7];
-    const jg_real t321 = s_j[1] * A_i[0];
-    const jg_real t322 = A_i[0] * C_j[1];
-    const jg_real t323 = A_i[0] * C_j[4];
-    jac_phi_q_t_lambda_A_j[28] = lambda[2] * t321 - lambda[0] * t314 - lambda[3] * (t313 * g_star_0 - g_star_2 *
-        t320) - lambda[4] * (t317 * h_star_0 - h_star_2 * t322) - lambda[5] * (t319 * f_star_0 - f_star_2 * t323);
-    jac_phi_q_t_lambda_A_j[29] = lambda[0] * t315 - lambda[1] * t321 - lambda[3] * (g_star_1 * t320 - t312 *
-        g_star_0) - lambda[4] * (h_star_1 * t322 - t316 * h_star_0) - lambda[5] * (f_star_1 * t323 - t318 *
+    const jg_real t314 = C_j[8] * A_i[1];
+    const jg_real t315 = s_j[2] * A_i[1];
+    const jg_real t316 = C_j[2] * A_i[1];
+    const jg_real t317 = C_j[5] * A_i[1];
+    jac_phi_q_t_lambda_A_j[64] = lambda[2] * t315 - lambda[0] * t308 - lambda[3] * (t307 * g_star_0 - g_star_2 *
+        t314) - lambda[4] * (t311 * h_star_0 - h_star_2 * t316) - lambda[5] * (t313 * f_star_0 - f_star_2 * t317);
+    jac_phi_q_t_lambda_A_j[65] = lambda[0] * t309 - lambda[1] * t315 - lambda[3] * (g_star_1 * t314 - t306 *
+        g_star_0) - lambda[4] * (h_star_1 * t316 - t310 * h_star_0) - lambda[5] * (f_star_1 * t317 - t312 *
         f_star_0);
-    jac_phi_q_t_lambda_A_j[31] = -t274;
-    const jg_real t324 = C_j[6] * t271 * lambda[3] + C_j[0] * t272 * lambda[4] + C_j[3] * t273 * lambda[5] + s_j[0]
-        * t270;
-    jac_phi_q_t_lambda_A_j[32] = t324;
-    jac_phi_q_t_lambda_A_j[33] = lambda[4] * (t322 * t78 + t316 * t169 + t317 * t224) - lambda[3] * (t320 * t83 +
-        t312 * t170 + t313 * t225) + lambda[5] * (t323 * t86 + t318 * t171 + t319 * t226);
-    jac_phi_q_t_lambda_A_j[34] = lambda[3] * (t320 * f_star_0 + t312 * f_star_1 + t313 * f_star_2) * sine_2 -
-        lambda[5] * (t323 * t90 + t318 * t172 + t319 * t227) + lambda[4] * (t322 * f_star_0 + t316 * f_star_1 + t317
+    jac_phi_q_t_lambda_A_j[68] = -t280;
+    jac_phi_q_t_lambda_A_j[69] = lambda[4] * (t316 * t67 + t310 * t131 + t311 * t173) - lambda[3] * (t314 * t72 +
+        t306 * t132 + t307 * t174) + lambda[5] * (t317 * t75 + t312 * t133 + t313 * t175);
+    jac_phi_q_t_lambda_A_j[70] = lambda[3] * (t314 * f_star_0 + t306 * f_star_1 + t307 * f_star_2) * sine_2 -
+        lambda[5] * (t317 * t79 + t312 * t134 + t313 * t176) + lambda[4] * (t316 * f_star_0 + t310 * f_star_1 + t311
         * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[35] = lambda[3] * (t320 * h_star_0 + t312 * h_star_1 + t313 * h_star_2) - lambda[4] *
-        (g_star_0 * t322 + g_star_1 * t316 + g_star_2 * t317);
-    const jg_real t325 = A_i[4] * C_j[7];
-    const jg_real t326 = A_i[7] * C_j[7];
-    const jg_real t327 = s_j[1] * A_i[7];
-    const jg_real t328 = s_j[1] * A_i[4];
-    const jg_real t329 = A_i[4] * C_j[1];
-    const jg_real t330 = A_i[7] * C_j[1];
-    const jg_real t331 = A_i[4] * C_j[4];
-    const jg_real t332 = A_i[7] * C_j[4];
-    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t327 - lambda[2] * t328 - (t325 * g_star_2 - t326 * g_star_1) *
-        lambda[3] - (t329 * h_star_2 - t330 * h_star_1) * lambda[4] - (t331 * f_star_2 - t332 * f_star_1) *
+    jac_phi_q_t_lambda_A_j[71] = lambda[3] * (t314 * h_star_0 + t306 * h_star_1 + t307 * h_star_2) - lambda[4] *
+        (g_star_0 * t316 + g_star_1 * t310 + g_star_2 * t311);
+    const jg_real t318 = A_i[5] * C_j[8];
+    const jg_real t319 = C_j[8] * A_i[8];
+    const jg_real t320 = A_i[8] * s_j[2];
+    const jg_real t321 = A_i[5] * s_j[2];
+    const jg_real t322 = A_i[5] * C_j[2];
+    const jg_real t323 = A_i[8] * C_j[2];
+    const jg_real t324 = A_i[5] * C_j[5];
+    const jg_real t325 = A_i[8] * C_j[5];
+    jac_phi_q_t_lambda_A_j[72] = lambda[1] * t320 - lambda[2] * t321 - (t318 * g_star_2 - t319 * g_star_1) *
+        lambda[3] - (t322 * h_star_2 - t323 * h_star_1) * lambda[4] - (t324 * f_star_2 - t325 * f_star_1) *
         lambda[5];
-    const jg_real t333 = A_i[1] * C_j[7];
-    const jg_real t334 = s_j[1] * A_i[1];
-    const jg_real t335 = A_i[1] * C_j[1];
-    const jg_real t336 = A_i[1] * C_j[4];
-    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t334 - lambda[0] * t327 - lambda[3] * (t326 * g_star_0 - g_star_2 *
-        t333) - lambda[4] * (t330 * h_star_0 - h_star_2 * t335) - lambda[5] * (t332 * f_star_0 - f_star_2 * t336);
-    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t328 - lambda[1] * t334 - lambda[3] * (g_star_1 * t333 - t325 *
-        g_star_0) - lambda[4] * (h_star_1 * t335 - t329 * h_star_0) - lambda[5] * (f_star_1 * t336 - t331 *
+    const jg_real t326 = C_j[8] * A_i[2];
+    const jg_real t327 = s_j[2] * A_i[2];
+    const jg_real t328 = C_j[2] * A_i[2];
+    const jg_real t329 = C_j[5] * A_i[2];
+    jac_phi_q_t_lambda_A_j[73] = lambda[2] * t327 - lambda[0] * t320 - lambda[3] * (t319 * g_star_0 - g_star_2 *
+        t326) - lambda[4] * (t323 * h_star_0 - h_star_2 * t328) - lambda[5] * (t325 * f_star_0 - f_star_2 * t329);
+    jac_phi_q_t_lambda_A_j[74] = lambda[0] * t321 - lambda[1] * t327 - lambda[3] * (g_star_1 * t326 - t318 *
+        g_star_0) - lambda[4] * (h_star_1 * t328 - t322 * h_star_0) - lambda[5] * (f_star_1 * t329 - t324 *
         f_star_0);
-    jac_phi_q_t_lambda_A_j[40] = -t292;
-    const jg_real t337 = C_j[6] * t289 * lambda[3] + C_j[0] * t290 * lambda[4] + C_j[3] * t291 * lambda[5] + s_j[0]
-        * t288;
-    jac_phi_q_t_lambda_A_j[41] = t337;
-    jac_phi_q_t_lambda_A_j[42] = lambda[4] * (t335 * t78 + t329 * t169 + t330 * t224) - lambda[3] * (t333 * t83 +
-        t325 * t170 + t326 * t225) + lambda[5] * (t336 * t86 + t331 * t171 + t332 * t226);
-    jac_phi_q_t_lambda_A_j[43] = lambda[3] * (t333 * f_star_0 + t325 * f_star_1 + t326 * f_star_2) * sine_2 -
-        lambda[5] * (t336 * t90 + t331 * t172 + t332 * t227) + lambda[4] * (t335 * f_star_0 + t329 * f_star_1 + t330
+    jac_phi_q_t_lambda_A_j[77] = -t293;
+    jac_phi_q_t_lambda_A_j[78] = lambda[4] * (t328 * t67 + t322 * t131 + t323 * t173) - lambda[3] * (t326 * t72 +
+        t318 * t132 + t319 * t174) + lambda[5] * (t329 * t75 + t324 * t133 + t325 * t175);
+    jac_phi_q_t_lambda_A_j[79] = lambda[3] * (t326 * f_star_0 + t318 * f_star_1 + t319 * f_star_2) * sine_2 -
+        lambda[5] * (t329 * t79 + t324 * t134 + t325 * t176) + lambda[4] * (t328 * f_star_0 + t322 * f_star_1 + t323
         * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[44] = lambda[3] * (t333 * h_star_0 + t325 * h_star_1 + t326 * h_star_2) - lambda[4] *
-        (g_star_0 * t335 + g_star_1 * t329 + g_star_2 * t330);
-    const jg_real t338 = A_i[5] * C_j[7];
-    const jg_real t339 = A_i[8] * C_j[7];
-    const jg_real t340 = s_j[1] * A_i[8];
-    const jg_real t341 = s_j[1] * A_i[5];
-    const jg_real t342 = A_i[5] * C_j[1];
-    const jg_real t343 = A_i[8] * C_j[1];
-    const jg_real t344 = A_i[5] * C_j[4];
-    const jg_real t345 = A_i[8] * C_j[4];
-    jac_phi_q_t_lambda_A_j[45] = lambda[1] * t340 - lambda[2] * t341 - (t338 * g_star_2 - t339 * g_star_1) *
-        lambda[3] - (t342 * h_star_2 - t343 * h_star_1) * lambda[4] - (t344 * f_star_2 - t345 * f_star_1) *
-        lambda[5];
-    const jg_real t346 = A_i[2] * C_j[7];
-    const jg_real t347 = s_j[1] * A_i[2];
-    const jg_real t348 = A_i[2] * C_j[1];
-    const jg_real t349 = A_i[2] * C_j[4];
-    jac_phi_q_t_lambda_A_j[46] = lambda[2] * t347 - lambda[0] * t340 - lambda[3] * (t339 * g_star_0 - g_star_2 *
-        t346) - lambda[4] * (t343 * h_star_0 - h_star_2 * t348) - lambda[5] * (t345 * f_star_0 - f_star_2 * t349);
-    jac_phi_q_t_lambda_A_j[47] = lambda[0] * t341 - lambda[1] * t347 - lambda[3] * (g_star_1 * t346 - t338 *
-        g_star_0) - lambda[4] * (h_star_1 * t348 - t342 * h_star_0) - lambda[5] * (f_star_1 * t349 - t344 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[49] = -t310;
-    const jg_real t350 = C_j[6] * t307 * lambda[3] + C_j[0] * t308 * lambda[4] + C_j[3] * t309 * lambda[5] + s_j[0]
-        * t306;
-    jac_phi_q_t_lambda_A_j[50] = t350;
-    jac_phi_q_t_lambda_A_j[51] = lambda[4] * (t348 * t78 + t342 * t169 + t343 * t224) - lambda[3] * (t346 * t83 +
-        t338 * t170 + t339 * t225) + lambda[5] * (t349 * t86 + t344 * t171 + t345 * t226);
-    jac_phi_q_t_lambda_A_j[52] = lambda[3] * (t346 * f_star_0 + t338 * f_star_1 + t339 * f_star_2) * sine_2 -
-        lambda[5] * (t349 * t90 + t344 * t172 + t345 * t227) + lambda[4] * (t348 * f_star_0 + t342 * f_star_1 + t343
-        * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[53] = lambda[3] * (t346 * h_star_0 + t338 * h_star_1 + t339 * h_star_2) - lambda[4] *
-        (g_star_0 * t348 + g_star_1 * t342 + g_star_2 * t343);
-    const jg_real t351 = A_i[3] * C_j[8];
-    const jg_real t352 = A_i[6] * C_j[8];
-    const jg_real t353 = s_j[2] * A_i[6];
-    const jg_real t354 = s_j[2] * A_i[3];
-    const jg_real t355 = A_i[3] * C_j[2];
-    const jg_real t356 = A_i[6] * C_j[2];
-    const jg_real t357 = A_i[3] * C_j[5];
-    const jg_real t358 = A_i[6] * C_j[5];
-    jac_phi_q_t_lambda_A_j[54] = lambda[1] * t353 - lambda[2] * t354 - (t351 * g_star_2 - t352 * g_star_1) *
-        lambda[3] - (t355 * h_star_2 - t356 * h_star_1) * lambda[4] - (t357 * f_star_2 - t358 * f_star_1) *
-        lambda[5];
-    const jg_real t359 = A_i[0] * C_j[8];
-    const jg_real t360 = s_j[2] * A_i[0];
-    const jg_real t361 = A_i[0] * C_j[2];
-    const jg_real t362 = A_i[0] * C_j[5];
-    jac_phi_q_t_lambda_A_j[55] = lambda[2] * t360 - lambda[0] * t353 - lambda[3] * (t352 * g_star_0 - g_star_2 *
-        t359) - lambda[4] * (t356 * h_star_0 - h_star_2 * t361) - lambda[5] * (t358 * f_star_0 - f_star_2 * t362);
-    jac_phi_q_t_lambda_A_j[56] = lambda[0] * t354 - lambda[1] * t360 - lambda[3] * (g_star_1 * t359 - t351 *
-        g_star_0) - lambda[4] * (h_star_1 * t361 - t355 * h_star_0) - lambda[5] * (f_star_1 * t362 - t357 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[59] = -t324;
-    jac_phi_q_t_lambda_A_j[60] = lambda[4] * (t361 * t78 + t355 * t169 + t356 * t224) - lambda[3] * (t359 * t83 +
-        t351 * t170 + t352 * t225) + lambda[5] * (t362 * t86 + t357 * t171 + t358 * t226);
-    jac_phi_q_t_lambda_A_j[61] = lambda[3] * (t359 * f_star_0 + t351 * f_star_1 + t352 * f_star_2) * sine_2 -
-        lambda[5] * (t362 * t90 + t357 * t172 + t358 * t227) + lambda[4] * (t361 * f_star_0 + t355 * f_star_1 + t356
-        * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[62] = lambda[3] * (t359 * h_star_0 + t351 * h_star_1 + t352 * h_star_2) - lambda[4] *
-        (g_star_0 * t361 + g_star_1 * t355 + g_star_2 * t356);
-    const jg_real t363 = A_i[4] * C_j[8];
-    const jg_real t364 = A_i[7] * C_j[8];
-    const jg_real t365 = s_j[2] * A_i[7];
-    const jg_real t366 = s_j[2] * A_i[4];
-    const jg_real t367 = A_i[4] * C_j[2];
-    const jg_real t368 = A_i[7] * C_j[2];
-    const jg_real t369 = A_i[4] * C_j[5];
-    const jg_real t370 = A_i[7] * C_j[5];
-    jac_phi_q_t_lambda_A_j[63] = lambda[1] * t365 - lambda[2] * t366 - (t363 * g_star_2 - t364 * g_star_1) *
-        lambda[3] - (t367 * h_star_2 - t368 * h_star_1) * lambda[4] - (t369 * f_star_2 - t370 * f_star_1) *
-        lambda[5];
-    const jg_real t371 = A_i[1] * C_j[8];
-    const jg_real t372 = s_j[2] * A_i[1];
-    const jg_real t373 = A_i[1] * C_j[2];
-    const jg_real t374 = A_i[1] * C_j[5];
-    jac_phi_q_t_lambda_A_j[64] = lambda[2] * t372 - lambda[0] * t365 - lambda[3] * (t364 * g_star_0 - g_star_2 *
-        t371) - lambda[4] * (t368 * h_star_0 - h_star_2 * t373) - lambda[5] * (t370 * f_star_0 - f_star_2 * t374);
-    jac_phi_q_t_lambda_A_j[65] = lambda[0] * t366 - lambda[1] * t372 - lambda[3] * (g_star_1 * t371 - t363 *
-        g_star_0) - lambda[4] * (h_star_1 * t373 - t367 * h_star_0) - lambda[5] * (f_star_1 * t374 - t369 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[68] = -t337;
-    jac_phi_q_t_lambda_A_j[69] = lambda[4] * (t373 * t78 + t367 * t169 + t368 * t224) - lambda[3] * (t371 * t83 +
-        t363 * t170 + t364 * t225) + lambda[5] * (t374 * t86 + t369 * t171 + t370 * t226);
-    jac_phi_q_t_lambda_A_j[70] = lambda[3] * (t371 * f_star_0 + t363 * f_star_1 + t364 * f_star_2) * sine_2 -
-        lambda[5] * (t374 * t90 + t369 * t172 + t370 * t227) + lambda[4] * (t373 * f_star_0 + t367 * f_star_1 + t368
-        * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[71] = lambda[3] * (t371 * h_star_0 + t363 * h_star_1 + t364 * h_star_2) - lambda[4] *
-        (g_star_0 * t373 + g_star_1 * t367 + g_star_2 * t368);
-    const jg_real t375 = A_i[5] * C_j[8];
-    const jg_real t376 = A_i[8] * C_j[8];
-    const jg_real t377 = s_j[2] * A_i[8];
-    const jg_real t378 = s_j[2] * A_i[5];
-    const jg_real t379 = A_i[5] * C_j[2];
-    const jg_real t380 = A_i[8] * C_j[2];
-    const jg_real t381 = A_i[5] * C_j[5];
-    const jg_real t382 = A_i[8] * C_j[5];
-    jac_phi_q_t_lambda_A_j[72] = lambda[1] * t377 - lambda[2] * t378 - (t375 * g_star_2 - t376 * g_star_1) *
-        lambda[3] - (t379 * h_star_2 - t380 * h_star_1) * lambda[4] - (t381 * f_star_2 - t382 * f_star_1) *
-        lambda[5];
-    const jg_real t383 = A_i[2] * C_j[8];
-    const jg_real t384 = s_j[2] * A_i[2];
-    const jg_real t385 = A_i[2] * C_j[2];
-    const jg_real t386 = A_i[2] * C_j[5];
-    jac_phi_q_t_lambda_A_j[73] = lambda[2] * t384 - lambda[0] * t377 - lambda[3] * (t376 * g_star_0 - g_star_2 *
-        t383) - lambda[4] * (t380 * h_star_0 - h_star_2 * t385) - lambda[5] * (t382 * f_star_0 - f_star_2 * t386);
-    jac_phi_q_t_lambda_A_j[74] = lambda[0] * t378 - lambda[1] * t384 - lambda[3] * (g_star_1 * t383 - t375 *
-        g_star_0) - lambda[4] * (h_star_1 * t385 - t379 * h_star_0) - lambda[5] * (f_star_1 * t386 - t381 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[77] = -t350;
-    jac_phi_q_t_lambda_A_j[78] = lambda[4] * (t385 * t78 + t379 * t169 + t380 * t224) - lambda[3] * (t383 * t83 +
-        t375 * t170 + t376 * t225) + lambda[5] * (t386 * t86 + t381 * t171 + t382 * t226);
-    jac_phi_q_t_lambda_A_j[79] = lambda[3] * (t383 * f_star_0 + t375 * f_star_1 + t376 * f_star_2) * sine_2 -
-        lambda[5] * (t386 * t90 + t381 * t172 + t382 * t227) + lambda[4] * (t385 * f_star_0 + t379 * f_star_1 + t380
-        * f_star_2) * cosine_2;
-    jac_phi_q_t_lambda_A_j[80] = lambda[3] * (t383 * h_star_0 + t375 * h_star_1 + t376 * h_star_2) - lambda[4] *
-        (g_star_0 * t385 + g_star_1 * t379 + g_star_2 * t380);
+    jac_phi_q_t_lambda_A_j[80] = lambda[3] * (t326 * h_star_0 + t318 * h_star_1 + t319 * h_star_2) - lambda[4] *
+        (g_star_0 * t328 + g_star_1 * t322 + g_star_2 * t323);
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     jac_phi_q_t_lambda_lambda[12] = A_ij_1;
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     jac_phi_q_t_lambda_lambda[13] = A_ij_4;
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     jac_phi_q_t_lambda_lambda[14] = A_ij_7;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t391 = H_3 * C_i[5] - H_4 * C_i[2];
+    const jg_real t334 = H_3 * C_i[5] - H_4 * C_i[2];
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_q_t_lambda_lambda[22] = A_ij_5;
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_q_t_lambda_lambda[23] = A_ij_8;
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t396 = H_3 * C_i[4] - H_4 * C_i[1];
+    const jg_real A_ij_h_j_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
+    const jg_real t339 = H_3 * C_i[4] - H_4 * C_i[1];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t398 = C_i[2] * t38 + C_i[5] * H_6;
+    const jg_real t341 = C_i[2] * t30 + C_i[5] * H_6;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t400 = C_i[1] * t38 + C_i[4] * H_6;
+    const jg_real t343 = C_i[1] * t30 + C_i[4] * H_6;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t402 = H_0 * C_i[5] - C_i[2] * H_1;
+    const jg_real t345 = H_0 * C_i[5] - C_i[2] * H_1;
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t404 = H_0 * C_i[4] - H_1 * C_i[1];
-    jac_phi_q_t_lambda_alpha[0] = -((A_ij_h_j_1 * t391 - A_ij_h_j_2 * t396) * lambda[3] + (A_ij_f_j_1 * t398 -
-        A_ij_f_j_2 * t400) * lambda[4] + (A_ij_g_j_1 * t402 - A_ij_g_j_2 * t404) * lambda[5]);
-    const jg_real t405 = H_3 * C_i[3] - H_4 * C_i[0];
+    const jg_real t347 = H_0 * C_i[4] - H_1 * C_i[1];
+    jac_phi_q_t_lambda_alpha[0] = -((A_ij_h_j_1 * t334 - A_ij_h_j_2 * t339) * lambda[3] + (A_ij_f_j_1 * t341 -
+        A_ij_f_j_2 * t343) * lambda[4] + (A_ij_g_j_1 * t345 - A_ij_g_j_2 * t347) * lambda[5]);
+    const jg_real t348 = H_3 * C_i[3] - H_4 * C_i[0];
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -2048,507 +1944,486 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_q_t_lambda_lambda[5] = A_ij_6;
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    const jg_real t410 = t38 * C_i[0] + H_6 * C_i[3];
+    const jg_real t353 = t30 * C_i[0] + H_6 * C_i[3];
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t412 = H_0 * C_i[3] - H_1 * C_i[0];
+    const jg_real t355 = H_0 * C_i[3] - H_1 * C_i[0];
     const jg_real A_ij_g_j_0 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
-    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * (A_ij_h_j_2 * t405 - t391 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
-        t410 - t398 * A_ij_f_j_0) + lambda[5] * (A_ij_g_j_2 * t412 - t402 * A_ij_g_j_0));
-    jac_phi_q_t_lambda_alpha[2] = -(lambda[3] * (t396 * A_ij_h_j_0 - A_ij_h_j_1 * t405) + lambda[4] * (t400 *
-        A_ij_f_j_0 - A_ij_f_j_1 * t410) + lambda[5] * (t404 * A_ij_g_j_0 - A_ij_g_j_1 * t412));
-    const jg_real t414 = A_ij_6 * t405 + A_ij_7 * t396 + A_ij_8 * t391;
-    const jg_real t415 = A_ij_3 * t405 + A_ij_4 * t396 + A_ij_5 * t391;
-    const jg_real t416 = A_ij_6 * t410 + A_ij_7 * t400 + A_ij_8 * t398;
-    const jg_real t417 = A_ij_3 * t410 + A_ij_4 * t400 + A_ij_5 * t398;
-    const jg_real t418 = A_ij_6 * t412 + A_ij_7 * t404 + A_ij_8 * t402;
-    const jg_real t419 = A_ij_3 * t412 + A_ij_4 * t404 + A_ij_5 * t402;
-    jac_phi_q_t_lambda_alpha[3] = lambda[3] * (C_j[7] * t414 - C_j[8] * t415) + lambda[4] * (C_j[1] * t416 - C_j[2]
-        * t417) + lambda[5] * (C_j[4] * t418 - C_j[5] * t419);
-    const jg_real t420 = A_ij_0 * t405 + A_ij_1 * t396 + A_ij_2 * t391;
-    const jg_real t421 = A_ij_0 * t410 + A_ij_1 * t400 + A_ij_2 * t398;
-    const jg_real t422 = A_ij_0 * t412 + A_ij_1 * t404 + A_ij_2 * t402;
-    jac_phi_q_t_lambda_alpha[4] = lambda[3] * (C_j[8] * t420 - C_j[6] * t414) + lambda[4] * (C_j[2] * t421 - C_j[0]
-        * t416) + lambda[5] * (C_j[5] * t422 - C_j[3] * t418);
-    jac_phi_q_t_lambda_alpha[5] = lambda[3] * (C_j[6] * t415 - C_j[7] * t420) + lambda[4] * (C_j[0] * t417 - C_j[1]
-        * t421) + lambda[5] * (C_j[3] * t419 - C_j[4] * t422);
-    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * (C_i[3] * t75 - C_i[0] * t77) + A_ij_f_j_1 * (C_i[4] *
-        t75 - C_i[1] * t77) + A_ij_f_j_2 * (C_i[5] * t75 - C_i[2] * t77)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t82
-        + C_i[3] * t80) + A_ij_h_j_1 * (C_i[1] * t82 + C_i[4] * t80) + A_ij_h_j_2 * (C_i[2] * t82 + C_i[5] * t80)) +
-        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t84 - C_i[0] * t85) + A_ij_g_j_1 * (C_i[4] * t84 - C_i[1] * t85) +
-        A_ij_g_j_2 * (C_i[5] * t84 - C_i[2] * t85));
-    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * t412 + A_ij_h_j_1 * t404 + A_ij_h_j_2 * t402) * sine_2 -
-        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t88 + C_i[3] * t87) + A_ij_g_j_1 * (C_i[1] * t88 + C_i[4] * t87) +
-        A_ij_g_j_2 * (C_i[2] * t88 + C_i[5] * t87)) + lambda[4] * (A_ij_f_j_0 * t412 + A_ij_f_j_1 * t404 +
-        A_ij_f_j_2 * t402) * cosine_2;
-    jac_phi_q_t_lambda_alpha[8] = lambda[3] * (A_ij_h_j_0 * t410 + A_ij_h_j_1 * t400 + A_ij_h_j_2 * t398) -
-        lambda[4] * (t405 * A_ij_f_j_0 + t396 * A_ij_f_j_1 + t391 * A_ij_f_j_2);
-    const jg_real t423 = H_0 * sine_2;
-    const jg_real t424 = sine_2 * H_1;
-    const jg_real t425 = sine_1 * sine_2;
-    const jg_real t426 = t423 * C_i[2] + t424 * C_i[5] - t425 * C_i[8];
-    const jg_real t427 = t423 * C_i[1] + t424 * C_i[4] - t425 * C_i[7];
-    const jg_real t428 = cosine_1 * t21;
-    const jg_real t429 = cosine_1 * t18;
-    const jg_real t430 = sine_1 * cosine_2;
-    const jg_real t431 = C_i[2] * t428 + C_i[5] * t429 - C_i[8] * t430;
-    const jg_real t432 = C_i[1] * t428 + C_i[4] * t429 - C_i[7] * t430;
-    const jg_real t433 = t15 * C_i[1] + t20 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real t434 = t15 * C_i[2] + t20 * C_i[5] + cosine_1 * C_i[8];
-    jac_phi_q_t_lambda_alpha[9] = -((A_ij_h_j_1 * t426 - A_ij_h_j_2 * t427) * lambda[3] + (A_ij_f_j_1 * t431 -
-        A_ij_f_j_2 * t432) * lambda[4] + (A_ij_g_j_2 * t433 - A_ij_g_j_1 * t434) * lambda[5]);
-    const jg_real t435 = t423 * C_i[0] + t424 * C_i[3] - t425 * C_i[6];
-    const jg_real t436 = t428 * C_i[0] + t429 * C_i[3] - t430 * C_i[6];
-    const jg_real t437 = t15 * C_i[0] + t20 * C_i[3] + cosine_1 * C_i[6];
-    jac_phi_q_t_lambda_alpha[10] = -(lambda[3] * (A_ij_h_j_2 * t435 - t426 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
-        t436 - t431 * A_ij_f_j_0) + lambda[5] * (t434 * A_ij_g_j_0 - A_ij_g_j_2 * t437));
-    jac_phi_q_t_lambda_alpha[11] = -(lambda[3] * (t427 * A_ij_h_j_0 - A_ij_h_j_1 * t435) + lambda[4] * (t432 *
-        A_ij_f_j_0 - A_ij_f_j_1 * t436) + lambda[5] * (A_ij_g_j_1 * t437 - t433 * A_ij_g_j_0));
-    const jg_real t438 = A_ij_6 * t435 + A_ij_7 * t427 + A_ij_8 * t426;
-    const jg_real t439 = A_ij_3 * t435 + A_ij_4 * t427 + A_ij_5 * t426;
-    const jg_real t440 = A_ij_6 * t436 + A_ij_7 * t432 + A_ij_8 * t431;
-    const jg_real t441 = A_ij_3 * t436 + A_ij_4 * t432 + A_ij_5 * t431;
-    const jg_real t442 = A_ij_3 * t437 + A_ij_4 * t433 + A_ij_5 * t434;
-    const jg_real t443 = A_ij_6 * t437 + A_ij_7 * t433 + A_ij_8 * t434;
-    jac_phi_q_t_lambda_alpha[12] = lambda[3] * (C_j[7] * t438 - C_j[8] * t439) + lambda[4] * (C_j[1] * t440 - C_j[2]
-        * t441) + lambda[5] * (C_j[5] * t442 - C_j[4] * t443);
-    const jg_real t444 = A_ij_0 * t435 + A_ij_1 * t427 + A_ij_2 * t426;
-    const jg_real t445 = A_ij_0 * t436 + A_ij_1 * t432 + A_ij_2 * t431;
-    const jg_real t446 = A_ij_0 * t437 + A_ij_1 * t433 + A_ij_2 * t434;
-    jac_phi_q_t_lambda_alpha[13] = lambda[3] * (C_j[8] * t444 - C_j[6] * t438) + lambda[4] * (C_j[2] * t445 - C_j[0]
-        * t440) + lambda[5] * (C_j[3] * t443 - C_j[5] * t446);
-    jac_phi_q_t_lambda_alpha[14] = lambda[3] * (C_j[6] * t439 - C_j[7] * t444) + lambda[4] * (C_j[0] * t441 - C_j[1]
-        * t445) + lambda[5] * (C_j[4] * t446 - C_j[3] * t442);
-    const jg_real t447 = cosine_1 * H_3 + sine_1 * t423 - (t15 * H_5 + H_0 * t425);
-    const jg_real t448 = cosine_1 * H_4 + sine_1 * t424 - (t20 * H_5 + H_1 * t425);
-    const jg_real t449 = cosine_1 * H_6 + sine_1 * t428 - (t15 * H_8 + H_0 * t430);
-    const jg_real t450 = sine_1 * t429 - cosine_1 * t38 - (t20 * H_8 + H_1 * t430);
-    const jg_real t451 = t423 * H_8 - H_3 * t430 - (H_5 * t428 - t425 * H_6);
-    const jg_real t452 = t424 * H_8 - H_4 * t430 - (H_5 * t429 + t425 * t38);
-    jac_phi_q_t_lambda_alpha[15] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t447 + C_i[3] * t448) + A_ij_f_j_1 * (C_i[1]
-        * t447 + C_i[4] * t448) + A_ij_f_j_2 * (C_i[2] * t447 + C_i[5] * t448)) - lambda[3] * (A_ij_h_j_0 * (C_i[0]
-        * t449 + C_i[3] * t450) + A_ij_h_j_1 * (C_i[1] * t449 + C_i[4] * t450) + A_ij_h_j_2 * (C_i[2] * t449 +
-        C_i[5] * t450)) + lambda[5] * (A_ij_g_j_0 * (C_i[0] * t451 + C_i[3] * t452) + A_ij_g_j_1 * (C_i[1] * t451 +
-        C_i[4] * t452) + A_ij_g_j_2 * (C_i[2] * t451 + C_i[5] * t452));
-    const jg_real t453 = sine_2 * t423 + cosine_2 * t428;
-    const jg_real t454 = sine_2 * t424 + cosine_2 * t429;
-    const jg_real t455 = sine_2 * t425 + cosine_2 * t430;
-    jac_phi_q_t_lambda_alpha[16] = -(lambda[5] * (A_ij_g_j_0 * (C_i[0] * t453 + C_i[3] * t454 - C_i[6] * t455) +
-        A_ij_g_j_1 * (C_i[1] * t453 + C_i[4] * t454 - C_i[7] * t455) + A_ij_g_j_2 * (C_i[2] * t453 + C_i[5] * t454 -
-        C_i[8] * t455)) + lambda[3] * (A_ij_h_j_0 * t437 + A_ij_h_j_1 * t433 + A_ij_h_j_2 * t434) * sine_2 +
-        lambda[4] * (A_ij_f_j_0 * t437 + A_ij_f_j_1 * t433 + A_ij_f_j_2 * t434) * cosine_2);
-    jac_phi_q_t_lambda_alpha[17] = lambda[3] * (A_ij_h_j_0 * t436 + A_ij_h_j_1 * t432 + A_ij_h_j_2 * t431) -
-        lambda[4] * (t435 * A_ij_f_j_0 + t427 * A_ij_f_j_1 + t426 * A_ij_f_j_2);
-    const jg_real t456 = t15 * cosine_2 + t35;
-    const jg_real t457 = t20 * cosine_2 - t37;
-    const jg_real t458 = t456 * C_i[2] + t457 * C_i[5] + t40;
-    const jg_real t459 = t456 * C_i[1] + t457 * C_i[4] + t52;
-    const jg_real t460 = t18 - sine_1 * t37;
-    const jg_real t461 = t21 + sine_1 * t35;
-    const jg_real t462 = C_i[2] * t460 - C_i[5] * t461 - t24;
-    const jg_real t463 = C_i[1] * t460 - C_i[4] * t461 - t49;
-    jac_phi_q_t_lambda_alpha[18] = -((A_ij_h_j_1 * t458 - A_ij_h_j_2 * t459) * lambda[3] + (A_ij_f_j_1 * t462 -
-        A_ij_f_j_2 * t463) * lambda[4]);
-    const jg_real t464 = t456 * C_i[0] + t457 * C_i[3] + t64;
-    const jg_real t465 = t460 * C_i[0] - t461 * C_i[3] - t60;
-    jac_phi_q_t_lambda_alpha[19] = -(lambda[3] * (A_ij_h_j_2 * t464 - t458 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
-        t465 - t462 * A_ij_f_j_0));
-    jac_phi_q_t_lambda_alpha[20] = -(lambda[3] * (t459 * A_ij_h_j_0 - A_ij_h_j_1 * t464) + lambda[4] * (t463 *
-        A_ij_f_j_0 - A_ij_f_j_1 * t465));
-    const jg_real t466 = A_ij_6 * t464 + A_ij_7 * t459 + A_ij_8 * t458;
-    const jg_real t467 = A_ij_3 * t464 + A_ij_4 * t459 + A_ij_5 * t458;
-    const jg_real t468 = A_ij_6 * t465 + A_ij_7 * t463 + A_ij_8 * t462;
-    const jg_real t469 = A_ij_3 * t465 + A_ij_4 * t463 + A_ij_5 * t462;
-    jac_phi_q_t_lambda_alpha[21] = lambda[3] * (C_j[7] * t466 - C_j[8] * t467) + lambda[4] * (C_j[1] * t468 - C_j[2]
-        * t469);
-    const jg_real t470 = A_ij_0 * t464 + A_ij_1 * t459 + A_ij_2 * t458;
-    const jg_real t471 = A_ij_0 * t465 + A_ij_1 * t463 + A_ij_2 * t462;
-    jac_phi_q_t_lambda_alpha[22] = lambda[3] * (C_j[8] * t470 - C_j[6] * t466) + lambda[4] * (C_j[2] * t471 - C_j[0]
-        * t468);
-    jac_phi_q_t_lambda_alpha[23] = lambda[3] * (C_j[6] * t467 - C_j[7] * t470) + lambda[4] * (C_j[0] * t469 - C_j[1]
-        * t471);
-    const jg_real t472 = t79 + sine_1 * t456;
-    const jg_real t473 = t81 + sine_1 * t457;
-    const jg_real t474 = sine_1 * t460 - t74;
-    const jg_real t475 = t76 + sine_1 * t461;
-    const jg_real t476 = t456 * H_8 - H_3 * H_5 - (H_5 * t460 + H_8 * H_6);
-    const jg_real t477 = t457 * H_8 - H_4 * H_5 + (H_5 * t461 + H_8 * t38);
-    jac_phi_q_t_lambda_alpha[24] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t472 + C_i[3] * t473) + A_ij_f_j_1 * (C_i[1]
-        * t472 + C_i[4] * t473) + A_ij_f_j_2 * (C_i[2] * t472 + C_i[5] * t473)) - lambda[3] * (A_ij_h_j_0 * (C_i[0]
-        * t474 - C_i[3] * t475) + A_ij_h_j_1 * (C_i[1] * t474 - C_i[4] * t475) + A_ij_h_j_2 * (C_i[2] * t474 -
-        C_i[5] * t475)) + lambda[5] * (A_ij_g_j_0 * (C_i[0] * t476 + C_i[3] * t477) + A_ij_g_j_1 * (C_i[1] * t476 +
-        C_i[4] * t477) + A_ij_g_j_2 * (C_i[2] * t476 + C_i[5] * t477));
-    const jg_real t478 = cosine_2 * H_3 + sine_2 * t456 + (cosine_2 * t460 - sine_2 * H_6);
-    const jg_real t479 = cosine_2 * H_4 + sine_2 * t457 + (sine_2 * t38 - cosine_2 * t461);
-    const jg_real t480 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    const jg_real t481 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    jac_phi_q_t_lambda_alpha[25] = lambda[3] * t480 * cosine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t478 + C_i[3] *
-        t479) + A_ij_g_j_1 * (C_i[1] * t478 + C_i[4] * t479) + A_ij_g_j_2 * (C_i[2] * t478 + C_i[5] * t479)) -
-        lambda[4] * t481 * sine_2;
-    jac_phi_q_t_lambda_alpha[26] = lambda[3] * (A_ij_h_j_0 * t465 + A_ij_h_j_1 * t463 + A_ij_h_j_2 * t462) -
-        lambda[4] * (t464 * A_ij_f_j_0 + t459 * A_ij_f_j_1 + t458 * A_ij_f_j_2);
-    const jg_real t482 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t483 = lambda[2] * t482;
-    const jg_real t484 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t485 = lambda[1] * t484;
-    jac_phi_q_t_lambda_geometry[0] = t483 - t485;
-    const jg_real t486 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t486 + lambda[0] * t484;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t482 + lambda[1] * t486);
-    const jg_real t487 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t488 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t487 + lambda[2] * t488);
-    const jg_real t489 = lambda[0] * t487;
-    jac_phi_q_t_lambda_geometry[4] = t489 - t483;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t488 + lambda[1] * t482;
-    const jg_real t490 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t490 + lambda[2] * t487;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t484 + lambda[0] * t490);
-    jac_phi_q_t_lambda_geometry[8] = t485 - t489;
-    const jg_real t491 = H_3 * A_ij_h_j_2 * lambda[3] + H_6 * A_ij_f_j_2 * lambda[4] + H_0 * A_ij_g_j_2 * lambda[5];
-    jac_phi_q_t_lambda_geometry[17] = t491;
-    jac_phi_q_t_lambda_geometry[9] = -t491;
-    const jg_real t492 = A_ij_h_j_1 * H_3 * lambda[3] + A_ij_f_j_1 * H_6 * lambda[4] + H_0 * A_ij_g_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[10] = t492;
-    const jg_real t493 = H_3 * A_ij_6;
-    const jg_real t494 = H_3 * A_ij_3;
-    const jg_real t495 = H_6 * A_ij_6;
-    const jg_real t496 = H_6 * A_ij_3;
-    const jg_real t497 = H_0 * A_ij_6;
-    const jg_real t498 = H_0 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[11] = lambda[3] * (C_j[7] * t493 - C_j[8] * t494) + lambda[4] * (C_j[1] * t495 -
-        C_j[2] * t496) + lambda[5] * (C_j[4] * t497 - C_j[5] * t498);
-    const jg_real t499 = H_3 * A_ij_0;
-    const jg_real t500 = H_6 * A_ij_0;
-    const jg_real t501 = H_0 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = lambda[3] * (C_j[8] * t499 - C_j[6] * t493) + lambda[4] * (C_j[2] * t500 -
-        C_j[0] * t495) + lambda[5] * (C_j[5] * t501 - C_j[3] * t497);
-    jac_phi_q_t_lambda_geometry[13] = lambda[3] * (C_j[6] * t494 - C_j[7] * t499) + lambda[4] * (C_j[0] * t496 -
-        C_j[1] * t500) + lambda[5] * (C_j[3] * t498 - C_j[4] * t501);
-    jac_phi_q_t_lambda_geometry[14] = A_ij_f_j_0 * t75 * lambda[4] - A_ij_h_j_0 * t80 * lambda[3] + A_ij_g_j_0 * t84
+    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * (A_ij_h_j_2 * t348 - t334 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
+        t353 - t341 * A_ij_f_j_0) + lambda[5] * (A_ij_g_j_2 * t355 - t345 * A_ij_g_j_0));
+    jac_phi_q_t_lambda_alpha[2] = -(lambda[3] * (t339 * A_ij_h_j_0 - A_ij_h_j_1 * t348) + lambda[4] * (t343 *
+        A_ij_f_j_0 - A_ij_f_j_1 * t353) + lambda[5] * (t347 * A_ij_g_j_0 - A_ij_g_j_1 * t355));
+    const jg_real t357 = t348 * A_ij_6 + A_ij_7 * t339 + t334 * A_ij_8;
+    const jg_real t358 = t348 * A_ij_3 + A_ij_4 * t339 + t334 * A_ij_5;
+    const jg_real t359 = A_ij_6 * t353 + A_ij_7 * t343 + A_ij_8 * t341;
+    const jg_real t360 = A_ij_3 * t353 + A_ij_4 * t343 + A_ij_5 * t341;
+    const jg_real t361 = A_ij_6 * t355 + A_ij_7 * t347 + A_ij_8 * t345;
+    const jg_real t362 = A_ij_3 * t355 + A_ij_4 * t347 + A_ij_5 * t345;
+    jac_phi_q_t_lambda_alpha[3] = lambda[3] * (C_j[7] * t357 - C_j[8] * t358) + lambda[4] * (C_j[1] * t359 - C_j[2]
+        * t360) + lambda[5] * (C_j[4] * t361 - C_j[5] * t362);
+    const jg_real t363 = t348 * A_ij_0 + A_ij_1 * t339 + t334 * A_ij_2;
+    const jg_real t364 = A_ij_0 * t353 + A_ij_1 * t343 + A_ij_2 * t341;
+    const jg_real t365 = A_ij_0 * t355 + A_ij_1 * t347 + A_ij_2 * t345;
+    jac_phi_q_t_lambda_alpha[4] = lambda[3] * (C_j[8] * t363 - C_j[6] * t357) + lambda[4] * (C_j[2] * t364 - C_j[0]
+        * t359) + lambda[5] * (C_j[5] * t365 - C_j[3] * t361);
+    jac_phi_q_t_lambda_alpha[5] = lambda[3] * (C_j[6] * t358 - C_j[7] * t363) + lambda[4] * (C_j[0] * t360 - C_j[1]
+        * t364) + lambda[5] * (C_j[3] * t362 - C_j[4] * t365);
+    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * (C_i[3] * t64 - C_i[0] * t66) + A_ij_f_j_1 * (C_i[4] *
+        t64 - C_i[1] * t66) + A_ij_f_j_2 * (C_i[5] * t64 - C_i[2] * t66)) - lambda[3] * (A_ij_h_j_0 * (C_i[0] * t71
+        + C_i[3] * t69) + A_ij_h_j_1 * (C_i[1] * t71 + C_i[4] * t69) + A_ij_h_j_2 * (C_i[2] * t71 + C_i[5] * t69)) +
+        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t73 - C_i[0] * t74) + A_ij_g_j_1 * (C_i[4] * t73 - C_i[1] * t74) +
+        A_ij_g_j_2 * (C_i[5] * t73 - C_i[2] * t74));
+    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * t355 + A_ij_h_j_1 * t347 + A_ij_h_j_2 * t345) * sine_2 -
+        lambda[5] * (A_ij_g_j_0 * (C_i[0] * t77 + C_i[3] * t76) + A_ij_g_j_1 * (C_i[1] * t77 + C_i[4] * t76) +
+        A_ij_g_j_2 * (C_i[2] * t77 + C_i[5] * t76)) + lambda[4] * (A_ij_f_j_0 * t355 + A_ij_f_j_1 * t347 +
+        A_ij_f_j_2 * t345) * cosine_2;
+    jac_phi_q_t_lambda_alpha[8] = lambda[3] * (A_ij_h_j_0 * t353 + A_ij_h_j_1 * t343 + A_ij_h_j_2 * t341) -
+        lambda[4] * (t348 * A_ij_f_j_0 + t339 * A_ij_f_j_1 + t334 * A_ij_f_j_2);
+    const jg_real t366 = H_0 * sine_2;
+    const jg_real t367 = sine_2 * H_1;
+    const jg_real t368 = sine_1 * sine_2;
+    const jg_real t369 = t366 * C_i[2] + t367 * C_i[5] - t368 * C_i[8];
+    const jg_real t370 = t366 * C_i[1] + t367 * C_i[4] - t368 * C_i[7];
+    const jg_real t371 = cosine_1 * t19;
+    const jg_real t372 = cosine_1 * t16;
+    const jg_real t373 = sine_1 * cosine_2;
+    const jg_real t374 = C_i[2] * t371 + C_i[5] * t372 - C_i[8] * t373;
+    const jg_real t375 = C_i[1] * t371 + C_i[4] * t372 - C_i[7] * t373;
+    const jg_real t376 = t13 * C_i[1] + t18 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real t377 = t13 * C_i[2] + t18 * C_i[5] + cosine_1 * C_i[8];
+    jac_phi_q_t_lambda_alpha[9] = -((A_ij_h_j_1 * t369 - A_ij_h_j_2 * t370) * lambda[3] + (A_ij_f_j_1 * t374 -
+        A_ij_f_j_2 * t375) * lambda[4] + (A_ij_g_j_2 * t376 - A_ij_g_j_1 * t377) * lambda[5]);
+    const jg_real t378 = t366 * C_i[0] + t367 * C_i[3] - t368 * C_i[6];
+    const jg_real t379 = t371 * C_i[0] + t372 * C_i[3] - t373 * C_i[6];
+    const jg_real t380 = t13 * C_i[0] + t18 * C_i[3] + cosine_1 * C_i[6];
+    jac_phi_q_t_lambda_alpha[10] = -(lambda[3] * (A_ij_h_j_2 * t378 - t369 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
+        t379 - t374 * A_ij_f_j_0) + lambda[5] * (t377 * A_ij_g_j_0 - A_ij_g_j_2 * t380));
+    jac_phi_q_t_lambda_alpha[11] = -(lambda[3] * (t370 * A_ij_h_j_0 - A_ij_h_j_1 * t378) + lambda[4] * (t375 *
+        A_ij_f_j_0 - A_ij_f_j_1 * t379) + lambda[5] * (A_ij_g_j_1 * t380 - t376 * A_ij_g_j_0));
+    const jg_real t381 = t378 * A_ij_6 + A_ij_7 * t370 + t369 * A_ij_8;
+    const jg_real t382 = t378 * A_ij_3 + A_ij_4 * t370 + t369 * A_ij_5;
+    const jg_real t383 = A_ij_6 * t379 + A_ij_7 * t375 + A_ij_8 * t374;
+    const jg_real t384 = A_ij_3 * t379 + A_ij_4 * t375 + A_ij_5 * t374;
+    const jg_real t385 = A_ij_3 * t380 + A_ij_4 * t376 + A_ij_5 * t377;
+    const jg_real t386 = A_ij_6 * t380 + A_ij_7 * t376 + A_ij_8 * t377;
+    jac_phi_q_t_lambda_alpha[12] = lambda[3] * (C_j[7] * t381 - C_j[8] * t382) + lambda[4] * (C_j[1] * t383 - C_j[2]
+        * t384) + lambda[5] * (C_j[5] * t385 - C_j[4] * t386);
+    const jg_real t387 = t378 * A_ij_0 + A_ij_1 * t370 + t369 * A_ij_2;
+    const jg_real t388 = A_ij_0 * t379 + A_ij_1 * t375 + A_ij_2 * t374;
+    const jg_real t389 = A_ij_0 * t380 + A_ij_1 * t376 + A_ij_2 * t377;
+    jac_phi_q_t_lambda_alpha[13] = lambda[3] * (C_j[8] * t387 - C_j[6] * t381) + lambda[4] * (C_j[2] * t388 - C_j[0]
+        * t383) + lambda[5] * (C_j[3] * t386 - C_j[5] * t389);
+    jac_phi_q_t_lambda_alpha[14] = lambda[3] * (C_j[6] * t382 - C_j[7] * t387) + lambda[4] * (C_j[0] * t384 - C_j[1]
+        * t388) + lambda[5] * (C_j[4] * t389 - C_j[3] * t385);
+    const jg_real t390 = cosine_1 * H_3 + sine_1 * t366 - (t13 * H_5 + H_0 * t368);
+    const jg_real t391 = cosine_1 * H_4 + sine_1 * t367 - (t18 * H_5 + H_1 * t368);
+    const jg_real t392 = cosine_1 * H_6 + sine_1 * t371 - (t13 * H_8 + H_0 * t373);
+    const jg_real t393 = sine_1 * t372 - cosine_1 * t30 - (t18 * H_8 + H_1 * t373);
+    const jg_real t394 = t366 * H_8 - H_3 * t373 - (H_5 * t371 - t368 * H_6);
+    const jg_real t395 = t367 * H_8 - H_4 * t373 - (H_5 * t372 + t368 * t30);
+    jac_phi_q_t_lambda_alpha[15] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t390 + C_i[3] * t391) + A_ij_f_j_1 * (C_i[1]
+        * t390 + C_i[4] * t391) + A_ij_f_j_2 * (C_i[2] * t390 + C_i[5] * t391)) - lambda[3] * (A_ij_h_j_0 * (C_i[0]
+        * t392 + C_i[3] * t393) + A_ij_h_j_1 * (C_i[1] * t392 + C_i[4] * t393) + A_ij_h_j_2 * (C_i[2] * t392 +
+        C_i[5] * t393)) + lambda[5] * (A_ij_g_j_0 * (C_i[0] * t394 + C_i[3] * t395) + A_ij_g_j_1 * (C_i[1] * t394 +
+        C_i[4] * t395) + A_ij_g_j_2 * (C_i[2] * t394 + C_i[5] * t395));
+    const jg_real t396 = sine_2 * t366 + cosine_2 * t371;
+    const jg_real t397 = sine_2 * t367 + cosine_2 * t372;
+    const jg_real t398 = sine_2 * t368 + cosine_2 * t373;
+    jac_phi_q_t_lambda_alpha[16] = -(lambda[5] * (A_ij_g_j_0 * (C_i[0] * t396 + C_i[3] * t397 - C_i[6] * t398) +
+        A_ij_g_j_1 * (C_i[1] * t396 + C_i[4] * t397 - C_i[7] * t398) + A_ij_g_j_2 * (C_i[2] * t396 + C_i[5] * t397 -
+        C_i[8] * t398)) + lambda[3] * (A_ij_h_j_0 * t380 + A_ij_h_j_1 * t376 + A_ij_h_j_2 * t377) * sine_2 +
+        lambda[4] * (A_ij_f_j_0 * t380 + A_ij_f_j_1 * t376 + A_ij_f_j_2 * t377) * cosine_2);
+    jac_phi_q_t_lambda_alpha[17] = lambda[3] * (A_ij_h_j_0 * t379 + A_ij_h_j_1 * t375 + A_ij_h_j_2 * t374) -
+        lambda[4] * (t378 * A_ij_f_j_0 + t370 * A_ij_f_j_1 + t369 * A_ij_f_j_2);
+    const jg_real t399 = t13 * cosine_2 + t27;
+    const jg_real t400 = t18 * cosine_2 - t29;
+    const jg_real t401 = t399 * C_i[2] + t400 * C_i[5] + t32;
+    const jg_real t402 = t399 * C_i[1] + t400 * C_i[4] + t42;
+    const jg_real t403 = t16 - sine_1 * t29;
+    const jg_real t404 = t19 + sine_1 * t27;
+    const jg_real t405 = C_i[2] * t403 - C_i[5] * t404 - t22;
+    const jg_real t406 = C_i[1] * t403 - C_i[4] * t404 - t40;
+    jac_phi_q_t_lambda_alpha[18] = -((A_ij_h_j_1 * t401 - A_ij_h_j_2 * t402) * lambda[3] + (A_ij_f_j_1 * t405 -
+        A_ij_f_j_2 * t406) * lambda[4]);
+    const jg_real t407 = t399 * C_i[0] + t400 * C_i[3] + t53;
+    const jg_real t408 = t403 * C_i[0] - t404 * C_i[3] - t49;
+    jac_phi_q_t_lambda_alpha[19] = -(lambda[3] * (A_ij_h_j_2 * t407 - t401 * A_ij_h_j_0) + lambda[4] * (A_ij_f_j_2 *
+        t408 - t405 * A_ij_f_j_0));
+    jac_phi_q_t_lambda_alpha[20] = -(lambda[3] * (t402 * A_ij_h_j_0 - A_ij_h_j_1 * t407) + lambda[4] * (t406 *
+        A_ij_f_j_0 - A_ij_f_j_1 * t408));
+    const jg_real t409 = t407 * A_ij_6 + A_ij_7 * t402 + t401 * A_ij_8;
+    const jg_real t410 = t407 * A_ij_3 + A_ij_4 * t402 + t401 * A_ij_5;
+    const jg_real t411 = A_ij_6 * t408 + A_ij_7 * t406 + A_ij_8 * t405;
+    const jg_real t412 = A_ij_3 * t408 + A_ij_4 * t406 + A_ij_5 * t405;
+    jac_phi_q_t_lambda_alpha[21] = lambda[3] * (C_j[7] * t409 - C_j[8] * t410) + lambda[4] * (C_j[1] * t411 - C_j[2]
+        * t412);
+    const jg_real t413 = t407 * A_ij_0 + A_ij_1 * t402 + t401 * A_ij_2;
+    const jg_real t414 = A_ij_0 * t408 + A_ij_1 * t406 + A_ij_2 * t405;
+    jac_phi_q_t_lambda_alpha[22] = lambda[3] * (C_j[8] * t413 - C_j[6] * t409) + lambda[4] * (C_j[2] * t414 - C_j[0]
+        * t411);
+    jac_phi_q_t_lambda_alpha[23] = lambda[3] * (C_j[6] * t410 - C_j[7] * t413) + lambda[4] * (C_j[0] * t412 - C_j[1]
+        * t414);
+    const jg_real t415 = t68 + sine_1 * t399;
+    const jg_real t416 = t70 + sine_1 * t400;
+    const jg_real t417 = sine_1 * t403 - t63;
+    const jg_real t418 = t65 + sine_1 * t404;
+    const jg_real t419 = t399 * H_8 - H_3 * H_5 - (H_5 * t403 + H_8 * H_6);
+    const jg_real t420 = t400 * H_8 - H_4 * H_5 + (H_5 * t404 + H_8 * t30);
+    jac_phi_q_t_lambda_alpha[24] = lambda[4] * (A_ij_f_j_0 * (C_i[0] * t415 + C_i[3] * t416) + A_ij_f_j_1 * (C_i[1]
+        * t415 + C_i[4] * t416) + A_ij_f_j_2 * (C_i[2] * t415 + C_i[5] * t416)) - lambda[3] * (A_ij_h_j_0 * (C_i[0]
+        * t417 - C_i[3] * t418) + A_ij_h_j_1 * (C_i[1] * t417 - C_i[4] * t418) + A_ij_h_j_2 * (C_i[2] * t417 -
+        C_i[5] * t418)) + lambda[5] * (A_ij_g_j_0 * (C_i[0] * t419 + C_i[3] * t420) + A_ij_g_j_1 * (C_i[1] * t419 +
+        C_i[4] * t420) + A_ij_g_j_2 * (C_i[2] * t419 + C_i[5] * t420));
+    const jg_real t421 = cosine_2 * H_3 + sine_2 * t399 + (cosine_2 * t403 - sine_2 * H_6);
+    const jg_real t422 = cosine_2 * H_4 + sine_2 * t400 + (sine_2 * t30 - cosine_2 * t404);
+    const jg_real t423 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    const jg_real t424 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    jac_phi_q_t_lambda_alpha[25] = lambda[3] * t423 * cosine_2 - lambda[5] * (A_ij_g_j_0 * (C_i[0] * t421 + C_i[3] *
+        t422) + A_ij_g_j_1 * (C_i[1] * t421 + C_i[4] * t422) + A_ij_g_j_2 * (C_i[2] * t421 + C_i[5] * t422)) -
+        lambda[4] * t424 * sine_2;
+    jac_phi_q_t_lambda_alpha[26] = lambda[3] * (A_ij_h_j_0 * t408 + A_ij_h_j_1 * t406 + A_ij_h_j_2 * t405) -
+        lambda[4] * (t407 * A_ij_f_j_0 + t402 * A_ij_f_j_1 + t401 * A_ij_f_j_2);
+    const jg_real t425 = H_3 * A_ij_h_j_2 * lambda[3] + H_6 * A_ij_f_j_2 * lambda[4] + H_0 * A_ij_g_j_2 * lambda[5];
+    jac_phi_q_t_lambda_geometry[8] = t425;
+    jac_phi_q_t_lambda_geometry[0] = -t425;
+    const jg_real t426 = A_ij_h_j_1 * H_3 * lambda[3] + A_ij_f_j_1 * H_6 * lambda[4] + H_0 * A_ij_g_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[1] = t426;
+    const jg_real t427 = H_3 * A_ij_6;
+    const jg_real t428 = H_3 * A_ij_3;
+    const jg_real t429 = H_6 * A_ij_6;
+    const jg_real t430 = H_6 * A_ij_3;
+    const jg_real t431 = H_0 * A_ij_6;
+    const jg_real t432 = H_0 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[2] = lambda[3] * (C_j[7] * t427 - C_j[8] * t428) + lambda[4] * (C_j[1] * t429 -
+        C_j[2] * t430) + lambda[5] * (C_j[4] * t431 - C_j[5] * t432);
+    const jg_real t433 = H_3 * A_ij_0;
+    const jg_real t434 = H_6 * A_ij_0;
+    const jg_real t435 = H_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[3] = lambda[3] * (C_j[8] * t433 - C_j[6] * t427) + lambda[4] * (C_j[2] * t434 -
+        C_j[0] * t429) + lambda[5] * (C_j[5] * t435 - C_j[3] * t431);
+    jac_phi_q_t_lambda_geometry[4] = lambda[3] * (C_j[6] * t428 - C_j[7] * t433) + lambda[4] * (C_j[0] * t430 -
+        C_j[1] * t434) + lambda[5] * (C_j[3] * t432 - C_j[4] * t435);
+    jac_phi_q_t_lambda_geometry[5] = A_ij_f_j_0 * t64 * lambda[4] - A_ij_h_j_0 * t69 * lambda[3] + A_ij_g_j_0 * t73
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[15] = H_0 * A_ij_h_j_0 * lambda[3] * sine_2 - A_ij_g_j_0 * t87 * lambda[5] + H_0 *
+    jac_phi_q_t_lambda_geometry[6] = H_0 * A_ij_h_j_0 * lambda[3] * sine_2 - A_ij_g_j_0 * t76 * lambda[5] + H_0 *
         A_ij_f_j_0 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[16] = H_6 * A_ij_h_j_0 * lambda[3] - H_3 * A_ij_f_j_0 * lambda[4];
-    const jg_real t502 = H_3 * A_ij_h_j_0 * lambda[3] + H_6 * A_ij_f_j_0 * lambda[4] + H_0 * A_ij_g_j_0 * lambda[5];
-    jac_phi_q_t_lambda_geometry[26] = t502;
-    jac_phi_q_t_lambda_geometry[18] = -t502;
-    const jg_real t503 = A_ij_7 * H_3;
-    const jg_real t504 = A_ij_4 * H_3;
-    const jg_real t505 = A_ij_7 * H_6;
-    const jg_real t506 = A_ij_4 * H_6;
-    const jg_real t507 = A_ij_7 * H_0;
-    const jg_real t508 = A_ij_4 * H_0;
-    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[7] * t503 - C_j[8] * t504) + lambda[4] * (C_j[1] * t505 -
-        C_j[2] * t506) + lambda[5] * (C_j[4] * t507 - C_j[5] * t508);
-    const jg_real t509 = A_ij_1 * H_3;
-    const jg_real t510 = A_ij_1 * H_6;
-    const jg_real t511 = A_ij_1 * H_0;
-    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[8] * t509 - C_j[6] * t503) + lambda[4] * (C_j[2] * t510 -
-        C_j[0] * t505) + lambda[5] * (C_j[5] * t511 - C_j[3] * t507);
-    jac_phi_q_t_lambda_geometry[21] = lambda[3] * (C_j[6] * t504 - C_j[7] * t509) + lambda[4] * (C_j[0] * t506 -
-        C_j[1] * t510) + lambda[5] * (C_j[3] * t508 - C_j[4] * t511);
-    jac_phi_q_t_lambda_geometry[22] = A_ij_f_j_1 * t75 * lambda[4] - A_ij_h_j_1 * t80 * lambda[3] + A_ij_g_j_1 * t84
+    jac_phi_q_t_lambda_geometry[7] = H_6 * A_ij_h_j_0 * lambda[3] - H_3 * A_ij_f_j_0 * lambda[4];
+    const jg_real t436 = H_3 * A_ij_h_j_0 * lambda[3] + H_6 * A_ij_f_j_0 * lambda[4] + H_0 * A_ij_g_j_0 * lambda[5];
+    jac_phi_q_t_lambda_geometry[17] = t436;
+    jac_phi_q_t_lambda_geometry[9] = -t436;
+    const jg_real t437 = A_ij_7 * H_3;
+    const jg_real t438 = A_ij_4 * H_3;
+    const jg_real t439 = A_ij_7 * H_6;
+    const jg_real t440 = A_ij_4 * H_6;
+    const jg_real t441 = A_ij_7 * H_0;
+    const jg_real t442 = A_ij_4 * H_0;
+    jac_phi_q_t_lambda_geometry[10] = lambda[3] * (C_j[7] * t437 - C_j[8] * t438) + lambda[4] * (C_j[1] * t439 -
+        C_j[2] * t440) + lambda[5] * (C_j[4] * t441 - C_j[5] * t442);
+    const jg_real t443 = A_ij_1 * H_3;
+    const jg_real t444 = A_ij_1 * H_6;
+    const jg_real t445 = A_ij_1 * H_0;
+    jac_phi_q_t_lambda_geometry[11] = lambda[3] * (C_j[8] * t443 - C_j[6] * t437) + lambda[4] * (C_j[2] * t444 -
+        C_j[0] * t439) + lambda[5] * (C_j[5] * t445 - C_j[3] * t441);
+    jac_phi_q_t_lambda_geometry[12] = lambda[3] * (C_j[6] * t438 - C_j[7] * t443) + lambda[4] * (C_j[0] * t440 -
+        C_j[1] * t444) + lambda[5] * (C_j[3] * t442 - C_j[4] * t445);
+    jac_phi_q_t_lambda_geometry[13] = A_ij_f_j_1 * t64 * lambda[4] - A_ij_h_j_1 * t69 * lambda[3] + A_ij_g_j_1 * t73
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[23] = A_ij_h_j_1 * H_0 * lambda[3] * sine_2 - A_ij_g_j_1 * t87 * lambda[5] + H_0 *
+    jac_phi_q_t_lambda_geometry[14] = A_ij_h_j_1 * H_0 * lambda[3] * sine_2 - A_ij_g_j_1 * t76 * lambda[5] + H_0 *
         A_ij_f_j_1 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[24] = A_ij_h_j_1 * H_6 * lambda[3] - H_3 * A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[25] = -t492;
-    const jg_real t512 = A_ij_8 * H_3;
-    const jg_real t513 = A_ij_5 * H_3;
-    const jg_real t514 = A_ij_8 * H_6;
-    const jg_real t515 = A_ij_5 * H_6;
-    const jg_real t516 = A_ij_8 * H_0;
-    const jg_real t517 = A_ij_5 * H_0;
-    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (C_j[7] * t512 - C_j[8] * t513) + lambda[4] * (C_j[1] * t514 -
-        C_j[2] * t515) + lambda[5] * (C_j[4] * t516 - C_j[5] * t517);
-    const jg_real t518 = A_ij_2 * H_3;
-    const jg_real t519 = A_ij_2 * H_6;
-    const jg_real t520 = A_ij_2 * H_0;
-    jac_phi_q_t_lambda_geometry[28] = lambda[3] * (C_j[8] * t518 - C_j[6] * t512) + lambda[4] * (C_j[2] * t519 -
-        C_j[0] * t514) + lambda[5] * (C_j[5] * t520 - C_j[3] * t516);
-    jac_phi_q_t_lambda_geometry[29] = lambda[3] * (C_j[6] * t513 - C_j[7] * t518) + lambda[4] * (C_j[0] * t515 -
-        C_j[1] * t519) + lambda[5] * (C_j[3] * t517 - C_j[4] * t520);
-    jac_phi_q_t_lambda_geometry[30] = A_ij_f_j_2 * t75 * lambda[4] - A_ij_h_j_2 * t80 * lambda[3] + A_ij_g_j_2 * t84
+    jac_phi_q_t_lambda_geometry[15] = A_ij_h_j_1 * H_6 * lambda[3] - H_3 * A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[16] = -t426;
+    const jg_real t446 = H_3 * A_ij_8;
+    const jg_real t447 = H_3 * A_ij_5;
+    const jg_real t448 = A_ij_8 * H_6;
+    const jg_real t449 = A_ij_5 * H_6;
+    const jg_real t450 = H_0 * A_ij_8;
+    const jg_real t451 = H_0 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[7] * t446 - C_j[8] * t447) + lambda[4] * (C_j[1] * t448 -
+        C_j[2] * t449) + lambda[5] * (C_j[4] * t450 - C_j[5] * t451);
+    const jg_real t452 = H_3 * A_ij_2;
+    const jg_real t453 = A_ij_2 * H_6;
+    const jg_real t454 = H_0 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[8] * t452 - C_j[6] * t446) + lambda[4] * (C_j[2] * t453 -
+        C_j[0] * t448) + lambda[5] * (C_j[5] * t454 - C_j[3] * t450);
+    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[6] * t447 - C_j[7] * t452) + lambda[4] * (C_j[0] * t449 -
+        C_j[1] * t453) + lambda[5] * (C_j[3] * t451 - C_j[4] * t454);
+    jac_phi_q_t_lambda_geometry[21] = A_ij_f_j_2 * t64 * lambda[4] - A_ij_h_j_2 * t69 * lambda[3] + A_ij_g_j_2 * t73
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[31] = H_0 * A_ij_h_j_2 * lambda[3] * sine_2 - A_ij_g_j_2 * t87 * lambda[5] + H_0 *
+    jac_phi_q_t_lambda_geometry[22] = H_0 * A_ij_h_j_2 * lambda[3] * sine_2 - A_ij_g_j_2 * t76 * lambda[5] + H_0 *
         A_ij_f_j_2 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[32] = A_ij_h_j_2 * H_6 * lambda[3] - H_3 * A_ij_f_j_2 * lambda[4];
-    const jg_real t521 = H_4 * A_ij_h_j_2 * lambda[3] - t38 * A_ij_f_j_2 * lambda[4] + H_1 * A_ij_g_j_2 * lambda[5];
-    jac_phi_q_t_lambda_geometry[41] = t521;
-    jac_phi_q_t_lambda_geometry[33] = -t521;
-    const jg_real t522 = A_ij_f_j_1 * t38 * lambda[4] - A_ij_h_j_1 * H_4 * lambda[3] - H_1 * A_ij_g_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[49] = t522;
-    jac_phi_q_t_lambda_geometry[34] = -t522;
-    const jg_real t523 = H_4 * A_ij_6;
-    const jg_real t524 = H_4 * A_ij_3;
-    const jg_real t525 = t38 * A_ij_3;
-    const jg_real t526 = t38 * A_ij_6;
-    const jg_real t527 = H_1 * A_ij_6;
-    const jg_real t528 = H_1 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[35] = lambda[3] * (C_j[7] * t523 - C_j[8] * t524) + lambda[4] * (C_j[2] * t525 -
-        C_j[1] * t526) + lambda[5] * (C_j[4] * t527 - C_j[5] * t528);
-    const jg_real t529 = H_4 * A_ij_0;
-    const jg_real t530 = t38 * A_ij_0;
-    const jg_real t531 = H_1 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[36] = lambda[3] * (C_j[8] * t529 - C_j[6] * t523) + lambda[4] * (C_j[0] * t526 -
-        C_j[2] * t530) + lambda[5] * (C_j[5] * t531 - C_j[3] * t527);
-    jac_phi_q_t_lambda_geometry[37] = lambda[3] * (C_j[6] * t524 - C_j[7] * t529) + lambda[4] * (C_j[1] * t530 -
-        C_j[0] * t525) + lambda[5] * (C_j[3] * t528 - C_j[4] * t531);
-    jac_phi_q_t_lambda_geometry[38] = A_ij_f_j_0 * t77 * lambda[4] + A_ij_h_j_0 * t82 * lambda[3] + A_ij_g_j_0 * t85
+    jac_phi_q_t_lambda_geometry[23] = A_ij_h_j_2 * H_6 * lambda[3] - H_3 * A_ij_f_j_2 * lambda[4];
+    const jg_real t455 = H_4 * A_ij_h_j_2 * lambda[3] - t30 * A_ij_f_j_2 * lambda[4] + H_1 * A_ij_g_j_2 * lambda[5];
+    jac_phi_q_t_lambda_geometry[32] = t455;
+    jac_phi_q_t_lambda_geometry[24] = -t455;
+    const jg_real t456 = A_ij_f_j_1 * t30 * lambda[4] - A_ij_h_j_1 * H_4 * lambda[3] - H_1 * A_ij_g_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[40] = t456;
+    jac_phi_q_t_lambda_geometry[25] = -t456;
+    const jg_real t457 = H_4 * A_ij_6;
+    const jg_real t458 = H_4 * A_ij_3;
+    const jg_real t459 = t30 * A_ij_3;
+    const jg_real t460 = t30 * A_ij_6;
+    const jg_real t461 = H_1 * A_ij_6;
+    const jg_real t462 = H_1 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[26] = lambda[3] * (C_j[7] * t457 - C_j[8] * t458) + lambda[4] * (C_j[2] * t459 -
+        C_j[1] * t460) + lambda[5] * (C_j[4] * t461 - C_j[5] * t462);
+    const jg_real t463 = H_4 * A_ij_0;
+    const jg_real t464 = t30 * A_ij_0;
+    const jg_real t465 = H_1 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (C_j[8] * t463 - C_j[6] * t457) + lambda[4] * (C_j[0] * t460 -
+        C_j[2] * t464) + lambda[5] * (C_j[5] * t465 - C_j[3] * t461);
+    jac_phi_q_t_lambda_geometry[28] = lambda[3] * (C_j[6] * t458 - C_j[7] * t463) + lambda[4] * (C_j[1] * t464 -
+        C_j[0] * t459) + lambda[5] * (C_j[3] * t462 - C_j[4] * t465);
+    jac_phi_q_t_lambda_geometry[29] = A_ij_f_j_0 * t66 * lambda[4] + A_ij_h_j_0 * t71 * lambda[3] + A_ij_g_j_0 * t74
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[39] = A_ij_g_j_0 * t88 * lambda[5] + H_1 * A_ij_h_j_0 * lambda[3] * sine_2 + H_1 *
+    jac_phi_q_t_lambda_geometry[30] = A_ij_g_j_0 * t77 * lambda[5] + H_1 * A_ij_h_j_0 * lambda[3] * sine_2 + H_1 *
         A_ij_f_j_0 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[40] = -(t38 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
-    const jg_real t532 = H_4 * A_ij_h_j_0 * lambda[3] - t38 * A_ij_f_j_0 * lambda[4] + H_1 * A_ij_g_j_0 * lambda[5];
-    jac_phi_q_t_lambda_geometry[50] = t532;
-    jac_phi_q_t_lambda_geometry[42] = -t532;
-    const jg_real t533 = A_ij_7 * H_4;
-    const jg_real t534 = A_ij_4 * H_4;
-    const jg_real t535 = A_ij_4 * t38;
-    const jg_real t536 = A_ij_7 * t38;
-    const jg_real t537 = A_ij_7 * H_1;
-    const jg_real t538 = A_ij_4 * H_1;
-    jac_phi_q_t_lambda_geometry[43] = lambda[3] * (C_j[7] * t533 - C_j[8] * t534) + lambda[4] * (C_j[2] * t535 -
-        C_j[1] * t536) + lambda[5] * (C_j[4] * t537 - C_j[5] * t538);
-    const jg_real t539 = A_ij_1 * H_4;
-    const jg_real t540 = A_ij_1 * t38;
-    const jg_real t541 = A_ij_1 * H_1;
-    jac_phi_q_t_lambda_geometry[44] = lambda[3] * (C_j[8] * t539 - C_j[6] * t533) + lambda[4] * (C_j[0] * t536 -
-        C_j[2] * t540) + lambda[5] * (C_j[5] * t541 - C_j[3] * t537);
-    jac_phi_q_t_lambda_geometry[45] = lambda[3] * (C_j[6] * t534 - C_j[7] * t539) + lambda[4] * (C_j[1] * t540 -
-        C_j[0] * t535) + lambda[5] * (C_j[3] * t538 - C_j[4] * t541);
-    jac_phi_q_t_lambda_geometry[46] = A_ij_f_j_1 * t77 * lambda[4] + A_ij_h_j_1 * t82 * lambda[3] + A_ij_g_j_1 * t85
+    jac_phi_q_t_lambda_geometry[31] = -(t30 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
+    const jg_real t466 = H_4 * A_ij_h_j_0 * lambda[3] - t30 * A_ij_f_j_0 * lambda[4] + H_1 * A_ij_g_j_0 * lambda[5];
+    jac_phi_q_t_lambda_geometry[41] = t466;
+    jac_phi_q_t_lambda_geometry[33] = -t466;
+    const jg_real t467 = A_ij_7 * H_4;
+    const jg_real t468 = A_ij_4 * H_4;
+    const jg_real t469 = A_ij_4 * t30;
+    const jg_real t470 = A_ij_7 * t30;
+    const jg_real t471 = A_ij_7 * H_1;
+    const jg_real t472 = A_ij_4 * H_1;
+    jac_phi_q_t_lambda_geometry[34] = lambda[3] * (C_j[7] * t467 - C_j[8] * t468) + lambda[4] * (C_j[2] * t469 -
+        C_j[1] * t470) + lambda[5] * (C_j[4] * t471 - C_j[5] * t472);
+    const jg_real t473 = A_ij_1 * H_4;
+    const jg_real t474 = A_ij_1 * t30;
+    const jg_real t475 = A_ij_1 * H_1;
+    jac_phi_q_t_lambda_geometry[35] = lambda[3] * (C_j[8] * t473 - C_j[6] * t467) + lambda[4] * (C_j[0] * t470 -
+        C_j[2] * t474) + lambda[5] * (C_j[5] * t475 - C_j[3] * t471);
+    jac_phi_q_t_lambda_geometry[36] = lambda[3] * (C_j[6] * t468 - C_j[7] * t473) + lambda[4] * (C_j[1] * t474 -
+        C_j[0] * t469) + lambda[5] * (C_j[3] * t472 - C_j[4] * t475);
+    jac_phi_q_t_lambda_geometry[37] = A_ij_f_j_1 * t66 * lambda[4] + A_ij_h_j_1 * t71 * lambda[3] + A_ij_g_j_1 * t74
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[47] = A_ij_g_j_1 * t88 * lambda[5] + A_ij_h_j_1 * H_1 * lambda[3] * sine_2 + H_1 *
+    jac_phi_q_t_lambda_geometry[38] = A_ij_g_j_1 * t77 * lambda[5] + A_ij_h_j_1 * H_1 * lambda[3] * sine_2 + H_1 *
         A_ij_f_j_1 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[48] = -(A_ij_h_j_1 * t38 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
-    const jg_real t542 = A_ij_8 * H_4;
-    const jg_real t543 = A_ij_5 * H_4;
-    const jg_real t544 = A_ij_5 * t38;
-    const jg_real t545 = A_ij_8 * t38;
-    const jg_real t546 = A_ij_8 * H_1;
-    const jg_real t547 = A_ij_5 * H_1;
-    jac_phi_q_t_lambda_geometry[51] = lambda[3] * (C_j[7] * t542 - C_j[8] * t543) + lambda[4] * (C_j[2] * t544 -
-        C_j[1] * t545) + lambda[5] * (C_j[4] * t546 - C_j[5] * t547);
-    const jg_real t548 = A_ij_2 * H_4;
-    const jg_real t549 = A_ij_2 * t38;
-    const jg_real t550 = A_ij_2 * H_1;
-    jac_phi_q_t_lambda_geometry[52] = lambda[3] * (C_j[8] * t548 - C_j[6] * t542) + lambda[4] * (C_j[0] * t545 -
-        C_j[2] * t549) + lambda[5] * (C_j[5] * t550 - C_j[3] * t546);
-    jac_phi_q_t_lambda_geometry[53] = lambda[3] * (C_j[6] * t543 - C_j[7] * t548) + lambda[4] * (C_j[1] * t549 -
-        C_j[0] * t544) + lambda[5] * (C_j[3] * t547 - C_j[4] * t550);
-    jac_phi_q_t_lambda_geometry[54] = A_ij_f_j_2 * t77 * lambda[4] + A_ij_h_j_2 * t82 * lambda[3] + A_ij_g_j_2 * t85
+    jac_phi_q_t_lambda_geometry[39] = -(A_ij_h_j_1 * t30 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
+    const jg_real t476 = H_4 * A_ij_8;
+    const jg_real t477 = H_4 * A_ij_5;
+    const jg_real t478 = A_ij_5 * t30;
+    const jg_real t479 = A_ij_8 * t30;
+    const jg_real t480 = H_1 * A_ij_8;
+    const jg_real t481 = H_1 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[42] = lambda[3] * (C_j[7] * t476 - C_j[8] * t477) + lambda[4] * (C_j[2] * t478 -
+        C_j[1] * t479) + lambda[5] * (C_j[4] * t480 - C_j[5] * t481);
+    const jg_real t482 = H_4 * A_ij_2;
+    const jg_real t483 = A_ij_2 * t30;
+    const jg_real t484 = H_1 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[43] = lambda[3] * (C_j[8] * t482 - C_j[6] * t476) + lambda[4] * (C_j[0] * t479 -
+        C_j[2] * t483) + lambda[5] * (C_j[5] * t484 - C_j[3] * t480);
+    jac_phi_q_t_lambda_geometry[44] = lambda[3] * (C_j[6] * t477 - C_j[7] * t482) + lambda[4] * (C_j[1] * t483 -
+        C_j[0] * t478) + lambda[5] * (C_j[3] * t481 - C_j[4] * t484);
+    jac_phi_q_t_lambda_geometry[45] = A_ij_f_j_2 * t66 * lambda[4] + A_ij_h_j_2 * t71 * lambda[3] + A_ij_g_j_2 * t74
         * lambda[5];
-    jac_phi_q_t_lambda_geometry[55] = A_ij_g_j_2 * t88 * lambda[5] + H_1 * A_ij_h_j_2 * lambda[3] * sine_2 + H_1 *
+    jac_phi_q_t_lambda_geometry[46] = A_ij_g_j_2 * t77 * lambda[5] + H_1 * A_ij_h_j_2 * lambda[3] * sine_2 + H_1 *
         A_ij_f_j_2 * lambda[4] * cosine_2;
-    jac_phi_q_t_lambda_geometry[56] = -(A_ij_h_j_2 * t38 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
-    const jg_real t551 = H_5 * A_ij_h_j_2 * lambda[3] + H_8 * A_ij_f_j_2 * lambda[4] - sine_1 * A_ij_g_j_2 *
+    jac_phi_q_t_lambda_geometry[47] = -(A_ij_h_j_2 * t30 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
+    const jg_real t485 = H_5 * A_ij_h_j_2 * lambda[3] + H_8 * A_ij_f_j_2 * lambda[4] - sine_1 * A_ij_g_j_2 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[64] = t551;
-    jac_phi_q_t_lambda_geometry[57] = -t551;
-    const jg_real t552 = sine_1 * A_ij_g_j_1 * lambda[5] - (A_ij_h_j_1 * H_5 * lambda[3] + H_8 * A_ij_f_j_1 *
+    jac_phi_q_t_lambda_geometry[55] = t485;
+    jac_phi_q_t_lambda_geometry[48] = -t485;
+    const jg_real t486 = sine_1 * A_ij_g_j_1 * lambda[5] - (A_ij_h_j_1 * H_5 * lambda[3] + H_8 * A_ij_f_j_1 *
         lambda[4]);
-    jac_phi_q_t_lambda_geometry[71] = t552;
-    jac_phi_q_t_lambda_geometry[58] = -t552;
-    const jg_real t553 = H_5 * A_ij_6;
-    const jg_real t554 = H_5 * A_ij_3;
-    const jg_real t555 = H_8 * A_ij_6;
-    const jg_real t556 = H_8 * A_ij_3;
-    const jg_real t557 = sine_1 * A_ij_3;
-    const jg_real t558 = sine_1 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[59] = lambda[3] * (C_j[7] * t553 - C_j[8] * t554) + lambda[4] * (C_j[1] * t555 -
-        C_j[2] * t556) + lambda[5] * (C_j[5] * t557 - C_j[4] * t558);
-    const jg_real t559 = H_5 * A_ij_0;
-    const jg_real t560 = H_8 * A_ij_0;
-    const jg_real t561 = sine_1 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[60] = lambda[3] * (C_j[8] * t559 - C_j[6] * t553) + lambda[4] * (C_j[2] * t560 -
-        C_j[0] * t555) + lambda[5] * (C_j[3] * t558 - C_j[5] * t561);
-    jac_phi_q_t_lambda_geometry[61] = lambda[3] * (C_j[6] * t554 - C_j[7] * t559) + lambda[4] * (C_j[0] * t556 -
-        C_j[1] * t560) + lambda[5] * (C_j[4] * t561 - C_j[3] * t557);
-    jac_phi_q_t_lambda_geometry[62] = -(A_ij_g_j_0 * t89 * lambda[5] + sine_1 * A_ij_h_j_0 * lambda[3] * sine_2 +
+    jac_phi_q_t_lambda_geometry[62] = t486;
+    jac_phi_q_t_lambda_geometry[49] = -t486;
+    const jg_real t487 = H_5 * A_ij_6;
+    const jg_real t488 = H_5 * A_ij_3;
+    const jg_real t489 = H_8 * A_ij_6;
+    const jg_real t490 = H_8 * A_ij_3;
+    const jg_real t491 = sine_1 * A_ij_3;
+    const jg_real t492 = sine_1 * A_ij_6;
+    jac_phi_q_t_lambda_geometry[50] = lambda[3] * (C_j[7] * t487 - C_j[8] * t488) + lambda[4] * (C_j[1] * t489 -
+        C_j[2] * t490) + lambda[5] * (C_j[5] * t491 - C_j[4] * t492);
+    const jg_real t493 = H_5 * A_ij_0;
+    const jg_real t494 = H_8 * A_ij_0;
+    const jg_real t495 = sine_1 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[51] = lambda[3] * (C_j[8] * t493 - C_j[6] * t487) + lambda[4] * (C_j[2] * t494 -
+        C_j[0] * t489) + lambda[5] * (C_j[3] * t492 - C_j[5] * t495);
+    jac_phi_q_t_lambda_geometry[52] = lambda[3] * (C_j[6] * t488 - C_j[7] * t493) + lambda[4] * (C_j[0] * t490 -
+        C_j[1] * t494) + lambda[5] * (C_j[4] * t495 - C_j[3] * t491);
+    jac_phi_q_t_lambda_geometry[53] = -(A_ij_g_j_0 * t78 * lambda[5] + sine_1 * A_ij_h_j_0 * lambda[3] * sine_2 +
         sine_1 * A_ij_f_j_0 * lambda[4] * cosine_2);
-    jac_phi_q_t_lambda_geometry[63] = H_8 * A_ij_h_j_0 * lambda[3] - H_5 * A_ij_f_j_0 * lambda[4];
-    const jg_real t562 = H_5 * A_ij_h_j_0 * lambda[3] + H_8 * A_ij_f_j_0 * lambda[4] - sine_1 * A_ij_g_j_0 *
+    jac_phi_q_t_lambda_geometry[54] = H_8 * A_ij_h_j_0 * lambda[3] - H_5 * A_ij_f_j_0 * lambda[4];
+    const jg_real t496 = H_5 * A_ij_h_j_0 * lambda[3] + H_8 * A_ij_f_j_0 * lambda[4] - sine_1 * A_ij_g_j_0 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[72] = t562;
-    jac_phi_q_t_lambda_geometry[65] = -t562;
-    const jg_real t563 = A_ij_7 * H_5;
-    const jg_real t564 = A_ij_4 * H_5;
-    const jg_real t565 = A_ij_7 * H_8;
-    const jg_real t566 = A_ij_4 * H_8;
-    const jg_real t567 = A_ij_4 * sine_1;
-    const jg_real t568 = A_ij_7 * sine_1;
-    jac_phi_q_t_lambda_geometry[66] = lambda[3] * (C_j[7] * t563 - C_j[8] * t564) + lambda[4] * (C_j[1] * t565 -
-        C_j[2] * t566) + lambda[5] * (C_j[5] * t567 - C_j[4] * t568);
-    const jg_real t569 = A_ij_1 * H_5;
-    const jg_real t570 = A_ij_1 * H_8;
-    const jg_real t571 = A_ij_1 * sine_1;
-    jac_phi_q_t_lambda_geometry[67] = lambda[3] * (C_j[8] * t569 - C_j[6] * t563) + lambda[4] * (C_j[2] * t570 -
-        C_j[0] * t565) + lambda[5] * (C_j[3] * t568 - C_j[5] * t571);
-    jac_phi_q_t_lambda_geometry[68] = lambda[3] * (C_j[6] * t564 - C_j[7] * t569) + lambda[4] * (C_j[0] * t566 -
-        C_j[1] * t570) + lambda[5] * (C_j[4] * t571 - C_j[3] * t567);
-    jac_phi_q_t_lambda_geometry[69] = -(A_ij_g_j_1 * t89 * lambda[5] + A_ij_h_j_1 * sine_1 * lambda[3] * sine_2 +
+    jac_phi_q_t_lambda_geometry[63] = t496;
+    jac_phi_q_t_lambda_geometry[56] = -t496;
+    const jg_real t497 = A_ij_7 * H_5;
+    const jg_real t498 = A_ij_4 * H_5;
+    const jg_real t499 = A_ij_7 * H_8;
+    const jg_real t500 = A_ij_4 * H_8;
+    const jg_real t501 = A_ij_4 * sine_1;
+    const jg_real t502 = A_ij_7 * sine_1;
+    jac_phi_q_t_lambda_geometry[57] = lambda[3] * (C_j[7] * t497 - C_j[8] * t498) + lambda[4] * (C_j[1] * t499 -
+        C_j[2] * t500) + lambda[5] * (C_j[5] * t501 - C_j[4] * t502);
+    const jg_real t503 = A_ij_1 * H_5;
+    const jg_real t504 = A_ij_1 * H_8;
+    const jg_real t505 = A_ij_1 * sine_1;
+    jac_phi_q_t_lambda_geometry[58] = lambda[3] * (C_j[8] * t503 - C_j[6] * t497) + lambda[4] * (C_j[2] * t504 -
+        C_j[0] * t499) + lambda[5] * (C_j[3] * t502 - C_j[5] * t505);
+    jac_phi_q_t_lambda_geometry[59] = lambda[3] * (C_j[6] * t498 - C_j[7] * t503) + lambda[4] * (C_j[0] * t500 -
+        C_j[1] * t504) + lambda[5] * (C_j[4] * t505 - C_j[3] * t501);
+    jac_phi_q_t_lambda_geometry[60] = -(A_ij_g_j_1 * t78 * lambda[5] + A_ij_h_j_1 * sine_1 * lambda[3] * sine_2 +
         sine_1 * A_ij_f_j_1 * lambda[4] * cosine_2);
-    jac_phi_q_t_lambda_geometry[70] = A_ij_h_j_1 * H_8 * lambda[3] - H_5 * A_ij_f_j_1 * lambda[4];
-    const jg_real t572 = A_ij_8 * H_5;
-    const jg_real t573 = A_ij_5 * H_5;
-    const jg_real t574 = A_ij_8 * H_8;
-    const jg_real t575 = A_ij_5 * H_8;
-    const jg_real t576 = A_ij_5 * sine_1;
-    const jg_real t577 = A_ij_8 * sine_1;
-    jac_phi_q_t_lambda_geometry[73] = lambda[3] * (C_j[7] * t572 - C_j[8] * t573) + lambda[4] * (C_j[1] * t574 -
-        C_j[2] * t575) + lambda[5] * (C_j[5] * t576 - C_j[4] * t577);
-    const jg_real t578 = A_ij_2 * H_5;
-    const jg_real t579 = A_ij_2 * H_8;
-    const jg_real t580 = A_ij_2 * sine_1;
-    jac_phi_q_t_lambda_geometry[74] = lambda[3] * (C_j[8] * t578 - C_j[6] * t572) + lambda[4] * (C_j[2] * t579 -
-        C_j[0] * t574) + lambda[5] * (C_j[3] * t577 - C_j[5] * t580);
-    jac_phi_q_t_lambda_geometry[75] = lambda[3] * (C_j[6] * t573 - C_j[7] * t578) + lambda[4] * (C_j[0] * t575 -
-        C_j[1] * t579) + lambda[5] * (C_j[4] * t580 - C_j[3] * t576);
-    jac_phi_q_t_lambda_geometry[76] = -(A_ij_g_j_2 * t89 * lambda[5] + sine_1 * A_ij_h_j_2 * lambda[3] * sine_2 +
+    jac_phi_q_t_lambda_geometry[61] = A_ij_h_j_1 * H_8 * lambda[3] - H_5 * A_ij_f_j_1 * lambda[4];
+    const jg_real t506 = H_5 * A_ij_8;
+    const jg_real t507 = H_5 * A_ij_5;
+    const jg_real t508 = H_8 * A_ij_8;
+    const jg_real t509 = H_8 * A_ij_5;
+    const jg_real t510 = sine_1 * A_ij_5;
+    const jg_real t511 = sine_1 * A_ij_8;
+    jac_phi_q_t_lambda_geometry[64] = lambda[3] * (C_j[7] * t506 - C_j[8] * t507) + lambda[4] * (C_j[1] * t508 -
+        C_j[2] * t509) + lambda[5] * (C_j[5] * t510 - C_j[4] * t511);
+    const jg_real t512 = H_5 * A_ij_2;
+    const jg_real t513 = H_8 * A_ij_2;
+    const jg_real t514 = sine_1 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[65] = lambda[3] * (C_j[8] * t512 - C_j[6] * t506) + lambda[4] * (C_j[2] * t513 -
+        C_j[0] * t508) + lambda[5] * (C_j[3] * t511 - C_j[5] * t514);
+    jac_phi_q_t_lambda_geometry[66] = lambda[3] * (C_j[6] * t507 - C_j[7] * t512) + lambda[4] * (C_j[0] * t509 -
+        C_j[1] * t513) + lambda[5] * (C_j[4] * t514 - C_j[3] * t510);
+    jac_phi_q_t_lambda_geometry[67] = -(A_ij_g_j_2 * t78 * lambda[5] + sine_1 * A_ij_h_j_2 * lambda[3] * sine_2 +
         sine_1 * A_ij_f_j_2 * lambda[4] * cosine_2);
-    jac_phi_q_t_lambda_geometry[77] = H_8 * A_ij_h_j_2 * lambda[3] - H_5 * A_ij_f_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[78] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[79] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[80] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t581 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[86] = t581;
-    jac_phi_q_t_lambda_geometry[81] = -t581;
-    const jg_real t582 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[82] = t582;
-    jac_phi_q_t_lambda_geometry[83] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[84] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[85] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t583 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[92] = t583;
-    jac_phi_q_t_lambda_geometry[87] = -t583;
-    jac_phi_q_t_lambda_geometry[88] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[89] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[90] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[91] = -t582;
-    jac_phi_q_t_lambda_geometry[93] = -((A_ij_1 * h_star_2 - A_ij_2 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[94] = -(lambda[4] * (A_ij_2 * h_star_0 - h_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[95] = -(lambda[4] * (h_star_1 * A_ij_0 - A_ij_1 * h_star_0));
+    jac_phi_q_t_lambda_geometry[68] = H_8 * A_ij_h_j_2 * lambda[3] - H_5 * A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[69] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[70] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[71] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t515 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[77] = t515;
+    jac_phi_q_t_lambda_geometry[72] = -t515;
+    const jg_real t516 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[73] = t516;
+    jac_phi_q_t_lambda_geometry[74] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[75] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[76] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real t517 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[83] = t517;
+    jac_phi_q_t_lambda_geometry[78] = -t517;
+    jac_phi_q_t_lambda_geometry[79] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[80] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[81] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[82] = -t516;
+    jac_phi_q_t_lambda_geometry[84] = -((A_ij_1 * h_star_2 - A_ij_2 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[85] = -(lambda[4] * (A_ij_2 * h_star_0 - h_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[86] = -(lambda[4] * (h_star_1 * A_ij_0 - A_ij_1 * h_star_0));
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_2 = A_ij_6 * h_star_0 + A_ij_7 * h_star_1 + A_ij_8 * h_star_2;
-    const jg_real t585 = lambda[4] * A_ijt_h_star_2;
-    jac_phi_q_t_lambda_geometry[104] = t585;
-    jac_phi_q_t_lambda_geometry[96] = -t585;
+    const jg_real t519 = lambda[4] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[95] = t519;
+    jac_phi_q_t_lambda_geometry[87] = -t519;
     const jg_real A_ijt_h_star_1 = A_ij_3 * h_star_0 + A_ij_4 * h_star_1 + A_ij_5 * h_star_2;
-    const jg_real t587 = lambda[4] * A_ijt_h_star_1;
-    jac_phi_q_t_lambda_geometry[97] = t587;
-    jac_phi_q_t_lambda_geometry[98] = lambda[4] * (A_ij_0 * t78 + A_ij_1 * t169 + A_ij_2 * t224);
+    const jg_real t521 = lambda[4] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[88] = t521;
+    jac_phi_q_t_lambda_geometry[89] = lambda[4] * (A_ij_0 * t67 + A_ij_1 * t131 + A_ij_2 * t173);
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    jac_phi_q_t_lambda_geometry[99] = lambda[4] * A_ijt_f_star_0 * cosine_2;
+    jac_phi_q_t_lambda_geometry[90] = lambda[4] * A_ijt_f_star_0 * cosine_2;
     /* A_ijt_g_star = A_ij^T g_star */
-    const jg_real A_ijt_g_star_0 = A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2;
-    jac_phi_q_t_lambda_geometry[100] = -(lambda[4] * A_ijt_g_star_0);
-    jac_phi_q_t_lambda_geometry[101] = -((A_ij_4 * h_star_2 - A_ij_5 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[102] = -(lambda[4] * (A_ij_5 * h_star_0 - h_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[103] = -(lambda[4] * (h_star_1 * A_ij_3 - A_ij_4 * h_star_0));
+    const jg_real A_ijt_g_star_0 = g_star_0 * A_ij_0 + A_ij_1 * g_star_1 + g_star_2 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[91] = -(lambda[4] * A_ijt_g_star_0);
+    jac_phi_q_t_lambda_geometry[92] = -((A_ij_4 * h_star_2 - A_ij_5 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[93] = -(lambda[4] * (A_ij_5 * h_star_0 - h_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[94] = -(lambda[4] * (h_star_1 * A_ij_3 - A_ij_4 * h_star_0));
     const jg_real A_ijt_h_star_0 = A_ij_0 * h_star_0 + A_ij_1 * h_star_1 + A_ij_2 * h_star_2;
-    const jg_real t591 = lambda[4] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_geometry[113] = t591;
-    jac_phi_q_t_lambda_geometry[105] = -t591;
-    jac_phi_q_t_lambda_geometry[106] = lambda[4] * (A_ij_3 * t78 + A_ij_4 * t169 + A_ij_5 * t224);
+    const jg_real t525 = lambda[4] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[104] = t525;
+    jac_phi_q_t_lambda_geometry[96] = -t525;
+    jac_phi_q_t_lambda_geometry[97] = lambda[4] * (A_ij_3 * t67 + A_ij_4 * t131 + A_ij_5 * t173);
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    jac_phi_q_t_lambda_geometry[107] = lambda[4] * A_ijt_f_star_1 * cosine_2;
-    const jg_real A_ijt_g_star_1 = A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2;
-    jac_phi_q_t_lambda_geometry[108] = -(lambda[4] * A_ijt_g_star_1);
-    jac_phi_q_t_lambda_geometry[109] = -((A_ij_7 * h_star_2 - A_ij_8 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[110] = -(lambda[4] * (A_ij_8 * h_star_0 - h_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[111] = -(lambda[4] * (h_star_1 * A_ij_6 - A_ij_7 * h_star_0));
-    jac_phi_q_t_lambda_geometry[112] = -t587;
-    jac_phi_q_t_lambda_geometry[114] = lambda[4] * (A_ij_6 * t78 + A_ij_7 * t169 + A_ij_8 * t224);
+    jac_phi_q_t_lambda_geometry[98] = lambda[4] * A_ijt_f_star_1 * cosine_2;
+    const jg_real A_ijt_g_star_1 = g_star_0 * A_ij_3 + A_ij_4 * g_star_1 + g_star_2 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[99] = -(lambda[4] * A_ijt_g_star_1);
+    jac_phi_q_t_lambda_geometry[100] = -((A_ij_7 * h_star_2 - A_ij_8 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[101] = -(lambda[4] * (A_ij_8 * h_star_0 - h_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[102] = -(lambda[4] * (h_star_1 * A_ij_6 - A_ij_7 * h_star_0));
+    jac_phi_q_t_lambda_geometry[103] = -t521;
+    jac_phi_q_t_lambda_geometry[105] = lambda[4] * (A_ij_6 * t67 + A_ij_7 * t131 + A_ij_8 * t173);
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    jac_phi_q_t_lambda_geometry[115] = lambda[4] * A_ijt_f_star_2 * cosine_2;
-    const jg_real A_ijt_g_star_2 = A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2;
-    jac_phi_q_t_lambda_geometry[116] = -(lambda[4] * A_ijt_g_star_2);
-    jac_phi_q_t_lambda_geometry[117] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[118] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[119] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
-    const jg_real t596 = lambda[5] * A_ijt_f_star_2;
-    jac_phi_q_t_lambda_geometry[127] = t596;
-    jac_phi_q_t_lambda_geometry[120] = -t596;
-    const jg_real t597 = lambda[5] * A_ijt_f_star_1;
-    jac_phi_q_t_lambda_geometry[121] = t597;
-    jac_phi_q_t_lambda_geometry[122] = lambda[5] * (A_ij_0 * t86 + A_ij_1 * t171 + A_ij_2 * t226);
-    jac_phi_q_t_lambda_geometry[123] = -(lambda[5] * (A_ij_0 * t90 + A_ij_1 * t172 + A_ij_2 * t227));
-    jac_phi_q_t_lambda_geometry[124] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[125] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[126] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
-    const jg_real t598 = lambda[5] * A_ijt_f_star_0;
-    jac_phi_q_t_lambda_geometry[135] = t598;
-    jac_phi_q_t_lambda_geometry[128] = -t598;
-    jac_phi_q_t_lambda_geometry[129] = lambda[5] * (A_ij_3 * t86 + A_ij_4 * t171 + A_ij_5 * t226);
-    jac_phi_q_t_lambda_geometry[130] = -(lambda[5] * (A_ij_3 * t90 + A_ij_4 * t172 + A_ij_5 * t227));
-    jac_phi_q_t_lambda_geometry[131] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[132] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[133] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
-    jac_phi_q_t_lambda_geometry[134] = -t597;
-    jac_phi_q_t_lambda_geometry[136] = lambda[5] * (A_ij_6 * t86 + A_ij_7 * t171 + A_ij_8 * t226);
-    jac_phi_q_t_lambda_geometry[137] = -(lambda[5] * (A_ij_6 * t90 + A_ij_7 * t172 + A_ij_8 * t227));
-    jac_phi_q_t_lambda_geometry[138] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[139] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[140] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
-    const jg_real t599 = lambda[3] * A_ijt_g_star_2;
-    jac_phi_q_t_lambda_geometry[149] = t599;
-    jac_phi_q_t_lambda_geometry[141] = -t599;
-    const jg_real t600 = lambda[3] * A_ijt_g_star_1;
-    jac_phi_q_t_lambda_geometry[142] = t600;
-    jac_phi_q_t_lambda_geometry[143] = -(lambda[3] * (A_ij_0 * t83 + A_ij_1 * t170 + A_ij_2 * t225));
-    jac_phi_q_t_lambda_geometry[144] = lambda[3] * A_ijt_f_star_0 * sine_2;
-    jac_phi_q_t_lambda_geometry[145] = lambda[3] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_geometry[146] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[147] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[148] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
-    const jg_real t601 = lambda[3] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_geometry[158] = t601;
-    jac_phi_q_t_lambda_geometry[150] = -t601;
-    jac_phi_q_t_lambda_geometry[151] = -(lambda[3] * (A_ij_3 * t83 + A_ij_4 * t170 + A_ij_5 * t225));
-    jac_phi_q_t_lambda_geometry[152] = lambda[3] * A_ijt_f_star_1 * sine_2;
-    jac_phi_q_t_lambda_geometry[153] = lambda[3] * A_ijt_h_star_1;
-    jac_phi_q_t_lambda_geometry[154] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[155] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[156] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
-    jac_phi_q_t_lambda_geometry[157] = -t600;
-    jac_phi_q_t_lambda_geometry[159] = -(lambda[3] * (A_ij_6 * t83 + A_ij_7 * t170 + A_ij_8 * t225));
-    jac_phi_q_t_lambda_geometry[160] = lambda[3] * A_ijt_f_star_2 * sine_2;
-    jac_phi_q_t_lambda_geometry[161] = lambda[3] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[106] = lambda[4] * A_ijt_f_star_2 * cosine_2;
+    const jg_real A_ijt_g_star_2 = g_star_0 * A_ij_6 + A_ij_7 * g_star_1 + g_star_2 * A_ij_8;
+    jac_phi_q_t_lambda_geometry[107] = -(lambda[4] * A_ijt_g_star_2);
+    jac_phi_q_t_lambda_geometry[108] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[109] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[110] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
+    const jg_real t530 = lambda[5] * A_ijt_f_star_2;
+    jac_phi_q_t_lambda_geometry[118] = t530;
+    jac_phi_q_t_lambda_geometry[111] = -t530;
+    const jg_real t531 = lambda[5] * A_ijt_f_star_1;
+    jac_phi_q_t_lambda_geometry[112] = t531;
+    jac_phi_q_t_lambda_geometry[113] = lambda[5] * (A_ij_0 * t75 + A_ij_1 * t133 + A_ij_2 * t175);
+    jac_phi_q_t_lambda_geometry[114] = -(lambda[5] * (A_ij_0 * t79 + A_ij_1 * t134 + A_ij_2 * t176));
+    jac_phi_q_t_lambda_geometry[115] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[116] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[117] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
+    const jg_real t532 = lambda[5] * A_ijt_f_star_0;
+    jac_phi_q_t_lambda_geometry[126] = t532;
+    jac_phi_q_t_lambda_geometry[119] = -t532;
+    jac_phi_q_t_lambda_geometry[120] = lambda[5] * (A_ij_3 * t75 + A_ij_4 * t133 + A_ij_5 * t175);
+    jac_phi_q_t_lambda_geometry[121] = -(lambda[5] * (A_ij_3 * t79 + A_ij_4 * t134 + A_ij_5 * t176));
+    jac_phi_q_t_lambda_geometry[122] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[123] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[124] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
+    jac_phi_q_t_lambda_geometry[125] = -t531;
+    jac_phi_q_t_lambda_geometry[127] = lambda[5] * (A_ij_6 * t75 + A_ij_7 * t133 + A_ij_8 * t175);
+    jac_phi_q_t_lambda_geometry[128] = -(lambda[5] * (A_ij_6 * t79 + A_ij_7 * t134 + A_ij_8 * t176));
+    jac_phi_q_t_lambda_geometry[129] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[130] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[131] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
+    const jg_real t533 = lambda[3] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_geometry[140] = t533;
+    jac_phi_q_t_lambda_geometry[132] = -t533;
+    const jg_real t534 = lambda[3] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_geometry[133] = t534;
+    jac_phi_q_t_lambda_geometry[134] = -(lambda[3] * (A_ij_0 * t72 + A_ij_1 * t132 + A_ij_2 * t174));
+    jac_phi_q_t_lambda_geometry[135] = lambda[3] * A_ijt_f_star_0 * sine_2;
+    jac_phi_q_t_lambda_geometry[136] = lambda[3] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[137] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[138] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[139] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
+    const jg_real t535 = lambda[3] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_geometry[149] = t535;
+    jac_phi_q_t_lambda_geometry[141] = -t535;
+    jac_phi_q_t_lambda_geometry[142] = -(lambda[3] * (A_ij_3 * t72 + A_ij_4 * t132 + A_ij_5 * t174));
+    jac_phi_q_t_lambda_geometry[143] = lambda[3] * A_ijt_f_star_1 * sine_2;
+    jac_phi_q_t_lambda_geometry[144] = lambda[3] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[145] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[146] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[147] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
+    jac_phi_q_t_lambda_geometry[148] = -t534;
+    jac_phi_q_t_lambda_geometry[150] = -(lambda[3] * (A_ij_6 * t72 + A_ij_7 * t132 + A_ij_8 * t174));
+    jac_phi_q_t_lambda_geometry[151] = lambda[3] * A_ijt_f_star_2 * sine_2;
+    jac_phi_q_t_lambda_geometry[152] = lambda[3] * A_ijt_h_star_2;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t603 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[10] = t603;
-    jac_phi_q_t_lambda_lambda[1] = -t603;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t605 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t605;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    jac_phi_q_t_lambda_lambda[10] = ep_ij_2;
+    jac_phi_q_t_lambda_lambda[1] = -ep_ij_2;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    jac_phi_q_t_lambda_lambda[2] = ep_ij_1;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t607 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[20] = t607;
-    jac_phi_q_t_lambda_lambda[11] = -t607;
-    jac_phi_q_t_lambda_lambda[15] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    jac_phi_q_t_lambda_lambda[16] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    jac_phi_q_t_lambda_lambda[17] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_t_lambda_lambda[19] = -t605;
-    jac_phi_q_t_lambda_lambda[24] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    jac_phi_q_t_lambda_lambda[25] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    jac_phi_q_t_lambda_lambda[26] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    const jg_real ep_ij_0 = e_ij_0 * A_i[0] + e_ij_1 * A_i[1] + e_ij_2 * A_i[2];
+    jac_phi_q_t_lambda_lambda[20] = ep_ij_0;
+    jac_phi_q_t_lambda_lambda[11] = -ep_ij_0;
+    jac_phi_q_t_lambda_lambda[15] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
+    jac_phi_q_t_lambda_lambda[16] = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
+    jac_phi_q_t_lambda_lambda[17] = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
+    jac_phi_q_t_lambda_lambda[19] = -ep_ij_1;
+    jac_phi_q_t_lambda_lambda[24] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    jac_phi_q_t_lambda_lambda[25] = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
+    jac_phi_q_t_lambda_lambda[26] = A_ij_5 * s_j[0] - A_ij_2 * s_j[1];
     jac_phi_q_t_lambda_lambda[27] = A_ij_h_j_2 * g_star_1 - A_ij_h_j_1 * g_star_2;
     jac_phi_q_t_lambda_lambda[28] = g_star_2 * A_ij_h_j_0 - A_ij_h_j_2 * g_star_0;
     jac_phi_q_t_lambda_lambda[29] = A_ij_h_j_1 * g_star_0 - g_star_1 * A_ij_h_j_0;
     jac_phi_q_t_lambda_lambda[30] = C_j[7] * A_ijt_g_star_2 - C_j[8] * A_ijt_g_star_1;
     jac_phi_q_t_lambda_lambda[31] = C_j[8] * A_ijt_g_star_0 - C_j[6] * A_ijt_g_star_2;
     jac_phi_q_t_lambda_lambda[32] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_lambda[33] = -(A_ij_h_j_0 * t83 + A_ij_h_j_1 * t170 + A_ij_h_j_2 * t225);
-    jac_phi_q_t_lambda_lambda[34] = sine_2 * t480;
+    jac_phi_q_t_lambda_lambda[33] = -(A_ij_h_j_0 * t72 + A_ij_h_j_1 * t132 + A_ij_h_j_2 * t174);
+    jac_phi_q_t_lambda_lambda[34] = sine_2 * t423;
     jac_phi_q_t_lambda_lambda[35] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     jac_phi_q_t_lambda_lambda[36] = A_ij_f_j_2 * h_star_1 - A_ij_f_j_1 * h_star_2;
     jac_phi_q_t_lambda_lambda[37] = h_star_2 * A_ij_f_j_0 - A_ij_f_j_2 * h_star_0;
@@ -2556,8 +2431,8 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_lambda[39] = C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1;
     jac_phi_q_t_lambda_lambda[40] = C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2;
     jac_phi_q_t_lambda_lambda[41] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_lambda[42] = A_ij_f_j_0 * t78 + A_ij_f_j_1 * t169 + A_ij_f_j_2 * t224;
-    jac_phi_q_t_lambda_lambda[43] = cosine_2 * t481;
+    jac_phi_q_t_lambda_lambda[42] = A_ij_f_j_0 * t67 + A_ij_f_j_1 * t131 + A_ij_f_j_2 * t173;
+    jac_phi_q_t_lambda_lambda[43] = cosine_2 * t424;
     jac_phi_q_t_lambda_lambda[44] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_q_t_lambda_lambda[45] = A_ij_g_j_2 * f_star_1 - A_ij_g_j_1 * f_star_2;
     jac_phi_q_t_lambda_lambda[46] = f_star_2 * A_ij_g_j_0 - A_ij_g_j_2 * f_star_0;
@@ -2565,8 +2440,8 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_lambda[48] = C_j[4] * A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1;
     jac_phi_q_t_lambda_lambda[49] = C_j[5] * A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2;
     jac_phi_q_t_lambda_lambda[50] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    jac_phi_q_t_lambda_lambda[51] = A_ij_g_j_0 * t86 + A_ij_g_j_1 * t171 + A_ij_g_j_2 * t226;
-    jac_phi_q_t_lambda_lambda[52] = -(A_ij_g_j_0 * t90 + A_ij_g_j_1 * t172 + A_ij_g_j_2 * t227);
+    jac_phi_q_t_lambda_lambda[51] = A_ij_g_j_0 * t75 + A_ij_g_j_1 * t133 + A_ij_g_j_2 * t175;
+    jac_phi_q_t_lambda_lambda[52] = -(A_ij_g_j_0 * t79 + A_ij_g_j_1 * t134 + A_ij_g_j_2 * t176);
 }
 
 JG_EXPORT int jg_ball_parametric_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);
@@ -2898,7 +2773,7 @@ int jac_jg_ball_parametric_phi_q_v_external(const double **arg, double **res, ca
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[9];
-    double unwanted_5[54];
+    double unwanted_5[45];
     double unwanted_6[53];
     (void)iw;
     (void)w;
@@ -3002,9 +2877,9 @@ const casadi_int *jac_jg_ball_parametric_phi_q_v_external_sparsity_out(casadi_in
         6, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_5[] = {
-        6, 24, 0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 33, 36, 39, 42, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
+        6, 24, 0, 0, 0, 0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 33, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 3, 4, 5,
+        3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4,
+        5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_6[] = {
         6, 15, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 48, 51, 53, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0,
@@ -3130,11 +3005,11 @@ int jac_jg_ball_parametric_phi_q_t_lambda_external(const double **arg, double **
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[108];
+    double unwanted_1[99];
     double unwanted_2[9];
     double unwanted_3[81];
     double unwanted_4[27];
-    double unwanted_5[162];
+    double unwanted_5[153];
     double unwanted_6[53];
     (void)iw;
     (void)w;
@@ -3224,10 +3099,10 @@ const casadi_int *jac_jg_ball_parametric_phi_q_t_lambda_external_sparsity_out(ca
         15, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        15, 9, 0, 12, 24, 36, 48, 60, 72, 84, 96, 108, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9,
-        10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4,
-        5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
-        13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14
+        15, 9, 0, 11, 22, 33, 44, 55, 66, 77, 88, 99, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 4, 5, 6, 7, 8, 9, 10,
+        11, 12, 13, 14, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 5, 6, 7, 8,
+        9, 10, 11, 12, 13, 14, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 6,
+        7, 8, 9, 10, 11, 12, 13, 14, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 14
     };
     static const casadi_int pattern_2[] = {
         15, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -3242,13 +3117,13 @@ const casadi_int *jac_jg_ball_parametric_phi_q_t_lambda_external_sparsity_out(ca
         13, 14
     };
     static const casadi_int pattern_5[] = {
-        15, 24, 0, 3, 6, 9, 17, 25, 33, 41, 49, 57, 64, 71, 78, 83, 88, 93, 101, 109, 117, 124, 131, 138, 146, 154,
-        162, 3, 4, 5, 3, 4, 5, 3, 4, 5, 4, 5, 9, 10, 11, 12, 13, 14, 3, 5, 9, 10, 11, 12, 13, 14, 3, 4, 9, 10, 11,
-        12, 13, 14, 4, 5, 9, 10, 11, 12, 13, 14, 3, 5, 9, 10, 11, 12, 13, 14, 3, 4, 9, 10, 11, 12, 13, 14, 4, 5, 9,
-        10, 11, 13, 14, 3, 5, 9, 10, 11, 13, 14, 3, 4, 9, 10, 11, 13, 14, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5,
-        9, 10, 3, 4, 5, 10, 11, 12, 13, 14, 3, 4, 5, 9, 11, 12, 13, 14, 3, 4, 5, 9, 10, 12, 13, 14, 3, 4, 5, 10, 11,
-        12, 13, 3, 4, 5, 9, 11, 12, 13, 3, 4, 5, 9, 10, 12, 13, 3, 4, 5, 10, 11, 12, 13, 14, 3, 4, 5, 9, 11, 12, 13,
-        14, 3, 4, 5, 9, 10, 12, 13, 14
+        15, 24, 0, 0, 0, 0, 8, 16, 24, 32, 40, 48, 55, 62, 69, 74, 79, 84, 92, 100, 108, 115, 122, 129, 137, 145,
+        153, 4, 5, 9, 10, 11, 12, 13, 14, 3, 5, 9, 10, 11, 12, 13, 14, 3, 4, 9, 10, 11, 12, 13, 14, 4, 5, 9, 10, 11,
+        12, 13, 14, 3, 5, 9, 10, 11, 12, 13, 14, 3, 4, 9, 10, 11, 12, 13, 14, 4, 5, 9, 10, 11, 13, 14, 3, 5, 9, 10,
+        11, 13, 14, 3, 4, 9, 10, 11, 13, 14, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 12,
+        13, 14, 3, 4, 5, 9, 11, 12, 13, 14, 3, 4, 5, 9, 10, 12, 13, 14, 3, 4, 5, 10, 11, 12, 13, 3, 4, 5, 9, 11, 12,
+        13, 3, 4, 5, 9, 10, 12, 13, 3, 4, 5, 10, 11, 12, 13, 14, 3, 4, 5, 9, 11, 12, 13, 14, 3, 4, 5, 9, 10, 12, 13,
+        14
     };
     static const casadi_int pattern_6[] = {
         15, 6, 0, 9, 18, 27, 36, 45, 53, 0, 4, 5, 6, 7, 8, 9, 10, 11, 1, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 4, 6, 7, 8,

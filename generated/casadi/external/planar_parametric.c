@@ -51,99 +51,103 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_r_i[8] = -A_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t1 = A_i[0] * s_i[0];
-    const jg_real t2 = A_i[3] * s_i[1];
-    const jg_real t3 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t2 = A_i[0] * s_i[0];
+    const jg_real t3 = A_i[3] * s_i[1];
+    const jg_real t4 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t1 + t2 + t3;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    jac_phi_A_i[0] = d_ij_0 - t1;
+    const jg_real A_i_s_i_0 = t2 + t3 + t4;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    jac_phi_A_i[0] = d_ij_0 - t2;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t7 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    jac_phi_A_i[3] = t6 * g_star_0;
-    const jg_real t10 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = t10 * C_i[6];
+    jac_phi_A_i[3] = t7 * g_star_0;
+    const jg_real t11 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = t11 * C_i[6];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    const jg_real t12 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    jac_phi_A_i[5] = f_star_0 * t12;
+    const jg_real t13 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    jac_phi_A_i[5] = f_star_0 * t13;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t14 = s_i[0] * A_i[1];
-    const jg_real t15 = s_i[1] * A_i[4];
-    const jg_real t16 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t14 + t15 + t16;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    jac_phi_A_i[6] = d_ij_1 - t14;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t16 = s_i[0] * A_i[1];
+    const jg_real t17 = s_i[1] * A_i[4];
+    const jg_real t18 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t16 + t17 + t18;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t16;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t19 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t19 * g_star_0;
-    const jg_real t20 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = t20 * C_i[6];
-    const jg_real t21 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = f_star_0 * t21;
+    const jg_real t21 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t21 * g_star_0;
+    const jg_real t22 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = t22 * C_i[6];
+    const jg_real t23 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = f_star_0 * t23;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t23 = s_i[0] * A_i[2];
-    const jg_real t24 = s_i[1] * A_i[5];
-    const jg_real t25 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t23 + t24 + t25;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    jac_phi_A_i[12] = d_ij_2 - t23;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t26 = s_i[0] * A_i[2];
+    const jg_real t27 = s_i[1] * A_i[5];
+    const jg_real t28 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t26 + t27 + t28;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t26;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t28 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t28 * g_star_0;
-    const jg_real t29 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = t29 * C_i[6];
-    const jg_real t30 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = f_star_0 * t30;
+    const jg_real t31 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t31 * g_star_0;
+    const jg_real t32 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = t32 * C_i[6];
+    const jg_real t33 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = f_star_0 * t33;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
-    jac_phi_A_i[19] = d_ij_0 - t2;
+    jac_phi_A_i[19] = d_ij_0 - t3;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    jac_phi_A_i[21] = t6 * g_star_1;
-    jac_phi_A_i[22] = t10 * C_i[7];
+    jac_phi_A_i[21] = t7 * g_star_1;
+    jac_phi_A_i[22] = t11 * C_i[7];
     const jg_real f_star_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    jac_phi_A_i[23] = f_star_1 * t12;
+    jac_phi_A_i[23] = f_star_1 * t13;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t15;
+    jac_phi_A_i[25] = d_ij_1 - t17;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t19 * g_star_1;
-    jac_phi_A_i[28] = t20 * C_i[7];
-    jac_phi_A_i[29] = f_star_1 * t21;
+    jac_phi_A_i[27] = t21 * g_star_1;
+    jac_phi_A_i[28] = t22 * C_i[7];
+    jac_phi_A_i[29] = f_star_1 * t23;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t24;
+    jac_phi_A_i[31] = d_ij_2 - t27;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t28 * g_star_1;
-    jac_phi_A_i[34] = t29 * C_i[7];
-    jac_phi_A_i[35] = f_star_1 * t30;
+    jac_phi_A_i[33] = t31 * g_star_1;
+    jac_phi_A_i[34] = t32 * C_i[7];
+    jac_phi_A_i[35] = f_star_1 * t33;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
-    jac_phi_A_i[38] = d_ij_0 - t3;
+    jac_phi_A_i[38] = d_ij_0 - t4;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    jac_phi_A_i[39] = t6 * g_star_2;
-    jac_phi_A_i[40] = t10 * C_i[8];
+    jac_phi_A_i[39] = t7 * g_star_2;
+    jac_phi_A_i[40] = t11 * C_i[8];
     const jg_real f_star_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
-    jac_phi_A_i[41] = f_star_2 * t12;
+    jac_phi_A_i[41] = f_star_2 * t13;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t16;
-    jac_phi_A_i[45] = t19 * g_star_2;
-    jac_phi_A_i[46] = t20 * C_i[8];
-    jac_phi_A_i[47] = f_star_2 * t21;
+    jac_phi_A_i[44] = d_ij_1 - t18;
+    jac_phi_A_i[45] = t21 * g_star_2;
+    jac_phi_A_i[46] = t22 * C_i[8];
+    jac_phi_A_i[47] = f_star_2 * t23;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t25;
-    jac_phi_A_i[51] = t28 * g_star_2;
-    jac_phi_A_i[52] = t29 * C_i[8];
-    jac_phi_A_i[53] = f_star_2 * t30;
+    jac_phi_A_i[50] = d_ij_2 - t28;
+    jac_phi_A_i[51] = t31 * g_star_2;
+    jac_phi_A_i[52] = t32 * C_i[8];
+    jac_phi_A_i[53] = f_star_2 * t33;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -234,31 +238,31 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     jac_phi_alpha[7] = g_star_0 * A_ij_g_j_0 + g_star_1 * A_ij_g_j_1 + g_star_2 * A_ij_g_j_2;
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t50 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t50;
-    jac_phi_geometry[3] = t50;
-    const jg_real t51 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t51;
-    jac_phi_geometry[6] = t51;
+    const jg_real t53 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t53;
+    jac_phi_geometry[3] = t53;
+    const jg_real t54 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t54;
+    jac_phi_geometry[6] = t54;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t52 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t52;
-    jac_phi_geometry[7] = t52;
+    const jg_real t55 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t55;
+    jac_phi_geometry[7] = t55;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    const jg_real t53 = -alpha[0];
-    jac_phi_geometry[9] = t53;
-    jac_phi_geometry[12] = t53;
-    jac_phi_geometry[15] = t53;
+    const jg_real t56 = -alpha[0];
+    jac_phi_geometry[9] = t56;
+    jac_phi_geometry[12] = t56;
+    jac_phi_geometry[15] = t56;
     jac_phi_geometry[10] = -(A_ij_h_j_0 * sine_0);
     jac_phi_geometry[11] = cosine_0 * A_ij_g_j_0;
     jac_phi_geometry[13] = -(sine_0 * A_ij_h_j_1);
     jac_phi_geometry[14] = cosine_0 * A_ij_g_j_1;
     jac_phi_geometry[16] = -(sine_0 * A_ij_h_j_2);
     jac_phi_geometry[17] = cosine_0 * A_ij_g_j_2;
-    const jg_real t54 = -alpha[1];
-    jac_phi_geometry[18] = t54;
-    jac_phi_geometry[21] = t54;
-    jac_phi_geometry[24] = t54;
+    const jg_real t57 = -alpha[1];
+    jac_phi_geometry[18] = t57;
+    jac_phi_geometry[21] = t57;
+    jac_phi_geometry[24] = t57;
     jac_phi_geometry[19] = A_ij_h_j_0 * cosine_0;
     jac_phi_geometry[20] = sine_0 * A_ij_g_j_0;
     jac_phi_geometry[22] = cosine_0 * A_ij_h_j_1;
@@ -316,186 +320,155 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_r_i[7] = t7;
     const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
     jac_phi_q_v_r_i[8] = t8;
-    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
-    const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t12 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2 +
+        (A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2]);
+    jac_phi_q_v_A_i[0] = t12;
+    jac_phi_q_v_A_i[19] = t12;
+    jac_phi_q_v_A_i[38] = t12;
     /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
-    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = e_ij_0 * omega_i[2];
+    jac_phi_q_v_A_i[18] = t15;
+    jac_phi_q_v_A_i[1] = -t15;
+    const jg_real t16 = e_ij_0 * omega_i[1];
+    jac_phi_q_v_A_i[2] = t16;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    const jg_real t26 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t27 = omega_i[2] * t26;
+    const jg_real t20 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t21 = omega_i[2] * t20;
     const jg_real g_star_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t29 = omega_i[1] * t26;
+    const jg_real t23 = omega_i[1] * t20;
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t34 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    const jg_real t28 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
     const jg_real g_star_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    jac_phi_q_v_A_i[3] = t34 * g_star_0 - (g_star_1 * t27 - g_star_2 * t29 + f_star_0 * t26 * alphadot[2]);
+    jac_phi_q_v_A_i[3] = t28 * g_star_0 - (g_star_1 * t21 - g_star_2 * t23 + f_star_0 * t20 * alphadot[2]);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t39 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    const jg_real t40 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t41 = omega_i[2] * t40;
-    const jg_real t42 = omega_i[1] * t40;
-    jac_phi_q_v_A_i[4] = t39 * C_i[6] - (C_i[7] * t41 - C_i[8] * t42);
+    const jg_real t33 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    const jg_real t34 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t35 = omega_i[2] * t34;
+    const jg_real t36 = omega_i[1] * t34;
+    jac_phi_q_v_A_i[4] = t33 * C_i[6] - (C_i[7] * t35 - C_i[8] * t36);
     const jg_real f_star_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    const jg_real t44 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t45 = omega_i[2] * t44;
+    const jg_real t38 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t39 = omega_i[2] * t38;
     const jg_real f_star_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
-    const jg_real t47 = omega_i[1] * t44;
+    const jg_real t41 = omega_i[1] * t38;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t51 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[5] = g_star_0 * t44 * alphadot[2] - (f_star_1 * t45 - f_star_2 * t47) + f_star_0 * t51;
-    const jg_real t52 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t53 = s_i[0] * A_i[4];
-    const jg_real t54 = s_i[0] * A_i[7];
-    const jg_real t55 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t52 - (t53 * omega_i[2] - t54 * omega_i[1]) + t55;
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t57 = s_i[0] * A_i[1];
-    const jg_real t58 = s_i[1] * A_i[4];
-    const jg_real t59 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t57 + t58 + t59;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t62 = d_ij_1 - t57;
-    jac_phi_q_v_A_i[7] = -(omega_i[2] * t62 + t54 * omega_i[0]);
-    jac_phi_q_v_A_i[8] = t53 * omega_i[0] + omega_i[1] * t62;
-    const jg_real t63 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t64 = omega_i[2] * t63;
-    const jg_real t65 = omega_i[1] * t63;
-    const jg_real t66 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[9] = t66 * g_star_0 - (g_star_1 * t64 - g_star_2 * t65 + f_star_0 * t63 * alphadot[2]);
-    const jg_real t67 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    const jg_real t68 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t45 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[5] = g_star_0 * t38 * alphadot[2] - (f_star_1 * t39 - f_star_2 * t41) + f_star_0 * t45;
+    const jg_real t46 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2 +
+        (A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2]);
+    jac_phi_q_v_A_i[6] = t46;
+    jac_phi_q_v_A_i[25] = t46;
+    jac_phi_q_v_A_i[44] = t46;
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t49 = e_ij_1 * omega_i[2];
+    jac_phi_q_v_A_i[24] = t49;
+    jac_phi_q_v_A_i[7] = -t49;
+    const jg_real t50 = e_ij_1 * omega_i[1];
+    jac_phi_q_v_A_i[8] = t50;
+    const jg_real t51 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t52 = omega_i[2] * t51;
+    const jg_real t53 = omega_i[1] * t51;
+    const jg_real t54 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[9] = t54 * g_star_0 - (g_star_1 * t52 - g_star_2 * t53 + f_star_0 * t51 * alphadot[2]);
+    const jg_real t55 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    const jg_real t56 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t57 = omega_i[2] * t56;
+    const jg_real t58 = omega_i[1] * t56;
+    jac_phi_q_v_A_i[10] = t55 * C_i[6] - (C_i[7] * t57 - C_i[8] * t58);
+    const jg_real t59 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t60 = omega_i[2] * t59;
+    const jg_real t61 = omega_i[1] * t59;
+    const jg_real t62 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[11] = g_star_0 * t59 * alphadot[2] - (f_star_1 * t60 - f_star_2 * t61) + f_star_0 * t62;
+    const jg_real t63 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2 +
+        (A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2]);
+    jac_phi_q_v_A_i[12] = t63;
+    jac_phi_q_v_A_i[31] = t63;
+    jac_phi_q_v_A_i[50] = t63;
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t66 = e_ij_2 * omega_i[2];
+    jac_phi_q_v_A_i[30] = t66;
+    jac_phi_q_v_A_i[13] = -t66;
+    const jg_real t67 = e_ij_2 * omega_i[1];
+    jac_phi_q_v_A_i[14] = t67;
+    const jg_real t68 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real t69 = omega_i[2] * t68;
     const jg_real t70 = omega_i[1] * t68;
-    jac_phi_q_v_A_i[10] = t67 * C_i[6] - (C_i[7] * t69 - C_i[8] * t70);
-    const jg_real t71 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t72 = omega_i[2] * t71;
-    const jg_real t73 = omega_i[1] * t71;
-    const jg_real t74 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[11] = g_star_0 * t71 * alphadot[2] - (f_star_1 * t72 - f_star_2 * t73) + f_star_0 * t74;
-    const jg_real t75 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t76 = s_i[0] * A_i[5];
-    const jg_real t77 = s_i[0] * A_i[8];
-    const jg_real t78 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t75 - (t76 * omega_i[2] - t77 * omega_i[1]) + t78;
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t80 = s_i[0] * A_i[2];
-    const jg_real t81 = s_i[1] * A_i[5];
-    const jg_real t82 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t80 + t81 + t82;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t85 = d_ij_2 - t80;
-    jac_phi_q_v_A_i[13] = -(omega_i[2] * t85 + t77 * omega_i[0]);
-    jac_phi_q_v_A_i[14] = t76 * omega_i[0] + omega_i[1] * t85;
-    const jg_real t86 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t87 = omega_i[2] * t86;
-    const jg_real t88 = omega_i[1] * t86;
-    const jg_real t89 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[15] = t89 * g_star_0 - (g_star_1 * t87 - g_star_2 * t88 + f_star_0 * t86 * alphadot[2]);
-    const jg_real t90 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    const jg_real t91 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t92 = omega_i[2] * t91;
-    const jg_real t93 = omega_i[1] * t91;
-    jac_phi_q_v_A_i[16] = t90 * C_i[6] - (C_i[7] * t92 - C_i[8] * t93);
-    const jg_real t94 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t95 = omega_i[2] * t94;
-    const jg_real t96 = omega_i[1] * t94;
-    const jg_real t97 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[17] = g_star_0 * t94 * alphadot[2] - (f_star_1 * t95 - f_star_2 * t96) + f_star_0 * t97;
-    const jg_real t98 = d_ij_0 - t18;
-    const jg_real t99 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t99 * omega_i[1] + t98 * omega_i[2];
-    const jg_real t100 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = t9 - (t99 * omega_i[0] - omega_i[2] * t100) + t15;
-    jac_phi_q_v_A_i[20] = -(t98 * omega_i[0] + omega_i[1] * t100);
-    const jg_real t101 = omega_i[0] * t26;
-    jac_phi_q_v_A_i[21] = t34 * g_star_1 - (g_star_2 * t101 - g_star_0 * t27 + f_star_1 * t26 * alphadot[2]);
-    const jg_real t102 = omega_i[0] * t40;
-    jac_phi_q_v_A_i[22] = t39 * C_i[7] - (C_i[8] * t102 - C_i[6] * t41);
-    const jg_real t103 = omega_i[0] * t44;
-    jac_phi_q_v_A_i[23] = g_star_1 * t44 * alphadot[2] - (f_star_2 * t103 - f_star_0 * t45) + f_star_1 * t51;
-    const jg_real t104 = d_ij_1 - t58;
-    const jg_real t105 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t105 * omega_i[1] + t104 * omega_i[2];
-    const jg_real t106 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = t52 - (t105 * omega_i[0] - omega_i[2] * t106) + t55;
-    jac_phi_q_v_A_i[26] = -(t104 * omega_i[0] + omega_i[1] * t106);
-    const jg_real t107 = omega_i[0] * t63;
-    jac_phi_q_v_A_i[27] = t66 * g_star_1 - (g_star_2 * t107 - g_star_0 * t64 + f_star_1 * t63 * alphadot[2]);
-    const jg_real t108 = omega_i[0] * t68;
-    jac_phi_q_v_A_i[28] = t67 * C_i[7] - (C_i[8] * t108 - C_i[6] * t69);
-    const jg_real t109 = omega_i[0] * t71;
-    jac_phi_q_v_A_i[29] = g_star_1 * t71 * alphadot[2] - (f_star_2 * t109 - f_star_0 * t72) + f_star_1 * t74;
-    const jg_real t110 = d_ij_2 - t81;
-    const jg_real t111 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t111 * omega_i[1] + t110 * omega_i[2];
-    const jg_real t112 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = t75 - (t111 * omega_i[0] - omega_i[2] * t112) + t78;
-    jac_phi_q_v_A_i[32] = -(t110 * omega_i[0] + omega_i[1] * t112);
-    const jg_real t113 = omega_i[0] * t86;
-    jac_phi_q_v_A_i[33] = t89 * g_star_1 - (g_star_2 * t113 - g_star_0 * t87 + f_star_1 * t86 * alphadot[2]);
-    const jg_real t114 = omega_i[0] * t91;
-    jac_phi_q_v_A_i[34] = t90 * C_i[7] - (C_i[8] * t114 - C_i[6] * t92);
-    const jg_real t115 = omega_i[0] * t94;
-    jac_phi_q_v_A_i[35] = g_star_1 * t94 * alphadot[2] - (f_star_2 * t115 - f_star_0 * t95) + f_star_1 * t97;
-    const jg_real t116 = d_ij_0 - t19;
-    const jg_real t117 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t116 * omega_i[1] + t117 * omega_i[2]);
-    const jg_real t118 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = omega_i[2] * t118 + t116 * omega_i[0];
-    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t118 - t117 * omega_i[0]) + t15;
-    jac_phi_q_v_A_i[39] = t34 * g_star_2 - (g_star_0 * t29 - g_star_1 * t101 + f_star_2 * t26 * alphadot[2]);
-    jac_phi_q_v_A_i[40] = t39 * C_i[8] - (C_i[6] * t42 - C_i[7] * t102);
-    jac_phi_q_v_A_i[41] = g_star_2 * t44 * alphadot[2] - (f_star_0 * t47 - f_star_1 * t103) + f_star_2 * t51;
-    const jg_real t119 = d_ij_1 - t59;
-    const jg_real t120 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t119 * omega_i[1] + t120 * omega_i[2]);
-    const jg_real t121 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = omega_i[2] * t121 + t119 * omega_i[0];
-    jac_phi_q_v_A_i[44] = t52 - (omega_i[1] * t121 - t120 * omega_i[0]) + t55;
-    jac_phi_q_v_A_i[45] = t66 * g_star_2 - (g_star_0 * t65 - g_star_1 * t107 + f_star_2 * t63 * alphadot[2]);
-    jac_phi_q_v_A_i[46] = t67 * C_i[8] - (C_i[6] * t70 - C_i[7] * t108);
-    jac_phi_q_v_A_i[47] = g_star_2 * t71 * alphadot[2] - (f_star_0 * t73 - f_star_1 * t109) + f_star_2 * t74;
-    const jg_real t122 = d_ij_2 - t82;
-    const jg_real t123 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t122 * omega_i[1] + t123 * omega_i[2]);
-    const jg_real t124 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = omega_i[2] * t124 + t122 * omega_i[0];
-    jac_phi_q_v_A_i[50] = t75 - (omega_i[1] * t124 - t123 * omega_i[0]) + t78;
-    jac_phi_q_v_A_i[51] = t89 * g_star_2 - (g_star_0 * t88 - g_star_1 * t113 + f_star_2 * t86 * alphadot[2]);
-    jac_phi_q_v_A_i[52] = t90 * C_i[8] - (C_i[6] * t93 - C_i[7] * t114);
-    jac_phi_q_v_A_i[53] = g_star_2 * t94 * alphadot[2] - (f_star_0 * t96 - f_star_1 * t115) + f_star_2 * t97;
+    const jg_real t71 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[15] = t71 * g_star_0 - (g_star_1 * t69 - g_star_2 * t70 + f_star_0 * t68 * alphadot[2]);
+    const jg_real t72 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    const jg_real t73 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t74 = omega_i[2] * t73;
+    const jg_real t75 = omega_i[1] * t73;
+    jac_phi_q_v_A_i[16] = t72 * C_i[6] - (C_i[7] * t74 - C_i[8] * t75);
+    const jg_real t76 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t77 = omega_i[2] * t76;
+    const jg_real t78 = omega_i[1] * t76;
+    const jg_real t79 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[17] = g_star_0 * t76 * alphadot[2] - (f_star_1 * t77 - f_star_2 * t78) + f_star_0 * t79;
+    const jg_real t80 = e_ij_0 * omega_i[0];
+    jac_phi_q_v_A_i[37] = t80;
+    jac_phi_q_v_A_i[20] = -t80;
+    const jg_real t81 = omega_i[0] * t20;
+    jac_phi_q_v_A_i[21] = t28 * g_star_1 - (g_star_2 * t81 - g_star_0 * t21 + f_star_1 * t20 * alphadot[2]);
+    const jg_real t82 = omega_i[0] * t34;
+    jac_phi_q_v_A_i[22] = t33 * C_i[7] - (C_i[8] * t82 - C_i[6] * t35);
+    const jg_real t83 = omega_i[0] * t38;
+    jac_phi_q_v_A_i[23] = g_star_1 * t38 * alphadot[2] - (f_star_2 * t83 - f_star_0 * t39) + f_star_1 * t45;
+    const jg_real t84 = e_ij_1 * omega_i[0];
+    jac_phi_q_v_A_i[43] = t84;
+    jac_phi_q_v_A_i[26] = -t84;
+    const jg_real t85 = omega_i[0] * t51;
+    jac_phi_q_v_A_i[27] = t54 * g_star_1 - (g_star_2 * t85 - g_star_0 * t52 + f_star_1 * t51 * alphadot[2]);
+    const jg_real t86 = omega_i[0] * t56;
+    jac_phi_q_v_A_i[28] = t55 * C_i[7] - (C_i[8] * t86 - C_i[6] * t57);
+    const jg_real t87 = omega_i[0] * t59;
+    jac_phi_q_v_A_i[29] = g_star_1 * t59 * alphadot[2] - (f_star_2 * t87 - f_star_0 * t60) + f_star_1 * t62;
+    const jg_real t88 = e_ij_2 * omega_i[0];
+    jac_phi_q_v_A_i[49] = t88;
+    jac_phi_q_v_A_i[32] = -t88;
+    const jg_real t89 = omega_i[0] * t68;
+    jac_phi_q_v_A_i[33] = t71 * g_star_1 - (g_star_2 * t89 - g_star_0 * t69 + f_star_1 * t68 * alphadot[2]);
+    const jg_real t90 = omega_i[0] * t73;
+    jac_phi_q_v_A_i[34] = t72 * C_i[7] - (C_i[8] * t90 - C_i[6] * t74);
+    const jg_real t91 = omega_i[0] * t76;
+    jac_phi_q_v_A_i[35] = g_star_1 * t76 * alphadot[2] - (f_star_2 * t91 - f_star_0 * t77) + f_star_1 * t79;
+    jac_phi_q_v_A_i[36] = -t16;
+    jac_phi_q_v_A_i[39] = t28 * g_star_2 - (g_star_0 * t23 - g_star_1 * t81 + f_star_2 * t20 * alphadot[2]);
+    jac_phi_q_v_A_i[40] = t33 * C_i[8] - (C_i[6] * t36 - C_i[7] * t82);
+    jac_phi_q_v_A_i[41] = g_star_2 * t38 * alphadot[2] - (f_star_0 * t41 - f_star_1 * t83) + f_star_2 * t45;
+    jac_phi_q_v_A_i[42] = -t50;
+    jac_phi_q_v_A_i[45] = t54 * g_star_2 - (g_star_0 * t53 - g_star_1 * t85 + f_star_2 * t51 * alphadot[2]);
+    jac_phi_q_v_A_i[46] = t55 * C_i[8] - (C_i[6] * t58 - C_i[7] * t86);
+    jac_phi_q_v_A_i[47] = g_star_2 * t59 * alphadot[2] - (f_star_0 * t61 - f_star_1 * t87) + f_star_2 * t62;
+    jac_phi_q_v_A_i[48] = -t67;
+    jac_phi_q_v_A_i[51] = t71 * g_star_2 - (g_star_0 * t70 - g_star_1 * t89 + f_star_2 * t68 * alphadot[2]);
+    jac_phi_q_v_A_i[52] = t72 * C_i[8] - (C_i[6] * t75 - C_i[7] * t90);
+    jac_phi_q_v_A_i[53] = g_star_2 * t76 * alphadot[2] - (f_star_0 * t78 - f_star_1 * t91) + f_star_2 * t79;
     jac_phi_q_v_r_j[0] = -t0;
     jac_phi_q_v_r_j[1] = -t1;
     jac_phi_q_v_r_j[2] = -t2;
@@ -505,246 +478,246 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_r_j[6] = -t6;
     jac_phi_q_v_r_j[7] = -t7;
     jac_phi_q_v_r_j[8] = -t8;
-    const jg_real t125 = s_j[0] * A_i[6];
-    const jg_real t126 = s_j[0] * A_i[3];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t125 * omega_i[1] - t126 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t127 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t127 - t125 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t126 * omega_i[0] - omega_i[1] * t127) + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t128 = A_i[6] * C_j[6];
-    const jg_real t129 = A_i[3] * C_j[6];
-    const jg_real t130 = A_i[0] * C_j[6];
+    const jg_real t92 = s_j[0] * A_i[6];
+    const jg_real t93 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t92 * omega_i[1] - t93 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t94 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t94 - t92 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[3];
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t93 * omega_i[0] - omega_i[1] * t94) + omega_j_cross_s_j_0 * A_i[6];
+    const jg_real t95 = A_i[6] * C_j[6];
+    const jg_real t96 = A_i[3] * C_j[6];
+    const jg_real t97 = A_i[0] * C_j[6];
     jac_phi_q_v_A_j[3] = A_i[0] * omega_j_cross_h_j_0 * g_star_0 + A_i[3] * omega_j_cross_h_j_0 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t128 - omega_i[2] * t129) + g_star_1 *
-        (omega_i[2] * t130 - omega_i[0] * t128) + g_star_2 * (omega_i[0] * t129 - omega_i[1] * t130) + (f_star_0 *
-        t130 + f_star_1 * t129 + f_star_2 * t128) * alphadot[2]);
-    const jg_real t131 = A_i[6] * C_j[0];
-    const jg_real t132 = A_i[3] * C_j[0];
-    const jg_real t133 = A_i[0] * C_j[0];
+        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t95 - omega_i[2] * t96) + g_star_1 *
+        (omega_i[2] * t97 - omega_i[0] * t95) + g_star_2 * (omega_i[0] * t96 - omega_i[1] * t97) + (f_star_0 * t97 +
+        f_star_1 * t96 + f_star_2 * t95) * alphadot[2]);
+    const jg_real t98 = A_i[6] * C_j[0];
+    const jg_real t99 = A_i[3] * C_j[0];
+    const jg_real t100 = A_i[0] * C_j[0];
     jac_phi_q_v_A_j[4] = A_i[0] * omega_j_cross_f_j_0 * C_i[6] + A_i[3] * omega_j_cross_f_j_0 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t131 - omega_i[2] * t132) + C_i[7] * (omega_i[2] *
-        t133 - omega_i[0] * t131) + C_i[8] * (omega_i[0] * t132 - omega_i[1] * t133));
-    const jg_real t134 = A_i[6] * C_j[3];
-    const jg_real t135 = A_i[3] * C_j[3];
-    const jg_real t136 = A_i[0] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t98 - omega_i[2] * t99) + C_i[7] * (omega_i[2] * t100
+        - omega_i[0] * t98) + C_i[8] * (omega_i[0] * t99 - omega_i[1] * t100));
+    const jg_real t101 = A_i[6] * C_j[3];
+    const jg_real t102 = A_i[3] * C_j[3];
+    const jg_real t103 = A_i[0] * C_j[3];
     jac_phi_q_v_A_j[5] = A_i[0] * omega_j_cross_g_j_0 * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 + A_i[6]
-        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t136 + g_star_1 * t135 + g_star_2 * t134) -
-        (f_star_0 * (omega_i[1] * t134 - omega_i[2] * t135) + f_star_1 * (omega_i[2] * t136 - omega_i[0] * t134) +
-        f_star_2 * (omega_i[0] * t135 - omega_i[1] * t136)));
-    const jg_real t137 = s_j[0] * A_i[7];
-    const jg_real t138 = s_j[0] * A_i[4];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t137 * omega_i[1] - t138 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t139 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t139 - t137 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t138 * omega_i[0] - omega_i[1] * t139) + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t140 = A_i[7] * C_j[6];
-    const jg_real t141 = A_i[4] * C_j[6];
-    const jg_real t142 = A_i[1] * C_j[6];
+        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t103 + g_star_1 * t102 + g_star_2 * t101) -
+        (f_star_0 * (omega_i[1] * t101 - omega_i[2] * t102) + f_star_1 * (omega_i[2] * t103 - omega_i[0] * t101) +
+        f_star_2 * (omega_i[0] * t102 - omega_i[1] * t103)));
+    const jg_real t104 = s_j[0] * A_i[7];
+    const jg_real t105 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t104 * omega_i[1] - t105 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t106 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t106 - t104 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[4];
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t105 * omega_i[0] - omega_i[1] * t106) + omega_j_cross_s_j_0 * A_i[7];
+    const jg_real t107 = A_i[7] * C_j[6];
+    const jg_real t108 = A_i[4] * C_j[6];
+    const jg_real t109 = A_i[1] * C_j[6];
     jac_phi_q_v_A_j[9] = A_i[1] * omega_j_cross_h_j_0 * g_star_0 + A_i[4] * omega_j_cross_h_j_0 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t140 - omega_i[2] * t141) + g_star_1 *
-        (omega_i[2] * t142 - omega_i[0] * t140) + g_star_2 * (omega_i[0] * t141 - omega_i[1] * t142) + (f_star_0 *
-        t142 + f_star_1 * t141 + f_star_2 * t140) * alphadot[2]);
-    const jg_real t143 = A_i[7] * C_j[0];
-    const jg_real t144 = A_i[4] * C_j[0];
-    const jg_real t145 = A_i[1] * C_j[0];
+        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t107 - omega_i[2] * t108) + g_star_1 *
+        (omega_i[2] * t109 - omega_i[0] * t107) + g_star_2 * (omega_i[0] * t108 - omega_i[1] * t109) + (f_star_0 *
+        t109 + f_star_1 * t108 + f_star_2 * t107) * alphadot[2]);
+    const jg_real t110 = A_i[7] * C_j[0];
+    const jg_real t111 = A_i[4] * C_j[0];
+    const jg_real t112 = A_i[1] * C_j[0];
     jac_phi_q_v_A_j[10] = A_i[1] * omega_j_cross_f_j_0 * C_i[6] + A_i[4] * omega_j_cross_f_j_0 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t143 - omega_i[2] * t144) + C_i[7] * (omega_i[2] *
-        t145 - omega_i[0] * t143) + C_i[8] * (omega_i[0] * t144 - omega_i[1] * t145));
-    const jg_real t146 = A_i[7] * C_j[3];
-    const jg_real t147 = A_i[4] * C_j[3];
-    const jg_real t148 = A_i[1] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t110 - omega_i[2] * t111) + C_i[7] * (omega_i[2] *
+        t112 - omega_i[0] * t110) + C_i[8] * (omega_i[0] * t111 - omega_i[1] * t112));
+    const jg_real t113 = A_i[7] * C_j[3];
+    const jg_real t114 = A_i[4] * C_j[3];
+    const jg_real t115 = A_i[1] * C_j[3];
     jac_phi_q_v_A_j[11] = A_i[1] * omega_j_cross_g_j_0 * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 + A_i[7]
-        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t148 + g_star_1 * t147 + g_star_2 * t146) -
-        (f_star_0 * (omega_i[1] * t146 - omega_i[2] * t147) + f_star_1 * (omega_i[2] * t148 - omega_i[0] * t146) +
-        f_star_2 * (omega_i[0] * t147 - omega_i[1] * t148)));
-    const jg_real t149 = s_j[0] * A_i[8];
-    const jg_real t150 = s_j[0] * A_i[5];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t149 * omega_i[1] - t150 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t151 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t151 - t149 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t150 * omega_i[0] - omega_i[1] * t151) + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t152 = A_i[8] * C_j[6];
-    const jg_real t153 = A_i[5] * C_j[6];
-    const jg_real t154 = A_i[2] * C_j[6];
+        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t115 + g_star_1 * t114 + g_star_2 * t113) -
+        (f_star_0 * (omega_i[1] * t113 - omega_i[2] * t114) + f_star_1 * (omega_i[2] * t115 - omega_i[0] * t113) +
+        f_star_2 * (omega_i[0] * t114 - omega_i[1] * t115)));
+    const jg_real t116 = s_j[0] * A_i[8];
+    const jg_real t117 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t116 * omega_i[1] - t117 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t118 = A_i[2] * s_j[0];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t118 - t116 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[5];
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t117 * omega_i[0] - omega_i[1] * t118) + omega_j_cross_s_j_0 * A_i[8];
+    const jg_real t119 = A_i[8] * C_j[6];
+    const jg_real t120 = A_i[5] * C_j[6];
+    const jg_real t121 = A_i[2] * C_j[6];
     jac_phi_q_v_A_j[15] = A_i[2] * omega_j_cross_h_j_0 * g_star_0 + A_i[5] * omega_j_cross_h_j_0 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t152 - omega_i[2] * t153) + g_star_1 *
-        (omega_i[2] * t154 - omega_i[0] * t152) + g_star_2 * (omega_i[0] * t153 - omega_i[1] * t154) + (f_star_0 *
-        t154 + f_star_1 * t153 + f_star_2 * t152) * alphadot[2]);
-    const jg_real t155 = A_i[8] * C_j[0];
-    const jg_real t156 = A_i[5] * C_j[0];
-    const jg_real t157 = A_i[2] * C_j[0];
+        * omega_j_cross_h_j_0 * g_star_2 - (g_star_0 * (omega_i[1] * t119 - omega_i[2] * t120) + g_star_1 *
+        (omega_i[2] * t121 - omega_i[0] * t119) + g_star_2 * (omega_i[0] * t120 - omega_i[1] * t121) + (f_star_0 *
+        t121 + f_star_1 * t120 + f_star_2 * t119) * alphadot[2]);
+    const jg_real t122 = A_i[8] * C_j[0];
+    const jg_real t123 = A_i[5] * C_j[0];
+    const jg_real t124 = A_i[2] * C_j[0];
     jac_phi_q_v_A_j[16] = A_i[2] * omega_j_cross_f_j_0 * C_i[6] + A_i[5] * omega_j_cross_f_j_0 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t155 - omega_i[2] * t156) + C_i[7] * (omega_i[2] *
-        t157 - omega_i[0] * t155) + C_i[8] * (omega_i[0] * t156 - omega_i[1] * t157));
-    const jg_real t158 = A_i[8] * C_j[3];
-    const jg_real t159 = A_i[5] * C_j[3];
-    const jg_real t160 = A_i[2] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t122 - omega_i[2] * t123) + C_i[7] * (omega_i[2] *
+        t124 - omega_i[0] * t122) + C_i[8] * (omega_i[0] * t123 - omega_i[1] * t124));
+    const jg_real t125 = A_i[8] * C_j[3];
+    const jg_real t126 = A_i[5] * C_j[3];
+    const jg_real t127 = A_i[2] * C_j[3];
     jac_phi_q_v_A_j[17] = A_i[2] * omega_j_cross_g_j_0 * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 + A_i[8]
-        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t160 + g_star_1 * t159 + g_star_2 * t158) -
-        (f_star_0 * (omega_i[1] * t158 - omega_i[2] * t159) + f_star_1 * (omega_i[2] * t160 - omega_i[0] * t158) +
-        f_star_2 * (omega_i[0] * t159 - omega_i[1] * t160)));
-    const jg_real t161 = s_j[1] * A_i[6];
-    const jg_real t162 = s_j[1] * A_i[3];
-    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t161 * omega_i[1] - t162 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t163 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t163 - t161 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t162 * omega_i[0] - omega_i[1] * t163) + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t164 = A_i[6] * C_j[7];
-    const jg_real t165 = A_i[3] * C_j[7];
-    const jg_real t166 = A_i[0] * C_j[7];
+        * omega_j_cross_g_j_0 * f_star_2 + (alphadot[2] * (g_star_0 * t127 + g_star_1 * t126 + g_star_2 * t125) -
+        (f_star_0 * (omega_i[1] * t125 - omega_i[2] * t126) + f_star_1 * (omega_i[2] * t127 - omega_i[0] * t125) +
+        f_star_2 * (omega_i[0] * t126 - omega_i[1] * t127)));
+    const jg_real t128 = s_j[1] * A_i[6];
+    const jg_real t129 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t128 * omega_i[1] - t129 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t130 = A_i[0] * s_j[1];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t130 - t128 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[3];
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t129 * omega_i[0] - omega_i[1] * t130) + omega_j_cross_s_j_1 * A_i[6];
+    const jg_real t131 = A_i[6] * C_j[7];
+    const jg_real t132 = A_i[3] * C_j[7];
+    const jg_real t133 = A_i[0] * C_j[7];
     jac_phi_q_v_A_j[21] = A_i[0] * omega_j_cross_h_j_1 * g_star_0 + A_i[3] * omega_j_cross_h_j_1 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t164 - omega_i[2] * t165) + g_star_1 *
-        (omega_i[2] * t166 - omega_i[0] * t164) + g_star_2 * (omega_i[0] * t165 - omega_i[1] * t166) + (f_star_0 *
-        t166 + f_star_1 * t165 + f_star_2 * t164) * alphadot[2]);
-    const jg_real t167 = A_i[6] * C_j[1];
-    const jg_real t168 = A_i[3] * C_j[1];
-    const jg_real t169 = A_i[0] * C_j[1];
+        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t131 - omega_i[2] * t132) + g_star_1 *
+        (omega_i[2] * t133 - omega_i[0] * t131) + g_star_2 * (omega_i[0] * t132 - omega_i[1] * t133) + (f_star_0 *
+        t133 + f_star_1 * t132 + f_star_2 * t131) * alphadot[2]);
+    const jg_real t134 = A_i[6] * C_j[1];
+    const jg_real t135 = A_i[3] * C_j[1];
+    const jg_real t136 = A_i[0] * C_j[1];
     jac_phi_q_v_A_j[22] = A_i[0] * omega_j_cross_f_j_1 * C_i[6] + A_i[3] * omega_j_cross_f_j_1 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t167 - omega_i[2] * t168) + C_i[7] * (omega_i[2] *
-        t169 - omega_i[0] * t167) + C_i[8] * (omega_i[0] * t168 - omega_i[1] * t169));
-    const jg_real t170 = A_i[6] * C_j[4];
-    const jg_real t171 = A_i[3] * C_j[4];
-    const jg_real t172 = A_i[0] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t134 - omega_i[2] * t135) + C_i[7] * (omega_i[2] *
+        t136 - omega_i[0] * t134) + C_i[8] * (omega_i[0] * t135 - omega_i[1] * t136));
+    const jg_real t137 = A_i[6] * C_j[4];
+    const jg_real t138 = A_i[3] * C_j[4];
+    const jg_real t139 = A_i[0] * C_j[4];
     jac_phi_q_v_A_j[23] = A_i[0] * omega_j_cross_g_j_1 * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 + A_i[6]
-        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t172 + g_star_1 * t171 + g_star_2 * t170) -
-        (f_star_0 * (omega_i[1] * t170 - omega_i[2] * t171) + f_star_1 * (omega_i[2] * t172 - omega_i[0] * t170) +
-        f_star_2 * (omega_i[0] * t171 - omega_i[1] * t172)));
-    const jg_real t173 = s_j[1] * A_i[7];
-    const jg_real t174 = s_j[1] * A_i[4];
-    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t173 * omega_i[1] - t174 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t175 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t175 - t173 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t174 * omega_i[0] - omega_i[1] * t175) + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t176 = A_i[7] * C_j[7];
-    const jg_real t177 = A_i[4] * C_j[7];
-    const jg_real t178 = A_i[1] * C_j[7];
+        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t139 + g_star_1 * t138 + g_star_2 * t137) -
+        (f_star_0 * (omega_i[1] * t137 - omega_i[2] * t138) + f_star_1 * (omega_i[2] * t139 - omega_i[0] * t137) +
+        f_star_2 * (omega_i[0] * t138 - omega_i[1] * t139)));
+    const jg_real t140 = s_j[1] * A_i[7];
+    const jg_real t141 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t140 * omega_i[1] - t141 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t142 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t142 - t140 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[4];
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t141 * omega_i[0] - omega_i[1] * t142) + omega_j_cross_s_j_1 * A_i[7];
+    const jg_real t143 = A_i[7] * C_j[7];
+    const jg_real t144 = A_i[4] * C_j[7];
+    const jg_real t145 = A_i[1] * C_j[7];
     jac_phi_q_v_A_j[27] = A_i[1] * omega_j_cross_h_j_1 * g_star_0 + A_i[4] * omega_j_cross_h_j_1 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t176 - omega_i[2] * t177) + g_star_1 *
-        (omega_i[2] * t178 - omega_i[0] * t176) + g_star_2 * (omega_i[0] * t177 - omega_i[1] * t178) + (f_star_0 *
-        t178 + f_star_1 * t177 + f_star_2 * t176) * alphadot[2]);
-    const jg_real t179 = A_i[7] * C_j[1];
-    const jg_real t180 = A_i[4] * C_j[1];
-    const jg_real t181 = A_i[1] * C_j[1];
+        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t143 - omega_i[2] * t144) + g_star_1 *
+        (omega_i[2] * t145 - omega_i[0] * t143) + g_star_2 * (omega_i[0] * t144 - omega_i[1] * t145) + (f_star_0 *
+        t145 + f_star_1 * t144 + f_star_2 * t143) * alphadot[2]);
+    const jg_real t146 = A_i[7] * C_j[1];
+    const jg_real t147 = A_i[4] * C_j[1];
+    const jg_real t148 = A_i[1] * C_j[1];
     jac_phi_q_v_A_j[28] = A_i[1] * omega_j_cross_f_j_1 * C_i[6] + A_i[4] * omega_j_cross_f_j_1 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t179 - omega_i[2] * t180) + C_i[7] * (omega_i[2] *
-        t181 - omega_i[0] * t179) + C_i[8] * (omega_i[0] * t180 - omega_i[1] * t181));
-    const jg_real t182 = A_i[7] * C_j[4];
-    const jg_real t183 = A_i[4] * C_j[4];
-    const jg_real t184 = A_i[1] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t146 - omega_i[2] * t147) + C_i[7] * (omega_i[2] *
+        t148 - omega_i[0] * t146) + C_i[8] * (omega_i[0] * t147 - omega_i[1] * t148));
+    const jg_real t149 = A_i[7] * C_j[4];
+    const jg_real t150 = A_i[4] * C_j[4];
+    const jg_real t151 = A_i[1] * C_j[4];
     jac_phi_q_v_A_j[29] = A_i[1] * omega_j_cross_g_j_1 * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 + A_i[7]
-        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t184 + g_star_1 * t183 + g_star_2 * t182) -
-        (f_star_0 * (omega_i[1] * t182 - omega_i[2] * t183) + f_star_1 * (omega_i[2] * t184 - omega_i[0] * t182) +
-        f_star_2 * (omega_i[0] * t183 - omega_i[1] * t184)));
-    const jg_real t185 = s_j[1] * A_i[8];
-    const jg_real t186 = s_j[1] * A_i[5];
-    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t185 * omega_i[1] - t186 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t187 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t187 - t185 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t186 * omega_i[0] - omega_i[1] * t187) + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t188 = A_i[8] * C_j[7];
-    const jg_real t189 = A_i[5] * C_j[7];
-    const jg_real t190 = A_i[2] * C_j[7];
+        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t151 + g_star_1 * t150 + g_star_2 * t149) -
+        (f_star_0 * (omega_i[1] * t149 - omega_i[2] * t150) + f_star_1 * (omega_i[2] * t151 - omega_i[0] * t149) +
+        f_star_2 * (omega_i[0] * t150 - omega_i[1] * t151)));
+    const jg_real t152 = s_j[1] * A_i[8];
+    const jg_real t153 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t152 * omega_i[1] - t153 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t154 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t154 - t152 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[5];
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t153 * omega_i[0] - omega_i[1] * t154) + omega_j_cross_s_j_1 * A_i[8];
+    const jg_real t155 = A_i[8] * C_j[7];
+    const jg_real t156 = A_i[5] * C_j[7];
+    const jg_real t157 = A_i[2] * C_j[7];
     jac_phi_q_v_A_j[33] = A_i[2] * omega_j_cross_h_j_1 * g_star_0 + A_i[5] * omega_j_cross_h_j_1 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t188 - omega_i[2] * t189) + g_star_1 *
-        (omega_i[2] * t190 - omega_i[0] * t188) + g_star_2 * (omega_i[0] * t189 - omega_i[1] * t190) + (f_star_0 *
-        t190 + f_star_1 * t189 + f_star_2 * t188) * alphadot[2]);
-    const jg_real t191 = A_i[8] * C_j[1];
-    const jg_real t192 = A_i[5] * C_j[1];
-    const jg_real t193 = A_i[2] * C_j[1];
+        * omega_j_cross_h_j_1 * g_star_2 - (g_star_0 * (omega_i[1] * t155 - omega_i[2] * t156) + g_star_1 *
+        (omega_i[2] * t157 - omega_i[0] * t155) + g_star_2 * (omega_i[0] * t156 - omega_i[1] * t157) + (f_star_0 *
+        t157 + f_star_1 * t156 + f_star_2 * t155) * alphadot[2]);
+    const jg_real t158 = A_i[8] * C_j[1];
+    const jg_real t159 = A_i[5] * C_j[1];
+    const jg_real t160 = A_i[2] * C_j[1];
     jac_phi_q_v_A_j[34] = A_i[2] * omega_j_cross_f_j_1 * C_i[6] + A_i[5] * omega_j_cross_f_j_1 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t191 - omega_i[2] * t192) + C_i[7] * (omega_i[2] *
-        t193 - omega_i[0] * t191) + C_i[8] * (omega_i[0] * t192 - omega_i[1] * t193));
-    const jg_real t194 = A_i[8] * C_j[4];
-    const jg_real t195 = A_i[5] * C_j[4];
-    const jg_real t196 = A_i[2] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t158 - omega_i[2] * t159) + C_i[7] * (omega_i[2] *
+        t160 - omega_i[0] * t158) + C_i[8] * (omega_i[0] * t159 - omega_i[1] * t160));
+    const jg_real t161 = A_i[8] * C_j[4];
+    const jg_real t162 = A_i[5] * C_j[4];
+    const jg_real t163 = A_i[2] * C_j[4];
     jac_phi_q_v_A_j[35] = A_i[2] * omega_j_cross_g_j_1 * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 + A_i[8]
-        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t196 + g_star_1 * t195 + g_star_2 * t194) -
-        (f_star_0 * (omega_i[1] * t194 - omega_i[2] * t195) + f_star_1 * (omega_i[2] * t196 - omega_i[0] * t194) +
-        f_star_2 * (omega_i[0] * t195 - omega_i[1] * t196)));
-    const jg_real t197 = s_j[2] * A_i[6];
-    const jg_real t198 = s_j[2] * A_i[3];
-    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t197 * omega_i[1] - t198 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t199 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t199 - t197 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t198 * omega_i[0] - omega_i[1] * t199) + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t200 = A_i[6] * C_j[8];
-    const jg_real t201 = A_i[3] * C_j[8];
-    const jg_real t202 = A_i[0] * C_j[8];
+        * omega_j_cross_g_j_1 * f_star_2 + (alphadot[2] * (g_star_0 * t163 + g_star_1 * t162 + g_star_2 * t161) -
+        (f_star_0 * (omega_i[1] * t161 - omega_i[2] * t162) + f_star_1 * (omega_i[2] * t163 - omega_i[0] * t161) +
+        f_star_2 * (omega_i[0] * t162 - omega_i[1] * t163)));
+    const jg_real t164 = s_j[2] * A_i[6];
+    const jg_real t165 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t164 * omega_i[1] - t165 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t166 = A_i[0] * s_j[2];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t166 - t164 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[3];
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t165 * omega_i[0] - omega_i[1] * t166) + omega_j_cross_s_j_2 * A_i[6];
+    const jg_real t167 = A_i[6] * C_j[8];
+    const jg_real t168 = A_i[3] * C_j[8];
+    const jg_real t169 = A_i[0] * C_j[8];
     jac_phi_q_v_A_j[39] = A_i[0] * omega_j_cross_h_j_2 * g_star_0 + A_i[3] * omega_j_cross_h_j_2 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t200 - omega_i[2] * t201) + g_star_1 *
-        (omega_i[2] * t202 - omega_i[0] * t200) + g_star_2 * (omega_i[0] * t201 - omega_i[1] * t202) + (f_star_0 *
-        t202 + f_star_1 * t201 + f_star_2 * t200) * alphadot[2]);
-    const jg_real t203 = A_i[6] * C_j[2];
-    const jg_real t204 = A_i[3] * C_j[2];
-    const jg_real t205 = A_i[0] * C_j[2];
+        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t167 - omega_i[2] * t168) + g_star_1 *
+        (omega_i[2] * t169 - omega_i[0] * t167) + g_star_2 * (omega_i[0] * t168 - omega_i[1] * t169) + (f_star_0 *
+        t169 + f_star_1 * t168 + f_star_2 * t167) * alphadot[2]);
+    const jg_real t170 = A_i[6] * C_j[2];
+    const jg_real t171 = A_i[3] * C_j[2];
+    const jg_real t172 = A_i[0] * C_j[2];
     jac_phi_q_v_A_j[40] = A_i[0] * omega_j_cross_f_j_2 * C_i[6] + A_i[3] * omega_j_cross_f_j_2 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t203 - omega_i[2] * t204) + C_i[7] * (omega_i[2] *
-        t205 - omega_i[0] * t203) + C_i[8] * (omega_i[0] * t204 - omega_i[1] * t205));
-    const jg_real t206 = A_i[6] * C_j[5];
-    const jg_real t207 = A_i[3] * C_j[5];
-    const jg_real t208 = A_i[0] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t170 - omega_i[2] * t171) + C_i[7] * (omega_i[2] *
+        t172 - omega_i[0] * t170) + C_i[8] * (omega_i[0] * t171 - omega_i[1] * t172));
+    const jg_real t173 = A_i[6] * C_j[5];
+    const jg_real t174 = A_i[3] * C_j[5];
+    const jg_real t175 = A_i[0] * C_j[5];
     jac_phi_q_v_A_j[41] = A_i[0] * omega_j_cross_g_j_2 * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 + A_i[6]
-        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t208 + g_star_1 * t207 + g_star_2 * t206) -
-        (f_star_0 * (omega_i[1] * t206 - omega_i[2] * t207) + f_star_1 * (omega_i[2] * t208 - omega_i[0] * t206) +
-        f_star_2 * (omega_i[0] * t207 - omega_i[1] * t208)));
-    const jg_real t209 = s_j[2] * A_i[7];
-    const jg_real t210 = s_j[2] * A_i[4];
-    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t209 * omega_i[1] - t210 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t211 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t211 - t209 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t210 * omega_i[0] - omega_i[1] * t211) + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t212 = A_i[7] * C_j[8];
-    const jg_real t213 = A_i[4] * C_j[8];
-    const jg_real t214 = A_i[1] * C_j[8];
+        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t175 + g_star_1 * t174 + g_star_2 * t173) -
+        (f_star_0 * (omega_i[1] * t173 - omega_i[2] * t174) + f_star_1 * (omega_i[2] * t175 - omega_i[0] * t173) +
+        f_star_2 * (omega_i[0] * t174 - omega_i[1] * t175)));
+    const jg_real t176 = s_j[2] * A_i[7];
+    const jg_real t177 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t176 * omega_i[1] - t177 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t178 = A_i[1] * s_j[2];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t178 - t176 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[4];
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t177 * omega_i[0] - omega_i[1] * t178) + omega_j_cross_s_j_2 * A_i[7];
+    const jg_real t179 = A_i[7] * C_j[8];
+    const jg_real t180 = A_i[4] * C_j[8];
+    const jg_real t181 = A_i[1] * C_j[8];
     jac_phi_q_v_A_j[45] = A_i[1] * omega_j_cross_h_j_2 * g_star_0 + A_i[4] * omega_j_cross_h_j_2 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t212 - omega_i[2] * t213) + g_star_1 *
-        (omega_i[2] * t214 - omega_i[0] * t212) + g_star_2 * (omega_i[0] * t213 - omega_i[1] * t214) + (f_star_0 *
-        t214 + f_star_1 * t213 + f_star_2 * t212) * alphadot[2]);
-    const jg_real t215 = A_i[7] * C_j[2];
-    const jg_real t216 = A_i[4] * C_j[2];
-    const jg_real t217 = A_i[1] * C_j[2];
+        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t179 - omega_i[2] * t180) + g_star_1 *
+        (omega_i[2] * t181 - omega_i[0] * t179) + g_star_2 * (omega_i[0] * t180 - omega_i[1] * t181) + (f_star_0 *
+        t181 + f_star_1 * t180 + f_star_2 * t179) * alphadot[2]);
+    const jg_real t182 = A_i[7] * C_j[2];
+    const jg_real t183 = A_i[4] * C_j[2];
+    const jg_real t184 = A_i[1] * C_j[2];
     jac_phi_q_v_A_j[46] = A_i[1] * omega_j_cross_f_j_2 * C_i[6] + A_i[4] * omega_j_cross_f_j_2 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t215 - omega_i[2] * t216) + C_i[7] * (omega_i[2] *
-        t217 - omega_i[0] * t215) + C_i[8] * (omega_i[0] * t216 - omega_i[1] * t217));
-    const jg_real t218 = A_i[7] * C_j[5];
-    const jg_real t219 = A_i[4] * C_j[5];
-    const jg_real t220 = A_i[1] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t182 - omega_i[2] * t183) + C_i[7] * (omega_i[2] *
+        t184 - omega_i[0] * t182) + C_i[8] * (omega_i[0] * t183 - omega_i[1] * t184));
+    const jg_real t185 = A_i[7] * C_j[5];
+    const jg_real t186 = A_i[4] * C_j[5];
+    const jg_real t187 = A_i[1] * C_j[5];
     jac_phi_q_v_A_j[47] = A_i[1] * omega_j_cross_g_j_2 * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 + A_i[7]
-        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t220 + g_star_1 * t219 + g_star_2 * t218) -
-        (f_star_0 * (omega_i[1] * t218 - omega_i[2] * t219) + f_star_1 * (omega_i[2] * t220 - omega_i[0] * t218) +
-        f_star_2 * (omega_i[0] * t219 - omega_i[1] * t220)));
-    const jg_real t221 = s_j[2] * A_i[8];
-    const jg_real t222 = s_j[2] * A_i[5];
-    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t221 * omega_i[1] - t222 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t223 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t223 - t221 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t222 * omega_i[0] - omega_i[1] * t223) + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t224 = A_i[8] * C_j[8];
-    const jg_real t225 = A_i[5] * C_j[8];
-    const jg_real t226 = A_i[2] * C_j[8];
+        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t187 + g_star_1 * t186 + g_star_2 * t185) -
+        (f_star_0 * (omega_i[1] * t185 - omega_i[2] * t186) + f_star_1 * (omega_i[2] * t187 - omega_i[0] * t185) +
+        f_star_2 * (omega_i[0] * t186 - omega_i[1] * t187)));
+    const jg_real t188 = s_j[2] * A_i[8];
+    const jg_real t189 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t188 * omega_i[1] - t189 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t190 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t190 - t188 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[5];
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t189 * omega_i[0] - omega_i[1] * t190) + omega_j_cross_s_j_2 * A_i[8];
+    const jg_real t191 = A_i[8] * C_j[8];
+    const jg_real t192 = A_i[5] * C_j[8];
+    const jg_real t193 = A_i[2] * C_j[8];
     jac_phi_q_v_A_j[51] = A_i[2] * omega_j_cross_h_j_2 * g_star_0 + A_i[5] * omega_j_cross_h_j_2 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t224 - omega_i[2] * t225) + g_star_1 *
-        (omega_i[2] * t226 - omega_i[0] * t224) + g_star_2 * (omega_i[0] * t225 - omega_i[1] * t226) + (f_star_0 *
-        t226 + f_star_1 * t225 + f_star_2 * t224) * alphadot[2]);
-    const jg_real t227 = A_i[8] * C_j[2];
-    const jg_real t228 = A_i[5] * C_j[2];
-    const jg_real t229 = A_i[2] * C_j[2];
+        * omega_j_cross_h_j_2 * g_star_2 - (g_star_0 * (omega_i[1] * t191 - omega_i[2] * t192) + g_star_1 *
+        (omega_i[2] * t193 - omega_i[0] * t191) + g_star_2 * (omega_i[0] * t192 - omega_i[1] * t193) + (f_star_0 *
+        t193 + f_star_1 * t192 + f_star_2 * t191) * alphadot[2]);
+    const jg_real t194 = A_i[8] * C_j[2];
+    const jg_real t195 = A_i[5] * C_j[2];
+    const jg_real t196 = A_i[2] * C_j[2];
     jac_phi_q_v_A_j[52] = A_i[2] * omega_j_cross_f_j_2 * C_i[6] + A_i[5] * omega_j_cross_f_j_2 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t227 - omega_i[2] * t228) + C_i[7] * (omega_i[2] *
-        t229 - omega_i[0] * t227) + C_i[8] * (omega_i[0] * t228 - omega_i[1] * t229));
-    const jg_real t230 = A_i[8] * C_j[5];
-    const jg_real t231 = A_i[5] * C_j[5];
-    const jg_real t232 = A_i[2] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t194 - omega_i[2] * t195) + C_i[7] * (omega_i[2] *
+        t196 - omega_i[0] * t194) + C_i[8] * (omega_i[0] * t195 - omega_i[1] * t196));
+    const jg_real t197 = A_i[8] * C_j[5];
+    const jg_real t198 = A_i[5] * C_j[5];
+    const jg_real t199 = A_i[2] * C_j[5];
     jac_phi_q_v_A_j[53] = A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 + A_i[8]
-        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t232 + g_star_1 * t231 + g_star_2 * t230) -
-        (f_star_0 * (omega_i[1] * t230 - omega_i[2] * t231) + f_star_1 * (omega_i[2] * t232 - omega_i[0] * t230) +
-        f_star_2 * (omega_i[0] * t231 - omega_i[1] * t232)));
+        * omega_j_cross_g_j_2 * f_star_2 + (alphadot[2] * (g_star_0 * t199 + g_star_1 * t198 + g_star_2 * t197) -
+        (f_star_0 * (omega_i[1] * t197 - omega_i[2] * t198) + f_star_1 * (omega_i[2] * t199 - omega_i[0] * t197) +
+        f_star_2 * (omega_i[0] * t198 - omega_i[1] * t199)));
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jac_phi_q_v_velocity[21] = A_ij_3;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ij_6;
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
@@ -796,55 +769,37 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         A_ij_omega_j_cross_g_j_2 - (g_star_0 * omega_i_cross_A_ij_g_j_0 + g_star_1 * omega_i_cross_A_ij_g_j_1 +
         g_star_2 * omega_i_cross_A_ij_g_j_2 + alphadot[2] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 +
         f_star_2 * A_ij_g_j_2));
-    const jg_real t260 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t261 = t260 * omega_i[1];
-    const jg_real t262 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t263 = t262 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t261 - t263;
-    const jg_real t264 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = -(t260 * omega_i[0] - omega_i[2] * t264 + omega_i[2]);
-    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t264 - t262 * omega_i[0]);
-    const jg_real t265 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t266 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_q_v_geometry[3] = omega_i[2] - (t265 * omega_i[2] - t266 * omega_i[1]);
-    const jg_real t267 = t266 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t263 - t267;
-    jac_phi_q_v_geometry[5] = -(omega_i[1] * t262 - t265 * omega_i[0] + omega_i[0]);
-    const jg_real t268 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = -(t266 * omega_i[2] - t268 * omega_i[1] + omega_i[1]);
-    jac_phi_q_v_geometry[7] = omega_i[0] - (t268 * omega_i[0] - t260 * omega_i[2]);
-    jac_phi_q_v_geometry[8] = t267 - t261;
-    const jg_real t269 = -alphadot[0];
-    jac_phi_q_v_geometry[9] = t269;
-    jac_phi_q_v_geometry[12] = t269;
-    jac_phi_q_v_geometry[15] = t269;
-    jac_phi_q_v_geometry[10] = -(cosine_0 * A_ij_h_j_0 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_0 +
+    const jg_real t227 = -alphadot[0];
+    jac_phi_q_v_geometry[0] = t227;
+    jac_phi_q_v_geometry[3] = t227;
+    jac_phi_q_v_geometry[6] = t227;
+    jac_phi_q_v_geometry[1] = -(cosine_0 * A_ij_h_j_0 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_0 +
         A_ij_omega_j_cross_h_j_0 * sine_0);
-    jac_phi_q_v_geometry[11] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (cosine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
+    jac_phi_q_v_geometry[2] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (cosine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
         A_ij_g_j_0 * alphadot[2]);
-    jac_phi_q_v_geometry[13] = -(cosine_0 * A_ij_h_j_1 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_1 + sine_0 *
+    jac_phi_q_v_geometry[4] = -(cosine_0 * A_ij_h_j_1 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_1 + sine_0 *
         A_ij_omega_j_cross_h_j_1);
-    jac_phi_q_v_geometry[14] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (cosine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
+    jac_phi_q_v_geometry[5] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (cosine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
         A_ij_g_j_1 * alphadot[2]);
-    jac_phi_q_v_geometry[16] = -(cosine_0 * A_ij_h_j_2 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_2 + sine_0 *
+    jac_phi_q_v_geometry[7] = -(cosine_0 * A_ij_h_j_2 * alphadot[2] - sine_0 * omega_i_cross_A_ij_h_j_2 + sine_0 *
         A_ij_omega_j_cross_h_j_2);
-    jac_phi_q_v_geometry[17] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (cosine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
+    jac_phi_q_v_geometry[8] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (cosine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
         A_ij_g_j_2 * alphadot[2]);
-    const jg_real t270 = -alphadot[1];
-    jac_phi_q_v_geometry[18] = t270;
-    jac_phi_q_v_geometry[21] = t270;
-    jac_phi_q_v_geometry[24] = t270;
-    jac_phi_q_v_geometry[19] = A_ij_omega_j_cross_h_j_0 * cosine_0 - (cosine_0 * omega_i_cross_A_ij_h_j_0 + sine_0 *
+    const jg_real t228 = -alphadot[1];
+    jac_phi_q_v_geometry[9] = t228;
+    jac_phi_q_v_geometry[12] = t228;
+    jac_phi_q_v_geometry[15] = t228;
+    jac_phi_q_v_geometry[10] = A_ij_omega_j_cross_h_j_0 * cosine_0 - (cosine_0 * omega_i_cross_A_ij_h_j_0 + sine_0 *
         A_ij_h_j_0 * alphadot[2]);
-    jac_phi_q_v_geometry[20] = cosine_0 * A_ij_g_j_0 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
+    jac_phi_q_v_geometry[11] = cosine_0 * A_ij_g_j_0 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
         A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[22] = cosine_0 * A_ij_omega_j_cross_h_j_1 - (cosine_0 * omega_i_cross_A_ij_h_j_1 + sine_0 *
+    jac_phi_q_v_geometry[13] = cosine_0 * A_ij_omega_j_cross_h_j_1 - (cosine_0 * omega_i_cross_A_ij_h_j_1 + sine_0 *
         A_ij_h_j_1 * alphadot[2]);
-    jac_phi_q_v_geometry[23] = cosine_0 * A_ij_g_j_1 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
+    jac_phi_q_v_geometry[14] = cosine_0 * A_ij_g_j_1 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
         A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[25] = cosine_0 * A_ij_omega_j_cross_h_j_2 - (cosine_0 * omega_i_cross_A_ij_h_j_2 + sine_0 *
+    jac_phi_q_v_geometry[16] = cosine_0 * A_ij_omega_j_cross_h_j_2 - (cosine_0 * omega_i_cross_A_ij_h_j_2 + sine_0 *
         A_ij_h_j_2 * alphadot[2]);
-    jac_phi_q_v_geometry[26] = cosine_0 * A_ij_g_j_2 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
+    jac_phi_q_v_geometry[17] = cosine_0 * A_ij_g_j_2 * alphadot[2] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
         A_ij_omega_j_cross_g_j_2;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
@@ -854,83 +809,83 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    jac_phi_q_v_geometry[27] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
+    jac_phi_q_v_geometry[18] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    jac_phi_q_v_geometry[28] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
+    jac_phi_q_v_geometry[19] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    jac_phi_q_v_geometry[29] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
-    const jg_real t280 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    const jg_real t281 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    jac_phi_q_v_geometry[30] = t280 - t281;
-    const jg_real t282 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    const jg_real t283 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
-    jac_phi_q_v_geometry[31] = t282 - t283;
-    const jg_real t284 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    const jg_real t285 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
-    jac_phi_q_v_geometry[32] = t284 - t285;
-    const jg_real t286 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    const jg_real t287 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    jac_phi_q_v_geometry[33] = t286 - t287;
-    const jg_real t288 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    const jg_real t289 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
-    jac_phi_q_v_geometry[34] = t288 - t289;
-    const jg_real t290 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    const jg_real t291 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
-    jac_phi_q_v_geometry[35] = t290 - t291;
-    const jg_real t292 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t293 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    jac_phi_q_v_geometry[36] = t292 - t293;
-    const jg_real t294 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    const jg_real t295 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
-    jac_phi_q_v_geometry[37] = t294 - t295;
-    const jg_real t296 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    const jg_real t297 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
-    jac_phi_q_v_geometry[38] = t296 - t297;
-    jac_phi_q_v_geometry[39] = t280 * C_i[6] + t282 * C_i[7] + t284 * C_i[8] - (t281 * C_i[6] + t283 * C_i[7] + t285
+    jac_phi_q_v_geometry[20] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
+    const jg_real t238 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t239 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[21] = t238 - t239;
+    const jg_real t240 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t241 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[22] = t240 - t241;
+    const jg_real t242 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t243 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    jac_phi_q_v_geometry[23] = t242 - t243;
+    const jg_real t244 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t245 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[24] = t244 - t245;
+    const jg_real t246 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t247 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[25] = t246 - t247;
+    const jg_real t248 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t249 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    jac_phi_q_v_geometry[26] = t248 - t249;
+    const jg_real t250 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t251 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[27] = t250 - t251;
+    const jg_real t252 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t253 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[28] = t252 - t253;
+    const jg_real t254 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t255 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    jac_phi_q_v_geometry[29] = t254 - t255;
+    jac_phi_q_v_geometry[30] = t238 * C_i[6] + t240 * C_i[7] + t242 * C_i[8] - (t239 * C_i[6] + t241 * C_i[7] + t243
         * C_i[8]);
-    jac_phi_q_v_geometry[40] = t286 * C_i[6] + t288 * C_i[7] + t290 * C_i[8] - (t287 * C_i[6] + t289 * C_i[7] + t291
+    jac_phi_q_v_geometry[31] = t244 * C_i[6] + t246 * C_i[7] + t248 * C_i[8] - (t245 * C_i[6] + t247 * C_i[7] + t249
         * C_i[8]);
-    jac_phi_q_v_geometry[41] = t292 * C_i[6] + t294 * C_i[7] + t296 * C_i[8] - (t293 * C_i[6] + t295 * C_i[7] + t297
+    jac_phi_q_v_geometry[32] = t250 * C_i[6] + t252 * C_i[7] + t254 * C_i[8] - (t251 * C_i[6] + t253 * C_i[7] + t255
         * C_i[8]);
-    jac_phi_q_v_geometry[42] = t280 * f_star_0 + t282 * f_star_1 + t284 * f_star_2 + (alphadot[2] * (A_ij_0 *
-        g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2) - (t281 * f_star_0 + t283 * f_star_1 + t285 * f_star_2));
-    jac_phi_q_v_geometry[43] = t286 * f_star_0 + t288 * f_star_1 + t290 * f_star_2 + (alphadot[2] * (A_ij_3 *
-        g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2) - (t287 * f_star_0 + t289 * f_star_1 + t291 * f_star_2));
-    jac_phi_q_v_geometry[44] = t292 * f_star_0 + t294 * f_star_1 + t296 * f_star_2 + (alphadot[2] * (A_ij_6 *
-        g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2) - (t293 * f_star_0 + t295 * f_star_1 + t297 * f_star_2));
-    jac_phi_q_v_geometry[45] = t280 * g_star_0 + t282 * g_star_1 + t284 * g_star_2 - (t281 * g_star_0 + t283 *
-        g_star_1 + t285 * g_star_2 + (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[2]);
-    jac_phi_q_v_geometry[46] = t286 * g_star_0 + t288 * g_star_1 + t290 * g_star_2 - (t287 * g_star_0 + t289 *
-        g_star_1 + t291 * g_star_2 + (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[2]);
-    jac_phi_q_v_geometry[47] = t292 * g_star_0 + t294 * g_star_1 + t296 * g_star_2 - (t293 * g_star_0 + t295 *
-        g_star_1 + t297 * g_star_2 + (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[2]);
+    jac_phi_q_v_geometry[33] = t238 * f_star_0 + t240 * f_star_1 + t242 * f_star_2 + (alphadot[2] * (A_ij_0 *
+        g_star_0 + A_ij_1 * g_star_1 + A_ij_2 * g_star_2) - (t239 * f_star_0 + t241 * f_star_1 + t243 * f_star_2));
+    jac_phi_q_v_geometry[34] = t244 * f_star_0 + t246 * f_star_1 + t248 * f_star_2 + (alphadot[2] * (A_ij_3 *
+        g_star_0 + A_ij_4 * g_star_1 + A_ij_5 * g_star_2) - (t245 * f_star_0 + t247 * f_star_1 + t249 * f_star_2));
+    jac_phi_q_v_geometry[35] = t250 * f_star_0 + t252 * f_star_1 + t254 * f_star_2 + (alphadot[2] * (A_ij_6 *
+        g_star_0 + A_ij_7 * g_star_1 + A_ij_8 * g_star_2) - (t251 * f_star_0 + t253 * f_star_1 + t255 * f_star_2));
+    jac_phi_q_v_geometry[36] = t238 * g_star_0 + t240 * g_star_1 + t242 * g_star_2 - (t239 * g_star_0 + t241 *
+        g_star_1 + t243 * g_star_2 + (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[2]);
+    jac_phi_q_v_geometry[37] = t244 * g_star_0 + t246 * g_star_1 + t248 * g_star_2 - (t245 * g_star_0 + t247 *
+        g_star_1 + t249 * g_star_2 + (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[2]);
+    jac_phi_q_v_geometry[38] = t250 * g_star_0 + t252 * g_star_1 + t254 * g_star_2 - (t251 * g_star_0 + t253 *
+        g_star_1 + t255 * g_star_2 + (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[2]);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t299 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t299;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t301 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t301;
-    jac_phi_q_v_velocity[4] = -t301;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    const jg_real t257 = ep_ij_2 - s_i[2] + s_i[2];
+    jac_phi_q_v_velocity[3] = t257;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    const jg_real t259 = ep_ij_1 - s_i[1] + s_i[1];
+    jac_phi_q_v_velocity[13] = t259;
+    jac_phi_q_v_velocity[4] = -t259;
     jac_phi_q_v_velocity[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     jac_phi_q_v_velocity[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     jac_phi_q_v_velocity[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    jac_phi_q_v_velocity[8] = -t299;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t303 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t303;
+    jac_phi_q_v_velocity[8] = -t257;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t261 = ep_ij_0 - s_i[0] + s_i[0];
+    jac_phi_q_v_velocity[9] = t261;
     jac_phi_q_v_velocity[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     jac_phi_q_v_velocity[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     jac_phi_q_v_velocity[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -t303;
+    jac_phi_q_v_velocity[14] = -t261;
     jac_phi_q_v_velocity[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     jac_phi_q_v_velocity[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     jac_phi_q_v_velocity[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -943,7 +898,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         C_i[7] + (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]) * C_i[8];
     jac_phi_q_v_velocity[32] = f_star_0 * (A_ij_6 * C_j[4] - A_ij_3 * C_j[5]) + f_star_1 * (A_ij_7 * C_j[4] - A_ij_4
         * C_j[5]) + f_star_2 * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
-    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[33] = A_ij_0 * s_j[2] - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[36] = (A_ij_0 * C_j[8] - A_ij_6 * C_j[6]) * g_star_0 + (A_ij_1 * C_j[8] - A_ij_7 * C_j[6])
@@ -952,7 +907,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         C_i[7] + (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]) * C_i[8];
     jac_phi_q_v_velocity[38] = f_star_0 * (A_ij_0 * C_j[5] - A_ij_6 * C_j[3]) + f_star_1 * (A_ij_1 * C_j[5] - A_ij_7
         * C_j[3]) + f_star_2 * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
-    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[42] = (A_ij_3 * C_j[6] - A_ij_0 * C_j[7]) * g_star_0 + (A_ij_4 * C_j[6] - A_ij_1 * C_j[7])
@@ -979,7 +934,6 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -1010,563 +964,505 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t8 = lambda[0] * A_i[5] - lambda[1] * A_i[2];
     jac_phi_q_t_lambda_r_j[8] = t8;
     jac_phi_q_t_lambda_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[3];
-    const jg_real t10 = s_i[0] * A_i[6];
-    jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
-    const jg_real t11 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t9 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
     /* g_star = C_i H [0; 1; 0] */
     const jg_real g_star_2 = C_i[5] * cosine_0 - sine_0 * C_i[2];
-    const jg_real t15 = t11 * g_star_2 * lambda[3];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    const jg_real t23 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t24 = t23 * C_i[8] * lambda[4];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = C_i[5] * sine_0 + cosine_0 * C_i[2];
-    const jg_real t26 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t27 = f_star_2 * t26 * lambda[5];
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t22 + lambda[0] * t10 + t15 + t24 + t27;
+    const jg_real t17 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t18 = lambda[2] * e_ij_0 + t9 * g_star_2 * lambda[3] + t15 * C_i[8] * lambda[4] + f_star_2 * t17 *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[0] = t18;
     const jg_real g_star_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real t29 = t11 * g_star_1 * lambda[3];
-    const jg_real t30 = t23 * C_i[7] * lambda[4];
     const jg_real f_star_1 = sine_0 * C_i[4] + cosine_0 * C_i[1];
-    const jg_real t32 = f_star_1 * t26 * lambda[5];
-    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t22 + t29 + t30 + t32);
-    const jg_real t33 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t33;
-    const jg_real t34 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t34;
-    const jg_real t35 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t35;
+    const jg_real t21 = lambda[1] * e_ij_0 + t9 * g_star_1 * lambda[3] + t15 * C_i[7] * lambda[4] + f_star_1 * t17 *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[54] = t21;
+    jac_phi_q_t_lambda_A_i[1] = -t21;
+    const jg_real t22 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[2] = t22;
+    const jg_real t23 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[3] = t23;
+    const jg_real t24 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[4] = t24;
     const jg_real f_star_0 = sine_0 * C_i[3] + cosine_0 * C_i[0];
-    const jg_real t37 = A_j[6] * f_star_0;
-    const jg_real t38 = A_j[3] * f_star_0;
+    const jg_real t26 = A_j[6] * f_star_0;
+    const jg_real t27 = A_j[3] * f_star_0;
     const jg_real g_star_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    const jg_real t40 = A_j[6] * g_star_0;
-    const jg_real t41 = A_j[3] * g_star_0;
-    const jg_real t42 = A_j[6] * C_i[6];
-    const jg_real t43 = A_j[3] * C_i[6];
-    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[7] * t40 - C_j[8] * t41) + lambda[4] * (C_j[1] * t42 - C_j[2] *
-        t43) + lambda[5] * (C_j[4] * t37 - C_j[5] * t38) + (s_j[1] * t35 - s_j[2] * t34);
-    const jg_real t44 = A_j[0] * f_star_0;
-    const jg_real t45 = A_j[0] * g_star_0;
-    const jg_real t46 = A_j[0] * C_i[6];
-    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[8] * t45 - C_j[6] * t40) + lambda[4] * (C_j[2] * t46 - C_j[0] *
-        t42) + lambda[5] * (C_j[5] * t44 - C_j[3] * t37) + (s_j[2] * t33 - s_j[0] * t35);
-    jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[6] * t41 - C_j[7] * t45) + lambda[4] * (C_j[0] * t43 - C_j[1] *
-        t46) + lambda[5] * (C_j[3] * t38 - C_j[4] * t44) + (s_j[0] * t34 - s_j[1] * t33);
-    jac_phi_q_t_lambda_A_i[9] = t26 * g_star_0 * lambda[5] - t11 * f_star_0 * lambda[3];
-    const jg_real t47 = s_i[0] * A_i[4];
-    const jg_real t48 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[10] = lambda[2] * t47 - lambda[1] * t48;
-    const jg_real t49 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t50 = t49 * g_star_2 * lambda[3];
+    const jg_real t29 = A_j[6] * g_star_0;
+    const jg_real t30 = A_j[3] * g_star_0;
+    const jg_real t31 = A_j[6] * C_i[6];
+    const jg_real t32 = A_j[3] * C_i[6];
+    jac_phi_q_t_lambda_A_i[5] = lambda[3] * (C_j[7] * t29 - C_j[8] * t30) + lambda[4] * (C_j[1] * t31 - C_j[2] *
+        t32) + lambda[5] * (C_j[4] * t26 - C_j[5] * t27) + (s_j[1] * t24 - s_j[2] * t23);
+    const jg_real t33 = A_j[0] * f_star_0;
+    const jg_real t34 = A_j[0] * g_star_0;
+    const jg_real t35 = A_j[0] * C_i[6];
+    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[8] * t34 - C_j[6] * t29) + lambda[4] * (C_j[2] * t35 - C_j[0] *
+        t31) + lambda[5] * (C_j[5] * t33 - C_j[3] * t26) + (s_j[2] * t22 - s_j[0] * t24);
+    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[6] * t30 - C_j[7] * t34) + lambda[4] * (C_j[0] * t32 - C_j[1] *
+        t35) + lambda[5] * (C_j[3] * t27 - C_j[4] * t33) + (s_j[0] * t23 - s_j[1] * t22);
+    jac_phi_q_t_lambda_A_i[8] = t17 * g_star_0 * lambda[5] - t9 * f_star_0 * lambda[3];
+    const jg_real t36 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t52 = s_i[0] * A_i[1];
-    const jg_real t53 = s_i[1] * A_i[4];
-    const jg_real t54 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t52 + t53 + t54;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t57 = d_ij_1 - t52;
-    const jg_real t58 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t59 = t58 * C_i[8] * lambda[4];
-    const jg_real t60 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t61 = f_star_2 * t60 * lambda[5];
-    jac_phi_q_t_lambda_A_i[11] = lambda[2] * t57 + lambda[0] * t48 + t50 + t59 + t61;
-    const jg_real t62 = t49 * g_star_1 * lambda[3];
-    const jg_real t63 = t58 * C_i[7] * lambda[4];
-    const jg_real t64 = f_star_1 * t60 * lambda[5];
-    jac_phi_q_t_lambda_A_i[12] = -(lambda[0] * t47 + lambda[1] * t57 + t62 + t63 + t64);
-    const jg_real t65 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[13] = t65;
-    const jg_real t66 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[14] = t66;
-    const jg_real t67 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[15] = t67;
-    const jg_real t68 = A_j[7] * f_star_0;
-    const jg_real t69 = A_j[4] * f_star_0;
-    const jg_real t70 = A_j[7] * g_star_0;
-    const jg_real t71 = A_j[4] * g_star_0;
-    const jg_real t72 = A_j[7] * C_i[6];
-    const jg_real t73 = A_j[4] * C_i[6];
-    jac_phi_q_t_lambda_A_i[16] = lambda[3] * (C_j[7] * t70 - C_j[8] * t71) + lambda[4] * (C_j[1] * t72 - C_j[2] *
-        t73) + lambda[5] * (C_j[4] * t68 - C_j[5] * t69) + (s_j[1] * t67 - s_j[2] * t66);
-    const jg_real t74 = A_j[1] * f_star_0;
-    const jg_real t75 = A_j[1] * g_star_0;
-    const jg_real t76 = A_j[1] * C_i[6];
-    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[8] * t75 - C_j[6] * t70) + lambda[4] * (C_j[2] * t76 - C_j[0] *
-        t72) + lambda[5] * (C_j[5] * t74 - C_j[3] * t68) + (s_j[2] * t65 - s_j[0] * t67);
-    jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[6] * t71 - C_j[7] * t75) + lambda[4] * (C_j[0] * t73 - C_j[1] *
-        t76) + lambda[5] * (C_j[3] * t69 - C_j[4] * t74) + (s_j[0] * t66 - s_j[1] * t65);
-    jac_phi_q_t_lambda_A_i[19] = t60 * g_star_0 * lambda[5] - t49 * f_star_0 * lambda[3];
-    const jg_real t77 = s_i[0] * A_i[5];
-    const jg_real t78 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[20] = lambda[2] * t77 - lambda[1] * t78;
-    const jg_real t79 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t80 = t79 * g_star_2 * lambda[3];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t39 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t40 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t41 = lambda[2] * e_ij_1 + t36 * g_star_2 * lambda[3] + t39 * C_i[8] * lambda[4] + f_star_2 * t40
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[9] = t41;
+    const jg_real t42 = lambda[1] * e_ij_1 + t36 * g_star_1 * lambda[3] + t39 * C_i[7] * lambda[4] + f_star_1 * t40
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[63] = t42;
+    jac_phi_q_t_lambda_A_i[10] = -t42;
+    const jg_real t43 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[11] = t43;
+    const jg_real t44 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[12] = t44;
+    const jg_real t45 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[13] = t45;
+    const jg_real t46 = A_j[7] * f_star_0;
+    const jg_real t47 = A_j[4] * f_star_0;
+    const jg_real t48 = A_j[7] * g_star_0;
+    const jg_real t49 = A_j[4] * g_star_0;
+    const jg_real t50 = A_j[7] * C_i[6];
+    const jg_real t51 = A_j[4] * C_i[6];
+    jac_phi_q_t_lambda_A_i[14] = lambda[3] * (C_j[7] * t48 - C_j[8] * t49) + lambda[4] * (C_j[1] * t50 - C_j[2] *
+        t51) + lambda[5] * (C_j[4] * t46 - C_j[5] * t47) + (s_j[1] * t45 - s_j[2] * t44);
+    const jg_real t52 = A_j[1] * f_star_0;
+    const jg_real t53 = A_j[1] * g_star_0;
+    const jg_real t54 = A_j[1] * C_i[6];
+    jac_phi_q_t_lambda_A_i[15] = lambda[3] * (C_j[8] * t53 - C_j[6] * t48) + lambda[4] * (C_j[2] * t54 - C_j[0] *
+        t50) + lambda[5] * (C_j[5] * t52 - C_j[3] * t46) + (s_j[2] * t43 - s_j[0] * t45);
+    jac_phi_q_t_lambda_A_i[16] = lambda[3] * (C_j[6] * t49 - C_j[7] * t53) + lambda[4] * (C_j[0] * t51 - C_j[1] *
+        t54) + lambda[5] * (C_j[3] * t47 - C_j[4] * t52) + (s_j[0] * t44 - s_j[1] * t43);
+    jac_phi_q_t_lambda_A_i[17] = t40 * g_star_0 * lambda[5] - t36 * f_star_0 * lambda[3];
+    const jg_real t55 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t82 = s_i[0] * A_i[2];
-    const jg_real t83 = s_i[1] * A_i[5];
-    const jg_real t84 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t82 + t83 + t84;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t87 = d_ij_2 - t82;
-    const jg_real t88 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t89 = t88 * C_i[8] * lambda[4];
-    const jg_real t90 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t91 = f_star_2 * t90 * lambda[5];
-    jac_phi_q_t_lambda_A_i[21] = lambda[2] * t87 + lambda[0] * t78 + t80 + t89 + t91;
-    const jg_real t92 = t79 * g_star_1 * lambda[3];
-    const jg_real t93 = t88 * C_i[7] * lambda[4];
-    const jg_real t94 = f_star_1 * t90 * lambda[5];
-    jac_phi_q_t_lambda_A_i[22] = -(lambda[0] * t77 + lambda[1] * t87 + t92 + t93 + t94);
-    const jg_real t95 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[23] = t95;
-    const jg_real t96 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[24] = t96;
-    const jg_real t97 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[25] = t97;
-    const jg_real t98 = A_j[8] * f_star_0;
-    const jg_real t99 = A_j[5] * f_star_0;
-    const jg_real t100 = A_j[8] * g_star_0;
-    const jg_real t101 = A_j[5] * g_star_0;
-    const jg_real t102 = A_j[8] * C_i[6];
-    const jg_real t103 = A_j[5] * C_i[6];
-    jac_phi_q_t_lambda_A_i[26] = lambda[3] * (C_j[7] * t100 - C_j[8] * t101) + lambda[4] * (C_j[1] * t102 - C_j[2] *
-        t103) + lambda[5] * (C_j[4] * t98 - C_j[5] * t99) + (s_j[1] * t97 - s_j[2] * t96);
-    const jg_real t104 = A_j[2] * f_star_0;
-    const jg_real t105 = A_j[2] * g_star_0;
-    const jg_real t106 = A_j[2] * C_i[6];
-    jac_phi_q_t_lambda_A_i[27] = lambda[3] * (C_j[8] * t105 - C_j[6] * t100) + lambda[4] * (C_j[2] * t106 - C_j[0] *
-        t102) + lambda[5] * (C_j[5] * t104 - C_j[3] * t98) + (s_j[2] * t95 - s_j[0] * t97);
-    jac_phi_q_t_lambda_A_i[28] = lambda[3] * (C_j[6] * t101 - C_j[7] * t105) + lambda[4] * (C_j[0] * t103 - C_j[1] *
-        t106) + lambda[5] * (C_j[3] * t99 - C_j[4] * t104) + (s_j[0] * t96 - s_j[1] * t95);
-    jac_phi_q_t_lambda_A_i[29] = t90 * g_star_0 * lambda[5] - t79 * f_star_0 * lambda[3];
-    const jg_real t107 = d_ij_0 - t18;
-    const jg_real t108 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[30] = -(lambda[1] * t108 + lambda[2] * t107 + t15 + t24 + t27);
-    const jg_real t109 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[31] = lambda[0] * t108 - lambda[2] * t109;
-    const jg_real t110 = t11 * g_star_0 * lambda[3];
-    const jg_real t111 = t23 * C_i[6] * lambda[4];
-    const jg_real t112 = t26 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[32] = lambda[0] * t107 + lambda[1] * t109 + t110 + t111 + t112;
-    const jg_real t113 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[33] = t113;
-    const jg_real t114 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[34] = t114;
-    const jg_real t115 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[35] = t115;
-    const jg_real t116 = A_j[6] * f_star_1;
-    const jg_real t117 = A_j[3] * f_star_1;
-    const jg_real t118 = A_j[6] * g_star_1;
-    const jg_real t119 = A_j[3] * g_star_1;
-    const jg_real t120 = A_j[6] * C_i[7];
-    const jg_real t121 = A_j[3] * C_i[7];
-    jac_phi_q_t_lambda_A_i[36] = lambda[3] * (C_j[7] * t118 - C_j[8] * t119) + lambda[4] * (C_j[1] * t120 - C_j[2] *
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t58 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t59 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t60 = lambda[2] * e_ij_2 + t55 * g_star_2 * lambda[3] + t58 * C_i[8] * lambda[4] + f_star_2 * t59
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[18] = t60;
+    const jg_real t61 = lambda[1] * e_ij_2 + t55 * g_star_1 * lambda[3] + t58 * C_i[7] * lambda[4] + f_star_1 * t59
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[72] = t61;
+    jac_phi_q_t_lambda_A_i[19] = -t61;
+    const jg_real t62 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[20] = t62;
+    const jg_real t63 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[21] = t63;
+    const jg_real t64 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[22] = t64;
+    const jg_real t65 = A_j[8] * f_star_0;
+    const jg_real t66 = A_j[5] * f_star_0;
+    const jg_real t67 = A_j[8] * g_star_0;
+    const jg_real t68 = A_j[5] * g_star_0;
+    const jg_real t69 = A_j[8] * C_i[6];
+    const jg_real t70 = A_j[5] * C_i[6];
+    jac_phi_q_t_lambda_A_i[23] = lambda[3] * (C_j[7] * t67 - C_j[8] * t68) + lambda[4] * (C_j[1] * t69 - C_j[2] *
+        t70) + lambda[5] * (C_j[4] * t65 - C_j[5] * t66) + (s_j[1] * t64 - s_j[2] * t63);
+    const jg_real t71 = A_j[2] * f_star_0;
+    const jg_real t72 = A_j[2] * g_star_0;
+    const jg_real t73 = A_j[2] * C_i[6];
+    jac_phi_q_t_lambda_A_i[24] = lambda[3] * (C_j[8] * t72 - C_j[6] * t67) + lambda[4] * (C_j[2] * t73 - C_j[0] *
+        t69) + lambda[5] * (C_j[5] * t71 - C_j[3] * t65) + (s_j[2] * t62 - s_j[0] * t64);
+    jac_phi_q_t_lambda_A_i[25] = lambda[3] * (C_j[6] * t68 - C_j[7] * t72) + lambda[4] * (C_j[0] * t70 - C_j[1] *
+        t73) + lambda[5] * (C_j[3] * t66 - C_j[4] * t71) + (s_j[0] * t63 - s_j[1] * t62);
+    jac_phi_q_t_lambda_A_i[26] = t59 * g_star_0 * lambda[5] - t55 * f_star_0 * lambda[3];
+    jac_phi_q_t_lambda_A_i[27] = -t18;
+    const jg_real t74 = lambda[0] * e_ij_0 + t9 * g_star_0 * lambda[3] + t15 * C_i[6] * lambda[4] + t17 * f_star_0 *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[28] = t74;
+    const jg_real t75 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[29] = t75;
+    const jg_real t76 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[30] = t76;
+    const jg_real t77 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[31] = t77;
+    const jg_real t78 = A_j[6] * f_star_1;
+    const jg_real t79 = A_j[3] * f_star_1;
+    const jg_real t80 = A_j[6] * g_star_1;
+    const jg_real t81 = A_j[3] * g_star_1;
+    const jg_real t82 = A_j[6] * C_i[7];
+    const jg_real t83 = A_j[3] * C_i[7];
+    jac_phi_q_t_lambda_A_i[32] = lambda[3] * (C_j[7] * t80 - C_j[8] * t81) + lambda[4] * (C_j[1] * t82 - C_j[2] *
+        t83) + lambda[5] * (C_j[4] * t78 - C_j[5] * t79) + (s_j[1] * t77 - s_j[2] * t76);
+    const jg_real t84 = A_j[0] * f_star_1;
+    const jg_real t85 = A_j[0] * g_star_1;
+    const jg_real t86 = A_j[0] * C_i[7];
+    jac_phi_q_t_lambda_A_i[33] = lambda[3] * (C_j[8] * t85 - C_j[6] * t80) + lambda[4] * (C_j[2] * t86 - C_j[0] *
+        t82) + lambda[5] * (C_j[5] * t84 - C_j[3] * t78) + (s_j[2] * t75 - s_j[0] * t77);
+    jac_phi_q_t_lambda_A_i[34] = lambda[3] * (C_j[6] * t81 - C_j[7] * t85) + lambda[4] * (C_j[0] * t83 - C_j[1] *
+        t86) + lambda[5] * (C_j[3] * t79 - C_j[4] * t84) + (s_j[0] * t76 - s_j[1] * t75);
+    jac_phi_q_t_lambda_A_i[35] = g_star_1 * t17 * lambda[5] - t9 * f_star_1 * lambda[3];
+    jac_phi_q_t_lambda_A_i[36] = -t41;
+    const jg_real t87 = lambda[0] * e_ij_1 + t36 * g_star_0 * lambda[3] + t39 * C_i[6] * lambda[4] + t40 * f_star_0
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[37] = t87;
+    const jg_real t88 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[38] = t88;
+    const jg_real t89 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[39] = t89;
+    const jg_real t90 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[40] = t90;
+    const jg_real t91 = A_j[7] * f_star_1;
+    const jg_real t92 = A_j[4] * f_star_1;
+    const jg_real t93 = A_j[7] * g_star_1;
+    const jg_real t94 = A_j[4] * g_star_1;
+    const jg_real t95 = A_j[7] * C_i[7];
+    const jg_real t96 = A_j[4] * C_i[7];
+    jac_phi_q_t_lambda_A_i[41] = lambda[3] * (C_j[7] * t93 - C_j[8] * t94) + lambda[4] * (C_j[1] * t95 - C_j[2] *
+        t96) + lambda[5] * (C_j[4] * t91 - C_j[5] * t92) + (s_j[1] * t90 - s_j[2] * t89);
+    const jg_real t97 = A_j[1] * f_star_1;
+    const jg_real t98 = A_j[1] * g_star_1;
+    const jg_real t99 = A_j[1] * C_i[7];
+    jac_phi_q_t_lambda_A_i[42] = lambda[3] * (C_j[8] * t98 - C_j[6] * t93) + lambda[4] * (C_j[2] * t99 - C_j[0] *
+        t95) + lambda[5] * (C_j[5] * t97 - C_j[3] * t91) + (s_j[2] * t88 - s_j[0] * t90);
+    jac_phi_q_t_lambda_A_i[43] = lambda[3] * (C_j[6] * t94 - C_j[7] * t98) + lambda[4] * (C_j[0] * t96 - C_j[1] *
+        t99) + lambda[5] * (C_j[3] * t92 - C_j[4] * t97) + (s_j[0] * t89 - s_j[1] * t88);
+    jac_phi_q_t_lambda_A_i[44] = g_star_1 * t40 * lambda[5] - t36 * f_star_1 * lambda[3];
+    jac_phi_q_t_lambda_A_i[45] = -t60;
+    const jg_real t100 = lambda[0] * e_ij_2 + t55 * g_star_0 * lambda[3] + t58 * C_i[6] * lambda[4] + t59 * f_star_0
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[46] = t100;
+    const jg_real t101 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[47] = t101;
+    const jg_real t102 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[48] = t102;
+    const jg_real t103 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[49] = t103;
+    const jg_real t104 = A_j[8] * f_star_1;
+    const jg_real t105 = A_j[5] * f_star_1;
+    const jg_real t106 = A_j[8] * g_star_1;
+    const jg_real t107 = A_j[5] * g_star_1;
+    const jg_real t108 = A_j[8] * C_i[7];
+    const jg_real t109 = A_j[5] * C_i[7];
+    jac_phi_q_t_lambda_A_i[50] = lambda[3] * (C_j[7] * t106 - C_j[8] * t107) + lambda[4] * (C_j[1] * t108 - C_j[2] *
+        t109) + lambda[5] * (C_j[4] * t104 - C_j[5] * t105) + (s_j[1] * t103 - s_j[2] * t102);
+    const jg_real t110 = A_j[2] * f_star_1;
+    const jg_real t111 = A_j[2] * g_star_1;
+    const jg_real t112 = A_j[2] * C_i[7];
+    jac_phi_q_t_lambda_A_i[51] = lambda[3] * (C_j[8] * t111 - C_j[6] * t106) + lambda[4] * (C_j[2] * t112 - C_j[0] *
+        t108) + lambda[5] * (C_j[5] * t110 - C_j[3] * t104) + (s_j[2] * t101 - s_j[0] * t103);
+    jac_phi_q_t_lambda_A_i[52] = lambda[3] * (C_j[6] * t107 - C_j[7] * t111) + lambda[4] * (C_j[0] * t109 - C_j[1] *
+        t112) + lambda[5] * (C_j[3] * t105 - C_j[4] * t110) + (s_j[0] * t102 - s_j[1] * t101);
+    jac_phi_q_t_lambda_A_i[53] = g_star_1 * t59 * lambda[5] - t55 * f_star_1 * lambda[3];
+    jac_phi_q_t_lambda_A_i[55] = -t74;
+    const jg_real t113 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[56] = t113;
+    const jg_real t114 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[57] = t114;
+    const jg_real t115 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[58] = t115;
+    const jg_real t116 = A_j[6] * f_star_2;
+    const jg_real t117 = A_j[3] * f_star_2;
+    const jg_real t118 = A_j[6] * g_star_2;
+    const jg_real t119 = A_j[3] * g_star_2;
+    const jg_real t120 = A_j[6] * C_i[8];
+    const jg_real t121 = A_j[3] * C_i[8];
+    jac_phi_q_t_lambda_A_i[59] = lambda[3] * (C_j[7] * t118 - C_j[8] * t119) + lambda[4] * (C_j[1] * t120 - C_j[2] *
         t121) + lambda[5] * (C_j[4] * t116 - C_j[5] * t117) + (s_j[1] * t115 - s_j[2] * t114);
-    const jg_real t122 = A_j[0] * f_star_1;
-    const jg_real t123 = A_j[0] * g_star_1;
-    const jg_real t124 = A_j[0] * C_i[7];
-    jac_phi_q_t_lambda_A_i[37] = lambda[3] * (C_j[8] * t123 - C_j[6] * t118) + lambda[4] * (C_j[2] * t124 - C_j[0] *
+    const jg_real t122 = A_j[0] * f_star_2;
+    const jg_real t123 = A_j[0] * g_star_2;
+    const jg_real t124 = A_j[0] * C_i[8];
+    jac_phi_q_t_lambda_A_i[60] = lambda[3] * (C_j[8] * t123 - C_j[6] * t118) + lambda[4] * (C_j[2] * t124 - C_j[0] *
         t120) + lambda[5] * (C_j[5] * t122 - C_j[3] * t116) + (s_j[2] * t113 - s_j[0] * t115);
-    jac_phi_q_t_lambda_A_i[38] = lambda[3] * (C_j[6] * t119 - C_j[7] * t123) + lambda[4] * (C_j[0] * t121 - C_j[1] *
+    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[6] * t119 - C_j[7] * t123) + lambda[4] * (C_j[0] * t121 - C_j[1] *
         t124) + lambda[5] * (C_j[3] * t117 - C_j[4] * t122) + (s_j[0] * t114 - s_j[1] * t113);
-    jac_phi_q_t_lambda_A_i[39] = g_star_1 * t26 * lambda[5] - t11 * f_star_1 * lambda[3];
-    const jg_real t125 = d_ij_1 - t53;
-    const jg_real t126 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[40] = -(lambda[1] * t126 + lambda[2] * t125 + t50 + t59 + t61);
-    const jg_real t127 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[41] = lambda[0] * t126 - lambda[2] * t127;
-    const jg_real t128 = t49 * g_star_0 * lambda[3];
-    const jg_real t129 = t58 * C_i[6] * lambda[4];
-    const jg_real t130 = t60 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[42] = lambda[0] * t125 + lambda[1] * t127 + t128 + t129 + t130;
-    const jg_real t131 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[43] = t131;
-    const jg_real t132 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[44] = t132;
-    const jg_real t133 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[45] = t133;
-    const jg_real t134 = A_j[7] * f_star_1;
-    const jg_real t135 = A_j[4] * f_star_1;
-    const jg_real t136 = A_j[7] * g_star_1;
-    const jg_real t137 = A_j[4] * g_star_1;
-    const jg_real t138 = A_j[7] * C_i[7];
-    const jg_real t139 = A_j[4] * C_i[7];
-    jac_phi_q_t_lambda_A_i[46] = lambda[3] * (C_j[7] * t136 - C_j[8] * t137) + lambda[4] * (C_j[1] * t138 - C_j[2] *
-        t139) + lambda[5] * (C_j[4] * t134 - C_j[5] * t135) + (s_j[1] * t133 - s_j[2] * t132);
-    const jg_real t140 = A_j[1] * f_star_1;
-    const jg_real t141 = A_j[1] * g_star_1;
-    const jg_real t142 = A_j[1] * C_i[7];
-    jac_phi_q_t_lambda_A_i[47] = lambda[3] * (C_j[8] * t141 - C_j[6] * t136) + lambda[4] * (C_j[2] * t142 - C_j[0] *
-        t138) + lambda[5] * (C_j[5] * t140 - C_j[3] * t134) + (s_j[2] * t131 - s_j[0] * t133);
-    jac_phi_q_t_lambda_A_i[48] = lambda[3] * (C_j[6] * t137 - C_j[7] * t141) + lambda[4] * (C_j[0] * t139 - C_j[1] *
-        t142) + lambda[5] * (C_j[3] * t135 - C_j[4] * t140) + (s_j[0] * t132 - s_j[1] * t131);
-    jac_phi_q_t_lambda_A_i[49] = g_star_1 * t60 * lambda[5] - t49 * f_star_1 * lambda[3];
-    const jg_real t143 = d_ij_2 - t83;
-    const jg_real t144 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[50] = -(lambda[1] * t144 + lambda[2] * t143 + t80 + t89 + t91);
-    const jg_real t145 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[51] = lambda[0] * t144 - lambda[2] * t145;
-    const jg_real t146 = t79 * g_star_0 * lambda[3];
-    const jg_real t147 = t88 * C_i[6] * lambda[4];
-    const jg_real t148 = t90 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[52] = lambda[0] * t143 + lambda[1] * t145 + t146 + t147 + t148;
-    const jg_real t149 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[53] = t149;
-    const jg_real t150 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[54] = t150;
-    const jg_real t151 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[55] = t151;
-    const jg_real t152 = A_j[8] * f_star_1;
-    const jg_real t153 = A_j[5] * f_star_1;
-    const jg_real t154 = A_j[8] * g_star_1;
-    const jg_real t155 = A_j[5] * g_star_1;
-    const jg_real t156 = A_j[8] * C_i[7];
-    const jg_real t157 = A_j[5] * C_i[7];
-    jac_phi_q_t_lambda_A_i[56] = lambda[3] * (C_j[7] * t154 - C_j[8] * t155) + lambda[4] * (C_j[1] * t156 - C_j[2] *
-        t157) + lambda[5] * (C_j[4] * t152 - C_j[5] * t153) + (s_j[1] * t151 - s_j[2] * t150);
-    const jg_real t158 = A_j[2] * f_star_1;
-    const jg_real t159 = A_j[2] * g_star_1;
-    const jg_real t160 = A_j[2] * C_i[7];
-    jac_phi_q_t_lambda_A_i[57] = lambda[3] * (C_j[8] * t159 - C_j[6] * t154) + lambda[4] * (C_j[2] * t160 - C_j[0] *
-        t156) + lambda[5] * (C_j[5] * t158 - C_j[3] * t152) + (s_j[2] * t149 - s_j[0] * t151);
-    jac_phi_q_t_lambda_A_i[58] = lambda[3] * (C_j[6] * t155 - C_j[7] * t159) + lambda[4] * (C_j[0] * t157 - C_j[1] *
-        t160) + lambda[5] * (C_j[3] * t153 - C_j[4] * t158) + (s_j[0] * t150 - s_j[1] * t149);
-    jac_phi_q_t_lambda_A_i[59] = g_star_1 * t90 * lambda[5] - t79 * f_star_1 * lambda[3];
-    const jg_real t161 = d_ij_0 - t19;
-    const jg_real t162 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[60] = lambda[1] * t161 + lambda[2] * t162 + t29 + t30 + t32;
-    const jg_real t163 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[61] = -(lambda[2] * t163 + lambda[0] * t161 + t110 + t111 + t112);
-    jac_phi_q_t_lambda_A_i[62] = lambda[1] * t163 - lambda[0] * t162;
-    const jg_real t164 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[63] = t164;
-    const jg_real t165 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[64] = t165;
-    const jg_real t166 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[65] = t166;
-    const jg_real t167 = A_j[6] * f_star_2;
-    const jg_real t168 = A_j[3] * f_star_2;
-    const jg_real t169 = A_j[6] * g_star_2;
-    const jg_real t170 = A_j[3] * g_star_2;
-    const jg_real t171 = A_j[6] * C_i[8];
-    const jg_real t172 = A_j[3] * C_i[8];
-    jac_phi_q_t_lambda_A_i[66] = lambda[3] * (C_j[7] * t169 - C_j[8] * t170) + lambda[4] * (C_j[1] * t171 - C_j[2] *
-        t172) + lambda[5] * (C_j[4] * t167 - C_j[5] * t168) + (s_j[1] * t166 - s_j[2] * t165);
-    const jg_real t173 = A_j[0] * f_star_2;
-    const jg_real t174 = A_j[0] * g_star_2;
-    const jg_real t175 = A_j[0] * C_i[8];
-    jac_phi_q_t_lambda_A_i[67] = lambda[3] * (C_j[8] * t174 - C_j[6] * t169) + lambda[4] * (C_j[2] * t175 - C_j[0] *
-        t171) + lambda[5] * (C_j[5] * t173 - C_j[3] * t167) + (s_j[2] * t164 - s_j[0] * t166);
-    jac_phi_q_t_lambda_A_i[68] = lambda[3] * (C_j[6] * t170 - C_j[7] * t174) + lambda[4] * (C_j[0] * t172 - C_j[1] *
-        t175) + lambda[5] * (C_j[3] * t168 - C_j[4] * t173) + (s_j[0] * t165 - s_j[1] * t164);
-    jac_phi_q_t_lambda_A_i[69] = g_star_2 * t26 * lambda[5] - t11 * f_star_2 * lambda[3];
-    const jg_real t176 = d_ij_1 - t54;
-    const jg_real t177 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[70] = lambda[1] * t176 + lambda[2] * t177 + t62 + t63 + t64;
-    const jg_real t178 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[71] = -(lambda[2] * t178 + lambda[0] * t176 + t128 + t129 + t130);
-    jac_phi_q_t_lambda_A_i[72] = lambda[1] * t178 - lambda[0] * t177;
-    const jg_real t179 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[73] = t179;
-    const jg_real t180 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[74] = t180;
-    const jg_real t181 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[75] = t181;
-    const jg_real t182 = A_j[7] * f_star_2;
-    const jg_real t183 = A_j[4] * f_star_2;
-    const jg_real t184 = A_j[7] * g_star_2;
-    const jg_real t185 = A_j[4] * g_star_2;
-    const jg_real t186 = A_j[7] * C_i[8];
-    const jg_real t187 = A_j[4] * C_i[8];
-    jac_phi_q_t_lambda_A_i[76] = lambda[3] * (C_j[7] * t184 - C_j[8] * t185) + lambda[4] * (C_j[1] * t186 - C_j[2] *
-        t187) + lambda[5] * (C_j[4] * t182 - C_j[5] * t183) + (s_j[1] * t181 - s_j[2] * t180);
-    const jg_real t188 = A_j[1] * f_star_2;
-    const jg_real t189 = A_j[1] * g_star_2;
-    const jg_real t190 = A_j[1] * C_i[8];
-    jac_phi_q_t_lambda_A_i[77] = lambda[3] * (C_j[8] * t189 - C_j[6] * t184) + lambda[4] * (C_j[2] * t190 - C_j[0] *
-        t186) + lambda[5] * (C_j[5] * t188 - C_j[3] * t182) + (s_j[2] * t179 - s_j[0] * t181);
-    jac_phi_q_t_lambda_A_i[78] = lambda[3] * (C_j[6] * t185 - C_j[7] * t189) + lambda[4] * (C_j[0] * t187 - C_j[1] *
-        t190) + lambda[5] * (C_j[3] * t183 - C_j[4] * t188) + (s_j[0] * t180 - s_j[1] * t179);
-    jac_phi_q_t_lambda_A_i[79] = g_star_2 * t60 * lambda[5] - t49 * f_star_2 * lambda[3];
-    const jg_real t191 = d_ij_2 - t84;
-    const jg_real t192 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[80] = lambda[1] * t191 + lambda[2] * t192 + t92 + t93 + t94;
-    const jg_real t193 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[81] = -(lambda[2] * t193 + lambda[0] * t191 + t146 + t147 + t148);
-    jac_phi_q_t_lambda_A_i[82] = lambda[1] * t193 - lambda[0] * t192;
-    const jg_real t194 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[83] = t194;
-    const jg_real t195 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[84] = t195;
-    const jg_real t196 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[85] = t196;
-    const jg_real t197 = A_j[8] * f_star_2;
-    const jg_real t198 = A_j[5] * f_star_2;
-    const jg_real t199 = A_j[8] * g_star_2;
-    const jg_real t200 = A_j[5] * g_star_2;
-    const jg_real t201 = A_j[8] * C_i[8];
-    const jg_real t202 = A_j[5] * C_i[8];
-    jac_phi_q_t_lambda_A_i[86] = lambda[3] * (C_j[7] * t199 - C_j[8] * t200) + lambda[4] * (C_j[1] * t201 - C_j[2] *
-        t202) + lambda[5] * (C_j[4] * t197 - C_j[5] * t198) + (s_j[1] * t196 - s_j[2] * t195);
-    const jg_real t203 = A_j[2] * f_star_2;
-    const jg_real t204 = A_j[2] * g_star_2;
-    const jg_real t205 = A_j[2] * C_i[8];
-    jac_phi_q_t_lambda_A_i[87] = lambda[3] * (C_j[8] * t204 - C_j[6] * t199) + lambda[4] * (C_j[2] * t205 - C_j[0] *
-        t201) + lambda[5] * (C_j[5] * t203 - C_j[3] * t197) + (s_j[2] * t194 - s_j[0] * t196);
-    jac_phi_q_t_lambda_A_i[88] = lambda[3] * (C_j[6] * t200 - C_j[7] * t204) + lambda[4] * (C_j[0] * t202 - C_j[1] *
-        t205) + lambda[5] * (C_j[3] * t198 - C_j[4] * t203) + (s_j[0] * t195 - s_j[1] * t194);
-    jac_phi_q_t_lambda_A_i[89] = g_star_2 * t90 * lambda[5] - t79 * f_star_2 * lambda[3];
-    const jg_real t206 = A_i[3] * C_j[6];
-    const jg_real t207 = A_i[6] * C_j[6];
-    const jg_real t208 = s_j[0] * A_i[6];
-    const jg_real t209 = s_j[0] * A_i[3];
-    const jg_real t210 = A_i[3] * C_j[0];
-    const jg_real t211 = A_i[6] * C_j[0];
-    const jg_real t212 = A_i[3] * C_j[3];
-    const jg_real t213 = A_i[6] * C_j[3];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t208 - lambda[2] * t209 - (t206 * g_star_2 - t207 * g_star_1) *
-        lambda[3] - (t210 * C_i[8] - t211 * C_i[7]) * lambda[4] - (f_star_2 * t212 - f_star_1 * t213) * lambda[5];
-    const jg_real t214 = A_i[0] * C_j[6];
-    const jg_real t215 = s_j[0] * A_i[0];
-    const jg_real t216 = A_i[0] * C_j[0];
-    const jg_real t217 = A_i[0] * C_j[3];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t215 - lambda[0] * t208 - lambda[3] * (t207 * g_star_0 - g_star_2 *
-        t214) - lambda[4] * (t211 * C_i[6] - C_i[8] * t216) - lambda[5] * (t213 * f_star_0 - f_star_2 * t217);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t209 - lambda[1] * t215 - lambda[3] * (g_star_1 * t214 - t206 *
-        g_star_0) - lambda[4] * (C_i[7] * t216 - t210 * C_i[6]) - lambda[5] * (f_star_1 * t217 - t212 * f_star_0);
-    const jg_real t218 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t218;
-    jac_phi_q_t_lambda_A_j[24] = t218;
-    jac_phi_q_t_lambda_A_j[45] = t218;
-    const jg_real t219 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
-    const jg_real t220 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
-    const jg_real t221 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t222 = C_j[8] * t220 * lambda[3] + C_j[2] * t221 * lambda[4] + C_j[5] * t219 * lambda[5] + s_j[2]
-        * t218;
-    jac_phi_q_t_lambda_A_j[4] = t222;
-    const jg_real t223 = C_j[7] * t220 * lambda[3] + C_j[1] * t221 * lambda[4] + C_j[4] * t219 * lambda[5] + s_j[1]
-        * t218;
-    jac_phi_q_t_lambda_A_j[46] = t223;
-    jac_phi_q_t_lambda_A_j[5] = -t223;
-    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (g_star_0 * t217 + g_star_1 * t212 + g_star_2 * t213) - lambda[3] *
-        (f_star_0 * t214 + t206 * f_star_1 + f_star_2 * t207);
-    const jg_real t224 = A_i[4] * C_j[6];
-    const jg_real t225 = A_i[7] * C_j[6];
-    const jg_real t226 = s_j[0] * A_i[7];
-    const jg_real t227 = s_j[0] * A_i[4];
-    const jg_real t228 = A_i[4] * C_j[0];
-    const jg_real t229 = A_i[7] * C_j[0];
-    const jg_real t230 = A_i[4] * C_j[3];
-    const jg_real t231 = A_i[7] * C_j[3];
-    jac_phi_q_t_lambda_A_j[7] = lambda[1] * t226 - lambda[2] * t227 - (t224 * g_star_2 - t225 * g_star_1) *
-        lambda[3] - (t228 * C_i[8] - t229 * C_i[7]) * lambda[4] - (f_star_2 * t230 - f_star_1 * t231) * lambda[5];
-    const jg_real t232 = A_i[1] * C_j[6];
-    const jg_real t233 = s_j[0] * A_i[1];
-    const jg_real t234 = A_i[1] * C_j[0];
-    const jg_real t235 = A_i[1] * C_j[3];
-    jac_phi_q_t_lambda_A_j[8] = lambda[2] * t233 - lambda[0] * t226 - lambda[3] * (t225 * g_star_0 - g_star_2 *
-        t232) - lambda[4] * (t229 * C_i[6] - C_i[8] * t234) - lambda[5] * (t231 * f_star_0 - f_star_2 * t235);
-    jac_phi_q_t_lambda_A_j[9] = lambda[0] * t227 - lambda[1] * t233 - lambda[3] * (g_star_1 * t232 - t224 *
-        g_star_0) - lambda[4] * (C_i[7] * t234 - t228 * C_i[6]) - lambda[5] * (f_star_1 * t235 - t230 * f_star_0);
-    const jg_real t236 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[10] = t236;
-    jac_phi_q_t_lambda_A_j[31] = t236;
-    jac_phi_q_t_lambda_A_j[52] = t236;
-    const jg_real t237 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
-    const jg_real t238 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
-    const jg_real t239 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t240 = C_j[8] * t238 * lambda[3] + C_j[2] * t239 * lambda[4] + C_j[5] * t237 * lambda[5] + s_j[2]
-        * t236;
-    jac_phi_q_t_lambda_A_j[11] = t240;
-    const jg_real t241 = C_j[7] * t238 * lambda[3] + C_j[1] * t239 * lambda[4] + C_j[4] * t237 * lambda[5] + s_j[1]
-        * t236;
-    jac_phi_q_t_lambda_A_j[53] = t241;
-    jac_phi_q_t_lambda_A_j[12] = -t241;
-    jac_phi_q_t_lambda_A_j[13] = lambda[5] * (g_star_0 * t235 + g_star_1 * t230 + g_star_2 * t231) - lambda[3] *
-        (f_star_0 * t232 + t224 * f_star_1 + f_star_2 * t225);
-    const jg_real t242 = A_i[5] * C_j[6];
-    const jg_real t243 = A_i[8] * C_j[6];
-    const jg_real t244 = s_j[0] * A_i[8];
-    const jg_real t245 = s_j[0] * A_i[5];
-    const jg_real t246 = A_i[5] * C_j[0];
-    const jg_real t247 = A_i[8] * C_j[0];
-    const jg_real t248 = A_i[5] * C_j[3];
-    const jg_real t249 = A_i[8] * C_j[3];
-    jac_phi_q_t_lambda_A_j[14] = lambda[1] * t244 - lambda[2] * t245 - (t242 * g_star_2 - t243 * g_star_1) *
+    jac_phi_q_t_lambda_A_i[62] = g_star_2 * t17 * lambda[5] - t9 * f_star_2 * lambda[3];
+    jac_phi_q_t_lambda_A_i[64] = -t87;
+    const jg_real t125 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[65] = t125;
+    const jg_real t126 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[66] = t126;
+    const jg_real t127 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[67] = t127;
+    const jg_real t128 = A_j[7] * f_star_2;
+    const jg_real t129 = A_j[4] * f_star_2;
+    const jg_real t130 = A_j[7] * g_star_2;
+    const jg_real t131 = A_j[4] * g_star_2;
+    const jg_real t132 = A_j[7] * C_i[8];
+    const jg_real t133 = A_j[4] * C_i[8];
+    jac_phi_q_t_lambda_A_i[68] = lambda[3] * (C_j[7] * t130 - C_j[8] * t131) + lambda[4] * (C_j[1] * t132 - C_j[2] *
+        t133) + lambda[5] * (C_j[4] * t128 - C_j[5] * t129) + (s_j[1] * t127 - s_j[2] * t126);
+    const jg_real t134 = A_j[1] * f_star_2;
+    const jg_real t135 = A_j[1] * g_star_2;
+    const jg_real t136 = A_j[1] * C_i[8];
+    jac_phi_q_t_lambda_A_i[69] = lambda[3] * (C_j[8] * t135 - C_j[6] * t130) + lambda[4] * (C_j[2] * t136 - C_j[0] *
+        t132) + lambda[5] * (C_j[5] * t134 - C_j[3] * t128) + (s_j[2] * t125 - s_j[0] * t127);
+    jac_phi_q_t_lambda_A_i[70] = lambda[3] * (C_j[6] * t131 - C_j[7] * t135) + lambda[4] * (C_j[0] * t133 - C_j[1] *
+        t136) + lambda[5] * (C_j[3] * t129 - C_j[4] * t134) + (s_j[0] * t126 - s_j[1] * t125);
+    jac_phi_q_t_lambda_A_i[71] = g_star_2 * t40 * lambda[5] - t36 * f_star_2 * lambda[3];
+    jac_phi_q_t_lambda_A_i[73] = -t100;
+    const jg_real t137 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[74] = t137;
+    const jg_real t138 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[75] = t138;
+    const jg_real t139 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[76] = t139;
+    const jg_real t140 = A_j[8] * f_star_2;
+    const jg_real t141 = A_j[5] * f_star_2;
+    const jg_real t142 = A_j[8] * g_star_2;
+    const jg_real t143 = A_j[5] * g_star_2;
+    const jg_real t144 = A_j[8] * C_i[8];
+    const jg_real t145 = A_j[5] * C_i[8];
+    jac_phi_q_t_lambda_A_i[77] = lambda[3] * (C_j[7] * t142 - C_j[8] * t143) + lambda[4] * (C_j[1] * t144 - C_j[2] *
+        t145) + lambda[5] * (C_j[4] * t140 - C_j[5] * t141) + (s_j[1] * t139 - s_j[2] * t138);
+    const jg_real t146 = A_j[2] * f_star_2;
+    const jg_real t147 = A_j[2] * g_star_2;
+    const jg_real t148 = A_j[2] * C_i[8];
+    jac_phi_q_t_lambda_A_i[78] = lambda[3] * (C_j[8] * t147 - C_j[6] * t142) + lambda[4] * (C_j[2] * t148 - C_j[0] *
+        t144) + lambda[5] * (C_j[5] * t146 - C_j[3] * t140) + (s_j[2] * t137 - s_j[0] * t139);
+    jac_phi_q_t_lambda_A_i[79] = lambda[3] * (C_j[6] * t143 - C_j[7] * t147) + lambda[4] * (C_j[0] * t145 - C_j[1] *
+        t148) + lambda[5] * (C_j[3] * t141 - C_j[4] * t146) + (s_j[0] * t138 - s_j[1] * t137);
+    jac_phi_q_t_lambda_A_i[80] = g_star_2 * t59 * lambda[5] - t55 * f_star_2 * lambda[3];
+    const jg_real t149 = A_i[3] * C_j[6];
+    const jg_real t150 = A_i[6] * C_j[6];
+    const jg_real t151 = s_j[0] * A_i[6];
+    const jg_real t152 = s_j[0] * A_i[3];
+    const jg_real t153 = A_i[3] * C_j[0];
+    const jg_real t154 = A_i[6] * C_j[0];
+    const jg_real t155 = A_i[3] * C_j[3];
+    const jg_real t156 = A_i[6] * C_j[3];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t151 - lambda[2] * t152 - (t149 * g_star_2 - t150 * g_star_1) *
+        lambda[3] - (t153 * C_i[8] - t154 * C_i[7]) * lambda[4] - (f_star_2 * t155 - f_star_1 * t156) * lambda[5];
+    const jg_real t157 = C_j[6] * A_i[0];
+    const jg_real t158 = s_j[0] * A_i[0];
+    const jg_real t159 = C_j[0] * A_i[0];
+    const jg_real t160 = C_j[3] * A_i[0];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t158 - lambda[0] * t151 - lambda[3] * (t150 * g_star_0 - g_star_2 *
+        t157) - lambda[4] * (t154 * C_i[6] - C_i[8] * t159) - lambda[5] * (t156 * f_star_0 - f_star_2 * t160);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t152 - lambda[1] * t158 - lambda[3] * (g_star_1 * t157 - t149 *
+        g_star_0) - lambda[4] * (C_i[7] * t159 - t153 * C_i[6]) - lambda[5] * (f_star_1 * t160 - t155 * f_star_0);
+    const jg_real t161 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t161;
+    jac_phi_q_t_lambda_A_j[24] = t161;
+    jac_phi_q_t_lambda_A_j[45] = t161;
+    const jg_real t162 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
+    const jg_real t163 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
+    const jg_real t164 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t165 = C_j[8] * t163 * lambda[3] + C_j[2] * t164 * lambda[4] + C_j[5] * t162 * lambda[5] + s_j[2]
+        * t161;
+    jac_phi_q_t_lambda_A_j[4] = t165;
+    const jg_real t166 = C_j[7] * t163 * lambda[3] + C_j[1] * t164 * lambda[4] + C_j[4] * t162 * lambda[5] + s_j[1]
+        * t161;
+    jac_phi_q_t_lambda_A_j[46] = t166;
+    jac_phi_q_t_lambda_A_j[5] = -t166;
+    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (g_star_0 * t160 + g_star_1 * t155 + g_star_2 * t156) - lambda[3] *
+        (f_star_0 * t157 + t149 * f_star_1 + f_star_2 * t150);
+    const jg_real t167 = A_i[4] * C_j[6];
+    const jg_real t168 = A_i[7] * C_j[6];
+    const jg_real t169 = s_j[0] * A_i[7];
+    const jg_real t170 = s_j[0] * A_i[4];
+    const jg_real t171 = A_i[4] * C_j[0];
+    const jg_real t172 = A_i[7] * C_j[0];
+    const jg_real t173 = A_i[4] * C_j[3];
+    const jg_real t174 = A_i[7] * C_j[3];
+    jac_phi_q_t_lambda_A_j[7] = lambda[1] * t169 - lambda[2] * t170 - (t167 * g_star_2 - t168 * g_star_1) *
+        lambda[3] - (t171 * C_i[8] - t172 * C_i[7]) * lambda[4] - (f_star_2 * t173 - f_star_1 * t174) * lambda[5];
+    const jg_real t175 = C_j[6] * A_i[1];
+    const jg_real t176 = s_j[0] * A_i[1];
+    const jg_real t177 = C_j[0] * A_i[1];
+    const jg_real t178 = C_j[3] * A_i[1];
+    jac_phi_q_t_lambda_A_j[8] = lambda[2] * t176 - lambda[0] * t169 - lambda[3] * (t168 * g_star_0 - g_star_2 *
+        t175) - lambda[4] * (t172 * C_i[6] - C_i[8] * t177) - lambda[5] * (t174 * f_star_0 - f_star_2 * t178);
+    jac_phi_q_t_lambda_A_j[9] = lambda[0] * t170 - lambda[1] * t176 - lambda[3] * (g_star_1 * t175 - t167 *
+        g_star_0) - lambda[4] * (C_i[7] * t177 - t171 * C_i[6]) - lambda[5] * (f_star_1 * t178 - t173 * f_star_0);
+    const jg_real t179 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[10] = t179;
+    jac_phi_q_t_lambda_A_j[31] = t179;
+    jac_phi_q_t_lambda_A_j[52] = t179;
+    const jg_real t180 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
+    const jg_real t181 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
+    const jg_real t182 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t183 = C_j[8] * t181 * lambda[3] + C_j[2] * t182 * lambda[4] + C_j[5] * t180 * lambda[5] + s_j[2]
+        * t179;
+    jac_phi_q_t_lambda_A_j[11] = t183;
+    const jg_real t184 = C_j[7] * t181 * lambda[3] + C_j[1] * t182 * lambda[4] + C_j[4] * t180 * lambda[5] + s_j[1]
+        * t179;
+    jac_phi_q_t_lambda_A_j[53] = t184;
+    jac_phi_q_t_lambda_A_j[12] = -t184;
+    jac_phi_q_t_lambda_A_j[13] = lambda[5] * (g_star_0 * t178 + g_star_1 * t173 + g_star_2 * t174) - lambda[3] *
+        (f_star_0 * t175 + t167 * f_star_1 + f_star_2 * t168);
+    const jg_real t185 = A_i[5] * C_j[6];
+    const jg_real t186 = A_i[8] * C_j[6];
+    const jg_real t187 = s_j[0] * A_i[8];
+    const jg_real t188 = s_j[0] * A_i[5];
+    const jg_real t189 = A_i[5] * C_j[0];
+    const jg_real t190 = A_i[8] * C_j[0];
+    const jg_real t191 = A_i[5] * C_j[3];
+    const jg_real t192 = A_i[8] * C_j[3];
+    jac_phi_q_t_lambda_A_j[14] = lambda[1] * t187 - lambda[2] * t188 - (t185 * g_star_2 - t186 * g_star_1) *
+        lambda[3] - (t189 * C_i[8] - t190 * C_i[7]) * lambda[4] - (f_star_2 * t191 - f_star_1 * t192) * lambda[5];
+    const jg_real t193 = C_j[6] * A_i[2];
+    const jg_real t194 = s_j[0] * A_i[2];
+    const jg_real t195 = C_j[0] * A_i[2];
+    const jg_real t196 = C_j[3] * A_i[2];
+    jac_phi_q_t_lambda_A_j[15] = lambda[2] * t194 - lambda[0] * t187 - lambda[3] * (t186 * g_star_0 - g_star_2 *
+        t193) - lambda[4] * (t190 * C_i[6] - C_i[8] * t195) - lambda[5] * (t192 * f_star_0 - f_star_2 * t196);
+    jac_phi_q_t_lambda_A_j[16] = lambda[0] * t188 - lambda[1] * t194 - lambda[3] * (g_star_1 * t193 - t185 *
+        g_star_0) - lambda[4] * (C_i[7] * t195 - t189 * C_i[6]) - lambda[5] * (f_star_1 * t196 - t191 * f_star_0);
+    const jg_real t197 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[17] = t197;
+    jac_phi_q_t_lambda_A_j[38] = t197;
+    jac_phi_q_t_lambda_A_j[59] = t197;
+    const jg_real t198 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
+    const jg_real t199 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
+    const jg_real t200 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t201 = C_j[8] * t199 * lambda[3] + C_j[2] * t200 * lambda[4] + C_j[5] * t198 * lambda[5] + s_j[2]
+        * t197;
+    jac_phi_q_t_lambda_A_j[18] = t201;
+    const jg_real t202 = C_j[7] * t199 * lambda[3] + C_j[1] * t200 * lambda[4] + C_j[4] * t198 * lambda[5] + s_j[1]
+        * t197;
+    jac_phi_q_t_lambda_A_j[60] = t202;
+    jac_phi_q_t_lambda_A_j[19] = -t202;
+    jac_phi_q_t_lambda_A_j[20] = lambda[5] * (g_star_0 * t196 + g_star_1 * t191 + g_star_2 * t192) - lambda[3] *
+        (f_star_0 * t193 + t185 * f_star_1 + f_star_2 * t186);
+    const jg_real t203 = A_i[3] * C_j[7];
+    const jg_real t204 = A_i[6] * C_j[7];
+    const jg_real t205 = s_j[1] * A_i[6];
+    const jg_real t206 = s_j[1] * A_i[3];
+    const jg_real t207 = A_i[3] * C_j[1];
+    const jg_real t208 = A_i[6] * C_j[1];
+    const jg_real t209 = A_i[3] * C_j[4];
+    const jg_real t210 = A_i[6] * C_j[4];
+    jac_phi_q_t_lambda_A_j[21] = lambda[1] * t205 - lambda[2] * t206 - (t203 * g_star_2 - t204 * g_star_1) *
+        lambda[3] - (t207 * C_i[8] - t208 * C_i[7]) * lambda[4] - (f_star_2 * t209 - f_star_1 * t210) * lambda[5];
+    const jg_real t211 = C_j[7] * A_i[0];
+    const jg_real t212 = s_j[1] * A_i[0];
+    const jg_real t213 = C_j[1] * A_i[0];
+    const jg_real t214 = C_j[4] * A_i[0];
+    jac_phi_q_t_lambda_A_j[22] = lambda[2] * t212 - lambda[0] * t205 - lambda[3] * (t204 * g_star_0 - g_star_2 *
+        t211) - lambda[4] * (t208 * C_i[6] - C_i[8] * t213) - lambda[5] * (t210 * f_star_0 - f_star_2 * t214);
+    jac_phi_q_t_lambda_A_j[23] = lambda[0] * t206 - lambda[1] * t212 - lambda[3] * (g_star_1 * t211 - t203 *
+        g_star_0) - lambda[4] * (C_i[7] * t213 - t207 * C_i[6]) - lambda[5] * (f_star_1 * t214 - t209 * f_star_0);
+    jac_phi_q_t_lambda_A_j[25] = -t165;
+    const jg_real t215 = C_j[6] * t163 * lambda[3] + C_j[0] * t164 * lambda[4] + C_j[3] * t162 * lambda[5] + s_j[0]
+        * t161;
+    jac_phi_q_t_lambda_A_j[26] = t215;
+    jac_phi_q_t_lambda_A_j[27] = lambda[5] * (g_star_0 * t214 + g_star_1 * t209 + g_star_2 * t210) - lambda[3] *
+        (f_star_0 * t211 + t203 * f_star_1 + f_star_2 * t204);
+    const jg_real t216 = A_i[4] * C_j[7];
+    const jg_real t217 = A_i[7] * C_j[7];
+    const jg_real t218 = s_j[1] * A_i[7];
+    const jg_real t219 = s_j[1] * A_i[4];
+    const jg_real t220 = A_i[4] * C_j[1];
+    const jg_real t221 = A_i[7] * C_j[1];
+    const jg_real t222 = A_i[4] * C_j[4];
+    const jg_real t223 = A_i[7] * C_j[4];
+    jac_phi_q_t_lambda_A_j[28] = lambda[1] * t218 - lambda[2] * t219 - (t216 * g_star_2 - t217 * g_star_1) *
+        lambda[3] - (t220 * C_i[8] - t221 * C_i[7]) * lambda[4] - (f_star_2 * t222 - f_star_1 * t223) * lambda[5];
+    const jg_real t224 = C_j[7] * A_i[1];
+    const jg_real t225 = s_j[1] * A_i[1];
+    const jg_real t226 = C_j[1] * A_i[1];
+    const jg_real t227 = C_j[4] * A_i[1];
+    jac_phi_q_t_lambda_A_j[29] = lambda[2] * t225 - lambda[0] * t218 - lambda[3] * (t217 * g_star_0 - g_star_2 *
+        t224) - lambda[4] * (t221 * C_i[6] - C_i[8] * t226) - lambda[5] * (t223 * f_star_0 - f_star_2 * t227);
+    jac_phi_q_t_lambda_A_j[30] = lambda[0] * t219 - lambda[1] * t225 - lambda[3] * (g_star_1 * t224 - t216 *
+        g_star_0) - lambda[4] * (C_i[7] * t226 - t220 * C_i[6]) - lambda[5] * (f_star_1 * t227 - t222 * f_star_0);
+    jac_phi_q_t_lambda_A_j[32] = -t183;
+    const jg_real t228 = C_j[6] * t181 * lambda[3] + C_j[0] * t182 * lambda[4] + C_j[3] * t180 * lambda[5] + s_j[0]
+        * t179;
+    jac_phi_q_t_lambda_A_j[33] = t228;
+    jac_phi_q_t_lambda_A_j[34] = lambda[5] * (g_star_0 * t227 + g_star_1 * t222 + g_star_2 * t223) - lambda[3] *
+        (f_star_0 * t224 + t216 * f_star_1 + f_star_2 * t217);
+    const jg_real t229 = A_i[5] * C_j[7];
+    const jg_real t230 = A_i[8] * C_j[7];
+    const jg_real t231 = s_j[1] * A_i[8];
+    const jg_real t232 = s_j[1] * A_i[5];
+    const jg_real t233 = A_i[5] * C_j[1];
+    const jg_real t234 = A_i[8] * C_j[1];
+    const jg_real t235 = A_i[5] * C_j[4];
+    const jg_real t236 = A_i[8] * C_j[4];
+    jac_phi_q_t_lambda_A_j[35] = lambda[1] * t231 - lambda[2] * t232 - (t229 * g_star_2 - t230 * g_star_1) *
+        lambda[3] - (t233 * C_i[8] - t234 * C_i[7]) * lambda[4] - (f_star_2 * t235 - f_star_1 * t236) * lambda[5];
+    const jg_real t237 = C_j[7] * A_i[2];
+    const jg_real t238 = s_j[1] * A_i[2];
+    const jg_real t239 = C_j[1] * A_i[2];
+    const jg_real t240 = C_j[4] * A_i[2];
+    jac_phi_q_t_lambda_A_j[36] = lambda[2] * t238 - lambda[0] * t231 - lambda[3] * (t230 * g_star_0 - g_star_2 *
+        t237) - lambda[4] * (t234 * C_i[6] - C_i[8] * t239) - lambda[5] * (t236 * f_star_0 - f_star_2 * t240);
+    jac_phi_q_t_lambda_A_j[37] = lambda[0] * t232 - lambda[1] * t238 - lambda[3] * (g_star_1 * t237 - t229 *
+        g_star_0) - lambda[4] * (C_i[7] * t239 - t233 * C_i[6]) - lambda[5] * (f_star_1 * t240 - t235 * f_star_0);
+    jac_phi_q_t_lambda_A_j[39] = -t201;
+    const jg_real t241 = C_j[6] * t199 * lambda[3] + C_j[0] * t200 * lambda[4] + C_j[3] * t198 * lambda[5] + s_j[0]
+        * t197;
+    jac_phi_q_t_lambda_A_j[40] = t241;
+    jac_phi_q_t_lambda_A_j[41] = lambda[5] * (g_star_0 * t240 + g_star_1 * t235 + g_star_2 * t236) - lambda[3] *
+        (f_star_0 * t237 + t229 * f_star_1 + f_star_2 * t230);
+    const jg_real t242 = A_i[3] * C_j[8];
+    const jg_real t243 = A_i[6] * C_j[8];
+    const jg_real t244 = s_j[2] * A_i[6];
+    const jg_real t245 = s_j[2] * A_i[3];
+    const jg_real t246 = A_i[3] * C_j[2];
+    const jg_real t247 = A_i[6] * C_j[2];
+    const jg_real t248 = A_i[3] * C_j[5];
+    const jg_real t249 = A_i[6] * C_j[5];
+    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t244 - lambda[2] * t245 - (t242 * g_star_2 - t243 * g_star_1) *
         lambda[3] - (t246 * C_i[8] - t247 * C_i[7]) * lambda[4] - (f_star_2 * t248 - f_star_1 * t249) * lambda[5];
-    const jg_real t250 = A_i[2] * C_j[6];
-    const jg_real t251 = s_j[0] * A_i[2];
-    const jg_real t252 = A_i[2] * C_j[0];
-    const jg_real t253 = A_i[2] * C_j[3];
-    jac_phi_q_t_lambda_A_j[15] = lambda[2] * t251 - lambda[0] * t244 - lambda[3] * (t243 * g_star_0 - g_star_2 *
+    const jg_real t250 = C_j[8] * A_i[0];
+    const jg_real t251 = s_j[2] * A_i[0];
+    const jg_real t252 = C_j[2] * A_i[0];
+    const jg_real t253 = C_j[5] * A_i[0];
+    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t251 - lambda[0] * t244 - lambda[3] * (t243 * g_star_0 - g_star_2 *
         t250) - lambda[4] * (t247 * C_i[6] - C_i[8] * t252) - lambda[5] * (t249 * f_star_0 - f_star_2 * t253);
-    jac_phi_q_t_lambda_A_j[16] = lambda[0] * t245 - lambda[1] * t251 - lambda[3] * (g_star_1 * t250 - t242 *
+    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t245 - lambda[1] * t251 - lambda[3] * (g_star_1 * t250 - t242 *
         g_star_0) - lambda[4] * (C_i[7] * t252 - t246 * C_i[6]) - lambda[5] * (f_star_1 * t253 - t248 * f_star_0);
-    const jg_real t254 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[17] = t254;
-    jac_phi_q_t_lambda_A_j[38] = t254;
-    jac_phi_q_t_lambda_A_j[59] = t254;
-    const jg_real t255 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
-    const jg_real t256 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
-    const jg_real t257 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t258 = C_j[8] * t256 * lambda[3] + C_j[2] * t257 * lambda[4] + C_j[5] * t255 * lambda[5] + s_j[2]
-        * t254;
-    jac_phi_q_t_lambda_A_j[18] = t258;
-    const jg_real t259 = C_j[7] * t256 * lambda[3] + C_j[1] * t257 * lambda[4] + C_j[4] * t255 * lambda[5] + s_j[1]
-        * t254;
-    jac_phi_q_t_lambda_A_j[60] = t259;
-    jac_phi_q_t_lambda_A_j[19] = -t259;
-    jac_phi_q_t_lambda_A_j[20] = lambda[5] * (g_star_0 * t253 + g_star_1 * t248 + g_star_2 * t249) - lambda[3] *
+    jac_phi_q_t_lambda_A_j[47] = -t215;
+    jac_phi_q_t_lambda_A_j[48] = lambda[5] * (g_star_0 * t253 + g_star_1 * t248 + g_star_2 * t249) - lambda[3] *
         (f_star_0 * t250 + t242 * f_star_1 + f_star_2 * t243);
-    const jg_real t260 = A_i[3] * C_j[7];
-    const jg_real t261 = A_i[6] * C_j[7];
-    const jg_real t262 = s_j[1] * A_i[6];
-    const jg_real t263 = s_j[1] * A_i[3];
-    const jg_real t264 = A_i[3] * C_j[1];
-    const jg_real t265 = A_i[6] * C_j[1];
-    const jg_real t266 = A_i[3] * C_j[4];
-    const jg_real t267 = A_i[6] * C_j[4];
-    jac_phi_q_t_lambda_A_j[21] = lambda[1] * t262 - lambda[2] * t263 - (t260 * g_star_2 - t261 * g_star_1) *
-        lambda[3] - (t264 * C_i[8] - t265 * C_i[7]) * lambda[4] - (f_star_2 * t266 - f_star_1 * t267) * lambda[5];
-    const jg_real t268 = A_i[0] * C_j[7];
-    const jg_real t269 = s_j[1] * A_i[0];
-    const jg_real t270 = A_i[0] * C_j[1];
-    const jg_real t271 = A_i[0] * C_j[4];
-    jac_phi_q_t_lambda_A_j[22] = lambda[2] * t269 - lambda[0] * t262 - lambda[3] * (t261 * g_star_0 - g_star_2 *
-        t268) - lambda[4] * (t265 * C_i[6] - C_i[8] * t270) - lambda[5] * (t267 * f_star_0 - f_star_2 * t271);
-    jac_phi_q_t_lambda_A_j[23] = lambda[0] * t263 - lambda[1] * t269 - lambda[3] * (g_star_1 * t268 - t260 *
-        g_star_0) - lambda[4] * (C_i[7] * t270 - t264 * C_i[6]) - lambda[5] * (f_star_1 * t271 - t266 * f_star_0);
-    jac_phi_q_t_lambda_A_j[25] = -t222;
-    const jg_real t272 = C_j[6] * t220 * lambda[3] + C_j[0] * t221 * lambda[4] + C_j[3] * t219 * lambda[5] + s_j[0]
-        * t218;
-    jac_phi_q_t_lambda_A_j[26] = t272;
-    jac_phi_q_t_lambda_A_j[27] = lambda[5] * (g_star_0 * t271 + g_star_1 * t266 + g_star_2 * t267) - lambda[3] *
-        (f_star_0 * t268 + t260 * f_star_1 + f_star_2 * t261);
-    const jg_real t273 = A_i[4] * C_j[7];
-    const jg_real t274 = A_i[7] * C_j[7];
-    const jg_real t275 = s_j[1] * A_i[7];
-    const jg_real t276 = s_j[1] * A_i[4];
-    const jg_real t277 = A_i[4] * C_j[1];
-    const jg_real t278 = A_i[7] * C_j[1];
-    const jg_real t279 = A_i[4] * C_j[4];
-    const jg_real t280 = A_i[7] * C_j[4];
-    jac_phi_q_t_lambda_A_j[28] = lambda[1] * t275 - lambda[2] * t276 - (t273 * g_star_2 - t274 * g_star_1) *
-        lambda[3] - (t277 * C_i[8] - t278 * C_i[7]) * lambda[4] - (f_star_2 * t279 - f_star_1 * t280) * lambda[5];
-    const jg_real t281 = A_i[1] * C_j[7];
-    const jg_real t282 = s_j[1] * A_i[1];
-    const jg_real t283 = A_i[1] * C_j[1];
-    const jg_real t284 = A_i[1] * C_j[4];
-    jac_phi_q_t_lambda_A_j[29] = lambda[2] * t282 - lambda[0] * t275 - lambda[3] * (t274 * g_star_0 - g_star_2 *
-        t281) - lambda[4] * (t278 * C_i[6] - C_i[8] * t283) - lambda[5] * (t280 * f_star_0 - f_star_2 * t284);
-    jac_phi_q_t_lambda_A_j[30] = lambda[0] * t276 - lambda[1] * t282 - lambda[3] * (g_star_1 * t281 - t273 *
-        g_star_0) - lambda[4] * (C_i[7] * t283 - t277 * C_i[6]) - lambda[5] * (f_star_1 * t284 - t279 * f_star_0);
-    jac_phi_q_t_lambda_A_j[32] = -t240;
-    const jg_real t285 = C_j[6] * t238 * lambda[3] + C_j[0] * t239 * lambda[4] + C_j[3] * t237 * lambda[5] + s_j[0]
-        * t236;
-    jac_phi_q_t_lambda_A_j[33] = t285;
-    jac_phi_q_t_lambda_A_j[34] = lambda[5] * (g_star_0 * t284 + g_star_1 * t279 + g_star_2 * t280) - lambda[3] *
-        (f_star_0 * t281 + t273 * f_star_1 + f_star_2 * t274);
-    const jg_real t286 = A_i[5] * C_j[7];
-    const jg_real t287 = A_i[8] * C_j[7];
-    const jg_real t288 = s_j[1] * A_i[8];
-    const jg_real t289 = s_j[1] * A_i[5];
-    const jg_real t290 = A_i[5] * C_j[1];
-    const jg_real t291 = A_i[8] * C_j[1];
-    const jg_real t292 = A_i[5] * C_j[4];
-    const jg_real t293 = A_i[8] * C_j[4];
-    jac_phi_q_t_lambda_A_j[35] = lambda[1] * t288 - lambda[2] * t289 - (t286 * g_star_2 - t287 * g_star_1) *
-        lambda[3] - (t290 * C_i[8] - t291 * C_i[7]) * lambda[4] - (f_star_2 * t292 - f_star_1 * t293) * lambda[5];
-    const jg_real t294 = A_i[2] * C_j[7];
-    const jg_real t295 = s_j[1] * A_i[2];
-    const jg_real t296 = A_i[2] * C_j[1];
-    const jg_real t297 = A_i[2] * C_j[4];
-    jac_phi_q_t_lambda_A_j[36] = lambda[2] * t295 - lambda[0] * t288 - lambda[3] * (t287 * g_star_0 - g_star_2 *
-        t294) - lambda[4] * (t291 * C_i[6] - C_i[8] * t296) - lambda[5] * (t293 * f_star_0 - f_star_2 * t297);
-    jac_phi_q_t_lambda_A_j[37] = lambda[0] * t289 - lambda[1] * t295 - lambda[3] * (g_star_1 * t294 - t286 *
-        g_star_0) - lambda[4] * (C_i[7] * t296 - t290 * C_i[6]) - lambda[5] * (f_star_1 * t297 - t292 * f_star_0);
-    jac_phi_q_t_lambda_A_j[39] = -t258;
-    const jg_real t298 = C_j[6] * t256 * lambda[3] + C_j[0] * t257 * lambda[4] + C_j[3] * t255 * lambda[5] + s_j[0]
-        * t254;
-    jac_phi_q_t_lambda_A_j[40] = t298;
-    jac_phi_q_t_lambda_A_j[41] = lambda[5] * (g_star_0 * t297 + g_star_1 * t292 + g_star_2 * t293) - lambda[3] *
-        (f_star_0 * t294 + t286 * f_star_1 + f_star_2 * t287);
-    const jg_real t299 = A_i[3] * C_j[8];
-    const jg_real t300 = A_i[6] * C_j[8];
-    const jg_real t301 = s_j[2] * A_i[6];
-    const jg_real t302 = s_j[2] * A_i[3];
-    const jg_real t303 = A_i[3] * C_j[2];
-    const jg_real t304 = A_i[6] * C_j[2];
-    const jg_real t305 = A_i[3] * C_j[5];
-    const jg_real t306 = A_i[6] * C_j[5];
-    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t301 - lambda[2] * t302 - (t299 * g_star_2 - t300 * g_star_1) *
-        lambda[3] - (t303 * C_i[8] - t304 * C_i[7]) * lambda[4] - (f_star_2 * t305 - f_star_1 * t306) * lambda[5];
-    const jg_real t307 = A_i[0] * C_j[8];
-    const jg_real t308 = s_j[2] * A_i[0];
-    const jg_real t309 = A_i[0] * C_j[2];
-    const jg_real t310 = A_i[0] * C_j[5];
-    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t308 - lambda[0] * t301 - lambda[3] * (t300 * g_star_0 - g_star_2 *
-        t307) - lambda[4] * (t304 * C_i[6] - C_i[8] * t309) - lambda[5] * (t306 * f_star_0 - f_star_2 * t310);
-    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t302 - lambda[1] * t308 - lambda[3] * (g_star_1 * t307 - t299 *
-        g_star_0) - lambda[4] * (C_i[7] * t309 - t303 * C_i[6]) - lambda[5] * (f_star_1 * t310 - t305 * f_star_0);
-    jac_phi_q_t_lambda_A_j[47] = -t272;
-    jac_phi_q_t_lambda_A_j[48] = lambda[5] * (g_star_0 * t310 + g_star_1 * t305 + g_star_2 * t306) - lambda[3] *
-        (f_star_0 * t307 + t299 * f_star_1 + f_star_2 * t300);
-    const jg_real t311 = A_i[4] * C_j[8];
-    const jg_real t312 = A_i[7] * C_j[8];
-    const jg_real t313 = s_j[2] * A_i[7];
-    const jg_real t314 = s_j[2] * A_i[4];
-    const jg_real t315 = A_i[4] * C_j[2];
-    const jg_real t316 = A_i[7] * C_j[2];
-    const jg_real t317 = A_i[4] * C_j[5];
-    const jg_real t318 = A_i[7] * C_j[5];
-    jac_phi_q_t_lambda_A_j[49] = lambda[1] * t313 - lambda[2] * t314 - (t311 * g_star_2 - t312 * g_star_1) *
-        lambda[3] - (t315 * C_i[8] - t316 * C_i[7]) * lambda[4] - (f_star_2 * t317 - f_star_1 * t318) * lambda[5];
-    const jg_real t319 = A_i[1] * C_j[8];
-    const jg_real t320 = s_j[2] * A_i[1];
-    const jg_real t321 = A_i[1] * C_j[2];
-    const jg_real t322 = A_i[1] * C_j[5];
-    jac_phi_q_t_lambda_A_j[50] = lambda[2] * t320 - lambda[0] * t313 - lambda[3] * (t312 * g_star_0 - g_star_2 *
-        t319) - lambda[4] * (t316 * C_i[6] - C_i[8] * t321) - lambda[5] * (t318 * f_star_0 - f_star_2 * t322);
-    jac_phi_q_t_lambda_A_j[51] = lambda[0] * t314 - lambda[1] * t320 - lambda[3] * (g_star_1 * t319 - t311 *
-        g_star_0) - lambda[4] * (C_i[7] * t321 - t315 * C_i[6]) - lambda[5] * (f_star_1 * t322 - t317 * f_star_0);
-    jac_phi_q_t_lambda_A_j[54] = -t285;
-    jac_phi_q_t_lambda_A_j[55] = lambda[5] * (g_star_0 * t322 + g_star_1 * t317 + g_star_2 * t318) - lambda[3] *
-        (f_star_0 * t319 + t311 * f_star_1 + f_star_2 * t312);
-    const jg_real t323 = A_i[5] * C_j[8];
-    const jg_real t324 = A_i[8] * C_j[8];
-    const jg_real t325 = s_j[2] * A_i[8];
-    const jg_real t326 = s_j[2] * A_i[5];
-    const jg_real t327 = A_i[5] * C_j[2];
-    const jg_real t328 = A_i[8] * C_j[2];
-    const jg_real t329 = A_i[5] * C_j[5];
-    const jg_real t330 = A_i[8] * C_j[5];
-    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t325 - lambda[2] * t326 - (t323 * g_star_2 - t324 * g_star_1) *
-        lambda[3] - (t327 * C_i[8] - t328 * C_i[7]) * lambda[4] - (f_star_2 * t329 - f_star_1 * t330) * lambda[5];
-    const jg_real t331 = A_i[2] * C_j[8];
-    const jg_real t332 = s_j[2] * A_i[2];
-    const jg_real t333 = A_i[2] * C_j[2];
-    const jg_real t334 = A_i[2] * C_j[5];
-    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t332 - lambda[0] * t325 - lambda[3] * (t324 * g_star_0 - g_star_2 *
-        t331) - lambda[4] * (t328 * C_i[6] - C_i[8] * t333) - lambda[5] * (t330 * f_star_0 - f_star_2 * t334);
-    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t326 - lambda[1] * t332 - lambda[3] * (g_star_1 * t331 - t323 *
-        g_star_0) - lambda[4] * (C_i[7] * t333 - t327 * C_i[6]) - lambda[5] * (f_star_1 * t334 - t329 * f_star_0);
-    jac_phi_q_t_lambda_A_j[61] = -t298;
-    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (g_star_0 * t334 + g_star_1 * t329 + g_star_2 * t330) - lambda[3] *
-        (f_star_0 * t331 + t323 * f_star_1 + f_star_2 * t324);
+    const jg_real t254 = A_i[4] * C_j[8];
+    const jg_real t255 = A_i[7] * C_j[8];
+    const jg_real t256 = s_j[2] * A_i[7];
+    const jg_real t257 = s_j[2] * A_i[4];
+    const jg_real t258 = A_i[4] * C_j[2];
+    const jg_real t259 = A_i[7] * C_j[2];
+    const jg_real t260 = A_i[4] * C_j[5];
+    const jg_real t261 = A_i[7] * C_j[5];
+    jac_phi_q_t_lambda_A_j[49] = lambda[1] * t256 - lambda[2] * t257 - (t254 * g_star_2 - t255 * g_star_1) *
+        lambda[3] - (t258 * C_i[8] - t259 * C_i[7]) * lambda[4] - (f_star_2 * t260 - f_star_1 * t261) * lambda[5];
+    const jg_real t262 = C_j[8] * A_i[1];
+    const jg_real t263 = s_j[2] * A_i[1];
+    const jg_real t264 = C_j[2] * A_i[1];
+    const jg_real t265 = C_j[5] * A_i[1];
+    jac_phi_q_t_lambda_A_j[50] = lambda[2] * t263 - lambda[0] * t256 - lambda[3] * (t255 * g_star_0 - g_star_2 *
+        t262) - lambda[4] * (t259 * C_i[6] - C_i[8] * t264) - lambda[5] * (t261 * f_star_0 - f_star_2 * t265);
+    jac_phi_q_t_lambda_A_j[51] = lambda[0] * t257 - lambda[1] * t263 - lambda[3] * (g_star_1 * t262 - t254 *
+        g_star_0) - lambda[4] * (C_i[7] * t264 - t258 * C_i[6]) - lambda[5] * (f_star_1 * t265 - t260 * f_star_0);
+    jac_phi_q_t_lambda_A_j[54] = -t228;
+    jac_phi_q_t_lambda_A_j[55] = lambda[5] * (g_star_0 * t265 + g_star_1 * t260 + g_star_2 * t261) - lambda[3] *
+        (f_star_0 * t262 + t254 * f_star_1 + f_star_2 * t255);
+    const jg_real t266 = A_i[5] * C_j[8];
+    const jg_real t267 = A_i[8] * C_j[8];
+    const jg_real t268 = s_j[2] * A_i[8];
+    const jg_real t269 = s_j[2] * A_i[5];
+    const jg_real t270 = A_i[5] * C_j[2];
+    const jg_real t271 = A_i[8] * C_j[2];
+    const jg_real t272 = A_i[5] * C_j[5];
+    const jg_real t273 = A_i[8] * C_j[5];
+    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t268 - lambda[2] * t269 - (t266 * g_star_2 - t267 * g_star_1) *
+        lambda[3] - (t270 * C_i[8] - t271 * C_i[7]) * lambda[4] - (f_star_2 * t272 - f_star_1 * t273) * lambda[5];
+    const jg_real t274 = C_j[8] * A_i[2];
+    const jg_real t275 = s_j[2] * A_i[2];
+    const jg_real t276 = C_j[2] * A_i[2];
+    const jg_real t277 = C_j[5] * A_i[2];
+    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t275 - lambda[0] * t268 - lambda[3] * (t267 * g_star_0 - g_star_2 *
+        t274) - lambda[4] * (t271 * C_i[6] - C_i[8] * t276) - lambda[5] * (t273 * f_star_0 - f_star_2 * t277);
+    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t269 - lambda[1] * t275 - lambda[3] * (g_star_1 * t274 - t266 *
+        g_star_0) - lambda[4] * (C_i[7] * t276 - t270 * C_i[6]) - lambda[5] * (f_star_1 * t277 - t272 * f_star_0);
+    jac_phi_q_t_lambda_A_j[61] = -t241;
+    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (g_star_0 * t277 + g_star_1 * t272 + g_star_2 * t273) - lambda[3] *
+        (f_star_0 * t274 + t266 * f_star_1 + f_star_2 * t267);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[25] = A_ij_2;
@@ -1616,245 +1512,224 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
         (C_j[7] * A_ijt_f_star_0 - C_j[6] * A_ijt_f_star_1);
     jac_phi_q_t_lambda_alpha[6] = -(lambda[5] * (f_star_0 * A_ij_g_j_0 + f_star_1 * A_ij_g_j_1 + f_star_2 *
         A_ij_g_j_2) + lambda[3] * (g_star_0 * A_ij_h_j_0 + A_ij_h_j_1 * g_star_1 + g_star_2 * A_ij_h_j_2));
-    const jg_real t356 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t357 = lambda[2] * t356;
-    const jg_real t358 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t359 = lambda[1] * t358;
-    jac_phi_q_t_lambda_geometry[0] = t357 - t359;
-    const jg_real t360 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t360 + lambda[0] * t358;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t356 + lambda[1] * t360);
-    const jg_real t361 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t362 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t361 + lambda[2] * t362);
-    const jg_real t363 = lambda[0] * t361;
-    jac_phi_q_t_lambda_geometry[4] = t363 - t357;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t362 + lambda[1] * t356;
-    const jg_real t364 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t364 + lambda[2] * t361;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t358 + lambda[0] * t364);
-    jac_phi_q_t_lambda_geometry[8] = t359 - t363;
-    const jg_real t365 = cosine_0 * A_ij_g_j_2 * lambda[5] - sine_0 * A_ij_h_j_2 * lambda[3];
-    jac_phi_q_t_lambda_geometry[16] = t365;
-    jac_phi_q_t_lambda_geometry[50] = t365;
-    jac_phi_q_t_lambda_geometry[9] = -t365;
-    const jg_real t366 = A_ij_h_j_1 * sine_0 * lambda[3] - cosine_0 * A_ij_g_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[23] = t366;
-    const jg_real t367 = -t366;
-    jac_phi_q_t_lambda_geometry[10] = t367;
-    jac_phi_q_t_lambda_geometry[43] = t367;
-    const jg_real t368 = cosine_0 * A_ij_6;
-    const jg_real t369 = cosine_0 * A_ij_3;
-    const jg_real t370 = sine_0 * A_ij_3;
-    const jg_real t371 = sine_0 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[11] = lambda[5] * (C_j[4] * t368 - C_j[5] * t369) + lambda[3] * (C_j[8] * t370 -
-        C_j[7] * t371);
-    const jg_real t372 = cosine_0 * A_ij_0;
-    const jg_real t373 = sine_0 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = lambda[5] * (C_j[5] * t372 - C_j[3] * t368) + lambda[3] * (C_j[6] * t371 -
-        C_j[8] * t373);
-    jac_phi_q_t_lambda_geometry[13] = lambda[5] * (C_j[3] * t369 - C_j[4] * t372) + lambda[3] * (C_j[7] * t373 -
-        C_j[6] * t370);
-    const jg_real t374 = -lambda[0];
-    jac_phi_q_t_lambda_geometry[14] = t374;
-    jac_phi_q_t_lambda_geometry[35] = t374;
-    const jg_real t375 = cosine_0 * A_ij_h_j_0 * lambda[3] + sine_0 * A_ij_g_j_0 * lambda[5];
-    jac_phi_q_t_lambda_geometry[45] = t375;
-    const jg_real t376 = -t375;
-    jac_phi_q_t_lambda_geometry[15] = t376;
-    jac_phi_q_t_lambda_geometry[38] = t376;
-    const jg_real t377 = cosine_0 * A_ij_g_j_0 * lambda[5] - sine_0 * A_ij_h_j_0 * lambda[3];
-    jac_phi_q_t_lambda_geometry[24] = t377;
-    jac_phi_q_t_lambda_geometry[36] = t377;
-    jac_phi_q_t_lambda_geometry[17] = -t377;
-    const jg_real t378 = A_ij_7 * cosine_0;
-    const jg_real t379 = A_ij_4 * cosine_0;
-    const jg_real t380 = A_ij_4 * sine_0;
-    const jg_real t381 = A_ij_7 * sine_0;
-    jac_phi_q_t_lambda_geometry[18] = lambda[5] * (C_j[4] * t378 - C_j[5] * t379) + lambda[3] * (C_j[8] * t380 -
-        C_j[7] * t381);
-    const jg_real t382 = A_ij_1 * cosine_0;
-    const jg_real t383 = A_ij_1 * sine_0;
-    jac_phi_q_t_lambda_geometry[19] = lambda[5] * (C_j[5] * t382 - C_j[3] * t378) + lambda[3] * (C_j[6] * t381 -
-        C_j[8] * t383);
-    jac_phi_q_t_lambda_geometry[20] = lambda[5] * (C_j[3] * t379 - C_j[4] * t382) + lambda[3] * (C_j[7] * t383 -
-        C_j[6] * t380);
-    const jg_real t384 = -lambda[1];
-    jac_phi_q_t_lambda_geometry[21] = t384;
-    jac_phi_q_t_lambda_geometry[42] = t384;
-    const jg_real t385 = A_ij_h_j_1 * cosine_0 * lambda[3] + sine_0 * A_ij_g_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[31] = t385;
-    const jg_real t386 = -t385;
-    jac_phi_q_t_lambda_geometry[22] = t386;
-    jac_phi_q_t_lambda_geometry[44] = t386;
-    const jg_real t387 = A_ij_8 * cosine_0;
-    const jg_real t388 = A_ij_5 * cosine_0;
-    const jg_real t389 = A_ij_5 * sine_0;
-    const jg_real t390 = A_ij_8 * sine_0;
-    jac_phi_q_t_lambda_geometry[25] = lambda[5] * (C_j[4] * t387 - C_j[5] * t388) + lambda[3] * (C_j[8] * t389 -
-        C_j[7] * t390);
-    const jg_real t391 = A_ij_2 * cosine_0;
-    const jg_real t392 = A_ij_2 * sine_0;
-    jac_phi_q_t_lambda_geometry[26] = lambda[5] * (C_j[5] * t391 - C_j[3] * t387) + lambda[3] * (C_j[6] * t390 -
-        C_j[8] * t392);
-    jac_phi_q_t_lambda_geometry[27] = lambda[5] * (C_j[3] * t388 - C_j[4] * t391) + lambda[3] * (C_j[7] * t392 -
-        C_j[6] * t389);
-    const jg_real t393 = -lambda[2];
-    jac_phi_q_t_lambda_geometry[28] = t393;
-    jac_phi_q_t_lambda_geometry[49] = t393;
-    const jg_real t394 = cosine_0 * A_ij_h_j_2 * lambda[3] + sine_0 * A_ij_g_j_2 * lambda[5];
-    jac_phi_q_t_lambda_geometry[37] = t394;
-    const jg_real t395 = -t394;
-    jac_phi_q_t_lambda_geometry[29] = t395;
-    jac_phi_q_t_lambda_geometry[30] = t395;
-    jac_phi_q_t_lambda_geometry[32] = lambda[5] * (C_j[4] * t371 - C_j[5] * t370) + lambda[3] * (C_j[7] * t368 -
-        C_j[8] * t369);
-    jac_phi_q_t_lambda_geometry[33] = lambda[5] * (C_j[5] * t373 - C_j[3] * t371) + lambda[3] * (C_j[8] * t372 -
-        C_j[6] * t368);
-    jac_phi_q_t_lambda_geometry[34] = lambda[5] * (C_j[3] * t370 - C_j[4] * t373) + lambda[3] * (C_j[6] * t369 -
-        C_j[7] * t372);
-    jac_phi_q_t_lambda_geometry[39] = lambda[5] * (C_j[4] * t381 - C_j[5] * t380) + lambda[3] * (C_j[7] * t378 -
-        C_j[8] * t379);
-    jac_phi_q_t_lambda_geometry[40] = lambda[5] * (C_j[5] * t383 - C_j[3] * t381) + lambda[3] * (C_j[8] * t382 -
-        C_j[6] * t378);
-    jac_phi_q_t_lambda_geometry[41] = lambda[5] * (C_j[3] * t380 - C_j[4] * t383) + lambda[3] * (C_j[6] * t379 -
-        C_j[7] * t382);
-    jac_phi_q_t_lambda_geometry[46] = lambda[5] * (C_j[4] * t390 - C_j[5] * t389) + lambda[3] * (C_j[7] * t387 -
-        C_j[8] * t388);
-    jac_phi_q_t_lambda_geometry[47] = lambda[5] * (C_j[5] * t392 - C_j[3] * t390) + lambda[3] * (C_j[8] * t391 -
-        C_j[6] * t387);
-    jac_phi_q_t_lambda_geometry[48] = lambda[5] * (C_j[3] * t389 - C_j[4] * t392) + lambda[3] * (C_j[6] * t388 -
-        C_j[7] * t391);
+    const jg_real t299 = cosine_0 * A_ij_g_j_2 * lambda[5] - sine_0 * A_ij_h_j_2 * lambda[3];
+    jac_phi_q_t_lambda_geometry[7] = t299;
+    jac_phi_q_t_lambda_geometry[41] = t299;
+    jac_phi_q_t_lambda_geometry[0] = -t299;
+    const jg_real t300 = A_ij_h_j_1 * sine_0 * lambda[3] - cosine_0 * A_ij_g_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[14] = t300;
+    const jg_real t301 = -t300;
+    jac_phi_q_t_lambda_geometry[1] = t301;
+    jac_phi_q_t_lambda_geometry[34] = t301;
+    const jg_real t302 = cosine_0 * A_ij_6;
+    const jg_real t303 = cosine_0 * A_ij_3;
+    const jg_real t304 = sine_0 * A_ij_3;
+    const jg_real t305 = sine_0 * A_ij_6;
+    jac_phi_q_t_lambda_geometry[2] = lambda[5] * (C_j[4] * t302 - C_j[5] * t303) + lambda[3] * (C_j[8] * t304 -
+        C_j[7] * t305);
+    const jg_real t306 = cosine_0 * A_ij_0;
+    const jg_real t307 = sine_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[3] = lambda[5] * (C_j[5] * t306 - C_j[3] * t302) + lambda[3] * (C_j[6] * t305 -
+        C_j[8] * t307);
+    jac_phi_q_t_lambda_geometry[4] = lambda[5] * (C_j[3] * t303 - C_j[4] * t306) + lambda[3] * (C_j[7] * t307 -
+        C_j[6] * t304);
+    const jg_real t308 = -lambda[0];
+    jac_phi_q_t_lambda_geometry[5] = t308;
+    jac_phi_q_t_lambda_geometry[26] = t308;
+    const jg_real t309 = cosine_0 * A_ij_h_j_0 * lambda[3] + sine_0 * A_ij_g_j_0 * lambda[5];
+    jac_phi_q_t_lambda_geometry[36] = t309;
+    const jg_real t310 = -t309;
+    jac_phi_q_t_lambda_geometry[6] = t310;
+    jac_phi_q_t_lambda_geometry[29] = t310;
+    const jg_real t311 = cosine_0 * A_ij_g_j_0 * lambda[5] - sine_0 * A_ij_h_j_0 * lambda[3];
+    jac_phi_q_t_lambda_geometry[15] = t311;
+    jac_phi_q_t_lambda_geometry[27] = t311;
+    jac_phi_q_t_lambda_geometry[8] = -t311;
+    const jg_real t312 = A_ij_7 * cosine_0;
+    const jg_real t313 = A_ij_4 * cosine_0;
+    const jg_real t314 = A_ij_4 * sine_0;
+    const jg_real t315 = A_ij_7 * sine_0;
+    jac_phi_q_t_lambda_geometry[9] = lambda[5] * (C_j[4] * t312 - C_j[5] * t313) + lambda[3] * (C_j[8] * t314 -
+        C_j[7] * t315);
+    const jg_real t316 = A_ij_1 * cosine_0;
+    const jg_real t317 = A_ij_1 * sine_0;
+    jac_phi_q_t_lambda_geometry[10] = lambda[5] * (C_j[5] * t316 - C_j[3] * t312) + lambda[3] * (C_j[6] * t315 -
+        C_j[8] * t317);
+    jac_phi_q_t_lambda_geometry[11] = lambda[5] * (C_j[3] * t313 - C_j[4] * t316) + lambda[3] * (C_j[7] * t317 -
+        C_j[6] * t314);
+    const jg_real t318 = -lambda[1];
+    jac_phi_q_t_lambda_geometry[12] = t318;
+    jac_phi_q_t_lambda_geometry[33] = t318;
+    const jg_real t319 = A_ij_h_j_1 * cosine_0 * lambda[3] + sine_0 * A_ij_g_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[22] = t319;
+    const jg_real t320 = -t319;
+    jac_phi_q_t_lambda_geometry[13] = t320;
+    jac_phi_q_t_lambda_geometry[35] = t320;
+    const jg_real t321 = A_ij_8 * cosine_0;
+    const jg_real t322 = A_ij_5 * cosine_0;
+    const jg_real t323 = A_ij_5 * sine_0;
+    const jg_real t324 = A_ij_8 * sine_0;
+    jac_phi_q_t_lambda_geometry[16] = lambda[5] * (C_j[4] * t321 - C_j[5] * t322) + lambda[3] * (C_j[8] * t323 -
+        C_j[7] * t324);
+    const jg_real t325 = A_ij_2 * cosine_0;
+    const jg_real t326 = A_ij_2 * sine_0;
+    jac_phi_q_t_lambda_geometry[17] = lambda[5] * (C_j[5] * t325 - C_j[3] * t321) + lambda[3] * (C_j[6] * t324 -
+        C_j[8] * t326);
+    jac_phi_q_t_lambda_geometry[18] = lambda[5] * (C_j[3] * t322 - C_j[4] * t325) + lambda[3] * (C_j[7] * t326 -
+        C_j[6] * t323);
+    const jg_real t327 = -lambda[2];
+    jac_phi_q_t_lambda_geometry[19] = t327;
+    jac_phi_q_t_lambda_geometry[40] = t327;
+    const jg_real t328 = cosine_0 * A_ij_h_j_2 * lambda[3] + sine_0 * A_ij_g_j_2 * lambda[5];
+    jac_phi_q_t_lambda_geometry[28] = t328;
+    const jg_real t329 = -t328;
+    jac_phi_q_t_lambda_geometry[20] = t329;
+    jac_phi_q_t_lambda_geometry[21] = t329;
+    jac_phi_q_t_lambda_geometry[23] = lambda[5] * (C_j[4] * t305 - C_j[5] * t304) + lambda[3] * (C_j[7] * t302 -
+        C_j[8] * t303);
+    jac_phi_q_t_lambda_geometry[24] = lambda[5] * (C_j[5] * t307 - C_j[3] * t305) + lambda[3] * (C_j[8] * t306 -
+        C_j[6] * t302);
+    jac_phi_q_t_lambda_geometry[25] = lambda[5] * (C_j[3] * t304 - C_j[4] * t307) + lambda[3] * (C_j[6] * t303 -
+        C_j[7] * t306);
+    jac_phi_q_t_lambda_geometry[30] = lambda[5] * (C_j[4] * t315 - C_j[5] * t314) + lambda[3] * (C_j[7] * t312 -
+        C_j[8] * t313);
+    jac_phi_q_t_lambda_geometry[31] = lambda[5] * (C_j[5] * t317 - C_j[3] * t315) + lambda[3] * (C_j[8] * t316 -
+        C_j[6] * t312);
+    jac_phi_q_t_lambda_geometry[32] = lambda[5] * (C_j[3] * t314 - C_j[4] * t317) + lambda[3] * (C_j[6] * t313 -
+        C_j[7] * t316);
+    jac_phi_q_t_lambda_geometry[37] = lambda[5] * (C_j[4] * t324 - C_j[5] * t323) + lambda[3] * (C_j[7] * t321 -
+        C_j[8] * t322);
+    jac_phi_q_t_lambda_geometry[38] = lambda[5] * (C_j[5] * t326 - C_j[3] * t324) + lambda[3] * (C_j[8] * t325 -
+        C_j[6] * t321);
+    jac_phi_q_t_lambda_geometry[39] = lambda[5] * (C_j[3] * t323 - C_j[4] * t326) + lambda[3] * (C_j[6] * t322 -
+        C_j[7] * t325);
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t397 = A_ij_f_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[56] = t397;
-    jac_phi_q_t_lambda_geometry[51] = -t397;
+    const jg_real t331 = A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[47] = t331;
+    jac_phi_q_t_lambda_geometry[42] = -t331;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t399 = A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[52] = t399;
-    jac_phi_q_t_lambda_geometry[53] = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
-    jac_phi_q_t_lambda_geometry[54] = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
-    jac_phi_q_t_lambda_geometry[55] = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0);
+    const jg_real t333 = A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[43] = t333;
+    jac_phi_q_t_lambda_geometry[44] = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
+    jac_phi_q_t_lambda_geometry[45] = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
+    jac_phi_q_t_lambda_geometry[46] = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0);
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t401 = lambda[4] * A_ij_f_j_0;
-    jac_phi_q_t_lambda_geometry[62] = t401;
-    jac_phi_q_t_lambda_geometry[57] = -t401;
-    jac_phi_q_t_lambda_geometry[58] = lambda[4] * (A_ij_7 * C_j[1] - A_ij_4 * C_j[2]);
-    jac_phi_q_t_lambda_geometry[59] = lambda[4] * (A_ij_1 * C_j[2] - A_ij_7 * C_j[0]);
-    jac_phi_q_t_lambda_geometry[60] = lambda[4] * (A_ij_4 * C_j[0] - A_ij_1 * C_j[1]);
-    jac_phi_q_t_lambda_geometry[61] = -t399;
-    jac_phi_q_t_lambda_geometry[63] = lambda[4] * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
-    jac_phi_q_t_lambda_geometry[64] = lambda[4] * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
-    jac_phi_q_t_lambda_geometry[65] = lambda[4] * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
-    jac_phi_q_t_lambda_geometry[66] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[67] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[68] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t402 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[74] = t402;
-    jac_phi_q_t_lambda_geometry[69] = -t402;
-    const jg_real t403 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[70] = t403;
-    jac_phi_q_t_lambda_geometry[71] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[72] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[73] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t404 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[80] = t404;
-    jac_phi_q_t_lambda_geometry[75] = -t404;
-    jac_phi_q_t_lambda_geometry[76] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[77] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[78] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[79] = -t403;
-    jac_phi_q_t_lambda_geometry[81] = -((A_ij_1 * C_i[8] - A_ij_2 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[82] = -(lambda[4] * (A_ij_2 * C_i[6] - C_i[8] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[83] = -(lambda[4] * (C_i[7] * A_ij_0 - A_ij_1 * C_i[6]));
+    const jg_real t335 = lambda[4] * A_ij_f_j_0;
+    jac_phi_q_t_lambda_geometry[53] = t335;
+    jac_phi_q_t_lambda_geometry[48] = -t335;
+    jac_phi_q_t_lambda_geometry[49] = lambda[4] * (A_ij_7 * C_j[1] - A_ij_4 * C_j[2]);
+    jac_phi_q_t_lambda_geometry[50] = lambda[4] * (A_ij_1 * C_j[2] - A_ij_7 * C_j[0]);
+    jac_phi_q_t_lambda_geometry[51] = lambda[4] * (A_ij_4 * C_j[0] - A_ij_1 * C_j[1]);
+    jac_phi_q_t_lambda_geometry[52] = -t333;
+    jac_phi_q_t_lambda_geometry[54] = lambda[4] * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
+    jac_phi_q_t_lambda_geometry[55] = lambda[4] * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
+    jac_phi_q_t_lambda_geometry[56] = lambda[4] * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
+    jac_phi_q_t_lambda_geometry[57] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[58] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[59] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t336 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[65] = t336;
+    jac_phi_q_t_lambda_geometry[60] = -t336;
+    const jg_real t337 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[61] = t337;
+    jac_phi_q_t_lambda_geometry[62] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[63] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[64] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real t338 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[71] = t338;
+    jac_phi_q_t_lambda_geometry[66] = -t338;
+    jac_phi_q_t_lambda_geometry[67] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[68] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[69] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[70] = -t337;
+    jac_phi_q_t_lambda_geometry[72] = -((A_ij_1 * C_i[8] - A_ij_2 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[73] = -(lambda[4] * (A_ij_2 * C_i[6] - C_i[8] * A_ij_0));
+    jac_phi_q_t_lambda_geometry[74] = -(lambda[4] * (C_i[7] * A_ij_0 - A_ij_1 * C_i[6]));
     /* A_ijt_h_star = A_ij^T h_star */
     const jg_real A_ijt_h_star_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t406 = lambda[4] * A_ijt_h_star_2;
-    jac_phi_q_t_lambda_geometry[89] = t406;
-    jac_phi_q_t_lambda_geometry[84] = -t406;
+    const jg_real t340 = lambda[4] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[80] = t340;
+    jac_phi_q_t_lambda_geometry[75] = -t340;
     const jg_real A_ijt_h_star_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real t408 = lambda[4] * A_ijt_h_star_1;
-    jac_phi_q_t_lambda_geometry[85] = t408;
-    jac_phi_q_t_lambda_geometry[86] = -((A_ij_4 * C_i[8] - A_ij_5 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[87] = -(lambda[4] * (A_ij_5 * C_i[6] - C_i[8] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[88] = -(lambda[4] * (C_i[7] * A_ij_3 - A_ij_4 * C_i[6]));
+    const jg_real t342 = lambda[4] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[76] = t342;
+    jac_phi_q_t_lambda_geometry[77] = -((A_ij_4 * C_i[8] - A_ij_5 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[78] = -(lambda[4] * (A_ij_5 * C_i[6] - C_i[8] * A_ij_3));
+    jac_phi_q_t_lambda_geometry[79] = -(lambda[4] * (C_i[7] * A_ij_3 - A_ij_4 * C_i[6]));
     const jg_real A_ijt_h_star_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real t410 = lambda[4] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_geometry[95] = t410;
-    jac_phi_q_t_lambda_geometry[90] = -t410;
-    jac_phi_q_t_lambda_geometry[91] = -((A_ij_7 * C_i[8] - A_ij_8 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[92] = -(lambda[4] * (A_ij_8 * C_i[6] - C_i[8] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[93] = -(lambda[4] * (C_i[7] * A_ij_6 - A_ij_7 * C_i[6]));
-    jac_phi_q_t_lambda_geometry[94] = -t408;
-    jac_phi_q_t_lambda_geometry[96] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[97] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[98] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
-    const jg_real t411 = lambda[5] * A_ijt_f_star_2;
-    jac_phi_q_t_lambda_geometry[105] = t411;
-    jac_phi_q_t_lambda_geometry[99] = -t411;
-    const jg_real t412 = lambda[5] * A_ijt_f_star_1;
-    jac_phi_q_t_lambda_geometry[100] = t412;
-    jac_phi_q_t_lambda_geometry[101] = lambda[5] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_geometry[102] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[103] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[104] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
-    const jg_real t413 = lambda[5] * A_ijt_f_star_0;
-    jac_phi_q_t_lambda_geometry[112] = t413;
-    jac_phi_q_t_lambda_geometry[106] = -t413;
-    jac_phi_q_t_lambda_geometry[107] = lambda[5] * A_ijt_g_star_1;
-    jac_phi_q_t_lambda_geometry[108] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[109] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[110] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
-    jac_phi_q_t_lambda_geometry[111] = -t412;
-    jac_phi_q_t_lambda_geometry[113] = lambda[5] * A_ijt_g_star_2;
-    jac_phi_q_t_lambda_geometry[114] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[115] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[116] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
-    const jg_real t414 = lambda[3] * A_ijt_g_star_2;
-    jac_phi_q_t_lambda_geometry[123] = t414;
-    jac_phi_q_t_lambda_geometry[117] = -t414;
-    const jg_real t415 = lambda[3] * A_ijt_g_star_1;
-    jac_phi_q_t_lambda_geometry[118] = t415;
-    jac_phi_q_t_lambda_geometry[119] = -(lambda[3] * A_ijt_f_star_0);
-    jac_phi_q_t_lambda_geometry[120] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[121] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[122] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
-    const jg_real t416 = lambda[3] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_geometry[130] = t416;
-    jac_phi_q_t_lambda_geometry[124] = -t416;
-    jac_phi_q_t_lambda_geometry[125] = -(lambda[3] * A_ijt_f_star_1);
-    jac_phi_q_t_lambda_geometry[126] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[127] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
-    jac_phi_q_t_lambda_geometry[129] = -t415;
-    jac_phi_q_t_lambda_geometry[131] = -(lambda[3] * A_ijt_f_star_2);
+    const jg_real t344 = lambda[4] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[86] = t344;
+    jac_phi_q_t_lambda_geometry[81] = -t344;
+    jac_phi_q_t_lambda_geometry[82] = -((A_ij_7 * C_i[8] - A_ij_8 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[83] = -(lambda[4] * (A_ij_8 * C_i[6] - C_i[8] * A_ij_6));
+    jac_phi_q_t_lambda_geometry[84] = -(lambda[4] * (C_i[7] * A_ij_6 - A_ij_7 * C_i[6]));
+    jac_phi_q_t_lambda_geometry[85] = -t342;
+    jac_phi_q_t_lambda_geometry[87] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[88] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[89] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
+    const jg_real t345 = lambda[5] * A_ijt_f_star_2;
+    jac_phi_q_t_lambda_geometry[96] = t345;
+    jac_phi_q_t_lambda_geometry[90] = -t345;
+    const jg_real t346 = lambda[5] * A_ijt_f_star_1;
+    jac_phi_q_t_lambda_geometry[91] = t346;
+    jac_phi_q_t_lambda_geometry[92] = lambda[5] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_geometry[93] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[94] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[95] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
+    const jg_real t347 = lambda[5] * A_ijt_f_star_0;
+    jac_phi_q_t_lambda_geometry[103] = t347;
+    jac_phi_q_t_lambda_geometry[97] = -t347;
+    jac_phi_q_t_lambda_geometry[98] = lambda[5] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_geometry[99] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[100] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[101] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
+    jac_phi_q_t_lambda_geometry[102] = -t346;
+    jac_phi_q_t_lambda_geometry[104] = lambda[5] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_geometry[105] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[106] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[107] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
+    const jg_real t348 = lambda[3] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_geometry[114] = t348;
+    jac_phi_q_t_lambda_geometry[108] = -t348;
+    const jg_real t349 = lambda[3] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_geometry[109] = t349;
+    jac_phi_q_t_lambda_geometry[110] = -(lambda[3] * A_ijt_f_star_0);
+    jac_phi_q_t_lambda_geometry[111] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[112] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[113] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
+    const jg_real t350 = lambda[3] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_geometry[121] = t350;
+    jac_phi_q_t_lambda_geometry[115] = -t350;
+    jac_phi_q_t_lambda_geometry[116] = -(lambda[3] * A_ijt_f_star_1);
+    jac_phi_q_t_lambda_geometry[117] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[118] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[119] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
+    jac_phi_q_t_lambda_geometry[120] = -t349;
+    jac_phi_q_t_lambda_geometry[122] = -(lambda[3] * A_ijt_f_star_2);
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t418 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[12] = t418;
-    jac_phi_q_t_lambda_lambda[1] = -t418;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t420 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t420;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    jac_phi_q_t_lambda_lambda[12] = ep_ij_2;
+    jac_phi_q_t_lambda_lambda[1] = -ep_ij_2;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    jac_phi_q_t_lambda_lambda[2] = ep_ij_1;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_t_lambda_lambda[9] = -C_i[0];
     jac_phi_q_t_lambda_lambda[10] = -C_i[3];
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t422 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[24] = t422;
-    jac_phi_q_t_lambda_lambda[13] = -t422;
+    const jg_real ep_ij_0 = e_ij_0 * A_i[0] + e_ij_1 * A_i[1] + e_ij_2 * A_i[2];
+    jac_phi_q_t_lambda_lambda[24] = ep_ij_0;
+    jac_phi_q_t_lambda_lambda[13] = -ep_ij_0;
     jac_phi_q_t_lambda_lambda[17] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[18] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[19] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_t_lambda_lambda[20] = -C_i[1];
     jac_phi_q_t_lambda_lambda[21] = -C_i[4];
-    jac_phi_q_t_lambda_lambda[23] = -t420;
+    jac_phi_q_t_lambda_lambda[23] = -ep_ij_1;
     jac_phi_q_t_lambda_lambda[28] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[29] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[30] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
@@ -2211,7 +2086,7 @@ int jac_jg_planar_parametric_phi_q_v_external(const double **arg, double **res, 
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[2];
-    double unwanted_5[48];
+    double unwanted_5[39];
     double unwanted_6[53];
     (void)iw;
     (void)w;
@@ -2315,9 +2190,8 @@ const casadi_int *jac_jg_planar_parametric_phi_q_v_external_sparsity_out(casadi_
         6, 3, 0, 0, 0, 2, 3, 5
     };
     static const casadi_int pattern_5[] = {
-        6, 24, 0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 28, 29, 30, 33, 36, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 0, 3, 5, 1, 3, 5, 2, 3, 5, 0, 3, 5, 1, 3, 5, 2, 3, 5, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1,
-        2, 4, 4, 4, 5, 5, 5, 3, 3, 3
+        6, 24, 0, 0, 0, 0, 3, 6, 9, 12, 15, 18, 19, 20, 21, 24, 27, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 0, 3, 5,
+        1, 3, 5, 2, 3, 5, 0, 3, 5, 1, 3, 5, 2, 3, 5, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_6[] = {
         6, 15, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 48, 51, 53, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0,
@@ -2443,11 +2317,11 @@ int jac_jg_planar_parametric_phi_q_t_lambda_external(const double **arg, double 
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[90];
+    double unwanted_1[81];
     double unwanted_2[9];
     double unwanted_3[63];
     double unwanted_4[7];
-    double unwanted_5[132];
+    double unwanted_5[123];
     double unwanted_6[53];
     (void)iw;
     (void)w;
@@ -2537,10 +2411,9 @@ const casadi_int *jac_jg_planar_parametric_phi_q_t_lambda_external_sparsity_out(
         15, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        15, 9, 0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11,
-        14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4,
-        5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 3, 4, 5, 6, 7,
-        8, 9, 10, 11, 14
+        15, 9, 0, 9, 18, 27, 36, 45, 54, 63, 72, 81, 4, 5, 6, 7, 8, 9, 10, 11, 14, 4, 5, 6, 7, 8, 9, 10, 11, 14, 4,
+        5, 6, 7, 8, 9, 10, 11, 14, 3, 5, 6, 7, 8, 9, 10, 11, 14, 3, 5, 6, 7, 8, 9, 10, 11, 14, 3, 5, 6, 7, 8, 9, 10,
+        11, 14, 3, 4, 6, 7, 8, 9, 10, 11, 14, 3, 4, 6, 7, 8, 9, 10, 11, 14, 3, 4, 6, 7, 8, 9, 10, 11, 14
     };
     static const casadi_int pattern_2[] = {
         15, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -2554,12 +2427,11 @@ const casadi_int *jac_jg_planar_parametric_phi_q_t_lambda_external_sparsity_out(
         15, 3, 0, 0, 0, 7, 3, 4, 5, 9, 10, 11, 14
     };
     static const casadi_int pattern_5[] = {
-        15, 24, 0, 3, 6, 9, 16, 23, 30, 37, 44, 51, 56, 61, 66, 71, 76, 81, 86, 91, 96, 102, 108, 114, 120, 126,
-        132, 3, 4, 5, 3, 4, 5, 3, 4, 5, 4, 5, 9, 10, 11, 12, 14, 3, 5, 9, 10, 11, 12, 14, 3, 4, 9, 10, 11, 12, 14,
-        4, 5, 9, 10, 11, 13, 14, 3, 5, 9, 10, 11, 13, 14, 3, 4, 9, 10, 11, 13, 14, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11,
-        3, 4, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5,
-        9, 10, 3, 4, 5, 10, 11, 14, 3, 4, 5, 9, 11, 14, 3, 4, 5, 9, 10, 14, 3, 4, 5, 10, 11, 14, 3, 4, 5, 9, 11, 14,
-        3, 4, 5, 9, 10, 14
+        15, 24, 0, 0, 0, 0, 7, 14, 21, 28, 35, 42, 47, 52, 57, 62, 67, 72, 77, 82, 87, 93, 99, 105, 111, 117, 123,
+        4, 5, 9, 10, 11, 12, 14, 3, 5, 9, 10, 11, 12, 14, 3, 4, 9, 10, 11, 12, 14, 4, 5, 9, 10, 11, 13, 14, 3, 5, 9,
+        10, 11, 13, 14, 3, 4, 9, 10, 11, 13, 14, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 3, 4, 5, 10, 11,
+        3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 14, 3, 4,
+        5, 9, 11, 14, 3, 4, 5, 9, 10, 14, 3, 4, 5, 10, 11, 14, 3, 4, 5, 9, 11, 14, 3, 4, 5, 9, 10, 14
     };
     static const casadi_int pattern_6[] = {
         15, 6, 0, 11, 22, 33, 40, 46, 53, 0, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 1, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13,

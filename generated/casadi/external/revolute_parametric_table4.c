@@ -51,178 +51,182 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_r_i[8] = -A_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t1 = A_i[0] * s_i[0];
-    const jg_real t2 = A_i[3] * s_i[1];
-    const jg_real t3 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t2 = A_i[0] * s_i[0];
+    const jg_real t3 = A_i[3] * s_i[1];
+    const jg_real t4 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t1 + t2 + t3;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    jac_phi_A_i[0] = d_ij_0 - t1;
+    const jg_real A_i_s_i_0 = t2 + t3 + t4;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    jac_phi_A_i[0] = d_ij_0 - t2;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[3] = t6 * C_i[0];
-    jac_phi_A_i[4] = t6 * C_i[3];
-    const jg_real t7 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[5] = C_i[0] * t7;
+    const jg_real t7 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[3] = t7 * C_i[0];
+    jac_phi_A_i[4] = t7 * C_i[3];
+    const jg_real t8 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[5] = C_i[0] * t8;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t9 = s_i[0] * A_i[1];
-    const jg_real t10 = s_i[1] * A_i[4];
-    const jg_real t11 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t9 + t10 + t11;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    jac_phi_A_i[6] = d_ij_1 - t9;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t11 = s_i[0] * A_i[1];
+    const jg_real t12 = s_i[1] * A_i[4];
+    const jg_real t13 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t11 + t12 + t13;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t11;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t14 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t14 * C_i[0];
-    jac_phi_A_i[10] = t14 * C_i[3];
-    const jg_real t15 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[11] = C_i[0] * t15;
+    const jg_real t16 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t16 * C_i[0];
+    jac_phi_A_i[10] = t16 * C_i[3];
+    const jg_real t17 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[11] = C_i[0] * t17;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t17 = s_i[0] * A_i[2];
-    const jg_real t18 = s_i[1] * A_i[5];
-    const jg_real t19 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t17 + t18 + t19;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    jac_phi_A_i[12] = d_ij_2 - t17;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t20 = s_i[0] * A_i[2];
+    const jg_real t21 = s_i[1] * A_i[5];
+    const jg_real t22 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t20 + t21 + t22;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t20;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t22 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t22 * C_i[0];
-    jac_phi_A_i[16] = t22 * C_i[3];
-    const jg_real t23 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[17] = C_i[0] * t23;
+    const jg_real t25 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t25 * C_i[0];
+    jac_phi_A_i[16] = t25 * C_i[3];
+    const jg_real t26 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[17] = C_i[0] * t26;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
-    jac_phi_A_i[19] = d_ij_0 - t2;
+    jac_phi_A_i[19] = d_ij_0 - t3;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    jac_phi_A_i[21] = t6 * C_i[1];
-    jac_phi_A_i[22] = t6 * C_i[4];
-    jac_phi_A_i[23] = C_i[1] * t7;
+    jac_phi_A_i[21] = t7 * C_i[1];
+    jac_phi_A_i[22] = t7 * C_i[4];
+    jac_phi_A_i[23] = C_i[1] * t8;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t10;
+    jac_phi_A_i[25] = d_ij_1 - t12;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t14 * C_i[1];
-    jac_phi_A_i[28] = t14 * C_i[4];
-    jac_phi_A_i[29] = C_i[1] * t15;
+    jac_phi_A_i[27] = t16 * C_i[1];
+    jac_phi_A_i[28] = t16 * C_i[4];
+    jac_phi_A_i[29] = C_i[1] * t17;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t18;
+    jac_phi_A_i[31] = d_ij_2 - t21;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t22 * C_i[1];
-    jac_phi_A_i[34] = t22 * C_i[4];
-    jac_phi_A_i[35] = C_i[1] * t23;
+    jac_phi_A_i[33] = t25 * C_i[1];
+    jac_phi_A_i[34] = t25 * C_i[4];
+    jac_phi_A_i[35] = C_i[1] * t26;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
-    jac_phi_A_i[38] = d_ij_0 - t3;
-    jac_phi_A_i[39] = t6 * C_i[2];
-    jac_phi_A_i[40] = t6 * C_i[5];
-    jac_phi_A_i[41] = C_i[2] * t7;
+    jac_phi_A_i[38] = d_ij_0 - t4;
+    jac_phi_A_i[39] = t7 * C_i[2];
+    jac_phi_A_i[40] = t7 * C_i[5];
+    jac_phi_A_i[41] = C_i[2] * t8;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t11;
-    jac_phi_A_i[45] = t14 * C_i[2];
-    jac_phi_A_i[46] = t14 * C_i[5];
-    jac_phi_A_i[47] = C_i[2] * t15;
+    jac_phi_A_i[44] = d_ij_1 - t13;
+    jac_phi_A_i[45] = t16 * C_i[2];
+    jac_phi_A_i[46] = t16 * C_i[5];
+    jac_phi_A_i[47] = C_i[2] * t17;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t19;
-    jac_phi_A_i[51] = t22 * C_i[2];
-    jac_phi_A_i[52] = t22 * C_i[5];
-    jac_phi_A_i[53] = C_i[2] * t23;
+    jac_phi_A_i[50] = d_ij_2 - t22;
+    jac_phi_A_i[51] = t25 * C_i[2];
+    jac_phi_A_i[52] = t25 * C_i[5];
+    jac_phi_A_i[53] = C_i[2] * t26;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
-    const jg_real t24 = A_i[0] * C_j[6];
-    const jg_real t25 = A_i[3] * C_j[6];
-    const jg_real t26 = A_i[6] * C_j[6];
-    jac_phi_A_j[3] = t24 * C_i[0] + t25 * C_i[1] + t26 * C_i[2];
-    jac_phi_A_j[4] = t24 * C_i[3] + t25 * C_i[4] + t26 * C_i[5];
+    const jg_real t27 = A_i[0] * C_j[6];
+    const jg_real t28 = A_i[3] * C_j[6];
+    const jg_real t29 = A_i[6] * C_j[6];
+    jac_phi_A_j[3] = t27 * C_i[0] + t28 * C_i[1] + t29 * C_i[2];
+    jac_phi_A_j[4] = t27 * C_i[3] + t28 * C_i[4] + t29 * C_i[5];
     jac_phi_A_j[5] = A_i[0] * C_j[0] * C_i[0] + A_i[3] * C_j[0] * C_i[1] + A_i[6] * C_j[0] * C_i[2];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    const jg_real t27 = A_i[1] * C_j[6];
-    const jg_real t28 = A_i[4] * C_j[6];
-    const jg_real t29 = A_i[7] * C_j[6];
-    jac_phi_A_j[9] = t27 * C_i[0] + t28 * C_i[1] + t29 * C_i[2];
-    jac_phi_A_j[10] = t27 * C_i[3] + t28 * C_i[4] + t29 * C_i[5];
+    const jg_real t30 = A_i[1] * C_j[6];
+    const jg_real t31 = A_i[4] * C_j[6];
+    const jg_real t32 = A_i[7] * C_j[6];
+    jac_phi_A_j[9] = t30 * C_i[0] + t31 * C_i[1] + t32 * C_i[2];
+    jac_phi_A_j[10] = t30 * C_i[3] + t31 * C_i[4] + t32 * C_i[5];
     jac_phi_A_j[11] = A_i[1] * C_j[0] * C_i[0] + A_i[4] * C_j[0] * C_i[1] + A_i[7] * C_j[0] * C_i[2];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    const jg_real t30 = A_i[2] * C_j[6];
-    const jg_real t31 = A_i[5] * C_j[6];
-    const jg_real t32 = A_i[8] * C_j[6];
-    jac_phi_A_j[15] = t30 * C_i[0] + t31 * C_i[1] + t32 * C_i[2];
-    jac_phi_A_j[16] = t30 * C_i[3] + t31 * C_i[4] + t32 * C_i[5];
+    const jg_real t33 = A_i[2] * C_j[6];
+    const jg_real t34 = A_i[5] * C_j[6];
+    const jg_real t35 = A_i[8] * C_j[6];
+    jac_phi_A_j[15] = t33 * C_i[0] + t34 * C_i[1] + t35 * C_i[2];
+    jac_phi_A_j[16] = t33 * C_i[3] + t34 * C_i[4] + t35 * C_i[5];
     jac_phi_A_j[17] = A_i[2] * C_j[0] * C_i[0] + A_i[5] * C_j[0] * C_i[1] + A_i[8] * C_j[0] * C_i[2];
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    const jg_real t33 = A_i[0] * C_j[7];
-    const jg_real t34 = A_i[3] * C_j[7];
-    const jg_real t35 = A_i[6] * C_j[7];
-    jac_phi_A_j[21] = t33 * C_i[0] + t34 * C_i[1] + t35 * C_i[2];
-    jac_phi_A_j[22] = t33 * C_i[3] + t34 * C_i[4] + t35 * C_i[5];
+    const jg_real t36 = A_i[0] * C_j[7];
+    const jg_real t37 = A_i[3] * C_j[7];
+    const jg_real t38 = A_i[6] * C_j[7];
+    jac_phi_A_j[21] = t36 * C_i[0] + t37 * C_i[1] + t38 * C_i[2];
+    jac_phi_A_j[22] = t36 * C_i[3] + t37 * C_i[4] + t38 * C_i[5];
     jac_phi_A_j[23] = A_i[0] * C_j[1] * C_i[0] + A_i[3] * C_j[1] * C_i[1] + A_i[6] * C_j[1] * C_i[2];
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
-    const jg_real t36 = A_i[1] * C_j[7];
-    const jg_real t37 = A_i[4] * C_j[7];
-    const jg_real t38 = A_i[7] * C_j[7];
-    jac_phi_A_j[27] = t36 * C_i[0] + t37 * C_i[1] + t38 * C_i[2];
-    jac_phi_A_j[28] = t36 * C_i[3] + t37 * C_i[4] + t38 * C_i[5];
+    const jg_real t39 = A_i[1] * C_j[7];
+    const jg_real t40 = A_i[4] * C_j[7];
+    const jg_real t41 = A_i[7] * C_j[7];
+    jac_phi_A_j[27] = t39 * C_i[0] + t40 * C_i[1] + t41 * C_i[2];
+    jac_phi_A_j[28] = t39 * C_i[3] + t40 * C_i[4] + t41 * C_i[5];
     jac_phi_A_j[29] = A_i[1] * C_j[1] * C_i[0] + A_i[4] * C_j[1] * C_i[1] + A_i[7] * C_j[1] * C_i[2];
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
-    const jg_real t39 = A_i[2] * C_j[7];
-    const jg_real t40 = A_i[5] * C_j[7];
-    const jg_real t41 = A_i[8] * C_j[7];
-    jac_phi_A_j[33] = t39 * C_i[0] + t40 * C_i[1] + t41 * C_i[2];
-    jac_phi_A_j[34] = t39 * C_i[3] + t40 * C_i[4] + t41 * C_i[5];
+    const jg_real t42 = A_i[2] * C_j[7];
+    const jg_real t43 = A_i[5] * C_j[7];
+    const jg_real t44 = A_i[8] * C_j[7];
+    jac_phi_A_j[33] = t42 * C_i[0] + t43 * C_i[1] + t44 * C_i[2];
+    jac_phi_A_j[34] = t42 * C_i[3] + t43 * C_i[4] + t44 * C_i[5];
     jac_phi_A_j[35] = A_i[2] * C_j[1] * C_i[0] + A_i[5] * C_j[1] * C_i[1] + A_i[8] * C_j[1] * C_i[2];
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
-    const jg_real t42 = A_i[0] * C_j[8];
-    const jg_real t43 = A_i[3] * C_j[8];
-    const jg_real t44 = A_i[6] * C_j[8];
-    jac_phi_A_j[39] = t42 * C_i[0] + t43 * C_i[1] + t44 * C_i[2];
-    jac_phi_A_j[40] = t42 * C_i[3] + t43 * C_i[4] + t44 * C_i[5];
+    const jg_real t45 = A_i[0] * C_j[8];
+    const jg_real t46 = A_i[3] * C_j[8];
+    const jg_real t47 = A_i[6] * C_j[8];
+    jac_phi_A_j[39] = t45 * C_i[0] + t46 * C_i[1] + t47 * C_i[2];
+    jac_phi_A_j[40] = t45 * C_i[3] + t46 * C_i[4] + t47 * C_i[5];
     jac_phi_A_j[41] = A_i[0] * C_j[2] * C_i[0] + A_i[3] * C_j[2] * C_i[1] + A_i[6] * C_j[2] * C_i[2];
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
-    const jg_real t45 = A_i[1] * C_j[8];
-    const jg_real t46 = A_i[4] * C_j[8];
-    const jg_real t47 = A_i[7] * C_j[8];
-    jac_phi_A_j[45] = t45 * C_i[0] + t46 * C_i[1] + t47 * C_i[2];
-    jac_phi_A_j[46] = t45 * C_i[3] + t46 * C_i[4] + t47 * C_i[5];
+    const jg_real t48 = A_i[1] * C_j[8];
+    const jg_real t49 = A_i[4] * C_j[8];
+    const jg_real t50 = A_i[7] * C_j[8];
+    jac_phi_A_j[45] = t48 * C_i[0] + t49 * C_i[1] + t50 * C_i[2];
+    jac_phi_A_j[46] = t48 * C_i[3] + t49 * C_i[4] + t50 * C_i[5];
     jac_phi_A_j[47] = A_i[1] * C_j[2] * C_i[0] + A_i[4] * C_j[2] * C_i[1] + A_i[7] * C_j[2] * C_i[2];
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
-    const jg_real t48 = A_i[2] * C_j[8];
-    const jg_real t49 = A_i[5] * C_j[8];
-    const jg_real t50 = A_i[8] * C_j[8];
-    jac_phi_A_j[51] = t48 * C_i[0] + t49 * C_i[1] + t50 * C_i[2];
-    jac_phi_A_j[52] = t48 * C_i[3] + t49 * C_i[4] + t50 * C_i[5];
+    const jg_real t51 = A_i[2] * C_j[8];
+    const jg_real t52 = A_i[5] * C_j[8];
+    const jg_real t53 = A_i[8] * C_j[8];
+    jac_phi_A_j[51] = t51 * C_i[0] + t52 * C_i[1] + t53 * C_i[2];
+    jac_phi_A_j[52] = t51 * C_i[3] + t52 * C_i[4] + t53 * C_i[5];
     jac_phi_A_j[53] = A_i[2] * C_j[2] * C_i[0] + A_i[5] * C_j[2] * C_i[1] + A_i[8] * C_j[2] * C_i[2];
     jac_phi_alpha[0] = jg_sin(alpha[0]);
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t51 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t51;
-    jac_phi_geometry[3] = t51;
-    const jg_real t52 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t52;
-    jac_phi_geometry[6] = t52;
+    const jg_real t54 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t54;
+    jac_phi_geometry[3] = t54;
+    const jg_real t55 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t55;
+    jac_phi_geometry[6] = t55;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t53 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t53;
-    jac_phi_geometry[7] = t53;
+    const jg_real t56 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t56;
+    jac_phi_geometry[7] = t56;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -260,15 +264,15 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_geometry[17] = A_ij_h_j_2;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     jac_phi_geometry[14] = A_ij_f_j_2;
-    const jg_real t69 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    jac_phi_geometry[27] = t69;
-    jac_phi_geometry[30] = t69;
-    const jg_real t70 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    jac_phi_geometry[28] = t70;
-    jac_phi_geometry[32] = t70;
-    const jg_real t71 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    jac_phi_geometry[29] = t71;
-    jac_phi_geometry[34] = t71;
+    const jg_real t72 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    jac_phi_geometry[27] = t72;
+    jac_phi_geometry[30] = t72;
+    const jg_real t73 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    jac_phi_geometry[28] = t73;
+    jac_phi_geometry[32] = t73;
+    const jg_real t74 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
+    jac_phi_geometry[29] = t74;
+    jac_phi_geometry[34] = t74;
     jac_phi_geometry[31] = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     jac_phi_geometry[33] = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
     jac_phi_geometry[35] = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
@@ -307,156 +311,125 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_r_i[7] = t7;
     const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
     jac_phi_q_v_r_i[8] = t8;
-    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
-    const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t12 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2 +
+        (A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2]);
+    jac_phi_q_v_A_i[0] = t12;
+    jac_phi_q_v_A_i[19] = t12;
+    jac_phi_q_v_A_i[38] = t12;
     /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
-    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = e_ij_0 * omega_i[2];
+    jac_phi_q_v_A_i[18] = t15;
+    jac_phi_q_v_A_i[1] = -t15;
+    const jg_real t16 = e_ij_0 * omega_i[1];
+    jac_phi_q_v_A_i[2] = t16;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t26 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    const jg_real t27 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t28 = omega_i[2] * t27;
-    const jg_real t29 = omega_i[1] * t27;
-    jac_phi_q_v_A_i[3] = t26 * C_i[0] - (C_i[1] * t28 - C_i[2] * t29);
-    jac_phi_q_v_A_i[4] = t26 * C_i[3] - (t28 * C_i[4] - t29 * C_i[5]);
+    const jg_real t20 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    const jg_real t21 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t22 = omega_i[2] * t21;
+    const jg_real t23 = omega_i[1] * t21;
+    jac_phi_q_v_A_i[3] = t20 * C_i[0] - (C_i[1] * t22 - C_i[2] * t23);
+    jac_phi_q_v_A_i[4] = t20 * C_i[3] - (t22 * C_i[4] - t23 * C_i[5]);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t33 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    const jg_real t34 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t35 = omega_i[2] * t34;
-    const jg_real t36 = omega_i[1] * t34;
-    jac_phi_q_v_A_i[5] = C_i[0] * t33 - (C_i[1] * t35 - C_i[2] * t36);
-    const jg_real t37 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t38 = s_i[0] * A_i[4];
-    const jg_real t39 = s_i[0] * A_i[7];
-    const jg_real t40 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t37 - (t38 * omega_i[2] - t39 * omega_i[1]) + t40;
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t42 = s_i[0] * A_i[1];
-    const jg_real t43 = s_i[1] * A_i[4];
-    const jg_real t44 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t42 + t43 + t44;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t47 = d_ij_1 - t42;
-    jac_phi_q_v_A_i[7] = -(omega_i[2] * t47 + t39 * omega_i[0]);
-    jac_phi_q_v_A_i[8] = t38 * omega_i[0] + omega_i[1] * t47;
-    const jg_real t48 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    const jg_real t49 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t50 = omega_i[2] * t49;
-    const jg_real t51 = omega_i[1] * t49;
-    jac_phi_q_v_A_i[9] = t48 * C_i[0] - (C_i[1] * t50 - C_i[2] * t51);
-    jac_phi_q_v_A_i[10] = t48 * C_i[3] - (t50 * C_i[4] - t51 * C_i[5]);
-    const jg_real t52 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    const jg_real t53 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t54 = omega_i[2] * t53;
-    const jg_real t55 = omega_i[1] * t53;
-    jac_phi_q_v_A_i[11] = C_i[0] * t52 - (C_i[1] * t54 - C_i[2] * t55);
-    const jg_real t56 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t57 = s_i[0] * A_i[5];
-    const jg_real t58 = s_i[0] * A_i[8];
-    const jg_real t59 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t56 - (t57 * omega_i[2] - t58 * omega_i[1]) + t59;
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t61 = s_i[0] * A_i[2];
-    const jg_real t62 = s_i[1] * A_i[5];
-    const jg_real t63 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t61 + t62 + t63;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t66 = d_ij_2 - t61;
-    jac_phi_q_v_A_i[13] = -(omega_i[2] * t66 + t58 * omega_i[0]);
-    jac_phi_q_v_A_i[14] = t57 * omega_i[0] + omega_i[1] * t66;
-    const jg_real t67 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    const jg_real t68 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t69 = omega_i[2] * t68;
-    const jg_real t70 = omega_i[1] * t68;
-    jac_phi_q_v_A_i[15] = t67 * C_i[0] - (C_i[1] * t69 - C_i[2] * t70);
-    jac_phi_q_v_A_i[16] = t67 * C_i[3] - (t69 * C_i[4] - t70 * C_i[5]);
-    const jg_real t71 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    const jg_real t72 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t73 = omega_i[2] * t72;
-    const jg_real t74 = omega_i[1] * t72;
-    jac_phi_q_v_A_i[17] = C_i[0] * t71 - (C_i[1] * t73 - C_i[2] * t74);
-    const jg_real t75 = d_ij_0 - t18;
-    const jg_real t76 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t76 * omega_i[1] + t75 * omega_i[2];
-    const jg_real t77 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = t9 - (t76 * omega_i[0] - omega_i[2] * t77) + t15;
-    jac_phi_q_v_A_i[20] = -(t75 * omega_i[0] + omega_i[1] * t77);
-    const jg_real t78 = omega_i[0] * t27;
-    jac_phi_q_v_A_i[21] = t26 * C_i[1] - (C_i[2] * t78 - C_i[0] * t28);
-    jac_phi_q_v_A_i[22] = t26 * C_i[4] - (t78 * C_i[5] - t28 * C_i[3]);
-    const jg_real t79 = omega_i[0] * t34;
-    jac_phi_q_v_A_i[23] = C_i[1] * t33 - (C_i[2] * t79 - C_i[0] * t35);
-    const jg_real t80 = d_ij_1 - t43;
-    const jg_real t81 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t81 * omega_i[1] + t80 * omega_i[2];
-    const jg_real t82 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = t37 - (t81 * omega_i[0] - omega_i[2] * t82) + t40;
-    jac_phi_q_v_A_i[26] = -(t80 * omega_i[0] + omega_i[1] * t82);
-    const jg_real t83 = omega_i[0] * t49;
-    jac_phi_q_v_A_i[27] = t48 * C_i[1] - (C_i[2] * t83 - C_i[0] * t50);
-    jac_phi_q_v_A_i[28] = t48 * C_i[4] - (t83 * C_i[5] - t50 * C_i[3]);
-    const jg_real t84 = omega_i[0] * t53;
-    jac_phi_q_v_A_i[29] = C_i[1] * t52 - (C_i[2] * t84 - C_i[0] * t54);
-    const jg_real t85 = d_ij_2 - t62;
-    const jg_real t86 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t86 * omega_i[1] + t85 * omega_i[2];
-    const jg_real t87 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = t56 - (t86 * omega_i[0] - omega_i[2] * t87) + t59;
-    jac_phi_q_v_A_i[32] = -(t85 * omega_i[0] + omega_i[1] * t87);
-    const jg_real t88 = omega_i[0] * t68;
-    jac_phi_q_v_A_i[33] = t67 * C_i[1] - (C_i[2] * t88 - C_i[0] * t69);
-    jac_phi_q_v_A_i[34] = t67 * C_i[4] - (t88 * C_i[5] - t69 * C_i[3]);
-    const jg_real t89 = omega_i[0] * t72;
-    jac_phi_q_v_A_i[35] = C_i[1] * t71 - (C_i[2] * t89 - C_i[0] * t73);
-    const jg_real t90 = d_ij_0 - t19;
-    const jg_real t91 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t90 * omega_i[1] + t91 * omega_i[2]);
-    const jg_real t92 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = omega_i[2] * t92 + t90 * omega_i[0];
-    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t92 - t91 * omega_i[0]) + t15;
-    jac_phi_q_v_A_i[39] = t26 * C_i[2] - (C_i[0] * t29 - C_i[1] * t78);
-    jac_phi_q_v_A_i[40] = t26 * C_i[5] - (t29 * C_i[3] - t78 * C_i[4]);
-    jac_phi_q_v_A_i[41] = C_i[2] * t33 - (C_i[0] * t36 - C_i[1] * t79);
-    const jg_real t93 = d_ij_1 - t44;
-    const jg_real t94 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t93 * omega_i[1] + t94 * omega_i[2]);
-    const jg_real t95 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = omega_i[2] * t95 + t93 * omega_i[0];
-    jac_phi_q_v_A_i[44] = t37 - (omega_i[1] * t95 - t94 * omega_i[0]) + t40;
-    jac_phi_q_v_A_i[45] = t48 * C_i[2] - (C_i[0] * t51 - C_i[1] * t83);
-    jac_phi_q_v_A_i[46] = t48 * C_i[5] - (t51 * C_i[3] - t83 * C_i[4]);
-    jac_phi_q_v_A_i[47] = C_i[2] * t52 - (C_i[0] * t55 - C_i[1] * t84);
-    const jg_real t96 = d_ij_2 - t63;
-    const jg_real t97 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t96 * omega_i[1] + t97 * omega_i[2]);
-    const jg_real t98 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = omega_i[2] * t98 + t96 * omega_i[0];
-    jac_phi_q_v_A_i[50] = t56 - (omega_i[1] * t98 - t97 * omega_i[0]) + t59;
-    jac_phi_q_v_A_i[51] = t67 * C_i[2] - (C_i[0] * t70 - C_i[1] * t88);
-    jac_phi_q_v_A_i[52] = t67 * C_i[5] - (t70 * C_i[3] - t88 * C_i[4]);
-    jac_phi_q_v_A_i[53] = C_i[2] * t71 - (C_i[0] * t74 - C_i[1] * t89);
+    const jg_real t27 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    const jg_real t28 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t29 = omega_i[2] * t28;
+    const jg_real t30 = omega_i[1] * t28;
+    jac_phi_q_v_A_i[5] = C_i[0] * t27 - (C_i[1] * t29 - C_i[2] * t30);
+    const jg_real t31 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2 +
+        (A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2]);
+    jac_phi_q_v_A_i[6] = t31;
+    jac_phi_q_v_A_i[25] = t31;
+    jac_phi_q_v_A_i[44] = t31;
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t34 = e_ij_1 * omega_i[2];
+    jac_phi_q_v_A_i[24] = t34;
+    jac_phi_q_v_A_i[7] = -t34;
+    const jg_real t35 = e_ij_1 * omega_i[1];
+    jac_phi_q_v_A_i[8] = t35;
+    const jg_real t36 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    const jg_real t37 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t38 = omega_i[2] * t37;
+    const jg_real t39 = omega_i[1] * t37;
+    jac_phi_q_v_A_i[9] = t36 * C_i[0] - (C_i[1] * t38 - C_i[2] * t39);
+    jac_phi_q_v_A_i[10] = t36 * C_i[3] - (t38 * C_i[4] - t39 * C_i[5]);
+    const jg_real t40 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    const jg_real t41 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t42 = omega_i[2] * t41;
+    const jg_real t43 = omega_i[1] * t41;
+    jac_phi_q_v_A_i[11] = C_i[0] * t40 - (C_i[1] * t42 - C_i[2] * t43);
+    const jg_real t44 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2 +
+        (A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2]);
+    jac_phi_q_v_A_i[12] = t44;
+    jac_phi_q_v_A_i[31] = t44;
+    jac_phi_q_v_A_i[50] = t44;
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t47 = e_ij_2 * omega_i[2];
+    jac_phi_q_v_A_i[30] = t47;
+    jac_phi_q_v_A_i[13] = -t47;
+    const jg_real t48 = e_ij_2 * omega_i[1];
+    jac_phi_q_v_A_i[14] = t48;
+    const jg_real t49 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    const jg_real t50 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t51 = omega_i[2] * t50;
+    const jg_real t52 = omega_i[1] * t50;
+    jac_phi_q_v_A_i[15] = t49 * C_i[0] - (C_i[1] * t51 - C_i[2] * t52);
+    jac_phi_q_v_A_i[16] = t49 * C_i[3] - (t51 * C_i[4] - t52 * C_i[5]);
+    const jg_real t53 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    const jg_real t54 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t55 = omega_i[2] * t54;
+    const jg_real t56 = omega_i[1] * t54;
+    jac_phi_q_v_A_i[17] = C_i[0] * t53 - (C_i[1] * t55 - C_i[2] * t56);
+    const jg_real t57 = e_ij_0 * omega_i[0];
+    jac_phi_q_v_A_i[37] = t57;
+    jac_phi_q_v_A_i[20] = -t57;
+    const jg_real t58 = omega_i[0] * t21;
+    jac_phi_q_v_A_i[21] = t20 * C_i[1] - (C_i[2] * t58 - C_i[0] * t22);
+    jac_phi_q_v_A_i[22] = t20 * C_i[4] - (t58 * C_i[5] - t22 * C_i[3]);
+    const jg_real t59 = omega_i[0] * t28;
+    jac_phi_q_v_A_i[23] = C_i[1] * t27 - (C_i[2] * t59 - C_i[0] * t29);
+    const jg_real t60 = e_ij_1 * omega_i[0];
+    jac_phi_q_v_A_i[43] = t60;
+    jac_phi_q_v_A_i[26] = -t60;
+    const jg_real t61 = omega_i[0] * t37;
+    jac_phi_q_v_A_i[27] = t36 * C_i[1] - (C_i[2] * t61 - C_i[0] * t38);
+    jac_phi_q_v_A_i[28] = t36 * C_i[4] - (t61 * C_i[5] - t38 * C_i[3]);
+    const jg_real t62 = omega_i[0] * t41;
+    jac_phi_q_v_A_i[29] = C_i[1] * t40 - (C_i[2] * t62 - C_i[0] * t42);
+    const jg_real t63 = e_ij_2 * omega_i[0];
+    jac_phi_q_v_A_i[49] = t63;
+    jac_phi_q_v_A_i[32] = -t63;
+    const jg_real t64 = omega_i[0] * t50;
+    jac_phi_q_v_A_i[33] = t49 * C_i[1] - (C_i[2] * t64 - C_i[0] * t51);
+    jac_phi_q_v_A_i[34] = t49 * C_i[4] - (t64 * C_i[5] - t51 * C_i[3]);
+    const jg_real t65 = omega_i[0] * t54;
+    jac_phi_q_v_A_i[35] = C_i[1] * t53 - (C_i[2] * t65 - C_i[0] * t55);
+    jac_phi_q_v_A_i[36] = -t16;
+    jac_phi_q_v_A_i[39] = t20 * C_i[2] - (C_i[0] * t23 - C_i[1] * t58);
+    jac_phi_q_v_A_i[40] = t20 * C_i[5] - (t23 * C_i[3] - t58 * C_i[4]);
+    jac_phi_q_v_A_i[41] = C_i[2] * t27 - (C_i[0] * t30 - C_i[1] * t59);
+    jac_phi_q_v_A_i[42] = -t35;
+    jac_phi_q_v_A_i[45] = t36 * C_i[2] - (C_i[0] * t39 - C_i[1] * t61);
+    jac_phi_q_v_A_i[46] = t36 * C_i[5] - (t39 * C_i[3] - t61 * C_i[4]);
+    jac_phi_q_v_A_i[47] = C_i[2] * t40 - (C_i[0] * t43 - C_i[1] * t62);
+    jac_phi_q_v_A_i[48] = -t48;
+    jac_phi_q_v_A_i[51] = t49 * C_i[2] - (C_i[0] * t52 - C_i[1] * t64);
+    jac_phi_q_v_A_i[52] = t49 * C_i[5] - (t52 * C_i[3] - t64 * C_i[4]);
+    jac_phi_q_v_A_i[53] = C_i[2] * t53 - (C_i[0] * t56 - C_i[1] * t65);
     jac_phi_q_v_r_j[0] = -t0;
     jac_phi_q_v_r_j[1] = -t1;
     jac_phi_q_v_r_j[2] = -t2;
@@ -466,259 +439,237 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_r_j[6] = -t6;
     jac_phi_q_v_r_j[7] = -t7;
     jac_phi_q_v_r_j[8] = -t8;
-    const jg_real t99 = s_j[0] * A_i[6];
-    const jg_real t100 = s_j[0] * A_i[3];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t99 * omega_i[1] - t100 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t101 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t101 - t99 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t100 * omega_i[0] - omega_i[1] * t101) + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t102 = A_i[0] * omega_j_cross_h_j_0;
-    const jg_real t103 = A_i[3] * omega_j_cross_h_j_0;
-    const jg_real t104 = A_i[6] * omega_j_cross_h_j_0;
-    const jg_real t105 = A_i[6] * C_j[6];
-    const jg_real t106 = A_i[3] * C_j[6];
-    const jg_real t107 = omega_i[1] * t105 - omega_i[2] * t106;
-    const jg_real t108 = A_i[0] * C_j[6];
-    const jg_real t109 = omega_i[2] * t108 - omega_i[0] * t105;
-    const jg_real t110 = omega_i[0] * t106 - omega_i[1] * t108;
-    jac_phi_q_v_A_j[3] = t102 * C_i[0] + t103 * C_i[1] + t104 * C_i[2] - (C_i[0] * t107 + C_i[1] * t109 + C_i[2] *
-        t110);
-    jac_phi_q_v_A_j[4] = t102 * C_i[3] + t103 * C_i[4] + t104 * C_i[5] - (t107 * C_i[3] + t109 * C_i[4] + t110 *
-        C_i[5]);
-    const jg_real t111 = A_i[6] * C_j[0];
-    const jg_real t112 = A_i[3] * C_j[0];
-    const jg_real t113 = A_i[0] * C_j[0];
+    const jg_real t66 = s_j[0] * A_i[6];
+    const jg_real t67 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t66 * omega_i[1] - t67 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t68 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t68 - t66 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[3];
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t67 * omega_i[0] - omega_i[1] * t68) + omega_j_cross_s_j_0 * A_i[6];
+    const jg_real t69 = A_i[0] * omega_j_cross_h_j_0;
+    const jg_real t70 = A_i[3] * omega_j_cross_h_j_0;
+    const jg_real t71 = A_i[6] * omega_j_cross_h_j_0;
+    const jg_real t72 = A_i[6] * C_j[6];
+    const jg_real t73 = A_i[3] * C_j[6];
+    const jg_real t74 = omega_i[1] * t72 - omega_i[2] * t73;
+    const jg_real t75 = A_i[0] * C_j[6];
+    const jg_real t76 = omega_i[2] * t75 - omega_i[0] * t72;
+    const jg_real t77 = omega_i[0] * t73 - omega_i[1] * t75;
+    jac_phi_q_v_A_j[3] = t69 * C_i[0] + t70 * C_i[1] + t71 * C_i[2] - (C_i[0] * t74 + C_i[1] * t76 + C_i[2] * t77);
+    jac_phi_q_v_A_j[4] = t69 * C_i[3] + t70 * C_i[4] + t71 * C_i[5] - (t74 * C_i[3] + t76 * C_i[4] + t77 * C_i[5]);
+    const jg_real t78 = A_i[6] * C_j[0];
+    const jg_real t79 = A_i[3] * C_j[0];
+    const jg_real t80 = A_i[0] * C_j[0];
     jac_phi_q_v_A_j[5] = A_i[0] * omega_j_cross_f_j_0 * C_i[0] + A_i[3] * omega_j_cross_f_j_0 * C_i[1] + A_i[6] *
-        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t111 - omega_i[2] * t112) + C_i[1] * (omega_i[2] *
-        t113 - omega_i[0] * t111) + C_i[2] * (omega_i[0] * t112 - omega_i[1] * t113));
-    const jg_real t114 = s_j[0] * A_i[7];
-    const jg_real t115 = s_j[0] * A_i[4];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t114 * omega_i[1] - t115 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t116 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t116 - t114 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t115 * omega_i[0] - omega_i[1] * t116) + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t117 = A_i[1] * omega_j_cross_h_j_0;
-    const jg_real t118 = A_i[4] * omega_j_cross_h_j_0;
-    const jg_real t119 = A_i[7] * omega_j_cross_h_j_0;
-    const jg_real t120 = A_i[7] * C_j[6];
-    const jg_real t121 = A_i[4] * C_j[6];
-    const jg_real t122 = omega_i[1] * t120 - omega_i[2] * t121;
-    const jg_real t123 = A_i[1] * C_j[6];
-    const jg_real t124 = omega_i[2] * t123 - omega_i[0] * t120;
-    const jg_real t125 = omega_i[0] * t121 - omega_i[1] * t123;
-    jac_phi_q_v_A_j[9] = t117 * C_i[0] + t118 * C_i[1] + t119 * C_i[2] - (C_i[0] * t122 + C_i[1] * t124 + C_i[2] *
-        t125);
-    jac_phi_q_v_A_j[10] = t117 * C_i[3] + t118 * C_i[4] + t119 * C_i[5] - (t122 * C_i[3] + t124 * C_i[4] + t125 *
-        C_i[5]);
-    const jg_real t126 = A_i[7] * C_j[0];
-    const jg_real t127 = A_i[4] * C_j[0];
-    const jg_real t128 = A_i[1] * C_j[0];
+        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t78 - omega_i[2] * t79) + C_i[1] * (omega_i[2] * t80
+        - omega_i[0] * t78) + C_i[2] * (omega_i[0] * t79 - omega_i[1] * t80));
+    const jg_real t81 = s_j[0] * A_i[7];
+    const jg_real t82 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t81 * omega_i[1] - t82 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t83 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t83 - t81 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[4];
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t82 * omega_i[0] - omega_i[1] * t83) + omega_j_cross_s_j_0 * A_i[7];
+    const jg_real t84 = A_i[1] * omega_j_cross_h_j_0;
+    const jg_real t85 = A_i[4] * omega_j_cross_h_j_0;
+    const jg_real t86 = A_i[7] * omega_j_cross_h_j_0;
+    const jg_real t87 = A_i[7] * C_j[6];
+    const jg_real t88 = A_i[4] * C_j[6];
+    const jg_real t89 = omega_i[1] * t87 - omega_i[2] * t88;
+    const jg_real t90 = A_i[1] * C_j[6];
+    const jg_real t91 = omega_i[2] * t90 - omega_i[0] * t87;
+    const jg_real t92 = omega_i[0] * t88 - omega_i[1] * t90;
+    jac_phi_q_v_A_j[9] = t84 * C_i[0] + t85 * C_i[1] + t86 * C_i[2] - (C_i[0] * t89 + C_i[1] * t91 + C_i[2] * t92);
+    jac_phi_q_v_A_j[10] = t84 * C_i[3] + t85 * C_i[4] + t86 * C_i[5] - (t89 * C_i[3] + t91 * C_i[4] + t92 * C_i[5]);
+    const jg_real t93 = A_i[7] * C_j[0];
+    const jg_real t94 = A_i[4] * C_j[0];
+    const jg_real t95 = A_i[1] * C_j[0];
     jac_phi_q_v_A_j[11] = A_i[1] * omega_j_cross_f_j_0 * C_i[0] + A_i[4] * omega_j_cross_f_j_0 * C_i[1] + A_i[7] *
-        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t126 - omega_i[2] * t127) + C_i[1] * (omega_i[2] *
-        t128 - omega_i[0] * t126) + C_i[2] * (omega_i[0] * t127 - omega_i[1] * t128));
-    const jg_real t129 = s_j[0] * A_i[8];
-    const jg_real t130 = s_j[0] * A_i[5];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t129 * omega_i[1] - t130 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t131 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t131 - t129 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t130 * omega_i[0] - omega_i[1] * t131) + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t132 = A_i[2] * omega_j_cross_h_j_0;
-    const jg_real t133 = A_i[5] * omega_j_cross_h_j_0;
-    const jg_real t134 = A_i[8] * omega_j_cross_h_j_0;
-    const jg_real t135 = A_i[8] * C_j[6];
-    const jg_real t136 = A_i[5] * C_j[6];
-    const jg_real t137 = omega_i[1] * t135 - omega_i[2] * t136;
-    const jg_real t138 = A_i[2] * C_j[6];
-    const jg_real t139 = omega_i[2] * t138 - omega_i[0] * t135;
-    const jg_real t140 = omega_i[0] * t136 - omega_i[1] * t138;
-    jac_phi_q_v_A_j[15] = t132 * C_i[0] + t133 * C_i[1] + t134 * C_i[2] - (C_i[0] * t137 + C_i[1] * t139 + C_i[2] *
-        t140);
-    jac_phi_q_v_A_j[16] = t132 * C_i[3] + t133 * C_i[4] + t134 * C_i[5] - (t137 * C_i[3] + t139 * C_i[4] + t140 *
+        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t93 - omega_i[2] * t94) + C_i[1] * (omega_i[2] * t95
+        - omega_i[0] * t93) + C_i[2] * (omega_i[0] * t94 - omega_i[1] * t95));
+    const jg_real t96 = s_j[0] * A_i[8];
+    const jg_real t97 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t96 * omega_i[1] - t97 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t98 = A_i[2] * s_j[0];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t98 - t96 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[5];
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t97 * omega_i[0] - omega_i[1] * t98) + omega_j_cross_s_j_0 * A_i[8];
+    const jg_real t99 = A_i[2] * omega_j_cross_h_j_0;
+    const jg_real t100 = A_i[5] * omega_j_cross_h_j_0;
+    const jg_real t101 = A_i[8] * omega_j_cross_h_j_0;
+    const jg_real t102 = A_i[8] * C_j[6];
+    const jg_real t103 = A_i[5] * C_j[6];
+    const jg_real t104 = omega_i[1] * t102 - omega_i[2] * t103;
+    const jg_real t105 = A_i[2] * C_j[6];
+    const jg_real t106 = omega_i[2] * t105 - omega_i[0] * t102;
+    const jg_real t107 = omega_i[0] * t103 - omega_i[1] * t105;
+    jac_phi_q_v_A_j[15] = t99 * C_i[0] + t100 * C_i[1] + t101 * C_i[2] - (C_i[0] * t104 + C_i[1] * t106 + C_i[2] *
+        t107);
+    jac_phi_q_v_A_j[16] = t99 * C_i[3] + t100 * C_i[4] + t101 * C_i[5] - (t104 * C_i[3] + t106 * C_i[4] + t107 *
         C_i[5]);
-    const jg_real t141 = A_i[8] * C_j[0];
-    const jg_real t142 = A_i[5] * C_j[0];
-    const jg_real t143 = A_i[2] * C_j[0];
+    const jg_real t108 = A_i[8] * C_j[0];
+    const jg_real t109 = A_i[5] * C_j[0];
+    const jg_real t110 = A_i[2] * C_j[0];
     jac_phi_q_v_A_j[17] = A_i[2] * omega_j_cross_f_j_0 * C_i[0] + A_i[5] * omega_j_cross_f_j_0 * C_i[1] + A_i[8] *
-        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t141 - omega_i[2] * t142) + C_i[1] * (omega_i[2] *
-        t143 - omega_i[0] * t141) + C_i[2] * (omega_i[0] * t142 - omega_i[1] * t143));
-    const jg_real t144 = s_j[1] * A_i[6];
-    const jg_real t145 = s_j[1] * A_i[3];
-    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t144 * omega_i[1] - t145 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t146 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t146 - t144 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t145 * omega_i[0] - omega_i[1] * t146) + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t147 = A_i[0] * omega_j_cross_h_j_1;
-    const jg_real t148 = A_i[3] * omega_j_cross_h_j_1;
-    const jg_real t149 = A_i[6] * omega_j_cross_h_j_1;
-    const jg_real t150 = A_i[6] * C_j[7];
-    const jg_real t151 = A_i[3] * C_j[7];
-    const jg_real t152 = omega_i[1] * t150 - omega_i[2] * t151;
-    const jg_real t153 = A_i[0] * C_j[7];
-    const jg_real t154 = omega_i[2] * t153 - omega_i[0] * t150;
-    const jg_real t155 = omega_i[0] * t151 - omega_i[1] * t153;
-    jac_phi_q_v_A_j[21] = t147 * C_i[0] + t148 * C_i[1] + t149 * C_i[2] - (C_i[0] * t152 + C_i[1] * t154 + C_i[2] *
-        t155);
-    jac_phi_q_v_A_j[22] = t147 * C_i[3] + t148 * C_i[4] + t149 * C_i[5] - (t152 * C_i[3] + t154 * C_i[4] + t155 *
+        omega_j_cross_f_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t108 - omega_i[2] * t109) + C_i[1] * (omega_i[2] *
+        t110 - omega_i[0] * t108) + C_i[2] * (omega_i[0] * t109 - omega_i[1] * t110));
+    const jg_real t111 = s_j[1] * A_i[6];
+    const jg_real t112 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t111 * omega_i[1] - t112 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t113 = A_i[0] * s_j[1];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t113 - t111 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[3];
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t112 * omega_i[0] - omega_i[1] * t113) + omega_j_cross_s_j_1 * A_i[6];
+    const jg_real t114 = A_i[0] * omega_j_cross_h_j_1;
+    const jg_real t115 = A_i[3] * omega_j_cross_h_j_1;
+    const jg_real t116 = A_i[6] * omega_j_cross_h_j_1;
+    const jg_real t117 = A_i[6] * C_j[7];
+    const jg_real t118 = A_i[3] * C_j[7];
+    const jg_real t119 = omega_i[1] * t117 - omega_i[2] * t118;
+    const jg_real t120 = A_i[0] * C_j[7];
+    const jg_real t121 = omega_i[2] * t120 - omega_i[0] * t117;
+    const jg_real t122 = omega_i[0] * t118 - omega_i[1] * t120;
+    jac_phi_q_v_A_j[21] = t114 * C_i[0] + t115 * C_i[1] + t116 * C_i[2] - (C_i[0] * t119 + C_i[1] * t121 + C_i[2] *
+        t122);
+    jac_phi_q_v_A_j[22] = t114 * C_i[3] + t115 * C_i[4] + t116 * C_i[5] - (t119 * C_i[3] + t121 * C_i[4] + t122 *
         C_i[5]);
-    const jg_real t156 = A_i[6] * C_j[1];
-    const jg_real t157 = A_i[3] * C_j[1];
-    const jg_real t158 = A_i[0] * C_j[1];
+    const jg_real t123 = A_i[6] * C_j[1];
+    const jg_real t124 = A_i[3] * C_j[1];
+    const jg_real t125 = A_i[0] * C_j[1];
     jac_phi_q_v_A_j[23] = A_i[0] * omega_j_cross_f_j_1 * C_i[0] + A_i[3] * omega_j_cross_f_j_1 * C_i[1] + A_i[6] *
-        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t156 - omega_i[2] * t157) + C_i[1] * (omega_i[2] *
-        t158 - omega_i[0] * t156) + C_i[2] * (omega_i[0] * t157 - omega_i[1] * t158));
-    const jg_real t159 = s_j[1] * A_i[7];
-    const jg_real t160 = s_j[1] * A_i[4];
-    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t159 * omega_i[1] - t160 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t161 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t161 - t159 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t160 * omega_i[0] - omega_i[1] * t161) + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t162 = A_i[1] * omega_j_cross_h_j_1;
-    const jg_real t163 = A_i[4] * omega_j_cross_h_j_1;
-    const jg_real t164 = A_i[7] * omega_j_cross_h_j_1;
-    const jg_real t165 = A_i[7] * C_j[7];
-    const jg_real t166 = A_i[4] * C_j[7];
-    const jg_real t167 = omega_i[1] * t165 - omega_i[2] * t166;
-    const jg_real t168 = A_i[1] * C_j[7];
-    const jg_real t169 = omega_i[2] * t168 - omega_i[0] * t165;
-    const jg_real t170 = omega_i[0] * t166 - omega_i[1] * t168;
-    jac_phi_q_v_A_j[27] = t162 * C_i[0] + t163 * C_i[1] + t164 * C_i[2] - (C_i[0] * t167 + C_i[1] * t169 + C_i[2] *
-        t170);
-    jac_phi_q_v_A_j[28] = t162 * C_i[3] + t163 * C_i[4] + t164 * C_i[5] - (t167 * C_i[3] + t169 * C_i[4] + t170 *
+        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t123 - omega_i[2] * t124) + C_i[1] * (omega_i[2] *
+        t125 - omega_i[0] * t123) + C_i[2] * (omega_i[0] * t124 - omega_i[1] * t125));
+    const jg_real t126 = s_j[1] * A_i[7];
+    const jg_real t127 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t126 * omega_i[1] - t127 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t128 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t128 - t126 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[4];
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t127 * omega_i[0] - omega_i[1] * t128) + omega_j_cross_s_j_1 * A_i[7];
+    const jg_real t129 = A_i[1] * omega_j_cross_h_j_1;
+    const jg_real t130 = A_i[4] * omega_j_cross_h_j_1;
+    const jg_real t131 = A_i[7] * omega_j_cross_h_j_1;
+    const jg_real t132 = A_i[7] * C_j[7];
+    const jg_real t133 = A_i[4] * C_j[7];
+    const jg_real t134 = omega_i[1] * t132 - omega_i[2] * t133;
+    const jg_real t135 = A_i[1] * C_j[7];
+    const jg_real t136 = omega_i[2] * t135 - omega_i[0] * t132;
+    const jg_real t137 = omega_i[0] * t133 - omega_i[1] * t135;
+    jac_phi_q_v_A_j[27] = t129 * C_i[0] + t130 * C_i[1] + t131 * C_i[2] - (C_i[0] * t134 + C_i[1] * t136 + C_i[2] *
+        t137);
+    jac_phi_q_v_A_j[28] = t129 * C_i[3] + t130 * C_i[4] + t131 * C_i[5] - (t134 * C_i[3] + t136 * C_i[4] + t137 *
         C_i[5]);
-    const jg_real t171 = A_i[7] * C_j[1];
-    const jg_real t172 = A_i[4] * C_j[1];
-    const jg_real t173 = A_i[1] * C_j[1];
+    const jg_real t138 = A_i[7] * C_j[1];
+    const jg_real t139 = A_i[4] * C_j[1];
+    const jg_real t140 = A_i[1] * C_j[1];
     jac_phi_q_v_A_j[29] = A_i[1] * omega_j_cross_f_j_1 * C_i[0] + A_i[4] * omega_j_cross_f_j_1 * C_i[1] + A_i[7] *
-        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t171 - omega_i[2] * t172) + C_i[1] * (omega_i[2] *
-        t173 - omega_i[0] * t171) + C_i[2] * (omega_i[0] * t172 - omega_i[1] * t173));
-    const jg_real t174 = s_j[1] * A_i[8];
-    const jg_real t175 = s_j[1] * A_i[5];
-    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t174 * omega_i[1] - t175 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t176 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t176 - t174 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t175 * omega_i[0] - omega_i[1] * t176) + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t177 = A_i[2] * omega_j_cross_h_j_1;
-    const jg_real t178 = A_i[5] * omega_j_cross_h_j_1;
-    const jg_real t179 = A_i[8] * omega_j_cross_h_j_1;
-    const jg_real t180 = A_i[8] * C_j[7];
-    const jg_real t181 = A_i[5] * C_j[7];
-    const jg_real t182 = omega_i[1] * t180 - omega_i[2] * t181;
-    const jg_real t183 = A_i[2] * C_j[7];
-    const jg_real t184 = omega_i[2] * t183 - omega_i[0] * t180;
-    const jg_real t185 = omega_i[0] * t181 - omega_i[1] * t183;
-    jac_phi_q_v_A_j[33] = t177 * C_i[0] + t178 * C_i[1] + t179 * C_i[2] - (C_i[0] * t182 + C_i[1] * t184 + C_i[2] *
-        t185);
-    jac_phi_q_v_A_j[34] = t177 * C_i[3] + t178 * C_i[4] + t179 * C_i[5] - (t182 * C_i[3] + t184 * C_i[4] + t185 *
+        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t138 - omega_i[2] * t139) + C_i[1] * (omega_i[2] *
+        t140 - omega_i[0] * t138) + C_i[2] * (omega_i[0] * t139 - omega_i[1] * t140));
+    const jg_real t141 = s_j[1] * A_i[8];
+    const jg_real t142 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t141 * omega_i[1] - t142 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t143 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t143 - t141 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[5];
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t142 * omega_i[0] - omega_i[1] * t143) + omega_j_cross_s_j_1 * A_i[8];
+    const jg_real t144 = A_i[2] * omega_j_cross_h_j_1;
+    const jg_real t145 = A_i[5] * omega_j_cross_h_j_1;
+    const jg_real t146 = A_i[8] * omega_j_cross_h_j_1;
+    const jg_real t147 = A_i[8] * C_j[7];
+    const jg_real t148 = A_i[5] * C_j[7];
+    const jg_real t149 = omega_i[1] * t147 - omega_i[2] * t148;
+    const jg_real t150 = A_i[2] * C_j[7];
+    const jg_real t151 = omega_i[2] * t150 - omega_i[0] * t147;
+    const jg_real t152 = omega_i[0] * t148 - omega_i[1] * t150;
+    jac_phi_q_v_A_j[33] = t144 * C_i[0] + t145 * C_i[1] + t146 * C_i[2] - (C_i[0] * t149 + C_i[1] * t151 + C_i[2] *
+        t152);
+    jac_phi_q_v_A_j[34] = t144 * C_i[3] + t145 * C_i[4] + t146 * C_i[5] - (t149 * C_i[3] + t151 * C_i[4] + t152 *
         C_i[5]);
-    const jg_real t186 = A_i[8] * C_j[1];
-    const jg_real t187 = A_i[5] * C_j[1];
-    const jg_real t188 = A_i[2] * C_j[1];
+    const jg_real t153 = A_i[8] * C_j[1];
+    const jg_real t154 = A_i[5] * C_j[1];
+    const jg_real t155 = A_i[2] * C_j[1];
     jac_phi_q_v_A_j[35] = A_i[2] * omega_j_cross_f_j_1 * C_i[0] + A_i[5] * omega_j_cross_f_j_1 * C_i[1] + A_i[8] *
-        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t186 - omega_i[2] * t187) + C_i[1] * (omega_i[2] *
-        t188 - omega_i[0] * t186) + C_i[2] * (omega_i[0] * t187 - omega_i[1] * t188));
-    const jg_real t189 = s_j[2] * A_i[6];
-    const jg_real t190 = s_j[2] * A_i[3];
-    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t189 * omega_i[1] - t190 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t191 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t191 - t189 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t190 * omega_i[0] - omega_i[1] * t191) + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t192 = A_i[0] * omega_j_cross_h_j_2;
-    const jg_real t193 = A_i[3] * omega_j_cross_h_j_2;
-    const jg_real t194 = A_i[6] * omega_j_cross_h_j_2;
-    const jg_real t195 = A_i[6] * C_j[8];
-    const jg_real t196 = A_i[3] * C_j[8];
-    const jg_real t197 = omega_i[1] * t195 - omega_i[2] * t196;
-    const jg_real t198 = A_i[0] * C_j[8];
-    const jg_real t199 = omega_i[2] * t198 - omega_i[0] * t195;
-    const jg_real t200 = omega_i[0] * t196 - omega_i[1] * t198;
-    jac_phi_q_v_A_j[39] = t192 * C_i[0] + t193 * C_i[1] + t194 * C_i[2] - (C_i[0] * t197 + C_i[1] * t199 + C_i[2] *
-        t200);
-    jac_phi_q_v_A_j[40] = t192 * C_i[3] + t193 * C_i[4] + t194 * C_i[5] - (t197 * C_i[3] + t199 * C_i[4] + t200 *
+        omega_j_cross_f_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t153 - omega_i[2] * t154) + C_i[1] * (omega_i[2] *
+        t155 - omega_i[0] * t153) + C_i[2] * (omega_i[0] * t154 - omega_i[1] * t155));
+    const jg_real t156 = s_j[2] * A_i[6];
+    const jg_real t157 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t156 * omega_i[1] - t157 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t158 = A_i[0] * s_j[2];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t158 - t156 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[3];
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t157 * omega_i[0] - omega_i[1] * t158) + omega_j_cross_s_j_2 * A_i[6];
+    const jg_real t159 = A_i[0] * omega_j_cross_h_j_2;
+    const jg_real t160 = A_i[3] * omega_j_cross_h_j_2;
+    const jg_real t161 = A_i[6] * omega_j_cross_h_j_2;
+    const jg_real t162 = A_i[6] * C_j[8];
+    const jg_real t163 = A_i[3] * C_j[8];
+    const jg_real t164 = omega_i[1] * t162 - omega_i[2] * t163;
+    const jg_real t165 = A_i[0] * C_j[8];
+    const jg_real t166 = omega_i[2] * t165 - omega_i[0] * t162;
+    const jg_real t167 = omega_i[0] * t163 - omega_i[1] * t165;
+    jac_phi_q_v_A_j[39] = t159 * C_i[0] + t160 * C_i[1] + t161 * C_i[2] - (C_i[0] * t164 + C_i[1] * t166 + C_i[2] *
+        t167);
+    jac_phi_q_v_A_j[40] = t159 * C_i[3] + t160 * C_i[4] + t161 * C_i[5] - (t164 * C_i[3] + t166 * C_i[4] + t167 *
         C_i[5]);
-    const jg_real t201 = A_i[6] * C_j[2];
-    const jg_real t202 = A_i[3] * C_j[2];
-    const jg_real t203 = A_i[0] * C_j[2];
+    const jg_real t168 = A_i[6] * C_j[2];
+    const jg_real t169 = A_i[3] * C_j[2];
+    const jg_real t170 = A_i[0] * C_j[2];
     jac_phi_q_v_A_j[41] = A_i[0] * omega_j_cross_f_j_2 * C_i[0] + A_i[3] * omega_j_cross_f_j_2 * C_i[1] + A_i[6] *
-        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t201 - omega_i[2] * t202) + C_i[1] * (omega_i[2] *
-        t203 - omega_i[0] * t201) + C_i[2] * (omega_i[0] * t202 - omega_i[1] * t203));
-    const jg_real t204 = s_j[2] * A_i[7];
-    const jg_real t205 = s_j[2] * A_i[4];
-    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t204 * omega_i[1] - t205 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t206 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t206 - t204 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t205 * omega_i[0] - omega_i[1] * t206) + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t207 = A_i[1] * omega_j_cross_h_j_2;
-    const jg_real t208 = A_i[4] * omega_j_cross_h_j_2;
-    const jg_real t209 = A_i[7] * omega_j_cross_h_j_2;
-    const jg_real t210 = A_i[7] * C_j[8];
-    const jg_real t211 = A_i[4] * C_j[8];
-    const jg_real t212 = omega_i[1] * t210 - omega_i[2] * t211;
-    const jg_real t213 = A_i[1] * C_j[8];
-    const jg_real t214 = omega_i[2] * t213 - omega_i[0] * t210;
-    const jg_real t215 = omega_i[0] * t211 - omega_i[1] * t213;
-    jac_phi_q_v_A_j[45] = t207 * C_i[0] + t208 * C_i[1] + t209 * C_i[2] - (C_i[0] * t212 + C_i[1] * t214 + C_i[2] *
-        t215);
-    jac_phi_q_v_A_j[46] = t207 * C_i[3] + t208 * C_i[4] + t209 * C_i[5] - (t212 * C_i[3] + t214 * C_i[4] + t215 *
+        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t168 - omega_i[2] * t169) + C_i[1] * (omega_i[2] *
+        t170 - omega_i[0] * t168) + C_i[2] * (omega_i[0] * t169 - omega_i[1] * t170));
+    const jg_real t171 = s_j[2] * A_i[7];
+    const jg_real t172 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t171 * omega_i[1] - t172 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t173 = A_i[1] * s_j[2];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t173 - t171 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[4];
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t172 * omega_i[0] - omega_i[1] * t173) + omega_j_cross_s_j_2 * A_i[7];
+    const jg_real t174 = A_i[1] * omega_j_cross_h_j_2;
+    const jg_real t175 = A_i[4] * omega_j_cross_h_j_2;
+    const jg_real t176 = A_i[7] * omega_j_cross_h_j_2;
+    const jg_real t177 = A_i[7] * C_j[8];
+    const jg_real t178 = A_i[4] * C_j[8];
+    const jg_real t179 = omega_i[1] * t177 - omega_i[2] * t178;
+    const jg_real t180 = A_i[1] * C_j[8];
+    const jg_real t181 = omega_i[2] * t180 - omega_i[0] * t177;
+    const jg_real t182 = omega_i[0] * t178 - omega_i[1] * t180;
+    jac_phi_q_v_A_j[45] = t174 * C_i[0] + t175 * C_i[1] + t176 * C_i[2] - (C_i[0] * t179 + C_i[1] * t181 + C_i[2] *
+        t182);
+    jac_phi_q_v_A_j[46] = t174 * C_i[3] + t175 * C_i[4] + t176 * C_i[5] - (t179 * C_i[3] + t181 * C_i[4] + t182 *
         C_i[5]);
-    const jg_real t216 = A_i[7] * C_j[2];
-    const jg_real t217 = A_i[4] * C_j[2];
-    const jg_real t218 = A_i[1] * C_j[2];
+    const jg_real t183 = A_i[7] * C_j[2];
+    const jg_real t184 = A_i[4] * C_j[2];
+    const jg_real t185 = A_i[1] * C_j[2];
     jac_phi_q_v_A_j[47] = A_i[1] * omega_j_cross_f_j_2 * C_i[0] + A_i[4] * omega_j_cross_f_j_2 * C_i[1] + A_i[7] *
-        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t216 - omega_i[2] * t217) + C_i[1] * (omega_i[2] *
-        t218 - omega_i[0] * t216) + C_i[2] * (omega_i[0] * t217 - omega_i[1] * t218));
-    const jg_real t219 = s_j[2] * A_i[8];
-    const jg_real t220 = s_j[2] * A_i[5];
-    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t219 * omega_i[1] - t220 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t221 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t221 - t219 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t220 * omega_i[0] - omega_i[1] * t221) + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t222 = A_i[2] * omega_j_cross_h_j_2;
-    const jg_real t223 = A_i[5] * omega_j_cross_h_j_2;
-    const jg_real t224 = A_i[8] * omega_j_cross_h_j_2;
-    const jg_real t225 = A_i[8] * C_j[8];
-    const jg_real t226 = A_i[5] * C_j[8];
-    const jg_real t227 = omega_i[1] * t225 - omega_i[2] * t226;
-    const jg_real t228 = A_i[2] * C_j[8];
-    const jg_real t229 = omega_i[2] * t228 - omega_i[0] * t225;
-    const jg_real t230 = omega_i[0] * t226 - omega_i[1] * t228;
-    jac_phi_q_v_A_j[51] = t222 * C_i[0] + t223 * C_i[1] + t224 * C_i[2] - (C_i[0] * t227 + C_i[1] * t229 + C_i[2] *
-        t230);
-    jac_phi_q_v_A_j[52] = t222 * C_i[3] + t223 * C_i[4] + t224 * C_i[5] - (t227 * C_i[3] + t229 * C_i[4] + t230 *
+        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t183 - omega_i[2] * t184) + C_i[1] * (omega_i[2] *
+        t185 - omega_i[0] * t183) + C_i[2] * (omega_i[0] * t184 - omega_i[1] * t185));
+    const jg_real t186 = s_j[2] * A_i[8];
+    const jg_real t187 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t186 * omega_i[1] - t187 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t188 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t188 - t186 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[5];
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t187 * omega_i[0] - omega_i[1] * t188) + omega_j_cross_s_j_2 * A_i[8];
+    const jg_real t189 = A_i[2] * omega_j_cross_h_j_2;
+    const jg_real t190 = A_i[5] * omega_j_cross_h_j_2;
+    const jg_real t191 = A_i[8] * omega_j_cross_h_j_2;
+    const jg_real t192 = A_i[8] * C_j[8];
+    const jg_real t193 = A_i[5] * C_j[8];
+    const jg_real t194 = omega_i[1] * t192 - omega_i[2] * t193;
+    const jg_real t195 = A_i[2] * C_j[8];
+    const jg_real t196 = omega_i[2] * t195 - omega_i[0] * t192;
+    const jg_real t197 = omega_i[0] * t193 - omega_i[1] * t195;
+    jac_phi_q_v_A_j[51] = t189 * C_i[0] + t190 * C_i[1] + t191 * C_i[2] - (C_i[0] * t194 + C_i[1] * t196 + C_i[2] *
+        t197);
+    jac_phi_q_v_A_j[52] = t189 * C_i[3] + t190 * C_i[4] + t191 * C_i[5] - (t194 * C_i[3] + t196 * C_i[4] + t197 *
         C_i[5]);
-    const jg_real t231 = A_i[8] * C_j[2];
-    const jg_real t232 = A_i[5] * C_j[2];
-    const jg_real t233 = A_i[2] * C_j[2];
+    const jg_real t198 = A_i[8] * C_j[2];
+    const jg_real t199 = A_i[5] * C_j[2];
+    const jg_real t200 = A_i[2] * C_j[2];
     jac_phi_q_v_A_j[53] = A_i[2] * omega_j_cross_f_j_2 * C_i[0] + A_i[5] * omega_j_cross_f_j_2 * C_i[1] + A_i[8] *
-        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t231 - omega_i[2] * t232) + C_i[1] * (omega_i[2] *
-        t233 - omega_i[0] * t231) + C_i[2] * (omega_i[0] * t232 - omega_i[1] * t233));
+        omega_j_cross_f_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t198 - omega_i[2] * t199) + C_i[1] * (omega_i[2] *
+        t200 - omega_i[0] * t198) + C_i[2] * (omega_i[0] * t199 - omega_i[1] * t200));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_v_alpha[0] = alphadot * cosine_0;
-    const jg_real t236 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t237 = t236 * omega_i[1];
-    const jg_real t238 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t239 = t238 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t237 - t239;
-    const jg_real t240 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = -(t236 * omega_i[0] - omega_i[2] * t240 + omega_i[2]);
-    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t240 - t238 * omega_i[0]);
-    const jg_real t241 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t242 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_q_v_geometry[3] = omega_i[2] - (t241 * omega_i[2] - t242 * omega_i[1]);
-    const jg_real t243 = t242 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t239 - t243;
-    jac_phi_q_v_geometry[5] = -(omega_i[1] * t238 - t241 * omega_i[0] + omega_i[0]);
-    const jg_real t244 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = -(t242 * omega_i[2] - t244 * omega_i[1] + omega_i[1]);
-    jac_phi_q_v_geometry[7] = omega_i[0] - (t244 * omega_i[0] - t236 * omega_i[2]);
-    jac_phi_q_v_geometry[8] = t243 - t237;
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jac_phi_q_v_velocity[21] = A_ij_3;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ij_6;
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
@@ -740,9 +691,9 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t258 = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
-    jac_phi_q_v_geometry[9] = t258;
-    jac_phi_q_v_geometry[15] = t258;
+    const jg_real t216 = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
+    jac_phi_q_v_geometry[0] = t216;
+    jac_phi_q_v_geometry[6] = t216;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
@@ -751,127 +702,127 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    jac_phi_q_v_geometry[10] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
+    jac_phi_q_v_geometry[1] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t266 = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
-    jac_phi_q_v_geometry[11] = t266;
-    jac_phi_q_v_geometry[16] = t266;
+    const jg_real t224 = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
+    jac_phi_q_v_geometry[2] = t224;
+    jac_phi_q_v_geometry[7] = t224;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    jac_phi_q_v_geometry[12] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
+    jac_phi_q_v_geometry[3] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    const jg_real t272 = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
-    jac_phi_q_v_geometry[13] = t272;
-    jac_phi_q_v_geometry[17] = t272;
+    const jg_real t230 = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
+    jac_phi_q_v_geometry[4] = t230;
+    jac_phi_q_v_geometry[8] = t230;
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    jac_phi_q_v_geometry[14] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
-    const jg_real t275 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    const jg_real t276 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    jac_phi_q_v_geometry[18] = t275 - t276;
-    const jg_real t277 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    const jg_real t278 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
-    jac_phi_q_v_geometry[19] = t277 - t278;
-    const jg_real t279 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    const jg_real t280 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
-    jac_phi_q_v_geometry[20] = t279 - t280;
-    const jg_real t281 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    const jg_real t282 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    jac_phi_q_v_geometry[21] = t281 - t282;
-    const jg_real t283 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    const jg_real t284 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
-    jac_phi_q_v_geometry[22] = t283 - t284;
-    const jg_real t285 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    const jg_real t286 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
-    jac_phi_q_v_geometry[23] = t285 - t286;
-    const jg_real t287 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t288 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    jac_phi_q_v_geometry[24] = t287 - t288;
-    const jg_real t289 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    const jg_real t290 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
-    jac_phi_q_v_geometry[25] = t289 - t290;
-    const jg_real t291 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    const jg_real t292 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
-    jac_phi_q_v_geometry[26] = t291 - t292;
-    const jg_real t293 = t275 * C_i[0] + t277 * C_i[1] + t279 * C_i[2] - (t276 * C_i[0] + t278 * C_i[1] + t280 *
+    jac_phi_q_v_geometry[5] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
+    const jg_real t233 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t234 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[9] = t233 - t234;
+    const jg_real t235 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t236 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[10] = t235 - t236;
+    const jg_real t237 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t238 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    jac_phi_q_v_geometry[11] = t237 - t238;
+    const jg_real t239 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t240 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[12] = t239 - t240;
+    const jg_real t241 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t242 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[13] = t241 - t242;
+    const jg_real t243 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t244 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    jac_phi_q_v_geometry[14] = t243 - t244;
+    const jg_real t245 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t246 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[15] = t245 - t246;
+    const jg_real t247 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t248 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[16] = t247 - t248;
+    const jg_real t249 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t250 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    jac_phi_q_v_geometry[17] = t249 - t250;
+    const jg_real t251 = t233 * C_i[0] + t235 * C_i[1] + t237 * C_i[2] - (t234 * C_i[0] + t236 * C_i[1] + t238 *
         C_i[2]);
-    jac_phi_q_v_geometry[27] = t293;
-    jac_phi_q_v_geometry[30] = t293;
-    const jg_real t294 = t281 * C_i[0] + t283 * C_i[1] + t285 * C_i[2] - (t282 * C_i[0] + t284 * C_i[1] + t286 *
+    jac_phi_q_v_geometry[18] = t251;
+    jac_phi_q_v_geometry[21] = t251;
+    const jg_real t252 = t239 * C_i[0] + t241 * C_i[1] + t243 * C_i[2] - (t240 * C_i[0] + t242 * C_i[1] + t244 *
         C_i[2]);
-    jac_phi_q_v_geometry[28] = t294;
-    jac_phi_q_v_geometry[32] = t294;
-    const jg_real t295 = t287 * C_i[0] + t289 * C_i[1] + t291 * C_i[2] - (t288 * C_i[0] + t290 * C_i[1] + t292 *
+    jac_phi_q_v_geometry[19] = t252;
+    jac_phi_q_v_geometry[23] = t252;
+    const jg_real t253 = t245 * C_i[0] + t247 * C_i[1] + t249 * C_i[2] - (t246 * C_i[0] + t248 * C_i[1] + t250 *
         C_i[2]);
-    jac_phi_q_v_geometry[29] = t295;
-    jac_phi_q_v_geometry[34] = t295;
-    jac_phi_q_v_geometry[31] = t275 * C_i[3] + t277 * C_i[4] + t279 * C_i[5] - (t276 * C_i[3] + t278 * C_i[4] + t280
+    jac_phi_q_v_geometry[20] = t253;
+    jac_phi_q_v_geometry[25] = t253;
+    jac_phi_q_v_geometry[22] = t233 * C_i[3] + t235 * C_i[4] + t237 * C_i[5] - (t234 * C_i[3] + t236 * C_i[4] + t238
         * C_i[5]);
-    jac_phi_q_v_geometry[33] = t281 * C_i[3] + t283 * C_i[4] + t285 * C_i[5] - (t282 * C_i[3] + t284 * C_i[4] + t286
+    jac_phi_q_v_geometry[24] = t239 * C_i[3] + t241 * C_i[4] + t243 * C_i[5] - (t240 * C_i[3] + t242 * C_i[4] + t244
         * C_i[5]);
-    jac_phi_q_v_geometry[35] = t287 * C_i[3] + t289 * C_i[4] + t291 * C_i[5] - (t288 * C_i[3] + t290 * C_i[4] + t292
+    jac_phi_q_v_geometry[26] = t245 * C_i[3] + t247 * C_i[4] + t249 * C_i[5] - (t246 * C_i[3] + t248 * C_i[4] + t250
         * C_i[5]);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t297 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t297;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t299 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t299;
-    jac_phi_q_v_velocity[4] = -t299;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    const jg_real t255 = ep_ij_2 - s_i[2] + s_i[2];
+    jac_phi_q_v_velocity[3] = t255;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    const jg_real t257 = ep_ij_1 - s_i[1] + s_i[1];
+    jac_phi_q_v_velocity[13] = t257;
+    jac_phi_q_v_velocity[4] = -t257;
     jac_phi_q_v_velocity[5] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     jac_phi_q_v_velocity[6] = A_ij_h_j_2 * C_i[4] - A_ij_h_j_1 * C_i[5];
     jac_phi_q_v_velocity[7] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
-    jac_phi_q_v_velocity[8] = -t297;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t301 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t301;
+    jac_phi_q_v_velocity[8] = -t255;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t259 = ep_ij_0 - s_i[0] + s_i[0];
+    jac_phi_q_v_velocity[9] = t259;
     jac_phi_q_v_velocity[10] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     jac_phi_q_v_velocity[11] = A_ij_h_j_0 * C_i[5] - A_ij_h_j_2 * C_i[3];
     jac_phi_q_v_velocity[12] = C_i[2] * A_ij_f_j_0 - C_i[0] * A_ij_f_j_2;
-    jac_phi_q_v_velocity[14] = -t301;
+    jac_phi_q_v_velocity[14] = -t259;
     jac_phi_q_v_velocity[15] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     jac_phi_q_v_velocity[16] = A_ij_h_j_1 * C_i[3] - A_ij_h_j_0 * C_i[4];
     jac_phi_q_v_velocity[17] = C_i[0] * A_ij_f_j_1 - C_i[1] * A_ij_f_j_0;
     jac_phi_q_v_velocity[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_v_velocity[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_v_velocity[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real t302 = A_ij_6 * C_j[7] - A_ij_3 * C_j[8];
-    const jg_real t303 = A_ij_7 * C_j[7] - A_ij_4 * C_j[8];
-    const jg_real t304 = A_ij_8 * C_j[7] - A_ij_5 * C_j[8];
-    jac_phi_q_v_velocity[30] = t302 * C_i[0] + t303 * C_i[1] + t304 * C_i[2];
-    jac_phi_q_v_velocity[31] = t302 * C_i[3] + t303 * C_i[4] + t304 * C_i[5];
+    const jg_real t260 = A_ij_6 * C_j[7] - A_ij_3 * C_j[8];
+    const jg_real t261 = A_ij_7 * C_j[7] - A_ij_4 * C_j[8];
+    const jg_real t262 = A_ij_8 * C_j[7] - A_ij_5 * C_j[8];
+    jac_phi_q_v_velocity[30] = t260 * C_i[0] + t261 * C_i[1] + t262 * C_i[2];
+    jac_phi_q_v_velocity[31] = t260 * C_i[3] + t261 * C_i[4] + t262 * C_i[5];
     jac_phi_q_v_velocity[32] = C_i[0] * (A_ij_6 * C_j[1] - A_ij_3 * C_j[2]) + C_i[1] * (A_ij_7 * C_j[1] - A_ij_4 *
         C_j[2]) + C_i[2] * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
-    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[33] = A_ij_0 * s_j[2] - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    const jg_real t305 = A_ij_0 * C_j[8] - A_ij_6 * C_j[6];
-    const jg_real t306 = A_ij_1 * C_j[8] - A_ij_7 * C_j[6];
-    const jg_real t307 = A_ij_2 * C_j[8] - A_ij_8 * C_j[6];
-    jac_phi_q_v_velocity[36] = t305 * C_i[0] + t306 * C_i[1] + t307 * C_i[2];
-    jac_phi_q_v_velocity[37] = t305 * C_i[3] + t306 * C_i[4] + t307 * C_i[5];
+    const jg_real t263 = A_ij_0 * C_j[8] - A_ij_6 * C_j[6];
+    const jg_real t264 = A_ij_1 * C_j[8] - A_ij_7 * C_j[6];
+    const jg_real t265 = A_ij_2 * C_j[8] - A_ij_8 * C_j[6];
+    jac_phi_q_v_velocity[36] = t263 * C_i[0] + t264 * C_i[1] + t265 * C_i[2];
+    jac_phi_q_v_velocity[37] = t263 * C_i[3] + t264 * C_i[4] + t265 * C_i[5];
     jac_phi_q_v_velocity[38] = C_i[0] * (A_ij_0 * C_j[2] - A_ij_6 * C_j[0]) + C_i[1] * (A_ij_1 * C_j[2] - A_ij_7 *
         C_j[0]) + C_i[2] * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
-    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    const jg_real t308 = A_ij_3 * C_j[6] - A_ij_0 * C_j[7];
-    const jg_real t309 = A_ij_4 * C_j[6] - A_ij_1 * C_j[7];
-    const jg_real t310 = A_ij_5 * C_j[6] - A_ij_2 * C_j[7];
-    jac_phi_q_v_velocity[42] = t308 * C_i[0] + t309 * C_i[1] + t310 * C_i[2];
-    jac_phi_q_v_velocity[43] = t308 * C_i[3] + t309 * C_i[4] + t310 * C_i[5];
+    const jg_real t266 = A_ij_3 * C_j[6] - A_ij_0 * C_j[7];
+    const jg_real t267 = A_ij_4 * C_j[6] - A_ij_1 * C_j[7];
+    const jg_real t268 = A_ij_5 * C_j[6] - A_ij_2 * C_j[7];
+    jac_phi_q_v_velocity[42] = t266 * C_i[0] + t267 * C_i[1] + t268 * C_i[2];
+    jac_phi_q_v_velocity[43] = t266 * C_i[3] + t267 * C_i[4] + t268 * C_i[5];
     jac_phi_q_v_velocity[44] = C_i[0] * (A_ij_3 * C_j[0] - A_ij_0 * C_j[1]) + C_i[1] * (A_ij_4 * C_j[0] - A_ij_1 *
         C_j[1]) + C_i[2] * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
     jac_phi_q_v_velocity[45] = sine_0;
@@ -885,7 +836,6 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -916,472 +866,396 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t8 = lambda[0] * A_i[5] - lambda[1] * A_i[2];
     jac_phi_q_t_lambda_r_j[8] = t8;
     jac_phi_q_t_lambda_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[3];
-    const jg_real t10 = s_i[0] * A_i[6];
-    jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
-    const jg_real t11 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t12 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
-    const jg_real t13 = t11 * t12;
+    const jg_real t9 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t10 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t15 = A_i[0] * s_i[0];
-    const jg_real t16 = A_i[3] * s_i[1];
-    const jg_real t17 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t15 + t16 + t17;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t20 = d_ij_0 - t15;
-    const jg_real t21 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t22 = C_i[2] * t21 * lambda[5];
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t20 + lambda[0] * t10 + t13 + t22;
-    const jg_real t23 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
-    const jg_real t24 = t11 * t23;
-    const jg_real t25 = C_i[1] * t21 * lambda[5];
-    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t20 + t24 + t25);
-    const jg_real t26 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t26;
-    const jg_real t27 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t27;
-    const jg_real t28 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t28;
-    const jg_real t29 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
-    const jg_real t30 = A_j[6] * t29;
-    const jg_real t31 = A_j[3] * t29;
-    const jg_real t32 = A_j[6] * C_i[0];
-    const jg_real t33 = A_j[3] * C_i[0];
-    jac_phi_q_t_lambda_A_i[6] = C_j[7] * t30 - C_j[8] * t31 + (s_j[1] * t28 - s_j[2] * t27 + lambda[5] * (C_j[1] *
-        t32 - C_j[2] * t33));
-    const jg_real t34 = A_j[0] * t29;
-    const jg_real t35 = A_j[0] * C_i[0];
-    jac_phi_q_t_lambda_A_i[7] = C_j[8] * t34 - C_j[6] * t30 + (s_j[2] * t26 - s_j[0] * t28 + lambda[5] * (C_j[2] *
-        t35 - C_j[0] * t32));
-    jac_phi_q_t_lambda_A_i[8] = C_j[6] * t31 - C_j[7] * t34 + (s_j[0] * t27 - s_j[1] * t26 + lambda[5] * (C_j[0] *
-        t33 - C_j[1] * t35));
-    const jg_real t36 = s_i[0] * A_i[4];
-    const jg_real t37 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[9] = lambda[2] * t36 - lambda[1] * t37;
-    const jg_real t38 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t39 = t38 * t12;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t13 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t14 = lambda[2] * e_ij_0 + t9 * t10 + C_i[2] * t13 * lambda[5];
+    jac_phi_q_t_lambda_A_i[0] = t14;
+    const jg_real t15 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
+    const jg_real t16 = lambda[1] * e_ij_0 + t9 * t15 + C_i[1] * t13 * lambda[5];
+    jac_phi_q_t_lambda_A_i[48] = t16;
+    jac_phi_q_t_lambda_A_i[1] = -t16;
+    const jg_real t17 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[2] = t17;
+    const jg_real t18 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[3] = t18;
+    const jg_real t19 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[4] = t19;
+    const jg_real t20 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
+    const jg_real t21 = A_j[6] * t20;
+    const jg_real t22 = A_j[3] * t20;
+    const jg_real t23 = A_j[6] * C_i[0];
+    const jg_real t24 = A_j[3] * C_i[0];
+    jac_phi_q_t_lambda_A_i[5] = C_j[7] * t21 - C_j[8] * t22 + (s_j[1] * t19 - s_j[2] * t18 + lambda[5] * (C_j[1] *
+        t23 - C_j[2] * t24));
+    const jg_real t25 = A_j[0] * t20;
+    const jg_real t26 = A_j[0] * C_i[0];
+    jac_phi_q_t_lambda_A_i[6] = C_j[8] * t25 - C_j[6] * t21 + (s_j[2] * t17 - s_j[0] * t19 + lambda[5] * (C_j[2] *
+        t26 - C_j[0] * t23));
+    jac_phi_q_t_lambda_A_i[7] = C_j[6] * t22 - C_j[7] * t25 + (s_j[0] * t18 - s_j[1] * t17 + lambda[5] * (C_j[0] *
+        t24 - C_j[1] * t26));
+    const jg_real t27 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t41 = s_i[0] * A_i[1];
-    const jg_real t42 = s_i[1] * A_i[4];
-    const jg_real t43 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t41 + t42 + t43;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t46 = d_ij_1 - t41;
-    const jg_real t47 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t48 = C_i[2] * t47 * lambda[5];
-    jac_phi_q_t_lambda_A_i[10] = lambda[2] * t46 + lambda[0] * t37 + t39 + t48;
-    const jg_real t49 = t38 * t23;
-    const jg_real t50 = C_i[1] * t47 * lambda[5];
-    jac_phi_q_t_lambda_A_i[11] = -(lambda[0] * t36 + lambda[1] * t46 + t49 + t50);
-    const jg_real t51 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[12] = t51;
-    const jg_real t52 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[13] = t52;
-    const jg_real t53 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[14] = t53;
-    const jg_real t54 = A_j[7] * t29;
-    const jg_real t55 = A_j[4] * t29;
-    const jg_real t56 = A_j[7] * C_i[0];
-    const jg_real t57 = A_j[4] * C_i[0];
-    jac_phi_q_t_lambda_A_i[15] = C_j[7] * t54 - C_j[8] * t55 + (s_j[1] * t53 - s_j[2] * t52 + lambda[5] * (C_j[1] *
-        t56 - C_j[2] * t57));
-    const jg_real t58 = A_j[1] * t29;
-    const jg_real t59 = A_j[1] * C_i[0];
-    jac_phi_q_t_lambda_A_i[16] = C_j[8] * t58 - C_j[6] * t54 + (s_j[2] * t51 - s_j[0] * t53 + lambda[5] * (C_j[2] *
-        t59 - C_j[0] * t56));
-    jac_phi_q_t_lambda_A_i[17] = C_j[6] * t55 - C_j[7] * t58 + (s_j[0] * t52 - s_j[1] * t51 + lambda[5] * (C_j[0] *
-        t57 - C_j[1] * t59));
-    const jg_real t60 = s_i[0] * A_i[5];
-    const jg_real t61 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[18] = lambda[2] * t60 - lambda[1] * t61;
-    const jg_real t62 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t63 = t62 * t12;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t30 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t31 = lambda[2] * e_ij_1 + t27 * t10 + C_i[2] * t30 * lambda[5];
+    jac_phi_q_t_lambda_A_i[8] = t31;
+    const jg_real t32 = lambda[1] * e_ij_1 + t27 * t15 + C_i[1] * t30 * lambda[5];
+    jac_phi_q_t_lambda_A_i[56] = t32;
+    jac_phi_q_t_lambda_A_i[9] = -t32;
+    const jg_real t33 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[10] = t33;
+    const jg_real t34 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[11] = t34;
+    const jg_real t35 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[12] = t35;
+    const jg_real t36 = A_j[7] * t20;
+    const jg_real t37 = A_j[4] * t20;
+    const jg_real t38 = A_j[7] * C_i[0];
+    const jg_real t39 = A_j[4] * C_i[0];
+    jac_phi_q_t_lambda_A_i[13] = C_j[7] * t36 - C_j[8] * t37 + (s_j[1] * t35 - s_j[2] * t34 + lambda[5] * (C_j[1] *
+        t38 - C_j[2] * t39));
+    const jg_real t40 = A_j[1] * t20;
+    const jg_real t41 = A_j[1] * C_i[0];
+    jac_phi_q_t_lambda_A_i[14] = C_j[8] * t40 - C_j[6] * t36 + (s_j[2] * t33 - s_j[0] * t35 + lambda[5] * (C_j[2] *
+        t41 - C_j[0] * t38));
+    jac_phi_q_t_lambda_A_i[15] = C_j[6] * t37 - C_j[7] * t40 + (s_j[0] * t34 - s_j[1] * t33 + lambda[5] * (C_j[0] *
+        t39 - C_j[1] * t41));
+    const jg_real t42 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t65 = s_i[0] * A_i[2];
-    const jg_real t66 = s_i[1] * A_i[5];
-    const jg_real t67 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t65 + t66 + t67;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t70 = d_ij_2 - t65;
-    const jg_real t71 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t72 = C_i[2] * t71 * lambda[5];
-    jac_phi_q_t_lambda_A_i[19] = lambda[2] * t70 + lambda[0] * t61 + t63 + t72;
-    const jg_real t73 = t62 * t23;
-    const jg_real t74 = C_i[1] * t71 * lambda[5];
-    jac_phi_q_t_lambda_A_i[20] = -(lambda[0] * t60 + lambda[1] * t70 + t73 + t74);
-    const jg_real t75 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[21] = t75;
-    const jg_real t76 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[22] = t76;
-    const jg_real t77 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[23] = t77;
-    const jg_real t78 = A_j[8] * t29;
-    const jg_real t79 = A_j[5] * t29;
-    const jg_real t80 = A_j[8] * C_i[0];
-    const jg_real t81 = A_j[5] * C_i[0];
-    jac_phi_q_t_lambda_A_i[24] = C_j[7] * t78 - C_j[8] * t79 + (s_j[1] * t77 - s_j[2] * t76 + lambda[5] * (C_j[1] *
-        t80 - C_j[2] * t81));
-    const jg_real t82 = A_j[2] * t29;
-    const jg_real t83 = A_j[2] * C_i[0];
-    jac_phi_q_t_lambda_A_i[25] = C_j[8] * t82 - C_j[6] * t78 + (s_j[2] * t75 - s_j[0] * t77 + lambda[5] * (C_j[2] *
-        t83 - C_j[0] * t80));
-    jac_phi_q_t_lambda_A_i[26] = C_j[6] * t79 - C_j[7] * t82 + (s_j[0] * t76 - s_j[1] * t75 + lambda[5] * (C_j[0] *
-        t81 - C_j[1] * t83));
-    const jg_real t84 = d_ij_0 - t16;
-    const jg_real t85 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[27] = -(lambda[1] * t85 + lambda[2] * t84 + t13 + t22);
-    const jg_real t86 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[28] = lambda[0] * t85 - lambda[2] * t86;
-    const jg_real t87 = t11 * t29;
-    const jg_real t88 = t21 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[29] = lambda[0] * t84 + lambda[1] * t86 + t87 + t88;
-    const jg_real t89 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[30] = t89;
-    const jg_real t90 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[31] = t90;
-    const jg_real t91 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[32] = t91;
-    const jg_real t92 = A_j[6] * t23;
-    const jg_real t93 = A_j[3] * t23;
-    const jg_real t94 = A_j[6] * C_i[1];
-    const jg_real t95 = A_j[3] * C_i[1];
-    jac_phi_q_t_lambda_A_i[33] = C_j[7] * t92 - C_j[8] * t93 + (s_j[1] * t91 - s_j[2] * t90 + lambda[5] * (C_j[1] *
-        t94 - C_j[2] * t95));
-    const jg_real t96 = A_j[0] * t23;
-    const jg_real t97 = A_j[0] * C_i[1];
-    jac_phi_q_t_lambda_A_i[34] = C_j[8] * t96 - C_j[6] * t92 + (s_j[2] * t89 - s_j[0] * t91 + lambda[5] * (C_j[2] *
-        t97 - C_j[0] * t94));
-    jac_phi_q_t_lambda_A_i[35] = C_j[6] * t93 - C_j[7] * t96 + (s_j[0] * t90 - s_j[1] * t89 + lambda[5] * (C_j[0] *
-        t95 - C_j[1] * t97));
-    const jg_real t98 = d_ij_1 - t42;
-    const jg_real t99 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[36] = -(lambda[1] * t99 + lambda[2] * t98 + t39 + t48);
-    const jg_real t100 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[37] = lambda[0] * t99 - lambda[2] * t100;
-    const jg_real t101 = t38 * t29;
-    const jg_real t102 = t47 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[38] = lambda[0] * t98 + lambda[1] * t100 + t101 + t102;
-    const jg_real t103 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[39] = t103;
-    const jg_real t104 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[40] = t104;
-    const jg_real t105 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[41] = t105;
-    const jg_real t106 = A_j[7] * t23;
-    const jg_real t107 = A_j[4] * t23;
-    const jg_real t108 = A_j[7] * C_i[1];
-    const jg_real t109 = A_j[4] * C_i[1];
-    jac_phi_q_t_lambda_A_i[42] = C_j[7] * t106 - C_j[8] * t107 + (s_j[1] * t105 - s_j[2] * t104 + lambda[5] *
-        (C_j[1] * t108 - C_j[2] * t109));
-    const jg_real t110 = A_j[1] * t23;
-    const jg_real t111 = A_j[1] * C_i[1];
-    jac_phi_q_t_lambda_A_i[43] = C_j[8] * t110 - C_j[6] * t106 + (s_j[2] * t103 - s_j[0] * t105 + lambda[5] *
-        (C_j[2] * t111 - C_j[0] * t108));
-    jac_phi_q_t_lambda_A_i[44] = C_j[6] * t107 - C_j[7] * t110 + (s_j[0] * t104 - s_j[1] * t103 + lambda[5] *
-        (C_j[0] * t109 - C_j[1] * t111));
-    const jg_real t112 = d_ij_2 - t66;
-    const jg_real t113 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[45] = -(lambda[1] * t113 + lambda[2] * t112 + t63 + t72);
-    const jg_real t114 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[46] = lambda[0] * t113 - lambda[2] * t114;
-    const jg_real t115 = t62 * t29;
-    const jg_real t116 = t71 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[47] = lambda[0] * t112 + lambda[1] * t114 + t115 + t116;
-    const jg_real t117 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[48] = t117;
-    const jg_real t118 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[49] = t118;
-    const jg_real t119 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[50] = t119;
-    const jg_real t120 = A_j[8] * t23;
-    const jg_real t121 = A_j[5] * t23;
-    const jg_real t122 = A_j[8] * C_i[1];
-    const jg_real t123 = A_j[5] * C_i[1];
-    jac_phi_q_t_lambda_A_i[51] = C_j[7] * t120 - C_j[8] * t121 + (s_j[1] * t119 - s_j[2] * t118 + lambda[5] *
-        (C_j[1] * t122 - C_j[2] * t123));
-    const jg_real t124 = A_j[2] * t23;
-    const jg_real t125 = A_j[2] * C_i[1];
-    jac_phi_q_t_lambda_A_i[52] = C_j[8] * t124 - C_j[6] * t120 + (s_j[2] * t117 - s_j[0] * t119 + lambda[5] *
-        (C_j[2] * t125 - C_j[0] * t122));
-    jac_phi_q_t_lambda_A_i[53] = C_j[6] * t121 - C_j[7] * t124 + (s_j[0] * t118 - s_j[1] * t117 + lambda[5] *
-        (C_j[0] * t123 - C_j[1] * t125));
-    const jg_real t126 = d_ij_0 - t17;
-    const jg_real t127 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[54] = lambda[1] * t126 + lambda[2] * t127 + t24 + t25;
-    const jg_real t128 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[55] = -(lambda[2] * t128 + lambda[0] * t126 + t87 + t88);
-    jac_phi_q_t_lambda_A_i[56] = lambda[1] * t128 - lambda[0] * t127;
-    const jg_real t129 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[57] = t129;
-    const jg_real t130 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[58] = t130;
-    const jg_real t131 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[59] = t131;
-    const jg_real t132 = A_j[6] * t12;
-    const jg_real t133 = A_j[3] * t12;
-    const jg_real t134 = A_j[6] * C_i[2];
-    const jg_real t135 = A_j[3] * C_i[2];
-    jac_phi_q_t_lambda_A_i[60] = C_j[7] * t132 - C_j[8] * t133 + (s_j[1] * t131 - s_j[2] * t130 + lambda[5] *
-        (C_j[1] * t134 - C_j[2] * t135));
-    const jg_real t136 = A_j[0] * t12;
-    const jg_real t137 = A_j[0] * C_i[2];
-    jac_phi_q_t_lambda_A_i[61] = C_j[8] * t136 - C_j[6] * t132 + (s_j[2] * t129 - s_j[0] * t131 + lambda[5] *
-        (C_j[2] * t137 - C_j[0] * t134));
-    jac_phi_q_t_lambda_A_i[62] = C_j[6] * t133 - C_j[7] * t136 + (s_j[0] * t130 - s_j[1] * t129 + lambda[5] *
-        (C_j[0] * t135 - C_j[1] * t137));
-    const jg_real t138 = d_ij_1 - t43;
-    const jg_real t139 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[63] = lambda[1] * t138 + lambda[2] * t139 + t49 + t50;
-    const jg_real t140 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[64] = -(lambda[2] * t140 + lambda[0] * t138 + t101 + t102);
-    jac_phi_q_t_lambda_A_i[65] = lambda[1] * t140 - lambda[0] * t139;
-    const jg_real t141 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[66] = t141;
-    const jg_real t142 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[67] = t142;
-    const jg_real t143 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[68] = t143;
-    const jg_real t144 = A_j[7] * t12;
-    const jg_real t145 = A_j[4] * t12;
-    const jg_real t146 = A_j[7] * C_i[2];
-    const jg_real t147 = A_j[4] * C_i[2];
-    jac_phi_q_t_lambda_A_i[69] = C_j[7] * t144 - C_j[8] * t145 + (s_j[1] * t143 - s_j[2] * t142 + lambda[5] *
-        (C_j[1] * t146 - C_j[2] * t147));
-    const jg_real t148 = A_j[1] * t12;
-    const jg_real t149 = A_j[1] * C_i[2];
-    jac_phi_q_t_lambda_A_i[70] = C_j[8] * t148 - C_j[6] * t144 + (s_j[2] * t141 - s_j[0] * t143 + lambda[5] *
-        (C_j[2] * t149 - C_j[0] * t146));
-    jac_phi_q_t_lambda_A_i[71] = C_j[6] * t145 - C_j[7] * t148 + (s_j[0] * t142 - s_j[1] * t141 + lambda[5] *
-        (C_j[0] * t147 - C_j[1] * t149));
-    const jg_real t150 = d_ij_2 - t67;
-    const jg_real t151 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[72] = lambda[1] * t150 + lambda[2] * t151 + t73 + t74;
-    const jg_real t152 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[73] = -(lambda[2] * t152 + lambda[0] * t150 + t115 + t116);
-    jac_phi_q_t_lambda_A_i[74] = lambda[1] * t152 - lambda[0] * t151;
-    const jg_real t153 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[75] = t153;
-    const jg_real t154 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[76] = t154;
-    const jg_real t155 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[77] = t155;
-    const jg_real t156 = A_j[8] * t12;
-    const jg_real t157 = A_j[5] * t12;
-    const jg_real t158 = A_j[8] * C_i[2];
-    const jg_real t159 = A_j[5] * C_i[2];
-    jac_phi_q_t_lambda_A_i[78] = C_j[7] * t156 - C_j[8] * t157 + (s_j[1] * t155 - s_j[2] * t154 + lambda[5] *
-        (C_j[1] * t158 - C_j[2] * t159));
-    const jg_real t160 = A_j[2] * t12;
-    const jg_real t161 = A_j[2] * C_i[2];
-    jac_phi_q_t_lambda_A_i[79] = C_j[8] * t160 - C_j[6] * t156 + (s_j[2] * t153 - s_j[0] * t155 + lambda[5] *
-        (C_j[2] * t161 - C_j[0] * t158));
-    jac_phi_q_t_lambda_A_i[80] = C_j[6] * t157 - C_j[7] * t160 + (s_j[0] * t154 - s_j[1] * t153 + lambda[5] *
-        (C_j[0] * t159 - C_j[1] * t161));
-    const jg_real t162 = A_i[6] * C_j[6];
-    const jg_real t163 = A_i[3] * C_j[6];
-    const jg_real t164 = s_j[0] * A_i[6];
-    const jg_real t165 = s_j[0] * A_i[3];
-    const jg_real t166 = A_i[3] * C_j[0];
-    const jg_real t167 = A_i[6] * C_j[0];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t164 - lambda[2] * t165 + (t162 * t23 - t163 * t12) - (C_i[2] * t166 -
-        C_i[1] * t167) * lambda[5];
-    const jg_real t168 = A_i[0] * C_j[6];
-    const jg_real t169 = s_j[0] * A_i[0];
-    const jg_real t170 = A_i[0] * C_j[0];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t169 - lambda[0] * t164 + (t12 * t168 - t162 * t29) - lambda[5] * (t167
-        * C_i[0] - C_i[2] * t170);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t165 - lambda[1] * t169 + (t163 * t29 - t23 * t168) - lambda[5] *
-        (C_i[1] * t170 - t166 * C_i[0]);
-    const jg_real t171 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t171;
-    jac_phi_q_t_lambda_A_j[21] = t171;
-    jac_phi_q_t_lambda_A_j[39] = t171;
-    const jg_real t172 = A_i[0] * t29 + A_i[3] * t23 + A_i[6] * t12;
-    const jg_real t173 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real t174 = C_j[2] * t173 * lambda[5] + s_j[2] * t171 + C_j[8] * t172;
-    jac_phi_q_t_lambda_A_j[4] = t174;
-    const jg_real t175 = C_j[1] * t173 * lambda[5] + s_j[1] * t171 + C_j[7] * t172;
-    jac_phi_q_t_lambda_A_j[40] = t175;
-    jac_phi_q_t_lambda_A_j[5] = -t175;
-    const jg_real t176 = A_i[7] * C_j[6];
-    const jg_real t177 = A_i[4] * C_j[6];
-    const jg_real t178 = s_j[0] * A_i[7];
-    const jg_real t179 = s_j[0] * A_i[4];
-    const jg_real t180 = A_i[4] * C_j[0];
-    const jg_real t181 = A_i[7] * C_j[0];
-    jac_phi_q_t_lambda_A_j[6] = lambda[1] * t178 - lambda[2] * t179 + (t176 * t23 - t177 * t12) - (C_i[2] * t180 -
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t45 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t46 = lambda[2] * e_ij_2 + t42 * t10 + C_i[2] * t45 * lambda[5];
+    jac_phi_q_t_lambda_A_i[16] = t46;
+    const jg_real t47 = lambda[1] * e_ij_2 + t42 * t15 + C_i[1] * t45 * lambda[5];
+    jac_phi_q_t_lambda_A_i[64] = t47;
+    jac_phi_q_t_lambda_A_i[17] = -t47;
+    const jg_real t48 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[18] = t48;
+    const jg_real t49 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[19] = t49;
+    const jg_real t50 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[20] = t50;
+    const jg_real t51 = A_j[8] * t20;
+    const jg_real t52 = A_j[5] * t20;
+    const jg_real t53 = A_j[8] * C_i[0];
+    const jg_real t54 = A_j[5] * C_i[0];
+    jac_phi_q_t_lambda_A_i[21] = C_j[7] * t51 - C_j[8] * t52 + (s_j[1] * t50 - s_j[2] * t49 + lambda[5] * (C_j[1] *
+        t53 - C_j[2] * t54));
+    const jg_real t55 = A_j[2] * t20;
+    const jg_real t56 = A_j[2] * C_i[0];
+    jac_phi_q_t_lambda_A_i[22] = C_j[8] * t55 - C_j[6] * t51 + (s_j[2] * t48 - s_j[0] * t50 + lambda[5] * (C_j[2] *
+        t56 - C_j[0] * t53));
+    jac_phi_q_t_lambda_A_i[23] = C_j[6] * t52 - C_j[7] * t55 + (s_j[0] * t49 - s_j[1] * t48 + lambda[5] * (C_j[0] *
+        t54 - C_j[1] * t56));
+    jac_phi_q_t_lambda_A_i[24] = -t14;
+    const jg_real t57 = lambda[0] * e_ij_0 + t9 * t20 + t13 * C_i[0] * lambda[5];
+    jac_phi_q_t_lambda_A_i[25] = t57;
+    const jg_real t58 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[26] = t58;
+    const jg_real t59 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[27] = t59;
+    const jg_real t60 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[28] = t60;
+    const jg_real t61 = A_j[6] * t15;
+    const jg_real t62 = A_j[3] * t15;
+    const jg_real t63 = A_j[6] * C_i[1];
+    const jg_real t64 = A_j[3] * C_i[1];
+    jac_phi_q_t_lambda_A_i[29] = C_j[7] * t61 - C_j[8] * t62 + (s_j[1] * t60 - s_j[2] * t59 + lambda[5] * (C_j[1] *
+        t63 - C_j[2] * t64));
+    const jg_real t65 = A_j[0] * t15;
+    const jg_real t66 = A_j[0] * C_i[1];
+    jac_phi_q_t_lambda_A_i[30] = C_j[8] * t65 - C_j[6] * t61 + (s_j[2] * t58 - s_j[0] * t60 + lambda[5] * (C_j[2] *
+        t66 - C_j[0] * t63));
+    jac_phi_q_t_lambda_A_i[31] = C_j[6] * t62 - C_j[7] * t65 + (s_j[0] * t59 - s_j[1] * t58 + lambda[5] * (C_j[0] *
+        t64 - C_j[1] * t66));
+    jac_phi_q_t_lambda_A_i[32] = -t31;
+    const jg_real t67 = lambda[0] * e_ij_1 + t27 * t20 + t30 * C_i[0] * lambda[5];
+    jac_phi_q_t_lambda_A_i[33] = t67;
+    const jg_real t68 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[34] = t68;
+    const jg_real t69 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[35] = t69;
+    const jg_real t70 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[36] = t70;
+    const jg_real t71 = A_j[7] * t15;
+    const jg_real t72 = A_j[4] * t15;
+    const jg_real t73 = A_j[7] * C_i[1];
+    const jg_real t74 = A_j[4] * C_i[1];
+    jac_phi_q_t_lambda_A_i[37] = C_j[7] * t71 - C_j[8] * t72 + (s_j[1] * t70 - s_j[2] * t69 + lambda[5] * (C_j[1] *
+        t73 - C_j[2] * t74));
+    const jg_real t75 = A_j[1] * t15;
+    const jg_real t76 = A_j[1] * C_i[1];
+    jac_phi_q_t_lambda_A_i[38] = C_j[8] * t75 - C_j[6] * t71 + (s_j[2] * t68 - s_j[0] * t70 + lambda[5] * (C_j[2] *
+        t76 - C_j[0] * t73));
+    jac_phi_q_t_lambda_A_i[39] = C_j[6] * t72 - C_j[7] * t75 + (s_j[0] * t69 - s_j[1] * t68 + lambda[5] * (C_j[0] *
+        t74 - C_j[1] * t76));
+    jac_phi_q_t_lambda_A_i[40] = -t46;
+    const jg_real t77 = lambda[0] * e_ij_2 + t42 * t20 + t45 * C_i[0] * lambda[5];
+    jac_phi_q_t_lambda_A_i[41] = t77;
+    const jg_real t78 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[42] = t78;
+    const jg_real t79 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[43] = t79;
+    const jg_real t80 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[44] = t80;
+    const jg_real t81 = A_j[8] * t15;
+    const jg_real t82 = A_j[5] * t15;
+    const jg_real t83 = A_j[8] * C_i[1];
+    const jg_real t84 = A_j[5] * C_i[1];
+    jac_phi_q_t_lambda_A_i[45] = C_j[7] * t81 - C_j[8] * t82 + (s_j[1] * t80 - s_j[2] * t79 + lambda[5] * (C_j[1] *
+        t83 - C_j[2] * t84));
+    const jg_real t85 = A_j[2] * t15;
+    const jg_real t86 = A_j[2] * C_i[1];
+    jac_phi_q_t_lambda_A_i[46] = C_j[8] * t85 - C_j[6] * t81 + (s_j[2] * t78 - s_j[0] * t80 + lambda[5] * (C_j[2] *
+        t86 - C_j[0] * t83));
+    jac_phi_q_t_lambda_A_i[47] = C_j[6] * t82 - C_j[7] * t85 + (s_j[0] * t79 - s_j[1] * t78 + lambda[5] * (C_j[0] *
+        t84 - C_j[1] * t86));
+    jac_phi_q_t_lambda_A_i[49] = -t57;
+    const jg_real t87 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[50] = t87;
+    const jg_real t88 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[51] = t88;
+    const jg_real t89 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[52] = t89;
+    const jg_real t90 = A_j[6] * t10;
+    const jg_real t91 = A_j[3] * t10;
+    const jg_real t92 = A_j[6] * C_i[2];
+    const jg_real t93 = A_j[3] * C_i[2];
+    jac_phi_q_t_lambda_A_i[53] = C_j[7] * t90 - C_j[8] * t91 + (s_j[1] * t89 - s_j[2] * t88 + lambda[5] * (C_j[1] *
+        t92 - C_j[2] * t93));
+    const jg_real t94 = A_j[0] * t10;
+    const jg_real t95 = A_j[0] * C_i[2];
+    jac_phi_q_t_lambda_A_i[54] = C_j[8] * t94 - C_j[6] * t90 + (s_j[2] * t87 - s_j[0] * t89 + lambda[5] * (C_j[2] *
+        t95 - C_j[0] * t92));
+    jac_phi_q_t_lambda_A_i[55] = C_j[6] * t91 - C_j[7] * t94 + (s_j[0] * t88 - s_j[1] * t87 + lambda[5] * (C_j[0] *
+        t93 - C_j[1] * t95));
+    jac_phi_q_t_lambda_A_i[57] = -t67;
+    const jg_real t96 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[58] = t96;
+    const jg_real t97 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[59] = t97;
+    const jg_real t98 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[60] = t98;
+    const jg_real t99 = A_j[7] * t10;
+    const jg_real t100 = A_j[4] * t10;
+    const jg_real t101 = A_j[7] * C_i[2];
+    const jg_real t102 = A_j[4] * C_i[2];
+    jac_phi_q_t_lambda_A_i[61] = C_j[7] * t99 - C_j[8] * t100 + (s_j[1] * t98 - s_j[2] * t97 + lambda[5] * (C_j[1] *
+        t101 - C_j[2] * t102));
+    const jg_real t103 = A_j[1] * t10;
+    const jg_real t104 = A_j[1] * C_i[2];
+    jac_phi_q_t_lambda_A_i[62] = C_j[8] * t103 - C_j[6] * t99 + (s_j[2] * t96 - s_j[0] * t98 + lambda[5] * (C_j[2] *
+        t104 - C_j[0] * t101));
+    jac_phi_q_t_lambda_A_i[63] = C_j[6] * t100 - C_j[7] * t103 + (s_j[0] * t97 - s_j[1] * t96 + lambda[5] * (C_j[0]
+        * t102 - C_j[1] * t104));
+    jac_phi_q_t_lambda_A_i[65] = -t77;
+    const jg_real t105 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[66] = t105;
+    const jg_real t106 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[67] = t106;
+    const jg_real t107 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[68] = t107;
+    const jg_real t108 = A_j[8] * t10;
+    const jg_real t109 = A_j[5] * t10;
+    const jg_real t110 = A_j[8] * C_i[2];
+    const jg_real t111 = A_j[5] * C_i[2];
+    jac_phi_q_t_lambda_A_i[69] = C_j[7] * t108 - C_j[8] * t109 + (s_j[1] * t107 - s_j[2] * t106 + lambda[5] *
+        (C_j[1] * t110 - C_j[2] * t111));
+    const jg_real t112 = A_j[2] * t10;
+    const jg_real t113 = A_j[2] * C_i[2];
+    jac_phi_q_t_lambda_A_i[70] = C_j[8] * t112 - C_j[6] * t108 + (s_j[2] * t105 - s_j[0] * t107 + lambda[5] *
+        (C_j[2] * t113 - C_j[0] * t110));
+    jac_phi_q_t_lambda_A_i[71] = C_j[6] * t109 - C_j[7] * t112 + (s_j[0] * t106 - s_j[1] * t105 + lambda[5] *
+        (C_j[0] * t111 - C_j[1] * t113));
+    const jg_real t114 = A_i[6] * C_j[6];
+    const jg_real t115 = A_i[3] * C_j[6];
+    const jg_real t116 = s_j[0] * A_i[6];
+    const jg_real t117 = s_j[0] * A_i[3];
+    const jg_real t118 = A_i[3] * C_j[0];
+    const jg_real t119 = A_i[6] * C_j[0];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t116 - lambda[2] * t117 + (t114 * t15 - t115 * t10) - (C_i[2] * t118 -
+        C_i[1] * t119) * lambda[5];
+    const jg_real t120 = C_j[6] * A_i[0];
+    const jg_real t121 = s_j[0] * A_i[0];
+    const jg_real t122 = C_j[0] * A_i[0];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t121 - lambda[0] * t116 + (t10 * t120 - t114 * t20) - lambda[5] * (t119
+        * C_i[0] - C_i[2] * t122);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t117 - lambda[1] * t121 + (t115 * t20 - t15 * t120) - lambda[5] *
+        (C_i[1] * t122 - t118 * C_i[0]);
+    const jg_real t123 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t123;
+    jac_phi_q_t_lambda_A_j[21] = t123;
+    jac_phi_q_t_lambda_A_j[39] = t123;
+    const jg_real t124 = A_i[0] * t20 + A_i[3] * t15 + A_i[6] * t10;
+    const jg_real t125 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real t126 = C_j[2] * t125 * lambda[5] + s_j[2] * t123 + C_j[8] * t124;
+    jac_phi_q_t_lambda_A_j[4] = t126;
+    const jg_real t127 = C_j[1] * t125 * lambda[5] + s_j[1] * t123 + C_j[7] * t124;
+    jac_phi_q_t_lambda_A_j[40] = t127;
+    jac_phi_q_t_lambda_A_j[5] = -t127;
+    const jg_real t128 = A_i[7] * C_j[6];
+    const jg_real t129 = A_i[4] * C_j[6];
+    const jg_real t130 = s_j[0] * A_i[7];
+    const jg_real t131 = s_j[0] * A_i[4];
+    const jg_real t132 = A_i[4] * C_j[0];
+    const jg_real t133 = A_i[7] * C_j[0];
+    jac_phi_q_t_lambda_A_j[6] = lambda[1] * t130 - lambda[2] * t131 + (t128 * t15 - t129 * t10) - (C_i[2] * t132 -
+        C_i[1] * t133) * lambda[5];
+    const jg_real t134 = C_j[6] * A_i[1];
+    const jg_real t135 = s_j[0] * A_i[1];
+    const jg_real t136 = C_j[0] * A_i[1];
+    jac_phi_q_t_lambda_A_j[7] = lambda[2] * t135 - lambda[0] * t130 + (t10 * t134 - t128 * t20) - lambda[5] * (t133
+        * C_i[0] - C_i[2] * t136);
+    jac_phi_q_t_lambda_A_j[8] = lambda[0] * t131 - lambda[1] * t135 + (t129 * t20 - t15 * t134) - lambda[5] *
+        (C_i[1] * t136 - t132 * C_i[0]);
+    const jg_real t137 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[9] = t137;
+    jac_phi_q_t_lambda_A_j[27] = t137;
+    jac_phi_q_t_lambda_A_j[45] = t137;
+    const jg_real t138 = A_i[1] * t20 + A_i[4] * t15 + A_i[7] * t10;
+    const jg_real t139 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real t140 = C_j[2] * t139 * lambda[5] + s_j[2] * t137 + C_j[8] * t138;
+    jac_phi_q_t_lambda_A_j[10] = t140;
+    const jg_real t141 = C_j[1] * t139 * lambda[5] + s_j[1] * t137 + C_j[7] * t138;
+    jac_phi_q_t_lambda_A_j[46] = t141;
+    jac_phi_q_t_lambda_A_j[11] = -t141;
+    const jg_real t142 = A_i[8] * C_j[6];
+    const jg_real t143 = A_i[5] * C_j[6];
+    const jg_real t144 = s_j[0] * A_i[8];
+    const jg_real t145 = s_j[0] * A_i[5];
+    const jg_real t146 = A_i[5] * C_j[0];
+    const jg_real t147 = A_i[8] * C_j[0];
+    jac_phi_q_t_lambda_A_j[12] = lambda[1] * t144 - lambda[2] * t145 + (t142 * t15 - t143 * t10) - (C_i[2] * t146 -
+        C_i[1] * t147) * lambda[5];
+    const jg_real t148 = C_j[6] * A_i[2];
+    const jg_real t149 = s_j[0] * A_i[2];
+    const jg_real t150 = C_j[0] * A_i[2];
+    jac_phi_q_t_lambda_A_j[13] = lambda[2] * t149 - lambda[0] * t144 + (t10 * t148 - t142 * t20) - lambda[5] * (t147
+        * C_i[0] - C_i[2] * t150);
+    jac_phi_q_t_lambda_A_j[14] = lambda[0] * t145 - lambda[1] * t149 + (t143 * t20 - t15 * t148) - lambda[5] *
+        (C_i[1] * t150 - t146 * C_i[0]);
+    const jg_real t151 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[15] = t151;
+    jac_phi_q_t_lambda_A_j[33] = t151;
+    jac_phi_q_t_lambda_A_j[51] = t151;
+    const jg_real t152 = A_i[2] * t20 + A_i[5] * t15 + A_i[8] * t10;
+    const jg_real t153 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real t154 = C_j[2] * t153 * lambda[5] + s_j[2] * t151 + C_j[8] * t152;
+    jac_phi_q_t_lambda_A_j[16] = t154;
+    const jg_real t155 = C_j[1] * t153 * lambda[5] + s_j[1] * t151 + C_j[7] * t152;
+    jac_phi_q_t_lambda_A_j[52] = t155;
+    jac_phi_q_t_lambda_A_j[17] = -t155;
+    const jg_real t156 = A_i[6] * C_j[7];
+    const jg_real t157 = A_i[3] * C_j[7];
+    const jg_real t158 = s_j[1] * A_i[6];
+    const jg_real t159 = s_j[1] * A_i[3];
+    const jg_real t160 = A_i[3] * C_j[1];
+    const jg_real t161 = A_i[6] * C_j[1];
+    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t158 - lambda[2] * t159 + (t156 * t15 - t157 * t10) - (C_i[2] * t160 -
+        C_i[1] * t161) * lambda[5];
+    const jg_real t162 = C_j[7] * A_i[0];
+    const jg_real t163 = s_j[1] * A_i[0];
+    const jg_real t164 = C_j[1] * A_i[0];
+    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t163 - lambda[0] * t158 + (t10 * t162 - t156 * t20) - lambda[5] * (t161
+        * C_i[0] - C_i[2] * t164);
+    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t159 - lambda[1] * t163 + (t157 * t20 - t15 * t162) - lambda[5] *
+        (C_i[1] * t164 - t160 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[22] = -t126;
+    const jg_real t165 = C_j[0] * t125 * lambda[5] + s_j[0] * t123 + C_j[6] * t124;
+    jac_phi_q_t_lambda_A_j[23] = t165;
+    const jg_real t166 = A_i[7] * C_j[7];
+    const jg_real t167 = A_i[4] * C_j[7];
+    const jg_real t168 = s_j[1] * A_i[7];
+    const jg_real t169 = s_j[1] * A_i[4];
+    const jg_real t170 = A_i[4] * C_j[1];
+    const jg_real t171 = A_i[7] * C_j[1];
+    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t168 - lambda[2] * t169 + (t166 * t15 - t167 * t10) - (C_i[2] * t170 -
+        C_i[1] * t171) * lambda[5];
+    const jg_real t172 = C_j[7] * A_i[1];
+    const jg_real t173 = s_j[1] * A_i[1];
+    const jg_real t174 = C_j[1] * A_i[1];
+    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t173 - lambda[0] * t168 + (t10 * t172 - t166 * t20) - lambda[5] * (t171
+        * C_i[0] - C_i[2] * t174);
+    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t169 - lambda[1] * t173 + (t167 * t20 - t15 * t172) - lambda[5] *
+        (C_i[1] * t174 - t170 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[28] = -t140;
+    const jg_real t175 = C_j[0] * t139 * lambda[5] + s_j[0] * t137 + C_j[6] * t138;
+    jac_phi_q_t_lambda_A_j[29] = t175;
+    const jg_real t176 = A_i[8] * C_j[7];
+    const jg_real t177 = A_i[5] * C_j[7];
+    const jg_real t178 = s_j[1] * A_i[8];
+    const jg_real t179 = s_j[1] * A_i[5];
+    const jg_real t180 = A_i[5] * C_j[1];
+    const jg_real t181 = A_i[8] * C_j[1];
+    jac_phi_q_t_lambda_A_j[30] = lambda[1] * t178 - lambda[2] * t179 + (t176 * t15 - t177 * t10) - (C_i[2] * t180 -
         C_i[1] * t181) * lambda[5];
-    const jg_real t182 = A_i[1] * C_j[6];
-    const jg_real t183 = s_j[0] * A_i[1];
-    const jg_real t184 = A_i[1] * C_j[0];
-    jac_phi_q_t_lambda_A_j[7] = lambda[2] * t183 - lambda[0] * t178 + (t12 * t182 - t176 * t29) - lambda[5] * (t181
+    const jg_real t182 = C_j[7] * A_i[2];
+    const jg_real t183 = s_j[1] * A_i[2];
+    const jg_real t184 = C_j[1] * A_i[2];
+    jac_phi_q_t_lambda_A_j[31] = lambda[2] * t183 - lambda[0] * t178 + (t10 * t182 - t176 * t20) - lambda[5] * (t181
         * C_i[0] - C_i[2] * t184);
-    jac_phi_q_t_lambda_A_j[8] = lambda[0] * t179 - lambda[1] * t183 + (t177 * t29 - t23 * t182) - lambda[5] *
+    jac_phi_q_t_lambda_A_j[32] = lambda[0] * t179 - lambda[1] * t183 + (t177 * t20 - t15 * t182) - lambda[5] *
         (C_i[1] * t184 - t180 * C_i[0]);
-    const jg_real t185 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[9] = t185;
-    jac_phi_q_t_lambda_A_j[27] = t185;
-    jac_phi_q_t_lambda_A_j[45] = t185;
-    const jg_real t186 = A_i[1] * t29 + A_i[4] * t23 + A_i[7] * t12;
-    const jg_real t187 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real t188 = C_j[2] * t187 * lambda[5] + s_j[2] * t185 + C_j[8] * t186;
-    jac_phi_q_t_lambda_A_j[10] = t188;
-    const jg_real t189 = C_j[1] * t187 * lambda[5] + s_j[1] * t185 + C_j[7] * t186;
-    jac_phi_q_t_lambda_A_j[46] = t189;
-    jac_phi_q_t_lambda_A_j[11] = -t189;
-    const jg_real t190 = A_i[8] * C_j[6];
-    const jg_real t191 = A_i[5] * C_j[6];
-    const jg_real t192 = s_j[0] * A_i[8];
-    const jg_real t193 = s_j[0] * A_i[5];
-    const jg_real t194 = A_i[5] * C_j[0];
-    const jg_real t195 = A_i[8] * C_j[0];
-    jac_phi_q_t_lambda_A_j[12] = lambda[1] * t192 - lambda[2] * t193 + (t190 * t23 - t191 * t12) - (C_i[2] * t194 -
-        C_i[1] * t195) * lambda[5];
-    const jg_real t196 = A_i[2] * C_j[6];
-    const jg_real t197 = s_j[0] * A_i[2];
-    const jg_real t198 = A_i[2] * C_j[0];
-    jac_phi_q_t_lambda_A_j[13] = lambda[2] * t197 - lambda[0] * t192 + (t12 * t196 - t190 * t29) - lambda[5] * (t195
-        * C_i[0] - C_i[2] * t198);
-    jac_phi_q_t_lambda_A_j[14] = lambda[0] * t193 - lambda[1] * t197 + (t191 * t29 - t23 * t196) - lambda[5] *
-        (C_i[1] * t198 - t194 * C_i[0]);
-    const jg_real t199 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[15] = t199;
-    jac_phi_q_t_lambda_A_j[33] = t199;
-    jac_phi_q_t_lambda_A_j[51] = t199;
-    const jg_real t200 = A_i[2] * t29 + A_i[5] * t23 + A_i[8] * t12;
-    const jg_real t201 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real t202 = C_j[2] * t201 * lambda[5] + s_j[2] * t199 + C_j[8] * t200;
-    jac_phi_q_t_lambda_A_j[16] = t202;
-    const jg_real t203 = C_j[1] * t201 * lambda[5] + s_j[1] * t199 + C_j[7] * t200;
-    jac_phi_q_t_lambda_A_j[52] = t203;
-    jac_phi_q_t_lambda_A_j[17] = -t203;
-    const jg_real t204 = A_i[6] * C_j[7];
-    const jg_real t205 = A_i[3] * C_j[7];
-    const jg_real t206 = s_j[1] * A_i[6];
-    const jg_real t207 = s_j[1] * A_i[3];
-    const jg_real t208 = A_i[3] * C_j[1];
-    const jg_real t209 = A_i[6] * C_j[1];
-    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t206 - lambda[2] * t207 + (t204 * t23 - t205 * t12) - (C_i[2] * t208 -
+    jac_phi_q_t_lambda_A_j[34] = -t154;
+    const jg_real t185 = C_j[0] * t153 * lambda[5] + s_j[0] * t151 + C_j[6] * t152;
+    jac_phi_q_t_lambda_A_j[35] = t185;
+    const jg_real t186 = A_i[6] * C_j[8];
+    const jg_real t187 = A_i[3] * C_j[8];
+    const jg_real t188 = s_j[2] * A_i[6];
+    const jg_real t189 = s_j[2] * A_i[3];
+    const jg_real t190 = A_i[3] * C_j[2];
+    const jg_real t191 = A_i[6] * C_j[2];
+    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t188 - lambda[2] * t189 + (t186 * t15 - t187 * t10) - (C_i[2] * t190 -
+        C_i[1] * t191) * lambda[5];
+    const jg_real t192 = C_j[8] * A_i[0];
+    const jg_real t193 = s_j[2] * A_i[0];
+    const jg_real t194 = C_j[2] * A_i[0];
+    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t193 - lambda[0] * t188 + (t10 * t192 - t186 * t20) - lambda[5] * (t191
+        * C_i[0] - C_i[2] * t194);
+    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t189 - lambda[1] * t193 + (t187 * t20 - t15 * t192) - lambda[5] *
+        (C_i[1] * t194 - t190 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[41] = -t165;
+    const jg_real t195 = A_i[7] * C_j[8];
+    const jg_real t196 = A_i[4] * C_j[8];
+    const jg_real t197 = s_j[2] * A_i[7];
+    const jg_real t198 = s_j[2] * A_i[4];
+    const jg_real t199 = A_i[4] * C_j[2];
+    const jg_real t200 = A_i[7] * C_j[2];
+    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t197 - lambda[2] * t198 + (t195 * t15 - t196 * t10) - (C_i[2] * t199 -
+        C_i[1] * t200) * lambda[5];
+    const jg_real t201 = C_j[8] * A_i[1];
+    const jg_real t202 = s_j[2] * A_i[1];
+    const jg_real t203 = C_j[2] * A_i[1];
+    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t202 - lambda[0] * t197 + (t10 * t201 - t195 * t20) - lambda[5] * (t200
+        * C_i[0] - C_i[2] * t203);
+    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t198 - lambda[1] * t202 + (t196 * t20 - t15 * t201) - lambda[5] *
+        (C_i[1] * t203 - t199 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[47] = -t175;
+    const jg_real t204 = A_i[8] * C_j[8];
+    const jg_real t205 = A_i[5] * C_j[8];
+    const jg_real t206 = s_j[2] * A_i[8];
+    const jg_real t207 = s_j[2] * A_i[5];
+    const jg_real t208 = A_i[5] * C_j[2];
+    const jg_real t209 = A_i[8] * C_j[2];
+    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t206 - lambda[2] * t207 + (t204 * t15 - t205 * t10) - (C_i[2] * t208 -
         C_i[1] * t209) * lambda[5];
-    const jg_real t210 = A_i[0] * C_j[7];
-    const jg_real t211 = s_j[1] * A_i[0];
-    const jg_real t212 = A_i[0] * C_j[1];
-    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t211 - lambda[0] * t206 + (t12 * t210 - t204 * t29) - lambda[5] * (t209
+    const jg_real t210 = C_j[8] * A_i[2];
+    const jg_real t211 = s_j[2] * A_i[2];
+    const jg_real t212 = C_j[2] * A_i[2];
+    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t211 - lambda[0] * t206 + (t10 * t210 - t204 * t20) - lambda[5] * (t209
         * C_i[0] - C_i[2] * t212);
-    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t207 - lambda[1] * t211 + (t205 * t29 - t23 * t210) - lambda[5] *
+    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t207 - lambda[1] * t211 + (t205 * t20 - t15 * t210) - lambda[5] *
         (C_i[1] * t212 - t208 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[22] = -t174;
-    const jg_real t213 = C_j[0] * t173 * lambda[5] + s_j[0] * t171 + C_j[6] * t172;
-    jac_phi_q_t_lambda_A_j[23] = t213;
-    const jg_real t214 = A_i[7] * C_j[7];
-    const jg_real t215 = A_i[4] * C_j[7];
-    const jg_real t216 = s_j[1] * A_i[7];
-    const jg_real t217 = s_j[1] * A_i[4];
-    const jg_real t218 = A_i[4] * C_j[1];
-    const jg_real t219 = A_i[7] * C_j[1];
-    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t216 - lambda[2] * t217 + (t214 * t23 - t215 * t12) - (C_i[2] * t218 -
-        C_i[1] * t219) * lambda[5];
-    const jg_real t220 = A_i[1] * C_j[7];
-    const jg_real t221 = s_j[1] * A_i[1];
-    const jg_real t222 = A_i[1] * C_j[1];
-    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t221 - lambda[0] * t216 + (t12 * t220 - t214 * t29) - lambda[5] * (t219
-        * C_i[0] - C_i[2] * t222);
-    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t217 - lambda[1] * t221 + (t215 * t29 - t23 * t220) - lambda[5] *
-        (C_i[1] * t222 - t218 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[28] = -t188;
-    const jg_real t223 = C_j[0] * t187 * lambda[5] + s_j[0] * t185 + C_j[6] * t186;
-    jac_phi_q_t_lambda_A_j[29] = t223;
-    const jg_real t224 = A_i[8] * C_j[7];
-    const jg_real t225 = A_i[5] * C_j[7];
-    const jg_real t226 = s_j[1] * A_i[8];
-    const jg_real t227 = s_j[1] * A_i[5];
-    const jg_real t228 = A_i[5] * C_j[1];
-    const jg_real t229 = A_i[8] * C_j[1];
-    jac_phi_q_t_lambda_A_j[30] = lambda[1] * t226 - lambda[2] * t227 + (t224 * t23 - t225 * t12) - (C_i[2] * t228 -
-        C_i[1] * t229) * lambda[5];
-    const jg_real t230 = A_i[2] * C_j[7];
-    const jg_real t231 = s_j[1] * A_i[2];
-    const jg_real t232 = A_i[2] * C_j[1];
-    jac_phi_q_t_lambda_A_j[31] = lambda[2] * t231 - lambda[0] * t226 + (t12 * t230 - t224 * t29) - lambda[5] * (t229
-        * C_i[0] - C_i[2] * t232);
-    jac_phi_q_t_lambda_A_j[32] = lambda[0] * t227 - lambda[1] * t231 + (t225 * t29 - t23 * t230) - lambda[5] *
-        (C_i[1] * t232 - t228 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[34] = -t202;
-    const jg_real t233 = C_j[0] * t201 * lambda[5] + s_j[0] * t199 + C_j[6] * t200;
-    jac_phi_q_t_lambda_A_j[35] = t233;
-    const jg_real t234 = A_i[6] * C_j[8];
-    const jg_real t235 = A_i[3] * C_j[8];
-    const jg_real t236 = s_j[2] * A_i[6];
-    const jg_real t237 = s_j[2] * A_i[3];
-    const jg_real t238 = A_i[3] * C_j[2];
-    const jg_real t239 = A_i[6] * C_j[2];
-    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t236 - lambda[2] * t237 + (t234 * t23 - t235 * t12) - (C_i[2] * t238 -
-        C_i[1] * t239) * lambda[5];
-    const jg_real t240 = A_i[0] * C_j[8];
-    const jg_real t241 = s_j[2] * A_i[0];
-    const jg_real t242 = A_i[0] * C_j[2];
-    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t241 - lambda[0] * t236 + (t12 * t240 - t234 * t29) - lambda[5] * (t239
-        * C_i[0] - C_i[2] * t242);
-    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t237 - lambda[1] * t241 + (t235 * t29 - t23 * t240) - lambda[5] *
-        (C_i[1] * t242 - t238 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[41] = -t213;
-    const jg_real t243 = A_i[7] * C_j[8];
-    const jg_real t244 = A_i[4] * C_j[8];
-    const jg_real t245 = s_j[2] * A_i[7];
-    const jg_real t246 = s_j[2] * A_i[4];
-    const jg_real t247 = A_i[4] * C_j[2];
-    const jg_real t248 = A_i[7] * C_j[2];
-    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t245 - lambda[2] * t246 + (t243 * t23 - t244 * t12) - (C_i[2] * t247 -
-        C_i[1] * t248) * lambda[5];
-    const jg_real t249 = A_i[1] * C_j[8];
-    const jg_real t250 = s_j[2] * A_i[1];
-    const jg_real t251 = A_i[1] * C_j[2];
-    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t250 - lambda[0] * t245 + (t12 * t249 - t243 * t29) - lambda[5] * (t248
-        * C_i[0] - C_i[2] * t251);
-    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t246 - lambda[1] * t250 + (t244 * t29 - t23 * t249) - lambda[5] *
-        (C_i[1] * t251 - t247 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[47] = -t223;
-    const jg_real t252 = A_i[8] * C_j[8];
-    const jg_real t253 = A_i[5] * C_j[8];
-    const jg_real t254 = s_j[2] * A_i[8];
-    const jg_real t255 = s_j[2] * A_i[5];
-    const jg_real t256 = A_i[5] * C_j[2];
-    const jg_real t257 = A_i[8] * C_j[2];
-    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t254 - lambda[2] * t255 + (t252 * t23 - t253 * t12) - (C_i[2] * t256 -
-        C_i[1] * t257) * lambda[5];
-    const jg_real t258 = A_i[2] * C_j[8];
-    const jg_real t259 = s_j[2] * A_i[2];
-    const jg_real t260 = A_i[2] * C_j[2];
-    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t259 - lambda[0] * t254 + (t12 * t258 - t252 * t29) - lambda[5] * (t257
-        * C_i[0] - C_i[2] * t260);
-    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t255 - lambda[1] * t259 + (t253 * t29 - t23 * t258) - lambda[5] *
-        (C_i[1] * t260 - t256 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[53] = -t233;
+    jac_phi_q_t_lambda_A_j[53] = -t185;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_t_lambda_alpha[0] = lambda[5] * cosine_0;
-    const jg_real t263 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t264 = lambda[2] * t263;
-    const jg_real t265 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t266 = lambda[1] * t265;
-    jac_phi_q_t_lambda_geometry[0] = t264 - t266;
-    const jg_real t267 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t267 + lambda[0] * t265;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t263 + lambda[1] * t267);
-    const jg_real t268 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t269 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t268 + lambda[2] * t269);
-    const jg_real t270 = lambda[0] * t268;
-    jac_phi_q_t_lambda_geometry[4] = t270 - t264;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t269 + lambda[1] * t263;
-    const jg_real t271 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t271 + lambda[2] * t268;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t265 + lambda[0] * t271);
-    jac_phi_q_t_lambda_geometry[8] = t266 - t270;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
@@ -1393,9 +1267,9 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t277 = A_ij_h_j_2 * lambda[3] + A_ij_f_j_2 * lambda[5];
-    jac_phi_q_t_lambda_geometry[14] = t277;
-    jac_phi_q_t_lambda_geometry[9] = -t277;
+    const jg_real t220 = A_ij_h_j_2 * lambda[3] + A_ij_f_j_2 * lambda[5];
+    jac_phi_q_t_lambda_geometry[5] = t220;
+    jac_phi_q_t_lambda_geometry[0] = -t220;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_q_t_lambda_lambda[12] = A_ij_1;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
@@ -1404,154 +1278,151 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[14] = A_ij_7;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t283 = lambda[3] * A_ij_h_j_1 + A_ij_f_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[10] = t283;
+    const jg_real t226 = lambda[3] * A_ij_h_j_1 + A_ij_f_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[1] = t226;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_q_t_lambda_lambda[5] = A_ij_6;
-    const jg_real t285 = lambda[3] * A_ij_6;
+    const jg_real t228 = lambda[3] * A_ij_6;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_q_t_lambda_lambda[4] = A_ij_3;
-    const jg_real t287 = lambda[3] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[11] = C_j[7] * t285 - C_j[8] * t287 + lambda[5] * (C_j[1] * A_ij_6 - C_j[2] *
+    const jg_real t230 = lambda[3] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[2] = C_j[7] * t228 - C_j[8] * t230 + lambda[5] * (C_j[1] * A_ij_6 - C_j[2] *
         A_ij_3);
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_ij_0;
-    const jg_real t289 = lambda[3] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = C_j[8] * t289 - C_j[6] * t285 + lambda[5] * (C_j[2] * A_ij_0 - C_j[0] *
+    const jg_real t232 = lambda[3] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[3] = C_j[8] * t232 - C_j[6] * t228 + lambda[5] * (C_j[2] * A_ij_0 - C_j[0] *
         A_ij_6);
-    jac_phi_q_t_lambda_geometry[13] = C_j[6] * t287 - C_j[7] * t289 + lambda[5] * (C_j[0] * A_ij_3 - C_j[1] *
+    jac_phi_q_t_lambda_geometry[4] = C_j[6] * t230 - C_j[7] * t232 + lambda[5] * (C_j[0] * A_ij_3 - C_j[1] *
         A_ij_0);
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t292 = lambda[3] * A_ij_h_j_0 + lambda[5] * A_ij_f_j_0;
-    jac_phi_q_t_lambda_geometry[20] = t292;
-    jac_phi_q_t_lambda_geometry[15] = -t292;
-    const jg_real t293 = A_ij_7 * lambda[3];
-    const jg_real t294 = A_ij_4 * lambda[3];
-    jac_phi_q_t_lambda_geometry[16] = C_j[7] * t293 - C_j[8] * t294 + lambda[5] * (A_ij_7 * C_j[1] - A_ij_4 *
+    const jg_real t235 = lambda[3] * A_ij_h_j_0 + lambda[5] * A_ij_f_j_0;
+    jac_phi_q_t_lambda_geometry[11] = t235;
+    jac_phi_q_t_lambda_geometry[6] = -t235;
+    const jg_real t236 = A_ij_7 * lambda[3];
+    const jg_real t237 = A_ij_4 * lambda[3];
+    jac_phi_q_t_lambda_geometry[7] = C_j[7] * t236 - C_j[8] * t237 + lambda[5] * (A_ij_7 * C_j[1] - A_ij_4 *
         C_j[2]);
-    const jg_real t295 = A_ij_1 * lambda[3];
-    jac_phi_q_t_lambda_geometry[17] = C_j[8] * t295 - C_j[6] * t293 + lambda[5] * (A_ij_1 * C_j[2] - A_ij_7 *
+    const jg_real t238 = A_ij_1 * lambda[3];
+    jac_phi_q_t_lambda_geometry[8] = C_j[8] * t238 - C_j[6] * t236 + lambda[5] * (A_ij_1 * C_j[2] - A_ij_7 *
         C_j[0]);
-    jac_phi_q_t_lambda_geometry[18] = C_j[6] * t294 - C_j[7] * t295 + lambda[5] * (A_ij_4 * C_j[0] - A_ij_1 *
+    jac_phi_q_t_lambda_geometry[9] = C_j[6] * t237 - C_j[7] * t238 + lambda[5] * (A_ij_4 * C_j[0] - A_ij_1 *
         C_j[1]);
-    jac_phi_q_t_lambda_geometry[19] = -t283;
-    const jg_real t296 = A_ij_8 * lambda[3];
-    const jg_real t297 = A_ij_5 * lambda[3];
-    jac_phi_q_t_lambda_geometry[21] = C_j[7] * t296 - C_j[8] * t297 + lambda[5] * (A_ij_8 * C_j[1] - A_ij_5 *
+    jac_phi_q_t_lambda_geometry[10] = -t226;
+    const jg_real t239 = A_ij_8 * lambda[3];
+    const jg_real t240 = A_ij_5 * lambda[3];
+    jac_phi_q_t_lambda_geometry[12] = C_j[7] * t239 - C_j[8] * t240 + lambda[5] * (A_ij_8 * C_j[1] - A_ij_5 *
         C_j[2]);
-    const jg_real t298 = A_ij_2 * lambda[3];
-    jac_phi_q_t_lambda_geometry[22] = C_j[8] * t298 - C_j[6] * t296 + lambda[5] * (A_ij_2 * C_j[2] - A_ij_8 *
+    const jg_real t241 = A_ij_2 * lambda[3];
+    jac_phi_q_t_lambda_geometry[13] = C_j[8] * t241 - C_j[6] * t239 + lambda[5] * (A_ij_2 * C_j[2] - A_ij_8 *
         C_j[0]);
-    jac_phi_q_t_lambda_geometry[23] = C_j[6] * t297 - C_j[7] * t298 + lambda[5] * (A_ij_5 * C_j[0] - A_ij_2 *
+    jac_phi_q_t_lambda_geometry[14] = C_j[6] * t240 - C_j[7] * t241 + lambda[5] * (A_ij_5 * C_j[0] - A_ij_2 *
         C_j[1]);
-    const jg_real t299 = A_ij_h_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[29] = t299;
-    jac_phi_q_t_lambda_geometry[24] = -t299;
-    const jg_real t300 = lambda[4] * A_ij_h_j_1;
-    jac_phi_q_t_lambda_geometry[25] = t300;
-    const jg_real t301 = lambda[4] * A_ij_6;
-    const jg_real t302 = lambda[4] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[26] = C_j[7] * t301 - C_j[8] * t302;
-    const jg_real t303 = lambda[4] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[27] = C_j[8] * t303 - C_j[6] * t301;
-    jac_phi_q_t_lambda_geometry[28] = C_j[6] * t302 - C_j[7] * t303;
-    const jg_real t304 = lambda[4] * A_ij_h_j_0;
-    jac_phi_q_t_lambda_geometry[35] = t304;
-    jac_phi_q_t_lambda_geometry[30] = -t304;
-    const jg_real t305 = A_ij_7 * lambda[4];
-    const jg_real t306 = A_ij_4 * lambda[4];
-    jac_phi_q_t_lambda_geometry[31] = C_j[7] * t305 - C_j[8] * t306;
-    const jg_real t307 = A_ij_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[32] = C_j[8] * t307 - C_j[6] * t305;
-    jac_phi_q_t_lambda_geometry[33] = C_j[6] * t306 - C_j[7] * t307;
-    jac_phi_q_t_lambda_geometry[34] = -t300;
-    const jg_real t308 = A_ij_8 * lambda[4];
-    const jg_real t309 = A_ij_5 * lambda[4];
-    jac_phi_q_t_lambda_geometry[36] = C_j[7] * t308 - C_j[8] * t309;
-    const jg_real t310 = A_ij_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[37] = C_j[8] * t310 - C_j[6] * t308;
-    jac_phi_q_t_lambda_geometry[38] = C_j[6] * t309 - C_j[7] * t310;
-    jac_phi_q_t_lambda_geometry[39] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[40] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[41] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t311 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[47] = t311;
-    jac_phi_q_t_lambda_geometry[42] = -t311;
-    const jg_real t312 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[43] = t312;
-    jac_phi_q_t_lambda_geometry[44] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[45] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[46] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t313 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[53] = t313;
-    jac_phi_q_t_lambda_geometry[48] = -t313;
-    jac_phi_q_t_lambda_geometry[49] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[50] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[51] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[52] = -t312;
-    jac_phi_q_t_lambda_geometry[54] = -((A_ij_1 * C_i[2] - A_ij_2 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[55] = -(lambda[5] * (A_ij_2 * C_i[0] - C_i[2] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[56] = -(lambda[5] * (C_i[1] * A_ij_0 - A_ij_1 * C_i[0]));
+    const jg_real t242 = A_ij_h_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[20] = t242;
+    jac_phi_q_t_lambda_geometry[15] = -t242;
+    const jg_real t243 = lambda[4] * A_ij_h_j_1;
+    jac_phi_q_t_lambda_geometry[16] = t243;
+    const jg_real t244 = lambda[4] * A_ij_6;
+    const jg_real t245 = lambda[4] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[17] = C_j[7] * t244 - C_j[8] * t245;
+    const jg_real t246 = lambda[4] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[18] = C_j[8] * t246 - C_j[6] * t244;
+    jac_phi_q_t_lambda_geometry[19] = C_j[6] * t245 - C_j[7] * t246;
+    const jg_real t247 = lambda[4] * A_ij_h_j_0;
+    jac_phi_q_t_lambda_geometry[26] = t247;
+    jac_phi_q_t_lambda_geometry[21] = -t247;
+    const jg_real t248 = A_ij_7 * lambda[4];
+    const jg_real t249 = A_ij_4 * lambda[4];
+    jac_phi_q_t_lambda_geometry[22] = C_j[7] * t248 - C_j[8] * t249;
+    const jg_real t250 = A_ij_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[23] = C_j[8] * t250 - C_j[6] * t248;
+    jac_phi_q_t_lambda_geometry[24] = C_j[6] * t249 - C_j[7] * t250;
+    jac_phi_q_t_lambda_geometry[25] = -t243;
+    const jg_real t251 = A_ij_8 * lambda[4];
+    const jg_real t252 = A_ij_5 * lambda[4];
+    jac_phi_q_t_lambda_geometry[27] = C_j[7] * t251 - C_j[8] * t252;
+    const jg_real t253 = A_ij_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[28] = C_j[8] * t253 - C_j[6] * t251;
+    jac_phi_q_t_lambda_geometry[29] = C_j[6] * t252 - C_j[7] * t253;
+    jac_phi_q_t_lambda_geometry[30] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[31] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[32] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t254 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[38] = t254;
+    jac_phi_q_t_lambda_geometry[33] = -t254;
+    const jg_real t255 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[34] = t255;
+    jac_phi_q_t_lambda_geometry[35] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[36] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[37] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real t256 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[44] = t256;
+    jac_phi_q_t_lambda_geometry[39] = -t256;
+    jac_phi_q_t_lambda_geometry[40] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[41] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[42] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[43] = -t255;
+    jac_phi_q_t_lambda_geometry[45] = -((A_ij_1 * C_i[2] - A_ij_2 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[46] = -(lambda[5] * (A_ij_2 * C_i[0] - C_i[2] * A_ij_0));
+    jac_phi_q_t_lambda_geometry[47] = -(lambda[5] * (C_i[1] * A_ij_0 - A_ij_1 * C_i[0]));
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    const jg_real t315 = lambda[5] * A_ijt_f_i_2;
-    jac_phi_q_t_lambda_geometry[62] = t315;
-    jac_phi_q_t_lambda_geometry[57] = -t315;
+    const jg_real t258 = lambda[5] * A_ijt_f_i_2;
+    jac_phi_q_t_lambda_geometry[53] = t258;
+    jac_phi_q_t_lambda_geometry[48] = -t258;
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    const jg_real t317 = lambda[5] * A_ijt_f_i_1;
-    jac_phi_q_t_lambda_geometry[58] = t317;
-    jac_phi_q_t_lambda_geometry[59] = -((A_ij_4 * C_i[2] - A_ij_5 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[60] = -(lambda[5] * (A_ij_5 * C_i[0] - C_i[2] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[61] = -(lambda[5] * (C_i[1] * A_ij_3 - A_ij_4 * C_i[0]));
+    const jg_real t260 = lambda[5] * A_ijt_f_i_1;
+    jac_phi_q_t_lambda_geometry[49] = t260;
+    jac_phi_q_t_lambda_geometry[50] = -((A_ij_4 * C_i[2] - A_ij_5 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[51] = -(lambda[5] * (A_ij_5 * C_i[0] - C_i[2] * A_ij_3));
+    jac_phi_q_t_lambda_geometry[52] = -(lambda[5] * (C_i[1] * A_ij_3 - A_ij_4 * C_i[0]));
     const jg_real A_ijt_f_i_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    const jg_real t319 = lambda[5] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_geometry[68] = t319;
-    jac_phi_q_t_lambda_geometry[63] = -t319;
-    jac_phi_q_t_lambda_geometry[64] = -((A_ij_7 * C_i[2] - A_ij_8 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[65] = -(lambda[5] * (A_ij_8 * C_i[0] - C_i[2] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[66] = -(lambda[5] * (C_i[1] * A_ij_6 - A_ij_7 * C_i[0]));
-    jac_phi_q_t_lambda_geometry[67] = -t317;
-    jac_phi_q_t_lambda_geometry[69] = A_ij_2 * t23 - A_ij_1 * t12;
-    jac_phi_q_t_lambda_geometry[70] = t12 * A_ij_0 - A_ij_2 * t29;
-    jac_phi_q_t_lambda_geometry[71] = A_ij_1 * t29 - t23 * A_ij_0;
-    const jg_real t320 = A_ij_6 * t29 + A_ij_7 * t23 + A_ij_8 * t12;
-    jac_phi_q_t_lambda_geometry[77] = t320;
-    jac_phi_q_t_lambda_geometry[72] = -t320;
-    const jg_real t321 = A_ij_3 * t29 + A_ij_4 * t23 + A_ij_5 * t12;
-    jac_phi_q_t_lambda_geometry[73] = t321;
-    jac_phi_q_t_lambda_geometry[74] = A_ij_5 * t23 - A_ij_4 * t12;
-    jac_phi_q_t_lambda_geometry[75] = t12 * A_ij_3 - A_ij_5 * t29;
-    jac_phi_q_t_lambda_geometry[76] = A_ij_4 * t29 - t23 * A_ij_3;
-    const jg_real t322 = A_ij_0 * t29 + A_ij_1 * t23 + A_ij_2 * t12;
-    jac_phi_q_t_lambda_geometry[83] = t322;
-    jac_phi_q_t_lambda_geometry[78] = -t322;
-    jac_phi_q_t_lambda_geometry[79] = A_ij_8 * t23 - A_ij_7 * t12;
-    jac_phi_q_t_lambda_geometry[80] = t12 * A_ij_6 - A_ij_8 * t29;
-    jac_phi_q_t_lambda_geometry[81] = A_ij_7 * t29 - t23 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[82] = -t321;
+    const jg_real t262 = lambda[5] * A_ijt_f_i_0;
+    jac_phi_q_t_lambda_geometry[59] = t262;
+    jac_phi_q_t_lambda_geometry[54] = -t262;
+    jac_phi_q_t_lambda_geometry[55] = -((A_ij_7 * C_i[2] - A_ij_8 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[56] = -(lambda[5] * (A_ij_8 * C_i[0] - C_i[2] * A_ij_6));
+    jac_phi_q_t_lambda_geometry[57] = -(lambda[5] * (C_i[1] * A_ij_6 - A_ij_7 * C_i[0]));
+    jac_phi_q_t_lambda_geometry[58] = -t260;
+    jac_phi_q_t_lambda_geometry[60] = A_ij_2 * t15 - A_ij_1 * t10;
+    jac_phi_q_t_lambda_geometry[61] = t10 * A_ij_0 - A_ij_2 * t20;
+    jac_phi_q_t_lambda_geometry[62] = A_ij_1 * t20 - t15 * A_ij_0;
+    const jg_real t263 = A_ij_6 * t20 + A_ij_7 * t15 + A_ij_8 * t10;
+    jac_phi_q_t_lambda_geometry[68] = t263;
+    jac_phi_q_t_lambda_geometry[63] = -t263;
+    const jg_real t264 = A_ij_3 * t20 + A_ij_4 * t15 + A_ij_5 * t10;
+    jac_phi_q_t_lambda_geometry[64] = t264;
+    jac_phi_q_t_lambda_geometry[65] = A_ij_5 * t15 - A_ij_4 * t10;
+    jac_phi_q_t_lambda_geometry[66] = t10 * A_ij_3 - A_ij_5 * t20;
+    jac_phi_q_t_lambda_geometry[67] = A_ij_4 * t20 - t15 * A_ij_3;
+    const jg_real t265 = A_ij_0 * t20 + A_ij_1 * t15 + A_ij_2 * t10;
+    jac_phi_q_t_lambda_geometry[74] = t265;
+    jac_phi_q_t_lambda_geometry[69] = -t265;
+    jac_phi_q_t_lambda_geometry[70] = A_ij_8 * t15 - A_ij_7 * t10;
+    jac_phi_q_t_lambda_geometry[71] = t10 * A_ij_6 - A_ij_8 * t20;
+    jac_phi_q_t_lambda_geometry[72] = A_ij_7 * t20 - t15 * A_ij_6;
+    jac_phi_q_t_lambda_geometry[73] = -t264;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t324 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[10] = t324;
-    jac_phi_q_t_lambda_lambda[1] = -t324;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t326 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t326;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    jac_phi_q_t_lambda_lambda[10] = ep_ij_2;
+    jac_phi_q_t_lambda_lambda[1] = -ep_ij_2;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    jac_phi_q_t_lambda_lambda[2] = ep_ij_1;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t328 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[20] = t328;
-    jac_phi_q_t_lambda_lambda[11] = -t328;
+    const jg_real ep_ij_0 = e_ij_0 * A_i[0] + e_ij_1 * A_i[1] + e_ij_2 * A_i[2];
+    jac_phi_q_t_lambda_lambda[20] = ep_ij_0;
+    jac_phi_q_t_lambda_lambda[11] = -ep_ij_0;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_t_lambda_lambda[19] = -t326;
+    jac_phi_q_t_lambda_lambda[19] = -ep_ij_1;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[26] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
@@ -1564,12 +1435,12 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[33] = A_ij_h_j_2 * C_i[4] - A_ij_h_j_1 * C_i[5];
     jac_phi_q_t_lambda_lambda[34] = C_i[5] * A_ij_h_j_0 - A_ij_h_j_2 * C_i[3];
     jac_phi_q_t_lambda_lambda[35] = A_ij_h_j_1 * C_i[3] - C_i[4] * A_ij_h_j_0;
-    const jg_real t329 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    const jg_real t330 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    jac_phi_q_t_lambda_lambda[36] = C_j[7] * t329 - C_j[8] * t330;
-    const jg_real t331 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
-    jac_phi_q_t_lambda_lambda[37] = C_j[8] * t331 - C_j[6] * t329;
-    jac_phi_q_t_lambda_lambda[38] = C_j[6] * t330 - C_j[7] * t331;
+    const jg_real t269 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
+    const jg_real t270 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    jac_phi_q_t_lambda_lambda[36] = C_j[7] * t269 - C_j[8] * t270;
+    const jg_real t271 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    jac_phi_q_t_lambda_lambda[37] = C_j[8] * t271 - C_j[6] * t269;
+    jac_phi_q_t_lambda_lambda[38] = C_j[6] * t270 - C_j[7] * t271;
     jac_phi_q_t_lambda_lambda[39] = C_i[1] * A_ij_f_j_2 - C_i[2] * A_ij_f_j_1;
     jac_phi_q_t_lambda_lambda[40] = C_i[2] * A_ij_f_j_0 - A_ij_f_j_2 * C_i[0];
     jac_phi_q_t_lambda_lambda[41] = A_ij_f_j_1 * C_i[0] - C_i[1] * A_ij_f_j_0;
@@ -1907,7 +1778,7 @@ int jac_jg_revolute_parametric_table4_phi_q_v_external(const double **arg, doubl
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[1];
-    double unwanted_5[36];
+    double unwanted_5[27];
     double unwanted_6[46];
     (void)iw;
     (void)w;
@@ -2011,8 +1882,8 @@ const casadi_int *jac_jg_revolute_parametric_table4_phi_q_v_external_sparsity_ou
         6, 1, 0, 1, 5
     };
     static const casadi_int pattern_5[] = {
-        6, 24, 0, 3, 6, 9, 11, 13, 15, 16, 17, 18, 18, 18, 18, 21, 24, 27, 28, 29, 30, 30, 30, 30, 32, 34, 36, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 3, 5, 3, 5, 3, 5, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 5, 5, 5, 3, 4, 3, 4, 3, 4
+        6, 24, 0, 0, 0, 0, 2, 4, 6, 7, 8, 9, 9, 9, 9, 12, 15, 18, 19, 20, 21, 21, 21, 21, 23, 25, 27, 3, 5, 3, 5, 3,
+        5, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 5, 5, 5, 3, 4, 3, 4, 3, 4
     };
     static const casadi_int pattern_6[] = {
         6, 13, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 46, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0, 1, 3, 4,
@@ -2137,11 +2008,11 @@ int jac_jg_revolute_parametric_table4_phi_q_t_lambda_external(const double **arg
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[81];
+    double unwanted_1[72];
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[1];
-    double unwanted_5[84];
+    double unwanted_5[75];
     double unwanted_6[46];
     (void)iw;
     (void)w;
@@ -2231,9 +2102,9 @@ const casadi_int *jac_jg_revolute_parametric_table4_phi_q_t_lambda_external_spar
         13, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        13, 9, 0, 9, 18, 27, 36, 45, 54, 63, 72, 81, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4,
-        5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10,
-        11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11
+        13, 9, 0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 4, 5, 6, 7, 8, 9, 10, 11, 4, 5, 6, 7, 8, 9, 10, 11, 4, 5, 6, 7,
+        8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 4, 6, 7, 8,
+        9, 10, 11, 3, 4, 6, 7, 8, 9, 10, 11, 3, 4, 6, 7, 8, 9, 10, 11
     };
     static const casadi_int pattern_2[] = {
         13, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -2247,10 +2118,10 @@ const casadi_int *jac_jg_revolute_parametric_table4_phi_q_t_lambda_external_spar
         13, 1, 0, 1, 12
     };
     static const casadi_int pattern_5[] = {
-        13, 24, 0, 3, 6, 9, 14, 19, 24, 29, 34, 39, 39, 39, 39, 44, 49, 54, 59, 64, 69, 69, 69, 69, 74, 79, 84, 3,
-        4, 5, 3, 4, 5, 3, 4, 5, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11,
-        3, 4, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5,
-        9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10
+        13, 24, 0, 0, 0, 0, 5, 10, 15, 20, 25, 30, 30, 30, 30, 35, 40, 45, 50, 55, 60, 60, 60, 60, 65, 70, 75, 4, 5,
+        9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 3, 4, 5, 10,
+        11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4,
+        5, 9, 11, 3, 4, 5, 9, 10
     };
     static const casadi_int pattern_6[] = {
         13, 6, 0, 9, 18, 27, 33, 39, 46, 0, 4, 5, 6, 7, 8, 9, 10, 11, 1, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 4, 6, 7, 8,

@@ -50,88 +50,92 @@ static void jg_rigid_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_r_i[8] = -A_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t1 = A_i[0] * s_i[0];
-    const jg_real t2 = A_i[3] * s_i[1];
-    const jg_real t3 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t2 = A_i[0] * s_i[0];
+    const jg_real t3 = A_i[3] * s_i[1];
+    const jg_real t4 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t1 + t2 + t3;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    jac_phi_A_i[0] = d_ij_0 - t1;
+    const jg_real A_i_s_i_0 = t2 + t3 + t4;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    jac_phi_A_i[0] = d_ij_0 - t2;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[3] = t6 * C_i[3];
-    const jg_real t7 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = t7 * C_i[6];
-    const jg_real t8 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    jac_phi_A_i[5] = t8 * C_i[0];
+    const jg_real t7 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[3] = t7 * C_i[3];
+    const jg_real t8 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = t8 * C_i[6];
+    const jg_real t9 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    jac_phi_A_i[5] = t9 * C_i[0];
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t10 = s_i[0] * A_i[1];
-    const jg_real t11 = s_i[1] * A_i[4];
-    const jg_real t12 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t10 + t11 + t12;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    jac_phi_A_i[6] = d_ij_1 - t10;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t12 = s_i[0] * A_i[1];
+    const jg_real t13 = s_i[1] * A_i[4];
+    const jg_real t14 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t12 + t13 + t14;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t12;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t15 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t15 * C_i[3];
-    const jg_real t16 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = t16 * C_i[6];
-    const jg_real t17 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t17 * C_i[0];
+    const jg_real t17 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t17 * C_i[3];
+    const jg_real t18 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = t18 * C_i[6];
+    const jg_real t19 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t19 * C_i[0];
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t19 = s_i[0] * A_i[2];
-    const jg_real t20 = s_i[1] * A_i[5];
-    const jg_real t21 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t19 + t20 + t21;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    jac_phi_A_i[12] = d_ij_2 - t19;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t22 = s_i[0] * A_i[2];
+    const jg_real t23 = s_i[1] * A_i[5];
+    const jg_real t24 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t22 + t23 + t24;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t22;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t24 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t24 * C_i[3];
-    const jg_real t25 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = t25 * C_i[6];
-    const jg_real t26 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t26 * C_i[0];
+    const jg_real t27 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t27 * C_i[3];
+    const jg_real t28 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = t28 * C_i[6];
+    const jg_real t29 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t29 * C_i[0];
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
-    jac_phi_A_i[19] = d_ij_0 - t2;
+    jac_phi_A_i[19] = d_ij_0 - t3;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    jac_phi_A_i[21] = t6 * C_i[4];
-    jac_phi_A_i[22] = t7 * C_i[7];
-    jac_phi_A_i[23] = t8 * C_i[1];
+    jac_phi_A_i[21] = t7 * C_i[4];
+    jac_phi_A_i[22] = t8 * C_i[7];
+    jac_phi_A_i[23] = t9 * C_i[1];
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t11;
+    jac_phi_A_i[25] = d_ij_1 - t13;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t15 * C_i[4];
-    jac_phi_A_i[28] = t16 * C_i[7];
-    jac_phi_A_i[29] = t17 * C_i[1];
+    jac_phi_A_i[27] = t17 * C_i[4];
+    jac_phi_A_i[28] = t18 * C_i[7];
+    jac_phi_A_i[29] = t19 * C_i[1];
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t20;
+    jac_phi_A_i[31] = d_ij_2 - t23;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t24 * C_i[4];
-    jac_phi_A_i[34] = t25 * C_i[7];
-    jac_phi_A_i[35] = t26 * C_i[1];
+    jac_phi_A_i[33] = t27 * C_i[4];
+    jac_phi_A_i[34] = t28 * C_i[7];
+    jac_phi_A_i[35] = t29 * C_i[1];
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
-    jac_phi_A_i[38] = d_ij_0 - t3;
-    jac_phi_A_i[39] = t6 * C_i[5];
-    jac_phi_A_i[40] = t7 * C_i[8];
-    jac_phi_A_i[41] = t8 * C_i[2];
+    jac_phi_A_i[38] = d_ij_0 - t4;
+    jac_phi_A_i[39] = t7 * C_i[5];
+    jac_phi_A_i[40] = t8 * C_i[8];
+    jac_phi_A_i[41] = t9 * C_i[2];
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t12;
-    jac_phi_A_i[45] = t15 * C_i[5];
-    jac_phi_A_i[46] = t16 * C_i[8];
-    jac_phi_A_i[47] = t17 * C_i[2];
+    jac_phi_A_i[44] = d_ij_1 - t14;
+    jac_phi_A_i[45] = t17 * C_i[5];
+    jac_phi_A_i[46] = t18 * C_i[8];
+    jac_phi_A_i[47] = t19 * C_i[2];
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t21;
-    jac_phi_A_i[51] = t24 * C_i[5];
-    jac_phi_A_i[52] = t25 * C_i[8];
-    jac_phi_A_i[53] = t26 * C_i[2];
+    jac_phi_A_i[50] = d_ij_2 - t24;
+    jac_phi_A_i[51] = t27 * C_i[5];
+    jac_phi_A_i[52] = t28 * C_i[8];
+    jac_phi_A_i[53] = t29 * C_i[2];
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -187,16 +191,16 @@ static void jg_rigid_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_A_j[52] = A_i[2] * C_j[2] * C_i[6] + A_i[5] * C_j[2] * C_i[7] + A_i[8] * C_j[2] * C_i[8];
     jac_phi_A_j[53] = A_i[2] * C_j[5] * C_i[0] + A_i[5] * C_j[5] * C_i[1] + A_i[8] * C_j[5] * C_i[2];
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t27 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t27;
-    jac_phi_geometry[3] = t27;
-    const jg_real t28 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t28;
-    jac_phi_geometry[6] = t28;
+    const jg_real t30 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t30;
+    jac_phi_geometry[3] = t30;
+    const jg_real t31 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t31;
+    jac_phi_geometry[6] = t31;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t29 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t29;
-    jac_phi_geometry[7] = t29;
+    const jg_real t32 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t32;
+    jac_phi_geometry[7] = t32;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
@@ -280,175 +284,144 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_q_v_r_i[7] = t7;
     const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
     jac_phi_q_v_r_i[8] = t8;
-    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
-    const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t12 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2 +
+        (A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2]);
+    jac_phi_q_v_A_i[0] = t12;
+    jac_phi_q_v_A_i[19] = t12;
+    jac_phi_q_v_A_i[38] = t12;
     /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
-    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = e_ij_0 * omega_i[2];
+    jac_phi_q_v_A_i[18] = t15;
+    jac_phi_q_v_A_i[1] = -t15;
+    const jg_real t16 = e_ij_0 * omega_i[1];
+    jac_phi_q_v_A_i[2] = t16;
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t26 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    const jg_real t27 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t28 = omega_i[2] * t27;
-    const jg_real t29 = omega_i[1] * t27;
-    jac_phi_q_v_A_i[3] = t26 * C_i[3] - (C_i[4] * t28 - C_i[5] * t29);
+    const jg_real t20 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    const jg_real t21 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t22 = omega_i[2] * t21;
+    const jg_real t23 = omega_i[1] * t21;
+    jac_phi_q_v_A_i[3] = t20 * C_i[3] - (C_i[4] * t22 - C_i[5] * t23);
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t33 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    const jg_real t34 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t35 = omega_i[2] * t34;
-    const jg_real t36 = omega_i[1] * t34;
-    jac_phi_q_v_A_i[4] = t33 * C_i[6] - (C_i[7] * t35 - C_i[8] * t36);
+    const jg_real t27 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    const jg_real t28 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t29 = omega_i[2] * t28;
+    const jg_real t30 = omega_i[1] * t28;
+    jac_phi_q_v_A_i[4] = t27 * C_i[6] - (C_i[7] * t29 - C_i[8] * t30);
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t40 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
-    const jg_real t41 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t42 = omega_i[2] * t41;
-    const jg_real t43 = omega_i[1] * t41;
-    jac_phi_q_v_A_i[5] = t40 * C_i[0] - (C_i[1] * t42 - C_i[2] * t43);
-    const jg_real t44 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t45 = s_i[0] * A_i[4];
-    const jg_real t46 = s_i[0] * A_i[7];
-    const jg_real t47 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t44 - (t45 * omega_i[2] - t46 * omega_i[1]) + t47;
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t49 = s_i[0] * A_i[1];
-    const jg_real t50 = s_i[1] * A_i[4];
-    const jg_real t51 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t49 + t50 + t51;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t54 = d_ij_1 - t49;
-    jac_phi_q_v_A_i[7] = -(omega_i[2] * t54 + t46 * omega_i[0]);
-    jac_phi_q_v_A_i[8] = t45 * omega_i[0] + omega_i[1] * t54;
-    const jg_real t55 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    const jg_real t56 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t57 = omega_i[2] * t56;
-    const jg_real t58 = omega_i[1] * t56;
-    jac_phi_q_v_A_i[9] = t55 * C_i[3] - (C_i[4] * t57 - C_i[5] * t58);
-    const jg_real t59 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    const jg_real t60 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t61 = omega_i[2] * t60;
-    const jg_real t62 = omega_i[1] * t60;
-    jac_phi_q_v_A_i[10] = t59 * C_i[6] - (C_i[7] * t61 - C_i[8] * t62);
-    const jg_real t63 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    const jg_real t64 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t65 = omega_i[2] * t64;
-    const jg_real t66 = omega_i[1] * t64;
-    jac_phi_q_v_A_i[11] = t63 * C_i[0] - (C_i[1] * t65 - C_i[2] * t66);
-    const jg_real t67 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t68 = s_i[0] * A_i[5];
-    const jg_real t69 = s_i[0] * A_i[8];
-    const jg_real t70 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t67 - (t68 * omega_i[2] - t69 * omega_i[1]) + t70;
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t72 = s_i[0] * A_i[2];
-    const jg_real t73 = s_i[1] * A_i[5];
-    const jg_real t74 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t72 + t73 + t74;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t77 = d_ij_2 - t72;
-    jac_phi_q_v_A_i[13] = -(omega_i[2] * t77 + t69 * omega_i[0]);
-    jac_phi_q_v_A_i[14] = t68 * omega_i[0] + omega_i[1] * t77;
-    const jg_real t78 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    const jg_real t79 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t80 = omega_i[2] * t79;
-    const jg_real t81 = omega_i[1] * t79;
-    jac_phi_q_v_A_i[15] = t78 * C_i[3] - (C_i[4] * t80 - C_i[5] * t81);
-    const jg_real t82 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    const jg_real t83 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t84 = omega_i[2] * t83;
-    const jg_real t85 = omega_i[1] * t83;
-    jac_phi_q_v_A_i[16] = t82 * C_i[6] - (C_i[7] * t84 - C_i[8] * t85);
-    const jg_real t86 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    const jg_real t87 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t88 = omega_i[2] * t87;
-    const jg_real t89 = omega_i[1] * t87;
-    jac_phi_q_v_A_i[17] = t86 * C_i[0] - (C_i[1] * t88 - C_i[2] * t89);
-    const jg_real t90 = d_ij_0 - t18;
-    const jg_real t91 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t91 * omega_i[1] + t90 * omega_i[2];
-    const jg_real t92 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = t9 - (t91 * omega_i[0] - omega_i[2] * t92) + t15;
-    jac_phi_q_v_A_i[20] = -(t90 * omega_i[0] + omega_i[1] * t92);
-    const jg_real t93 = omega_i[0] * t27;
-    jac_phi_q_v_A_i[21] = t26 * C_i[4] - (C_i[5] * t93 - C_i[3] * t28);
-    const jg_real t94 = omega_i[0] * t34;
-    jac_phi_q_v_A_i[22] = t33 * C_i[7] - (C_i[8] * t94 - C_i[6] * t35);
-    const jg_real t95 = omega_i[0] * t41;
-    jac_phi_q_v_A_i[23] = t40 * C_i[1] - (C_i[2] * t95 - C_i[0] * t42);
-    const jg_real t96 = d_ij_1 - t50;
-    const jg_real t97 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t97 * omega_i[1] + t96 * omega_i[2];
-    const jg_real t98 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = t44 - (t97 * omega_i[0] - omega_i[2] * t98) + t47;
-    jac_phi_q_v_A_i[26] = -(t96 * omega_i[0] + omega_i[1] * t98);
-    const jg_real t99 = omega_i[0] * t56;
-    jac_phi_q_v_A_i[27] = t55 * C_i[4] - (C_i[5] * t99 - C_i[3] * t57);
-    const jg_real t100 = omega_i[0] * t60;
-    jac_phi_q_v_A_i[28] = t59 * C_i[7] - (C_i[8] * t100 - C_i[6] * t61);
-    const jg_real t101 = omega_i[0] * t64;
-    jac_phi_q_v_A_i[29] = t63 * C_i[1] - (C_i[2] * t101 - C_i[0] * t65);
-    const jg_real t102 = d_ij_2 - t73;
-    const jg_real t103 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t103 * omega_i[1] + t102 * omega_i[2];
-    const jg_real t104 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = t67 - (t103 * omega_i[0] - omega_i[2] * t104) + t70;
-    jac_phi_q_v_A_i[32] = -(t102 * omega_i[0] + omega_i[1] * t104);
-    const jg_real t105 = omega_i[0] * t79;
-    jac_phi_q_v_A_i[33] = t78 * C_i[4] - (C_i[5] * t105 - C_i[3] * t80);
-    const jg_real t106 = omega_i[0] * t83;
-    jac_phi_q_v_A_i[34] = t82 * C_i[7] - (C_i[8] * t106 - C_i[6] * t84);
-    const jg_real t107 = omega_i[0] * t87;
-    jac_phi_q_v_A_i[35] = t86 * C_i[1] - (C_i[2] * t107 - C_i[0] * t88);
-    const jg_real t108 = d_ij_0 - t19;
-    const jg_real t109 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t108 * omega_i[1] + t109 * omega_i[2]);
-    const jg_real t110 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = omega_i[2] * t110 + t108 * omega_i[0];
-    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t110 - t109 * omega_i[0]) + t15;
-    jac_phi_q_v_A_i[39] = t26 * C_i[5] - (C_i[3] * t29 - C_i[4] * t93);
-    jac_phi_q_v_A_i[40] = t33 * C_i[8] - (C_i[6] * t36 - C_i[7] * t94);
-    jac_phi_q_v_A_i[41] = t40 * C_i[2] - (C_i[0] * t43 - C_i[1] * t95);
-    const jg_real t111 = d_ij_1 - t51;
-    const jg_real t112 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t111 * omega_i[1] + t112 * omega_i[2]);
-    const jg_real t113 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = omega_i[2] * t113 + t111 * omega_i[0];
-    jac_phi_q_v_A_i[44] = t44 - (omega_i[1] * t113 - t112 * omega_i[0]) + t47;
-    jac_phi_q_v_A_i[45] = t55 * C_i[5] - (C_i[3] * t58 - C_i[4] * t99);
-    jac_phi_q_v_A_i[46] = t59 * C_i[8] - (C_i[6] * t62 - C_i[7] * t100);
-    jac_phi_q_v_A_i[47] = t63 * C_i[2] - (C_i[0] * t66 - C_i[1] * t101);
-    const jg_real t114 = d_ij_2 - t74;
-    const jg_real t115 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t114 * omega_i[1] + t115 * omega_i[2]);
-    const jg_real t116 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = omega_i[2] * t116 + t114 * omega_i[0];
-    jac_phi_q_v_A_i[50] = t67 - (omega_i[1] * t116 - t115 * omega_i[0]) + t70;
-    jac_phi_q_v_A_i[51] = t78 * C_i[5] - (C_i[3] * t81 - C_i[4] * t105);
-    jac_phi_q_v_A_i[52] = t82 * C_i[8] - (C_i[6] * t85 - C_i[7] * t106);
-    jac_phi_q_v_A_i[53] = t86 * C_i[2] - (C_i[0] * t89 - C_i[1] * t107);
+    const jg_real t34 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
+    const jg_real t35 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t36 = omega_i[2] * t35;
+    const jg_real t37 = omega_i[1] * t35;
+    jac_phi_q_v_A_i[5] = t34 * C_i[0] - (C_i[1] * t36 - C_i[2] * t37);
+    const jg_real t38 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2 +
+        (A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2]);
+    jac_phi_q_v_A_i[6] = t38;
+    jac_phi_q_v_A_i[25] = t38;
+    jac_phi_q_v_A_i[44] = t38;
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t41 = e_ij_1 * omega_i[2];
+    jac_phi_q_v_A_i[24] = t41;
+    jac_phi_q_v_A_i[7] = -t41;
+    const jg_real t42 = e_ij_1 * omega_i[1];
+    jac_phi_q_v_A_i[8] = t42;
+    const jg_real t43 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    const jg_real t44 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t45 = omega_i[2] * t44;
+    const jg_real t46 = omega_i[1] * t44;
+    jac_phi_q_v_A_i[9] = t43 * C_i[3] - (C_i[4] * t45 - C_i[5] * t46);
+    const jg_real t47 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    const jg_real t48 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t49 = omega_i[2] * t48;
+    const jg_real t50 = omega_i[1] * t48;
+    jac_phi_q_v_A_i[10] = t47 * C_i[6] - (C_i[7] * t49 - C_i[8] * t50);
+    const jg_real t51 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    const jg_real t52 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t53 = omega_i[2] * t52;
+    const jg_real t54 = omega_i[1] * t52;
+    jac_phi_q_v_A_i[11] = t51 * C_i[0] - (C_i[1] * t53 - C_i[2] * t54);
+    const jg_real t55 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2 +
+        (A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2]);
+    jac_phi_q_v_A_i[12] = t55;
+    jac_phi_q_v_A_i[31] = t55;
+    jac_phi_q_v_A_i[50] = t55;
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t58 = e_ij_2 * omega_i[2];
+    jac_phi_q_v_A_i[30] = t58;
+    jac_phi_q_v_A_i[13] = -t58;
+    const jg_real t59 = e_ij_2 * omega_i[1];
+    jac_phi_q_v_A_i[14] = t59;
+    const jg_real t60 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    const jg_real t61 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t62 = omega_i[2] * t61;
+    const jg_real t63 = omega_i[1] * t61;
+    jac_phi_q_v_A_i[15] = t60 * C_i[3] - (C_i[4] * t62 - C_i[5] * t63);
+    const jg_real t64 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    const jg_real t65 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t66 = omega_i[2] * t65;
+    const jg_real t67 = omega_i[1] * t65;
+    jac_phi_q_v_A_i[16] = t64 * C_i[6] - (C_i[7] * t66 - C_i[8] * t67);
+    const jg_real t68 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    const jg_real t69 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t70 = omega_i[2] * t69;
+    const jg_real t71 = omega_i[1] * t69;
+    jac_phi_q_v_A_i[17] = t68 * C_i[0] - (C_i[1] * t70 - C_i[2] * t71);
+    const jg_real t72 = e_ij_0 * omega_i[0];
+    jac_phi_q_v_A_i[37] = t72;
+    jac_phi_q_v_A_i[20] = -t72;
+    const jg_real t73 = omega_i[0] * t21;
+    jac_phi_q_v_A_i[21] = t20 * C_i[4] - (C_i[5] * t73 - C_i[3] * t22);
+    const jg_real t74 = omega_i[0] * t28;
+    jac_phi_q_v_A_i[22] = t27 * C_i[7] - (C_i[8] * t74 - C_i[6] * t29);
+    const jg_real t75 = omega_i[0] * t35;
+    jac_phi_q_v_A_i[23] = t34 * C_i[1] - (C_i[2] * t75 - C_i[0] * t36);
+    const jg_real t76 = e_ij_1 * omega_i[0];
+    jac_phi_q_v_A_i[43] = t76;
+    jac_phi_q_v_A_i[26] = -t76;
+    const jg_real t77 = omega_i[0] * t44;
+    jac_phi_q_v_A_i[27] = t43 * C_i[4] - (C_i[5] * t77 - C_i[3] * t45);
+    const jg_real t78 = omega_i[0] * t48;
+    jac_phi_q_v_A_i[28] = t47 * C_i[7] - (C_i[8] * t78 - C_i[6] * t49);
+    const jg_real t79 = omega_i[0] * t52;
+    jac_phi_q_v_A_i[29] = t51 * C_i[1] - (C_i[2] * t79 - C_i[0] * t53);
+    const jg_real t80 = e_ij_2 * omega_i[0];
+    jac_phi_q_v_A_i[49] = t80;
+    jac_phi_q_v_A_i[32] = -t80;
+    const jg_real t81 = omega_i[0] * t61;
+    jac_phi_q_v_A_i[33] = t60 * C_i[4] - (C_i[5] * t81 - C_i[3] * t62);
+    const jg_real t82 = omega_i[0] * t65;
+    jac_phi_q_v_A_i[34] = t64 * C_i[7] - (C_i[8] * t82 - C_i[6] * t66);
+    const jg_real t83 = omega_i[0] * t69;
+    jac_phi_q_v_A_i[35] = t68 * C_i[1] - (C_i[2] * t83 - C_i[0] * t70);
+    jac_phi_q_v_A_i[36] = -t16;
+    jac_phi_q_v_A_i[39] = t20 * C_i[5] - (C_i[3] * t23 - C_i[4] * t73);
+    jac_phi_q_v_A_i[40] = t27 * C_i[8] - (C_i[6] * t30 - C_i[7] * t74);
+    jac_phi_q_v_A_i[41] = t34 * C_i[2] - (C_i[0] * t37 - C_i[1] * t75);
+    jac_phi_q_v_A_i[42] = -t42;
+    jac_phi_q_v_A_i[45] = t43 * C_i[5] - (C_i[3] * t46 - C_i[4] * t77);
+    jac_phi_q_v_A_i[46] = t47 * C_i[8] - (C_i[6] * t50 - C_i[7] * t78);
+    jac_phi_q_v_A_i[47] = t51 * C_i[2] - (C_i[0] * t54 - C_i[1] * t79);
+    jac_phi_q_v_A_i[48] = -t59;
+    jac_phi_q_v_A_i[51] = t60 * C_i[5] - (C_i[3] * t63 - C_i[4] * t81);
+    jac_phi_q_v_A_i[52] = t64 * C_i[8] - (C_i[6] * t67 - C_i[7] * t82);
+    jac_phi_q_v_A_i[53] = t68 * C_i[2] - (C_i[0] * t71 - C_i[1] * t83);
     jac_phi_q_v_r_j[0] = -t0;
     jac_phi_q_v_r_j[1] = -t1;
     jac_phi_q_v_r_j[2] = -t2;
@@ -458,246 +431,228 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_q_v_r_j[6] = -t6;
     jac_phi_q_v_r_j[7] = -t7;
     jac_phi_q_v_r_j[8] = -t8;
-    const jg_real t117 = s_j[0] * A_i[6];
-    const jg_real t118 = s_j[0] * A_i[3];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t117 * omega_i[1] - t118 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t119 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t119 - t117 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t118 * omega_i[0] - omega_i[1] * t119) + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t120 = A_i[6] * C_j[6];
-    const jg_real t121 = A_i[3] * C_j[6];
-    const jg_real t122 = A_i[0] * C_j[6];
+    const jg_real t84 = s_j[0] * A_i[6];
+    const jg_real t85 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t84 * omega_i[1] - t85 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t86 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t86 - t84 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[3];
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t85 * omega_i[0] - omega_i[1] * t86) + omega_j_cross_s_j_0 * A_i[6];
+    const jg_real t87 = A_i[6] * C_j[6];
+    const jg_real t88 = A_i[3] * C_j[6];
+    const jg_real t89 = A_i[0] * C_j[6];
     jac_phi_q_v_A_j[3] = A_i[0] * omega_j_cross_h_j_0 * C_i[3] + A_i[3] * omega_j_cross_h_j_0 * C_i[4] + A_i[6] *
-        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t120 - omega_i[2] * t121) + C_i[4] * (omega_i[2] *
-        t122 - omega_i[0] * t120) + C_i[5] * (omega_i[0] * t121 - omega_i[1] * t122));
-    const jg_real t123 = A_i[6] * C_j[0];
-    const jg_real t124 = A_i[3] * C_j[0];
-    const jg_real t125 = A_i[0] * C_j[0];
+        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t87 - omega_i[2] * t88) + C_i[4] * (omega_i[2] * t89
+        - omega_i[0] * t87) + C_i[5] * (omega_i[0] * t88 - omega_i[1] * t89));
+    const jg_real t90 = A_i[6] * C_j[0];
+    const jg_real t91 = A_i[3] * C_j[0];
+    const jg_real t92 = A_i[0] * C_j[0];
     jac_phi_q_v_A_j[4] = A_i[0] * omega_j_cross_f_j_0 * C_i[6] + A_i[3] * omega_j_cross_f_j_0 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t123 - omega_i[2] * t124) + C_i[7] * (omega_i[2] *
-        t125 - omega_i[0] * t123) + C_i[8] * (omega_i[0] * t124 - omega_i[1] * t125));
-    const jg_real t126 = A_i[6] * C_j[3];
-    const jg_real t127 = A_i[3] * C_j[3];
-    const jg_real t128 = A_i[0] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t90 - omega_i[2] * t91) + C_i[7] * (omega_i[2] * t92
+        - omega_i[0] * t90) + C_i[8] * (omega_i[0] * t91 - omega_i[1] * t92));
+    const jg_real t93 = A_i[6] * C_j[3];
+    const jg_real t94 = A_i[3] * C_j[3];
+    const jg_real t95 = A_i[0] * C_j[3];
     jac_phi_q_v_A_j[5] = A_i[0] * omega_j_cross_g_j_0 * C_i[0] + A_i[3] * omega_j_cross_g_j_0 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t126 - omega_i[2] * t127) + C_i[1] * (omega_i[2] *
-        t128 - omega_i[0] * t126) + C_i[2] * (omega_i[0] * t127 - omega_i[1] * t128));
-    const jg_real t129 = s_j[0] * A_i[7];
-    const jg_real t130 = s_j[0] * A_i[4];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t129 * omega_i[1] - t130 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t131 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t131 - t129 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t130 * omega_i[0] - omega_i[1] * t131) + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t132 = A_i[7] * C_j[6];
-    const jg_real t133 = A_i[4] * C_j[6];
-    const jg_real t134 = A_i[1] * C_j[6];
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t93 - omega_i[2] * t94) + C_i[1] * (omega_i[2] * t95
+        - omega_i[0] * t93) + C_i[2] * (omega_i[0] * t94 - omega_i[1] * t95));
+    const jg_real t96 = s_j[0] * A_i[7];
+    const jg_real t97 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t96 * omega_i[1] - t97 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t98 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t98 - t96 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[4];
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t97 * omega_i[0] - omega_i[1] * t98) + omega_j_cross_s_j_0 * A_i[7];
+    const jg_real t99 = A_i[7] * C_j[6];
+    const jg_real t100 = A_i[4] * C_j[6];
+    const jg_real t101 = A_i[1] * C_j[6];
     jac_phi_q_v_A_j[9] = A_i[1] * omega_j_cross_h_j_0 * C_i[3] + A_i[4] * omega_j_cross_h_j_0 * C_i[4] + A_i[7] *
-        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t132 - omega_i[2] * t133) + C_i[4] * (omega_i[2] *
-        t134 - omega_i[0] * t132) + C_i[5] * (omega_i[0] * t133 - omega_i[1] * t134));
-    const jg_real t135 = A_i[7] * C_j[0];
-    const jg_real t136 = A_i[4] * C_j[0];
-    const jg_real t137 = A_i[1] * C_j[0];
+        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t99 - omega_i[2] * t100) + C_i[4] * (omega_i[2] *
+        t101 - omega_i[0] * t99) + C_i[5] * (omega_i[0] * t100 - omega_i[1] * t101));
+    const jg_real t102 = A_i[7] * C_j[0];
+    const jg_real t103 = A_i[4] * C_j[0];
+    const jg_real t104 = A_i[1] * C_j[0];
     jac_phi_q_v_A_j[10] = A_i[1] * omega_j_cross_f_j_0 * C_i[6] + A_i[4] * omega_j_cross_f_j_0 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t135 - omega_i[2] * t136) + C_i[7] * (omega_i[2] *
-        t137 - omega_i[0] * t135) + C_i[8] * (omega_i[0] * t136 - omega_i[1] * t137));
-    const jg_real t138 = A_i[7] * C_j[3];
-    const jg_real t139 = A_i[4] * C_j[3];
-    const jg_real t140 = A_i[1] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t102 - omega_i[2] * t103) + C_i[7] * (omega_i[2] *
+        t104 - omega_i[0] * t102) + C_i[8] * (omega_i[0] * t103 - omega_i[1] * t104));
+    const jg_real t105 = A_i[7] * C_j[3];
+    const jg_real t106 = A_i[4] * C_j[3];
+    const jg_real t107 = A_i[1] * C_j[3];
     jac_phi_q_v_A_j[11] = A_i[1] * omega_j_cross_g_j_0 * C_i[0] + A_i[4] * omega_j_cross_g_j_0 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t138 - omega_i[2] * t139) + C_i[1] * (omega_i[2] *
-        t140 - omega_i[0] * t138) + C_i[2] * (omega_i[0] * t139 - omega_i[1] * t140));
-    const jg_real t141 = s_j[0] * A_i[8];
-    const jg_real t142 = s_j[0] * A_i[5];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t141 * omega_i[1] - t142 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t143 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t143 - t141 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t142 * omega_i[0] - omega_i[1] * t143) + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t144 = A_i[8] * C_j[6];
-    const jg_real t145 = A_i[5] * C_j[6];
-    const jg_real t146 = A_i[2] * C_j[6];
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t105 - omega_i[2] * t106) + C_i[1] * (omega_i[2] *
+        t107 - omega_i[0] * t105) + C_i[2] * (omega_i[0] * t106 - omega_i[1] * t107));
+    const jg_real t108 = s_j[0] * A_i[8];
+    const jg_real t109 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t108 * omega_i[1] - t109 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t110 = A_i[2] * s_j[0];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t110 - t108 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[5];
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t109 * omega_i[0] - omega_i[1] * t110) + omega_j_cross_s_j_0 * A_i[8];
+    const jg_real t111 = A_i[8] * C_j[6];
+    const jg_real t112 = A_i[5] * C_j[6];
+    const jg_real t113 = A_i[2] * C_j[6];
     jac_phi_q_v_A_j[15] = A_i[2] * omega_j_cross_h_j_0 * C_i[3] + A_i[5] * omega_j_cross_h_j_0 * C_i[4] + A_i[8] *
-        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t144 - omega_i[2] * t145) + C_i[4] * (omega_i[2] *
-        t146 - omega_i[0] * t144) + C_i[5] * (omega_i[0] * t145 - omega_i[1] * t146));
-    const jg_real t147 = A_i[8] * C_j[0];
-    const jg_real t148 = A_i[5] * C_j[0];
-    const jg_real t149 = A_i[2] * C_j[0];
+        omega_j_cross_h_j_0 * C_i[5] - (C_i[3] * (omega_i[1] * t111 - omega_i[2] * t112) + C_i[4] * (omega_i[2] *
+        t113 - omega_i[0] * t111) + C_i[5] * (omega_i[0] * t112 - omega_i[1] * t113));
+    const jg_real t114 = A_i[8] * C_j[0];
+    const jg_real t115 = A_i[5] * C_j[0];
+    const jg_real t116 = A_i[2] * C_j[0];
     jac_phi_q_v_A_j[16] = A_i[2] * omega_j_cross_f_j_0 * C_i[6] + A_i[5] * omega_j_cross_f_j_0 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t147 - omega_i[2] * t148) + C_i[7] * (omega_i[2] *
-        t149 - omega_i[0] * t147) + C_i[8] * (omega_i[0] * t148 - omega_i[1] * t149));
-    const jg_real t150 = A_i[8] * C_j[3];
-    const jg_real t151 = A_i[5] * C_j[3];
-    const jg_real t152 = A_i[2] * C_j[3];
+        omega_j_cross_f_j_0 * C_i[8] - (C_i[6] * (omega_i[1] * t114 - omega_i[2] * t115) + C_i[7] * (omega_i[2] *
+        t116 - omega_i[0] * t114) + C_i[8] * (omega_i[0] * t115 - omega_i[1] * t116));
+    const jg_real t117 = A_i[8] * C_j[3];
+    const jg_real t118 = A_i[5] * C_j[3];
+    const jg_real t119 = A_i[2] * C_j[3];
     jac_phi_q_v_A_j[17] = A_i[2] * omega_j_cross_g_j_0 * C_i[0] + A_i[5] * omega_j_cross_g_j_0 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t150 - omega_i[2] * t151) + C_i[1] * (omega_i[2] *
-        t152 - omega_i[0] * t150) + C_i[2] * (omega_i[0] * t151 - omega_i[1] * t152));
-    const jg_real t153 = s_j[1] * A_i[6];
-    const jg_real t154 = s_j[1] * A_i[3];
-    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t153 * omega_i[1] - t154 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t155 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t155 - t153 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t154 * omega_i[0] - omega_i[1] * t155) + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t156 = A_i[6] * C_j[7];
-    const jg_real t157 = A_i[3] * C_j[7];
-    const jg_real t158 = A_i[0] * C_j[7];
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t117 - omega_i[2] * t118) + C_i[1] * (omega_i[2] *
+        t119 - omega_i[0] * t117) + C_i[2] * (omega_i[0] * t118 - omega_i[1] * t119));
+    const jg_real t120 = s_j[1] * A_i[6];
+    const jg_real t121 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t120 * omega_i[1] - t121 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t122 = A_i[0] * s_j[1];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t122 - t120 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[3];
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t121 * omega_i[0] - omega_i[1] * t122) + omega_j_cross_s_j_1 * A_i[6];
+    const jg_real t123 = A_i[6] * C_j[7];
+    const jg_real t124 = A_i[3] * C_j[7];
+    const jg_real t125 = A_i[0] * C_j[7];
     jac_phi_q_v_A_j[21] = A_i[0] * omega_j_cross_h_j_1 * C_i[3] + A_i[3] * omega_j_cross_h_j_1 * C_i[4] + A_i[6] *
-        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t156 - omega_i[2] * t157) + C_i[4] * (omega_i[2] *
-        t158 - omega_i[0] * t156) + C_i[5] * (omega_i[0] * t157 - omega_i[1] * t158));
-    const jg_real t159 = A_i[6] * C_j[1];
-    const jg_real t160 = A_i[3] * C_j[1];
-    const jg_real t161 = A_i[0] * C_j[1];
+        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t123 - omega_i[2] * t124) + C_i[4] * (omega_i[2] *
+        t125 - omega_i[0] * t123) + C_i[5] * (omega_i[0] * t124 - omega_i[1] * t125));
+    const jg_real t126 = A_i[6] * C_j[1];
+    const jg_real t127 = A_i[3] * C_j[1];
+    const jg_real t128 = A_i[0] * C_j[1];
     jac_phi_q_v_A_j[22] = A_i[0] * omega_j_cross_f_j_1 * C_i[6] + A_i[3] * omega_j_cross_f_j_1 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t159 - omega_i[2] * t160) + C_i[7] * (omega_i[2] *
-        t161 - omega_i[0] * t159) + C_i[8] * (omega_i[0] * t160 - omega_i[1] * t161));
-    const jg_real t162 = A_i[6] * C_j[4];
-    const jg_real t163 = A_i[3] * C_j[4];
-    const jg_real t164 = A_i[0] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t126 - omega_i[2] * t127) + C_i[7] * (omega_i[2] *
+        t128 - omega_i[0] * t126) + C_i[8] * (omega_i[0] * t127 - omega_i[1] * t128));
+    const jg_real t129 = A_i[6] * C_j[4];
+    const jg_real t130 = A_i[3] * C_j[4];
+    const jg_real t131 = A_i[0] * C_j[4];
     jac_phi_q_v_A_j[23] = A_i[0] * omega_j_cross_g_j_1 * C_i[0] + A_i[3] * omega_j_cross_g_j_1 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t162 - omega_i[2] * t163) + C_i[1] * (omega_i[2] *
-        t164 - omega_i[0] * t162) + C_i[2] * (omega_i[0] * t163 - omega_i[1] * t164));
-    const jg_real t165 = s_j[1] * A_i[7];
-    const jg_real t166 = s_j[1] * A_i[4];
-    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t165 * omega_i[1] - t166 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t167 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t167 - t165 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t166 * omega_i[0] - omega_i[1] * t167) + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t168 = A_i[7] * C_j[7];
-    const jg_real t169 = A_i[4] * C_j[7];
-    const jg_real t170 = A_i[1] * C_j[7];
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t129 - omega_i[2] * t130) + C_i[1] * (omega_i[2] *
+        t131 - omega_i[0] * t129) + C_i[2] * (omega_i[0] * t130 - omega_i[1] * t131));
+    const jg_real t132 = s_j[1] * A_i[7];
+    const jg_real t133 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t132 * omega_i[1] - t133 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t134 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t134 - t132 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[4];
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t133 * omega_i[0] - omega_i[1] * t134) + omega_j_cross_s_j_1 * A_i[7];
+    const jg_real t135 = A_i[7] * C_j[7];
+    const jg_real t136 = A_i[4] * C_j[7];
+    const jg_real t137 = A_i[1] * C_j[7];
     jac_phi_q_v_A_j[27] = A_i[1] * omega_j_cross_h_j_1 * C_i[3] + A_i[4] * omega_j_cross_h_j_1 * C_i[4] + A_i[7] *
-        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t168 - omega_i[2] * t169) + C_i[4] * (omega_i[2] *
-        t170 - omega_i[0] * t168) + C_i[5] * (omega_i[0] * t169 - omega_i[1] * t170));
-    const jg_real t171 = A_i[7] * C_j[1];
-    const jg_real t172 = A_i[4] * C_j[1];
-    const jg_real t173 = A_i[1] * C_j[1];
+        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t135 - omega_i[2] * t136) + C_i[4] * (omega_i[2] *
+        t137 - omega_i[0] * t135) + C_i[5] * (omega_i[0] * t136 - omega_i[1] * t137));
+    const jg_real t138 = A_i[7] * C_j[1];
+    const jg_real t139 = A_i[4] * C_j[1];
+    const jg_real t140 = A_i[1] * C_j[1];
     jac_phi_q_v_A_j[28] = A_i[1] * omega_j_cross_f_j_1 * C_i[6] + A_i[4] * omega_j_cross_f_j_1 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t171 - omega_i[2] * t172) + C_i[7] * (omega_i[2] *
-        t173 - omega_i[0] * t171) + C_i[8] * (omega_i[0] * t172 - omega_i[1] * t173));
-    const jg_real t174 = A_i[7] * C_j[4];
-    const jg_real t175 = A_i[4] * C_j[4];
-    const jg_real t176 = A_i[1] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t138 - omega_i[2] * t139) + C_i[7] * (omega_i[2] *
+        t140 - omega_i[0] * t138) + C_i[8] * (omega_i[0] * t139 - omega_i[1] * t140));
+    const jg_real t141 = A_i[7] * C_j[4];
+    const jg_real t142 = A_i[4] * C_j[4];
+    const jg_real t143 = A_i[1] * C_j[4];
     jac_phi_q_v_A_j[29] = A_i[1] * omega_j_cross_g_j_1 * C_i[0] + A_i[4] * omega_j_cross_g_j_1 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t174 - omega_i[2] * t175) + C_i[1] * (omega_i[2] *
-        t176 - omega_i[0] * t174) + C_i[2] * (omega_i[0] * t175 - omega_i[1] * t176));
-    const jg_real t177 = s_j[1] * A_i[8];
-    const jg_real t178 = s_j[1] * A_i[5];
-    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t177 * omega_i[1] - t178 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t179 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t179 - t177 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t178 * omega_i[0] - omega_i[1] * t179) + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t180 = A_i[8] * C_j[7];
-    const jg_real t181 = A_i[5] * C_j[7];
-    const jg_real t182 = A_i[2] * C_j[7];
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t141 - omega_i[2] * t142) + C_i[1] * (omega_i[2] *
+        t143 - omega_i[0] * t141) + C_i[2] * (omega_i[0] * t142 - omega_i[1] * t143));
+    const jg_real t144 = s_j[1] * A_i[8];
+    const jg_real t145 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t144 * omega_i[1] - t145 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t146 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t146 - t144 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[5];
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t145 * omega_i[0] - omega_i[1] * t146) + omega_j_cross_s_j_1 * A_i[8];
+    const jg_real t147 = A_i[8] * C_j[7];
+    const jg_real t148 = A_i[5] * C_j[7];
+    const jg_real t149 = A_i[2] * C_j[7];
     jac_phi_q_v_A_j[33] = A_i[2] * omega_j_cross_h_j_1 * C_i[3] + A_i[5] * omega_j_cross_h_j_1 * C_i[4] + A_i[8] *
-        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t180 - omega_i[2] * t181) + C_i[4] * (omega_i[2] *
-        t182 - omega_i[0] * t180) + C_i[5] * (omega_i[0] * t181 - omega_i[1] * t182));
-    const jg_real t183 = A_i[8] * C_j[1];
-    const jg_real t184 = A_i[5] * C_j[1];
-    const jg_real t185 = A_i[2] * C_j[1];
+        omega_j_cross_h_j_1 * C_i[5] - (C_i[3] * (omega_i[1] * t147 - omega_i[2] * t148) + C_i[4] * (omega_i[2] *
+        t149 - omega_i[0] * t147) + C_i[5] * (omega_i[0] * t148 - omega_i[1] * t149));
+    const jg_real t150 = A_i[8] * C_j[1];
+    const jg_real t151 = A_i[5] * C_j[1];
+    const jg_real t152 = A_i[2] * C_j[1];
     jac_phi_q_v_A_j[34] = A_i[2] * omega_j_cross_f_j_1 * C_i[6] + A_i[5] * omega_j_cross_f_j_1 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t183 - omega_i[2] * t184) + C_i[7] * (omega_i[2] *
-        t185 - omega_i[0] * t183) + C_i[8] * (omega_i[0] * t184 - omega_i[1] * t185));
-    const jg_real t186 = A_i[8] * C_j[4];
-    const jg_real t187 = A_i[5] * C_j[4];
-    const jg_real t188 = A_i[2] * C_j[4];
+        omega_j_cross_f_j_1 * C_i[8] - (C_i[6] * (omega_i[1] * t150 - omega_i[2] * t151) + C_i[7] * (omega_i[2] *
+        t152 - omega_i[0] * t150) + C_i[8] * (omega_i[0] * t151 - omega_i[1] * t152));
+    const jg_real t153 = A_i[8] * C_j[4];
+    const jg_real t154 = A_i[5] * C_j[4];
+    const jg_real t155 = A_i[2] * C_j[4];
     jac_phi_q_v_A_j[35] = A_i[2] * omega_j_cross_g_j_1 * C_i[0] + A_i[5] * omega_j_cross_g_j_1 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t186 - omega_i[2] * t187) + C_i[1] * (omega_i[2] *
-        t188 - omega_i[0] * t186) + C_i[2] * (omega_i[0] * t187 - omega_i[1] * t188));
-    const jg_real t189 = s_j[2] * A_i[6];
-    const jg_real t190 = s_j[2] * A_i[3];
-    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t189 * omega_i[1] - t190 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t191 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t191 - t189 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t190 * omega_i[0] - omega_i[1] * t191) + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t192 = A_i[6] * C_j[8];
-    const jg_real t193 = A_i[3] * C_j[8];
-    const jg_real t194 = A_i[0] * C_j[8];
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t153 - omega_i[2] * t154) + C_i[1] * (omega_i[2] *
+        t155 - omega_i[0] * t153) + C_i[2] * (omega_i[0] * t154 - omega_i[1] * t155));
+    const jg_real t156 = s_j[2] * A_i[6];
+    const jg_real t157 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t156 * omega_i[1] - t157 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t158 = A_i[0] * s_j[2];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t158 - t156 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[3];
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t157 * omega_i[0] - omega_i[1] * t158) + omega_j_cross_s_j_2 * A_i[6];
+    const jg_real t159 = A_i[6] * C_j[8];
+    const jg_real t160 = A_i[3] * C_j[8];
+    const jg_real t161 = A_i[0] * C_j[8];
     jac_phi_q_v_A_j[39] = A_i[0] * omega_j_cross_h_j_2 * C_i[3] + A_i[3] * omega_j_cross_h_j_2 * C_i[4] + A_i[6] *
-        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t192 - omega_i[2] * t193) + C_i[4] * (omega_i[2] *
-        t194 - omega_i[0] * t192) + C_i[5] * (omega_i[0] * t193 - omega_i[1] * t194));
-    const jg_real t195 = A_i[6] * C_j[2];
-    const jg_real t196 = A_i[3] * C_j[2];
-    const jg_real t197 = A_i[0] * C_j[2];
+        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t159 - omega_i[2] * t160) + C_i[4] * (omega_i[2] *
+        t161 - omega_i[0] * t159) + C_i[5] * (omega_i[0] * t160 - omega_i[1] * t161));
+    const jg_real t162 = A_i[6] * C_j[2];
+    const jg_real t163 = A_i[3] * C_j[2];
+    const jg_real t164 = A_i[0] * C_j[2];
     jac_phi_q_v_A_j[40] = A_i[0] * omega_j_cross_f_j_2 * C_i[6] + A_i[3] * omega_j_cross_f_j_2 * C_i[7] + A_i[6] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t195 - omega_i[2] * t196) + C_i[7] * (omega_i[2] *
-        t197 - omega_i[0] * t195) + C_i[8] * (omega_i[0] * t196 - omega_i[1] * t197));
-    const jg_real t198 = A_i[6] * C_j[5];
-    const jg_real t199 = A_i[3] * C_j[5];
-    const jg_real t200 = A_i[0] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t162 - omega_i[2] * t163) + C_i[7] * (omega_i[2] *
+        t164 - omega_i[0] * t162) + C_i[8] * (omega_i[0] * t163 - omega_i[1] * t164));
+    const jg_real t165 = A_i[6] * C_j[5];
+    const jg_real t166 = A_i[3] * C_j[5];
+    const jg_real t167 = A_i[0] * C_j[5];
     jac_phi_q_v_A_j[41] = A_i[0] * omega_j_cross_g_j_2 * C_i[0] + A_i[3] * omega_j_cross_g_j_2 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t198 - omega_i[2] * t199) + C_i[1] * (omega_i[2] *
-        t200 - omega_i[0] * t198) + C_i[2] * (omega_i[0] * t199 - omega_i[1] * t200));
-    const jg_real t201 = s_j[2] * A_i[7];
-    const jg_real t202 = s_j[2] * A_i[4];
-    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t201 * omega_i[1] - t202 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t203 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t203 - t201 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t202 * omega_i[0] - omega_i[1] * t203) + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t204 = A_i[7] * C_j[8];
-    const jg_real t205 = A_i[4] * C_j[8];
-    const jg_real t206 = A_i[1] * C_j[8];
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t165 - omega_i[2] * t166) + C_i[1] * (omega_i[2] *
+        t167 - omega_i[0] * t165) + C_i[2] * (omega_i[0] * t166 - omega_i[1] * t167));
+    const jg_real t168 = s_j[2] * A_i[7];
+    const jg_real t169 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t168 * omega_i[1] - t169 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t170 = A_i[1] * s_j[2];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t170 - t168 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[4];
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t169 * omega_i[0] - omega_i[1] * t170) + omega_j_cross_s_j_2 * A_i[7];
+    const jg_real t171 = A_i[7] * C_j[8];
+    const jg_real t172 = A_i[4] * C_j[8];
+    const jg_real t173 = A_i[1] * C_j[8];
     jac_phi_q_v_A_j[45] = A_i[1] * omega_j_cross_h_j_2 * C_i[3] + A_i[4] * omega_j_cross_h_j_2 * C_i[4] + A_i[7] *
-        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t204 - omega_i[2] * t205) + C_i[4] * (omega_i[2] *
-        t206 - omega_i[0] * t204) + C_i[5] * (omega_i[0] * t205 - omega_i[1] * t206));
-    const jg_real t207 = A_i[7] * C_j[2];
-    const jg_real t208 = A_i[4] * C_j[2];
-    const jg_real t209 = A_i[1] * C_j[2];
+        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t171 - omega_i[2] * t172) + C_i[4] * (omega_i[2] *
+        t173 - omega_i[0] * t171) + C_i[5] * (omega_i[0] * t172 - omega_i[1] * t173));
+    const jg_real t174 = A_i[7] * C_j[2];
+    const jg_real t175 = A_i[4] * C_j[2];
+    const jg_real t176 = A_i[1] * C_j[2];
     jac_phi_q_v_A_j[46] = A_i[1] * omega_j_cross_f_j_2 * C_i[6] + A_i[4] * omega_j_cross_f_j_2 * C_i[7] + A_i[7] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t207 - omega_i[2] * t208) + C_i[7] * (omega_i[2] *
-        t209 - omega_i[0] * t207) + C_i[8] * (omega_i[0] * t208 - omega_i[1] * t209));
-    const jg_real t210 = A_i[7] * C_j[5];
-    const jg_real t211 = A_i[4] * C_j[5];
-    const jg_real t212 = A_i[1] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t174 - omega_i[2] * t175) + C_i[7] * (omega_i[2] *
+        t176 - omega_i[0] * t174) + C_i[8] * (omega_i[0] * t175 - omega_i[1] * t176));
+    const jg_real t177 = A_i[7] * C_j[5];
+    const jg_real t178 = A_i[4] * C_j[5];
+    const jg_real t179 = A_i[1] * C_j[5];
     jac_phi_q_v_A_j[47] = A_i[1] * omega_j_cross_g_j_2 * C_i[0] + A_i[4] * omega_j_cross_g_j_2 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t210 - omega_i[2] * t211) + C_i[1] * (omega_i[2] *
-        t212 - omega_i[0] * t210) + C_i[2] * (omega_i[0] * t211 - omega_i[1] * t212));
-    const jg_real t213 = s_j[2] * A_i[8];
-    const jg_real t214 = s_j[2] * A_i[5];
-    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t213 * omega_i[1] - t214 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t215 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t215 - t213 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t214 * omega_i[0] - omega_i[1] * t215) + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t216 = A_i[8] * C_j[8];
-    const jg_real t217 = A_i[5] * C_j[8];
-    const jg_real t218 = A_i[2] * C_j[8];
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t177 - omega_i[2] * t178) + C_i[1] * (omega_i[2] *
+        t179 - omega_i[0] * t177) + C_i[2] * (omega_i[0] * t178 - omega_i[1] * t179));
+    const jg_real t180 = s_j[2] * A_i[8];
+    const jg_real t181 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t180 * omega_i[1] - t181 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t182 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t182 - t180 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[5];
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t181 * omega_i[0] - omega_i[1] * t182) + omega_j_cross_s_j_2 * A_i[8];
+    const jg_real t183 = A_i[8] * C_j[8];
+    const jg_real t184 = A_i[5] * C_j[8];
+    const jg_real t185 = A_i[2] * C_j[8];
     jac_phi_q_v_A_j[51] = A_i[2] * omega_j_cross_h_j_2 * C_i[3] + A_i[5] * omega_j_cross_h_j_2 * C_i[4] + A_i[8] *
-        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t216 - omega_i[2] * t217) + C_i[4] * (omega_i[2] *
-        t218 - omega_i[0] * t216) + C_i[5] * (omega_i[0] * t217 - omega_i[1] * t218));
-    const jg_real t219 = A_i[8] * C_j[2];
-    const jg_real t220 = A_i[5] * C_j[2];
-    const jg_real t221 = A_i[2] * C_j[2];
+        omega_j_cross_h_j_2 * C_i[5] - (C_i[3] * (omega_i[1] * t183 - omega_i[2] * t184) + C_i[4] * (omega_i[2] *
+        t185 - omega_i[0] * t183) + C_i[5] * (omega_i[0] * t184 - omega_i[1] * t185));
+    const jg_real t186 = A_i[8] * C_j[2];
+    const jg_real t187 = A_i[5] * C_j[2];
+    const jg_real t188 = A_i[2] * C_j[2];
     jac_phi_q_v_A_j[52] = A_i[2] * omega_j_cross_f_j_2 * C_i[6] + A_i[5] * omega_j_cross_f_j_2 * C_i[7] + A_i[8] *
-        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t219 - omega_i[2] * t220) + C_i[7] * (omega_i[2] *
-        t221 - omega_i[0] * t219) + C_i[8] * (omega_i[0] * t220 - omega_i[1] * t221));
-    const jg_real t222 = A_i[8] * C_j[5];
-    const jg_real t223 = A_i[5] * C_j[5];
-    const jg_real t224 = A_i[2] * C_j[5];
+        omega_j_cross_f_j_2 * C_i[8] - (C_i[6] * (omega_i[1] * t186 - omega_i[2] * t187) + C_i[7] * (omega_i[2] *
+        t188 - omega_i[0] * t186) + C_i[8] * (omega_i[0] * t187 - omega_i[1] * t188));
+    const jg_real t189 = A_i[8] * C_j[5];
+    const jg_real t190 = A_i[5] * C_j[5];
+    const jg_real t191 = A_i[2] * C_j[5];
     jac_phi_q_v_A_j[53] = A_i[2] * omega_j_cross_g_j_2 * C_i[0] + A_i[5] * omega_j_cross_g_j_2 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t222 - omega_i[2] * t223) + C_i[1] * (omega_i[2] *
-        t224 - omega_i[0] * t222) + C_i[2] * (omega_i[0] * t223 - omega_i[1] * t224));
-    const jg_real t225 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t226 = t225 * omega_i[1];
-    const jg_real t227 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t228 = t227 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t226 - t228;
-    const jg_real t229 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = -(t225 * omega_i[0] - omega_i[2] * t229 + omega_i[2]);
-    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t229 - t227 * omega_i[0]);
-    const jg_real t230 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t231 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_q_v_geometry[3] = omega_i[2] - (t230 * omega_i[2] - t231 * omega_i[1]);
-    const jg_real t232 = t231 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t228 - t232;
-    jac_phi_q_v_geometry[5] = -(omega_i[1] * t227 - t230 * omega_i[0] + omega_i[0]);
-    const jg_real t233 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = -(t231 * omega_i[2] - t233 * omega_i[1] + omega_i[1]);
-    jac_phi_q_v_geometry[7] = omega_i[0] - (t233 * omega_i[0] - t225 * omega_i[2]);
-    jac_phi_q_v_geometry[8] = t232 - t226;
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t189 - omega_i[2] * t190) + C_i[1] * (omega_i[2] *
+        t191 - omega_i[0] * t189) + C_i[2] * (omega_i[0] * t190 - omega_i[1] * t191));
     /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jac_phi_q_v_velocity[21] = A_ij_3;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ij_6;
     /* A_ij_omega_j_cross_g_j = A_ij tilde(omega_j) g_j */
     const jg_real A_ij_omega_j_cross_g_j_0 = A_ij_0 * omega_j_cross_g_j_0 + A_ij_3 * omega_j_cross_g_j_1 + A_ij_6 *
@@ -719,16 +674,16 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     /* omega_i_cross_A_ij_g_j = tilde(omega_i) A_ij g_j */
     const jg_real omega_i_cross_A_ij_g_j_0 = omega_i[1] * A_ij_g_j_2 - omega_i[2] * A_ij_g_j_1;
-    jac_phi_q_v_geometry[9] = A_ij_omega_j_cross_g_j_0 - omega_i_cross_A_ij_g_j_0;
+    jac_phi_q_v_geometry[0] = A_ij_omega_j_cross_g_j_0 - omega_i_cross_A_ij_g_j_0;
     const jg_real A_ij_omega_j_cross_g_j_1 = A_ij_1 * omega_j_cross_g_j_0 + A_ij_4 * omega_j_cross_g_j_1 + A_ij_7 *
         omega_j_cross_g_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real omega_i_cross_A_ij_g_j_1 = omega_i[2] * A_ij_g_j_0 - omega_i[0] * A_ij_g_j_2;
-    jac_phi_q_v_geometry[10] = A_ij_omega_j_cross_g_j_1 - omega_i_cross_A_ij_g_j_1;
+    jac_phi_q_v_geometry[1] = A_ij_omega_j_cross_g_j_1 - omega_i_cross_A_ij_g_j_1;
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     const jg_real omega_i_cross_A_ij_g_j_2 = omega_i[0] * A_ij_g_j_1 - omega_i[1] * A_ij_g_j_0;
-    jac_phi_q_v_geometry[11] = A_ij_omega_j_cross_g_j_2 - omega_i_cross_A_ij_g_j_2;
+    jac_phi_q_v_geometry[2] = A_ij_omega_j_cross_g_j_2 - omega_i_cross_A_ij_g_j_2;
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -737,16 +692,16 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    jac_phi_q_v_geometry[12] = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
+    jac_phi_q_v_geometry[3] = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
     const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
         omega_j_cross_h_j_2;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    jac_phi_q_v_geometry[13] = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
+    jac_phi_q_v_geometry[4] = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    jac_phi_q_v_geometry[14] = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
+    jac_phi_q_v_geometry[5] = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
@@ -755,83 +710,83 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     /* omega_i_cross_A_ij_f_j = tilde(omega_i) A_ij f_j */
     const jg_real omega_i_cross_A_ij_f_j_0 = omega_i[1] * A_ij_f_j_2 - omega_i[2] * A_ij_f_j_1;
-    jac_phi_q_v_geometry[15] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
+    jac_phi_q_v_geometry[6] = A_ij_omega_j_cross_f_j_0 - omega_i_cross_A_ij_f_j_0;
     const jg_real A_ij_omega_j_cross_f_j_1 = A_ij_1 * omega_j_cross_f_j_0 + A_ij_4 * omega_j_cross_f_j_1 + A_ij_7 *
         omega_j_cross_f_j_2;
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
-    jac_phi_q_v_geometry[16] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
+    jac_phi_q_v_geometry[7] = A_ij_omega_j_cross_f_j_1 - omega_i_cross_A_ij_f_j_1;
     const jg_real A_ij_omega_j_cross_f_j_2 = A_ij_2 * omega_j_cross_f_j_0 + A_ij_5 * omega_j_cross_f_j_1 + A_ij_8 *
         omega_j_cross_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    jac_phi_q_v_geometry[17] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
-    const jg_real t270 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    const jg_real t271 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    jac_phi_q_v_geometry[18] = t270 - t271;
-    const jg_real t272 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    const jg_real t273 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
-    jac_phi_q_v_geometry[19] = t272 - t273;
-    const jg_real t274 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    const jg_real t275 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
-    jac_phi_q_v_geometry[20] = t274 - t275;
-    const jg_real t276 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    const jg_real t277 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    jac_phi_q_v_geometry[21] = t276 - t277;
-    const jg_real t278 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    const jg_real t279 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
-    jac_phi_q_v_geometry[22] = t278 - t279;
-    const jg_real t280 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    const jg_real t281 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
-    jac_phi_q_v_geometry[23] = t280 - t281;
-    const jg_real t282 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t283 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    jac_phi_q_v_geometry[24] = t282 - t283;
-    const jg_real t284 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    const jg_real t285 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
-    jac_phi_q_v_geometry[25] = t284 - t285;
-    const jg_real t286 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    const jg_real t287 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
-    jac_phi_q_v_geometry[26] = t286 - t287;
-    jac_phi_q_v_geometry[27] = t270 * C_i[6] + t272 * C_i[7] + t274 * C_i[8] - (t271 * C_i[6] + t273 * C_i[7] + t275
+    jac_phi_q_v_geometry[8] = A_ij_omega_j_cross_f_j_2 - omega_i_cross_A_ij_f_j_2;
+    const jg_real t228 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t229 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[9] = t228 - t229;
+    const jg_real t230 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t231 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[10] = t230 - t231;
+    const jg_real t232 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t233 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    jac_phi_q_v_geometry[11] = t232 - t233;
+    const jg_real t234 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t235 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[12] = t234 - t235;
+    const jg_real t236 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t237 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[13] = t236 - t237;
+    const jg_real t238 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t239 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    jac_phi_q_v_geometry[14] = t238 - t239;
+    const jg_real t240 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t241 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[15] = t240 - t241;
+    const jg_real t242 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t243 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[16] = t242 - t243;
+    const jg_real t244 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t245 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    jac_phi_q_v_geometry[17] = t244 - t245;
+    jac_phi_q_v_geometry[18] = t228 * C_i[6] + t230 * C_i[7] + t232 * C_i[8] - (t229 * C_i[6] + t231 * C_i[7] + t233
         * C_i[8]);
-    jac_phi_q_v_geometry[28] = t276 * C_i[6] + t278 * C_i[7] + t280 * C_i[8] - (t277 * C_i[6] + t279 * C_i[7] + t281
+    jac_phi_q_v_geometry[19] = t234 * C_i[6] + t236 * C_i[7] + t238 * C_i[8] - (t235 * C_i[6] + t237 * C_i[7] + t239
         * C_i[8]);
-    jac_phi_q_v_geometry[29] = t282 * C_i[6] + t284 * C_i[7] + t286 * C_i[8] - (t283 * C_i[6] + t285 * C_i[7] + t287
+    jac_phi_q_v_geometry[20] = t240 * C_i[6] + t242 * C_i[7] + t244 * C_i[8] - (t241 * C_i[6] + t243 * C_i[7] + t245
         * C_i[8]);
-    jac_phi_q_v_geometry[30] = t270 * C_i[0] + t272 * C_i[1] + t274 * C_i[2] - (t271 * C_i[0] + t273 * C_i[1] + t275
+    jac_phi_q_v_geometry[21] = t228 * C_i[0] + t230 * C_i[1] + t232 * C_i[2] - (t229 * C_i[0] + t231 * C_i[1] + t233
         * C_i[2]);
-    jac_phi_q_v_geometry[31] = t276 * C_i[0] + t278 * C_i[1] + t280 * C_i[2] - (t277 * C_i[0] + t279 * C_i[1] + t281
+    jac_phi_q_v_geometry[22] = t234 * C_i[0] + t236 * C_i[1] + t238 * C_i[2] - (t235 * C_i[0] + t237 * C_i[1] + t239
         * C_i[2]);
-    jac_phi_q_v_geometry[32] = t282 * C_i[0] + t284 * C_i[1] + t286 * C_i[2] - (t283 * C_i[0] + t285 * C_i[1] + t287
+    jac_phi_q_v_geometry[23] = t240 * C_i[0] + t242 * C_i[1] + t244 * C_i[2] - (t241 * C_i[0] + t243 * C_i[1] + t245
         * C_i[2]);
-    jac_phi_q_v_geometry[33] = t270 * C_i[3] + t272 * C_i[4] + t274 * C_i[5] - (t271 * C_i[3] + t273 * C_i[4] + t275
+    jac_phi_q_v_geometry[24] = t228 * C_i[3] + t230 * C_i[4] + t232 * C_i[5] - (t229 * C_i[3] + t231 * C_i[4] + t233
         * C_i[5]);
-    jac_phi_q_v_geometry[34] = t276 * C_i[3] + t278 * C_i[4] + t280 * C_i[5] - (t277 * C_i[3] + t279 * C_i[4] + t281
+    jac_phi_q_v_geometry[25] = t234 * C_i[3] + t236 * C_i[4] + t238 * C_i[5] - (t235 * C_i[3] + t237 * C_i[4] + t239
         * C_i[5]);
-    jac_phi_q_v_geometry[35] = t282 * C_i[3] + t284 * C_i[4] + t286 * C_i[5] - (t283 * C_i[3] + t285 * C_i[4] + t287
+    jac_phi_q_v_geometry[26] = t240 * C_i[3] + t242 * C_i[4] + t244 * C_i[5] - (t241 * C_i[3] + t243 * C_i[4] + t245
         * C_i[5]);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t289 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t289;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t291 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t291;
-    jac_phi_q_v_velocity[4] = -t291;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    const jg_real t247 = ep_ij_2 - s_i[2] + s_i[2];
+    jac_phi_q_v_velocity[3] = t247;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    const jg_real t249 = ep_ij_1 - s_i[1] + s_i[1];
+    jac_phi_q_v_velocity[13] = t249;
+    jac_phi_q_v_velocity[4] = -t249;
     jac_phi_q_v_velocity[5] = C_i[4] * A_ij_h_j_2 - C_i[5] * A_ij_h_j_1;
     jac_phi_q_v_velocity[6] = C_i[7] * A_ij_f_j_2 - C_i[8] * A_ij_f_j_1;
     jac_phi_q_v_velocity[7] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
-    jac_phi_q_v_velocity[8] = -t289;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t293 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t293;
+    jac_phi_q_v_velocity[8] = -t247;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t251 = ep_ij_0 - s_i[0] + s_i[0];
+    jac_phi_q_v_velocity[9] = t251;
     jac_phi_q_v_velocity[10] = C_i[5] * A_ij_h_j_0 - C_i[3] * A_ij_h_j_2;
     jac_phi_q_v_velocity[11] = C_i[8] * A_ij_f_j_0 - C_i[6] * A_ij_f_j_2;
     jac_phi_q_v_velocity[12] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -t293;
+    jac_phi_q_v_velocity[14] = -t251;
     jac_phi_q_v_velocity[15] = C_i[3] * A_ij_h_j_1 - C_i[4] * A_ij_h_j_0;
     jac_phi_q_v_velocity[16] = C_i[6] * A_ij_f_j_1 - C_i[7] * A_ij_f_j_0;
     jac_phi_q_v_velocity[17] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
@@ -844,7 +799,7 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         C_i[7] + (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]) * C_i[8];
     jac_phi_q_v_velocity[32] = (A_ij_6 * C_j[4] - A_ij_3 * C_j[5]) * C_i[0] + (A_ij_7 * C_j[4] - A_ij_4 * C_j[5]) *
         C_i[1] + (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]) * C_i[2];
-    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[33] = A_ij_0 * s_j[2] - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[36] = (A_ij_0 * C_j[8] - A_ij_6 * C_j[6]) * C_i[3] + (A_ij_1 * C_j[8] - A_ij_7 * C_j[6]) *
@@ -853,7 +808,7 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         C_i[7] + (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]) * C_i[8];
     jac_phi_q_v_velocity[38] = (A_ij_0 * C_j[5] - A_ij_6 * C_j[3]) * C_i[0] + (A_ij_1 * C_j[5] - A_ij_7 * C_j[3]) *
         C_i[1] + (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]) * C_i[2];
-    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[42] = (A_ij_3 * C_j[6] - A_ij_0 * C_j[7]) * C_i[3] + (A_ij_4 * C_j[6] - A_ij_1 * C_j[7]) *
@@ -871,7 +826,6 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -902,543 +856,467 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t8 = lambda[0] * A_i[5] - lambda[1] * A_i[2];
     jac_phi_q_t_lambda_r_j[8] = t8;
     jac_phi_q_t_lambda_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[3];
-    const jg_real t10 = s_i[0] * A_i[6];
-    jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t12 = A_i[0] * s_i[0];
-    const jg_real t13 = A_i[3] * s_i[1];
-    const jg_real t14 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t12 + t13 + t14;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t17 = d_ij_0 - t12;
-    const jg_real t18 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t19 = t18 * C_i[5] * lambda[3];
-    const jg_real t20 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t21 = t20 * C_i[8] * lambda[4];
-    const jg_real t22 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t23 = t22 * C_i[2] * lambda[5];
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t17 + lambda[0] * t10 + t19 + t21 + t23;
-    const jg_real t24 = t18 * C_i[4] * lambda[3];
-    const jg_real t25 = t20 * C_i[7] * lambda[4];
-    const jg_real t26 = t22 * C_i[1] * lambda[5];
-    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t17 + t24 + t25 + t26);
-    const jg_real t27 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t27;
-    const jg_real t28 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t28;
-    const jg_real t29 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t29;
-    const jg_real t30 = A_j[6] * C_i[3];
-    const jg_real t31 = A_j[3] * C_i[3];
-    const jg_real t32 = A_j[6] * C_i[6];
-    const jg_real t33 = A_j[3] * C_i[6];
-    const jg_real t34 = A_j[6] * C_i[0];
-    const jg_real t35 = A_j[3] * C_i[0];
-    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[7] * t30 - C_j[8] * t31) + lambda[4] * (C_j[1] * t32 - C_j[2] *
-        t33) + lambda[5] * (C_j[4] * t34 - C_j[5] * t35) + (s_j[1] * t29 - s_j[2] * t28);
-    const jg_real t36 = A_j[0] * C_i[3];
-    const jg_real t37 = A_j[0] * C_i[6];
-    const jg_real t38 = A_j[0] * C_i[0];
-    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[8] * t36 - C_j[6] * t30) + lambda[4] * (C_j[2] * t37 - C_j[0] *
-        t32) + lambda[5] * (C_j[5] * t38 - C_j[3] * t34) + (s_j[2] * t27 - s_j[0] * t29);
-    jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[6] * t31 - C_j[7] * t36) + lambda[4] * (C_j[0] * t33 - C_j[1] *
-        t37) + lambda[5] * (C_j[3] * t35 - C_j[4] * t38) + (s_j[0] * t28 - s_j[1] * t27);
-    const jg_real t39 = s_i[0] * A_i[4];
-    const jg_real t40 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[9] = lambda[2] * t39 - lambda[1] * t40;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t11 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t12 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t13 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t14 = lambda[2] * e_ij_0 + t11 * C_i[5] * lambda[3] + t12 * C_i[8] * lambda[4] + t13 * C_i[2] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[0] = t14;
+    const jg_real t15 = lambda[1] * e_ij_0 + t11 * C_i[4] * lambda[3] + t12 * C_i[7] * lambda[4] + t13 * C_i[1] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[48] = t15;
+    jac_phi_q_t_lambda_A_i[1] = -t15;
+    const jg_real t16 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[2] = t16;
+    const jg_real t17 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[3] = t17;
+    const jg_real t18 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[4] = t18;
+    const jg_real t19 = A_j[6] * C_i[3];
+    const jg_real t20 = A_j[3] * C_i[3];
+    const jg_real t21 = A_j[6] * C_i[6];
+    const jg_real t22 = A_j[3] * C_i[6];
+    const jg_real t23 = A_j[6] * C_i[0];
+    const jg_real t24 = A_j[3] * C_i[0];
+    jac_phi_q_t_lambda_A_i[5] = lambda[3] * (C_j[7] * t19 - C_j[8] * t20) + lambda[4] * (C_j[1] * t21 - C_j[2] *
+        t22) + lambda[5] * (C_j[4] * t23 - C_j[5] * t24) + (s_j[1] * t18 - s_j[2] * t17);
+    const jg_real t25 = A_j[0] * C_i[3];
+    const jg_real t26 = A_j[0] * C_i[6];
+    const jg_real t27 = A_j[0] * C_i[0];
+    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[8] * t25 - C_j[6] * t19) + lambda[4] * (C_j[2] * t26 - C_j[0] *
+        t21) + lambda[5] * (C_j[5] * t27 - C_j[3] * t23) + (s_j[2] * t16 - s_j[0] * t18);
+    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[6] * t20 - C_j[7] * t25) + lambda[4] * (C_j[0] * t22 - C_j[1] *
+        t26) + lambda[5] * (C_j[3] * t24 - C_j[4] * t27) + (s_j[0] * t17 - s_j[1] * t16);
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t42 = s_i[0] * A_i[1];
-    const jg_real t43 = s_i[1] * A_i[4];
-    const jg_real t44 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t42 + t43 + t44;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t47 = d_ij_1 - t42;
-    const jg_real t48 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t49 = t48 * C_i[5] * lambda[3];
-    const jg_real t50 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t51 = t50 * C_i[8] * lambda[4];
-    const jg_real t52 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t53 = t52 * C_i[2] * lambda[5];
-    jac_phi_q_t_lambda_A_i[10] = lambda[2] * t47 + lambda[0] * t40 + t49 + t51 + t53;
-    const jg_real t54 = t48 * C_i[4] * lambda[3];
-    const jg_real t55 = t50 * C_i[7] * lambda[4];
-    const jg_real t56 = t52 * C_i[1] * lambda[5];
-    jac_phi_q_t_lambda_A_i[11] = -(lambda[0] * t39 + lambda[1] * t47 + t54 + t55 + t56);
-    const jg_real t57 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[12] = t57;
-    const jg_real t58 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[13] = t58;
-    const jg_real t59 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[14] = t59;
-    const jg_real t60 = A_j[7] * C_i[3];
-    const jg_real t61 = A_j[4] * C_i[3];
-    const jg_real t62 = A_j[7] * C_i[6];
-    const jg_real t63 = A_j[4] * C_i[6];
-    const jg_real t64 = A_j[7] * C_i[0];
-    const jg_real t65 = A_j[4] * C_i[0];
-    jac_phi_q_t_lambda_A_i[15] = lambda[3] * (C_j[7] * t60 - C_j[8] * t61) + lambda[4] * (C_j[1] * t62 - C_j[2] *
-        t63) + lambda[5] * (C_j[4] * t64 - C_j[5] * t65) + (s_j[1] * t59 - s_j[2] * t58);
-    const jg_real t66 = A_j[1] * C_i[3];
-    const jg_real t67 = A_j[1] * C_i[6];
-    const jg_real t68 = A_j[1] * C_i[0];
-    jac_phi_q_t_lambda_A_i[16] = lambda[3] * (C_j[8] * t66 - C_j[6] * t60) + lambda[4] * (C_j[2] * t67 - C_j[0] *
-        t62) + lambda[5] * (C_j[5] * t68 - C_j[3] * t64) + (s_j[2] * t57 - s_j[0] * t59);
-    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[6] * t61 - C_j[7] * t66) + lambda[4] * (C_j[0] * t63 - C_j[1] *
-        t67) + lambda[5] * (C_j[3] * t65 - C_j[4] * t68) + (s_j[0] * t58 - s_j[1] * t57);
-    const jg_real t69 = s_i[0] * A_i[5];
-    const jg_real t70 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[18] = lambda[2] * t69 - lambda[1] * t70;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t30 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t31 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t32 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t33 = lambda[2] * e_ij_1 + t30 * C_i[5] * lambda[3] + t31 * C_i[8] * lambda[4] + t32 * C_i[2] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[8] = t33;
+    const jg_real t34 = lambda[1] * e_ij_1 + t30 * C_i[4] * lambda[3] + t31 * C_i[7] * lambda[4] + t32 * C_i[1] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[56] = t34;
+    jac_phi_q_t_lambda_A_i[9] = -t34;
+    const jg_real t35 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[10] = t35;
+    const jg_real t36 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[11] = t36;
+    const jg_real t37 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[12] = t37;
+    const jg_real t38 = A_j[7] * C_i[3];
+    const jg_real t39 = A_j[4] * C_i[3];
+    const jg_real t40 = A_j[7] * C_i[6];
+    const jg_real t41 = A_j[4] * C_i[6];
+    const jg_real t42 = A_j[7] * C_i[0];
+    const jg_real t43 = A_j[4] * C_i[0];
+    jac_phi_q_t_lambda_A_i[13] = lambda[3] * (C_j[7] * t38 - C_j[8] * t39) + lambda[4] * (C_j[1] * t40 - C_j[2] *
+        t41) + lambda[5] * (C_j[4] * t42 - C_j[5] * t43) + (s_j[1] * t37 - s_j[2] * t36);
+    const jg_real t44 = A_j[1] * C_i[3];
+    const jg_real t45 = A_j[1] * C_i[6];
+    const jg_real t46 = A_j[1] * C_i[0];
+    jac_phi_q_t_lambda_A_i[14] = lambda[3] * (C_j[8] * t44 - C_j[6] * t38) + lambda[4] * (C_j[2] * t45 - C_j[0] *
+        t40) + lambda[5] * (C_j[5] * t46 - C_j[3] * t42) + (s_j[2] * t35 - s_j[0] * t37);
+    jac_phi_q_t_lambda_A_i[15] = lambda[3] * (C_j[6] * t39 - C_j[7] * t44) + lambda[4] * (C_j[0] * t41 - C_j[1] *
+        t45) + lambda[5] * (C_j[3] * t43 - C_j[4] * t46) + (s_j[0] * t36 - s_j[1] * t35);
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t72 = s_i[0] * A_i[2];
-    const jg_real t73 = s_i[1] * A_i[5];
-    const jg_real t74 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t72 + t73 + t74;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t77 = d_ij_2 - t72;
-    const jg_real t78 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t79 = t78 * C_i[5] * lambda[3];
-    const jg_real t80 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t81 = t80 * C_i[8] * lambda[4];
-    const jg_real t82 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t83 = t82 * C_i[2] * lambda[5];
-    jac_phi_q_t_lambda_A_i[19] = lambda[2] * t77 + lambda[0] * t70 + t79 + t81 + t83;
-    const jg_real t84 = t78 * C_i[4] * lambda[3];
-    const jg_real t85 = t80 * C_i[7] * lambda[4];
-    const jg_real t86 = t82 * C_i[1] * lambda[5];
-    jac_phi_q_t_lambda_A_i[20] = -(lambda[0] * t69 + lambda[1] * t77 + t84 + t85 + t86);
-    const jg_real t87 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[21] = t87;
-    const jg_real t88 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[22] = t88;
-    const jg_real t89 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[23] = t89;
-    const jg_real t90 = A_j[8] * C_i[3];
-    const jg_real t91 = A_j[5] * C_i[3];
-    const jg_real t92 = A_j[8] * C_i[6];
-    const jg_real t93 = A_j[5] * C_i[6];
-    const jg_real t94 = A_j[8] * C_i[0];
-    const jg_real t95 = A_j[5] * C_i[0];
-    jac_phi_q_t_lambda_A_i[24] = lambda[3] * (C_j[7] * t90 - C_j[8] * t91) + lambda[4] * (C_j[1] * t92 - C_j[2] *
-        t93) + lambda[5] * (C_j[4] * t94 - C_j[5] * t95) + (s_j[1] * t89 - s_j[2] * t88);
-    const jg_real t96 = A_j[2] * C_i[3];
-    const jg_real t97 = A_j[2] * C_i[6];
-    const jg_real t98 = A_j[2] * C_i[0];
-    jac_phi_q_t_lambda_A_i[25] = lambda[3] * (C_j[8] * t96 - C_j[6] * t90) + lambda[4] * (C_j[2] * t97 - C_j[0] *
-        t92) + lambda[5] * (C_j[5] * t98 - C_j[3] * t94) + (s_j[2] * t87 - s_j[0] * t89);
-    jac_phi_q_t_lambda_A_i[26] = lambda[3] * (C_j[6] * t91 - C_j[7] * t96) + lambda[4] * (C_j[0] * t93 - C_j[1] *
-        t97) + lambda[5] * (C_j[3] * t95 - C_j[4] * t98) + (s_j[0] * t88 - s_j[1] * t87);
-    const jg_real t99 = d_ij_0 - t13;
-    const jg_real t100 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[27] = -(lambda[1] * t100 + lambda[2] * t99 + t19 + t21 + t23);
-    const jg_real t101 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[28] = lambda[0] * t100 - lambda[2] * t101;
-    const jg_real t102 = t18 * C_i[3] * lambda[3];
-    const jg_real t103 = t20 * C_i[6] * lambda[4];
-    const jg_real t104 = t22 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[29] = lambda[0] * t99 + lambda[1] * t101 + t102 + t103 + t104;
-    const jg_real t105 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[30] = t105;
-    const jg_real t106 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[31] = t106;
-    const jg_real t107 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[32] = t107;
-    const jg_real t108 = A_j[6] * C_i[4];
-    const jg_real t109 = A_j[3] * C_i[4];
-    const jg_real t110 = A_j[6] * C_i[7];
-    const jg_real t111 = A_j[3] * C_i[7];
-    const jg_real t112 = A_j[6] * C_i[1];
-    const jg_real t113 = A_j[3] * C_i[1];
-    jac_phi_q_t_lambda_A_i[33] = lambda[3] * (C_j[7] * t108 - C_j[8] * t109) + lambda[4] * (C_j[1] * t110 - C_j[2] *
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t49 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t50 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t51 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t52 = lambda[2] * e_ij_2 + t49 * C_i[5] * lambda[3] + t50 * C_i[8] * lambda[4] + t51 * C_i[2] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[16] = t52;
+    const jg_real t53 = lambda[1] * e_ij_2 + t49 * C_i[4] * lambda[3] + t50 * C_i[7] * lambda[4] + t51 * C_i[1] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[64] = t53;
+    jac_phi_q_t_lambda_A_i[17] = -t53;
+    const jg_real t54 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[18] = t54;
+    const jg_real t55 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[19] = t55;
+    const jg_real t56 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[20] = t56;
+    const jg_real t57 = A_j[8] * C_i[3];
+    const jg_real t58 = A_j[5] * C_i[3];
+    const jg_real t59 = A_j[8] * C_i[6];
+    const jg_real t60 = A_j[5] * C_i[6];
+    const jg_real t61 = A_j[8] * C_i[0];
+    const jg_real t62 = A_j[5] * C_i[0];
+    jac_phi_q_t_lambda_A_i[21] = lambda[3] * (C_j[7] * t57 - C_j[8] * t58) + lambda[4] * (C_j[1] * t59 - C_j[2] *
+        t60) + lambda[5] * (C_j[4] * t61 - C_j[5] * t62) + (s_j[1] * t56 - s_j[2] * t55);
+    const jg_real t63 = A_j[2] * C_i[3];
+    const jg_real t64 = A_j[2] * C_i[6];
+    const jg_real t65 = A_j[2] * C_i[0];
+    jac_phi_q_t_lambda_A_i[22] = lambda[3] * (C_j[8] * t63 - C_j[6] * t57) + lambda[4] * (C_j[2] * t64 - C_j[0] *
+        t59) + lambda[5] * (C_j[5] * t65 - C_j[3] * t61) + (s_j[2] * t54 - s_j[0] * t56);
+    jac_phi_q_t_lambda_A_i[23] = lambda[3] * (C_j[6] * t58 - C_j[7] * t63) + lambda[4] * (C_j[0] * t60 - C_j[1] *
+        t64) + lambda[5] * (C_j[3] * t62 - C_j[4] * t65) + (s_j[0] * t55 - s_j[1] * t54);
+    jac_phi_q_t_lambda_A_i[24] = -t14;
+    const jg_real t66 = lambda[0] * e_ij_0 + t11 * C_i[3] * lambda[3] + t12 * C_i[6] * lambda[4] + t13 * C_i[0] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[25] = t66;
+    const jg_real t67 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[26] = t67;
+    const jg_real t68 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[27] = t68;
+    const jg_real t69 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[28] = t69;
+    const jg_real t70 = A_j[6] * C_i[4];
+    const jg_real t71 = A_j[3] * C_i[4];
+    const jg_real t72 = A_j[6] * C_i[7];
+    const jg_real t73 = A_j[3] * C_i[7];
+    const jg_real t74 = A_j[6] * C_i[1];
+    const jg_real t75 = A_j[3] * C_i[1];
+    jac_phi_q_t_lambda_A_i[29] = lambda[3] * (C_j[7] * t70 - C_j[8] * t71) + lambda[4] * (C_j[1] * t72 - C_j[2] *
+        t73) + lambda[5] * (C_j[4] * t74 - C_j[5] * t75) + (s_j[1] * t69 - s_j[2] * t68);
+    const jg_real t76 = A_j[0] * C_i[4];
+    const jg_real t77 = A_j[0] * C_i[7];
+    const jg_real t78 = A_j[0] * C_i[1];
+    jac_phi_q_t_lambda_A_i[30] = lambda[3] * (C_j[8] * t76 - C_j[6] * t70) + lambda[4] * (C_j[2] * t77 - C_j[0] *
+        t72) + lambda[5] * (C_j[5] * t78 - C_j[3] * t74) + (s_j[2] * t67 - s_j[0] * t69);
+    jac_phi_q_t_lambda_A_i[31] = lambda[3] * (C_j[6] * t71 - C_j[7] * t76) + lambda[4] * (C_j[0] * t73 - C_j[1] *
+        t77) + lambda[5] * (C_j[3] * t75 - C_j[4] * t78) + (s_j[0] * t68 - s_j[1] * t67);
+    jac_phi_q_t_lambda_A_i[32] = -t33;
+    const jg_real t79 = lambda[0] * e_ij_1 + t30 * C_i[3] * lambda[3] + t31 * C_i[6] * lambda[4] + t32 * C_i[0] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[33] = t79;
+    const jg_real t80 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[34] = t80;
+    const jg_real t81 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[35] = t81;
+    const jg_real t82 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[36] = t82;
+    const jg_real t83 = A_j[7] * C_i[4];
+    const jg_real t84 = A_j[4] * C_i[4];
+    const jg_real t85 = A_j[7] * C_i[7];
+    const jg_real t86 = A_j[4] * C_i[7];
+    const jg_real t87 = A_j[7] * C_i[1];
+    const jg_real t88 = A_j[4] * C_i[1];
+    jac_phi_q_t_lambda_A_i[37] = lambda[3] * (C_j[7] * t83 - C_j[8] * t84) + lambda[4] * (C_j[1] * t85 - C_j[2] *
+        t86) + lambda[5] * (C_j[4] * t87 - C_j[5] * t88) + (s_j[1] * t82 - s_j[2] * t81);
+    const jg_real t89 = A_j[1] * C_i[4];
+    const jg_real t90 = A_j[1] * C_i[7];
+    const jg_real t91 = A_j[1] * C_i[1];
+    jac_phi_q_t_lambda_A_i[38] = lambda[3] * (C_j[8] * t89 - C_j[6] * t83) + lambda[4] * (C_j[2] * t90 - C_j[0] *
+        t85) + lambda[5] * (C_j[5] * t91 - C_j[3] * t87) + (s_j[2] * t80 - s_j[0] * t82);
+    jac_phi_q_t_lambda_A_i[39] = lambda[3] * (C_j[6] * t84 - C_j[7] * t89) + lambda[4] * (C_j[0] * t86 - C_j[1] *
+        t90) + lambda[5] * (C_j[3] * t88 - C_j[4] * t91) + (s_j[0] * t81 - s_j[1] * t80);
+    jac_phi_q_t_lambda_A_i[40] = -t52;
+    const jg_real t92 = lambda[0] * e_ij_2 + t49 * C_i[3] * lambda[3] + t50 * C_i[6] * lambda[4] + t51 * C_i[0] *
+        lambda[5];
+    jac_phi_q_t_lambda_A_i[41] = t92;
+    const jg_real t93 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[42] = t93;
+    const jg_real t94 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[43] = t94;
+    const jg_real t95 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[44] = t95;
+    const jg_real t96 = A_j[8] * C_i[4];
+    const jg_real t97 = A_j[5] * C_i[4];
+    const jg_real t98 = A_j[8] * C_i[7];
+    const jg_real t99 = A_j[5] * C_i[7];
+    const jg_real t100 = A_j[8] * C_i[1];
+    const jg_real t101 = A_j[5] * C_i[1];
+    jac_phi_q_t_lambda_A_i[45] = lambda[3] * (C_j[7] * t96 - C_j[8] * t97) + lambda[4] * (C_j[1] * t98 - C_j[2] *
+        t99) + lambda[5] * (C_j[4] * t100 - C_j[5] * t101) + (s_j[1] * t95 - s_j[2] * t94);
+    const jg_real t102 = A_j[2] * C_i[4];
+    const jg_real t103 = A_j[2] * C_i[7];
+    const jg_real t104 = A_j[2] * C_i[1];
+    jac_phi_q_t_lambda_A_i[46] = lambda[3] * (C_j[8] * t102 - C_j[6] * t96) + lambda[4] * (C_j[2] * t103 - C_j[0] *
+        t98) + lambda[5] * (C_j[5] * t104 - C_j[3] * t100) + (s_j[2] * t93 - s_j[0] * t95);
+    jac_phi_q_t_lambda_A_i[47] = lambda[3] * (C_j[6] * t97 - C_j[7] * t102) + lambda[4] * (C_j[0] * t99 - C_j[1] *
+        t103) + lambda[5] * (C_j[3] * t101 - C_j[4] * t104) + (s_j[0] * t94 - s_j[1] * t93);
+    jac_phi_q_t_lambda_A_i[49] = -t66;
+    const jg_real t105 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[50] = t105;
+    const jg_real t106 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[51] = t106;
+    const jg_real t107 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[52] = t107;
+    const jg_real t108 = A_j[6] * C_i[5];
+    const jg_real t109 = A_j[3] * C_i[5];
+    const jg_real t110 = A_j[6] * C_i[8];
+    const jg_real t111 = A_j[3] * C_i[8];
+    const jg_real t112 = A_j[6] * C_i[2];
+    const jg_real t113 = A_j[3] * C_i[2];
+    jac_phi_q_t_lambda_A_i[53] = lambda[3] * (C_j[7] * t108 - C_j[8] * t109) + lambda[4] * (C_j[1] * t110 - C_j[2] *
         t111) + lambda[5] * (C_j[4] * t112 - C_j[5] * t113) + (s_j[1] * t107 - s_j[2] * t106);
-    const jg_real t114 = A_j[0] * C_i[4];
-    const jg_real t115 = A_j[0] * C_i[7];
-    const jg_real t116 = A_j[0] * C_i[1];
-    jac_phi_q_t_lambda_A_i[34] = lambda[3] * (C_j[8] * t114 - C_j[6] * t108) + lambda[4] * (C_j[2] * t115 - C_j[0] *
+    const jg_real t114 = A_j[0] * C_i[5];
+    const jg_real t115 = A_j[0] * C_i[8];
+    const jg_real t116 = A_j[0] * C_i[2];
+    jac_phi_q_t_lambda_A_i[54] = lambda[3] * (C_j[8] * t114 - C_j[6] * t108) + lambda[4] * (C_j[2] * t115 - C_j[0] *
         t110) + lambda[5] * (C_j[5] * t116 - C_j[3] * t112) + (s_j[2] * t105 - s_j[0] * t107);
-    jac_phi_q_t_lambda_A_i[35] = lambda[3] * (C_j[6] * t109 - C_j[7] * t114) + lambda[4] * (C_j[0] * t111 - C_j[1] *
+    jac_phi_q_t_lambda_A_i[55] = lambda[3] * (C_j[6] * t109 - C_j[7] * t114) + lambda[4] * (C_j[0] * t111 - C_j[1] *
         t115) + lambda[5] * (C_j[3] * t113 - C_j[4] * t116) + (s_j[0] * t106 - s_j[1] * t105);
-    const jg_real t117 = d_ij_1 - t43;
-    const jg_real t118 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[36] = -(lambda[1] * t118 + lambda[2] * t117 + t49 + t51 + t53);
-    const jg_real t119 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[37] = lambda[0] * t118 - lambda[2] * t119;
-    const jg_real t120 = t48 * C_i[3] * lambda[3];
-    const jg_real t121 = t50 * C_i[6] * lambda[4];
-    const jg_real t122 = t52 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[38] = lambda[0] * t117 + lambda[1] * t119 + t120 + t121 + t122;
-    const jg_real t123 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[39] = t123;
-    const jg_real t124 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[40] = t124;
-    const jg_real t125 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[41] = t125;
-    const jg_real t126 = A_j[7] * C_i[4];
-    const jg_real t127 = A_j[4] * C_i[4];
-    const jg_real t128 = A_j[7] * C_i[7];
-    const jg_real t129 = A_j[4] * C_i[7];
-    const jg_real t130 = A_j[7] * C_i[1];
-    const jg_real t131 = A_j[4] * C_i[1];
-    jac_phi_q_t_lambda_A_i[42] = lambda[3] * (C_j[7] * t126 - C_j[8] * t127) + lambda[4] * (C_j[1] * t128 - C_j[2] *
-        t129) + lambda[5] * (C_j[4] * t130 - C_j[5] * t131) + (s_j[1] * t125 - s_j[2] * t124);
-    const jg_real t132 = A_j[1] * C_i[4];
-    const jg_real t133 = A_j[1] * C_i[7];
-    const jg_real t134 = A_j[1] * C_i[1];
-    jac_phi_q_t_lambda_A_i[43] = lambda[3] * (C_j[8] * t132 - C_j[6] * t126) + lambda[4] * (C_j[2] * t133 - C_j[0] *
-        t128) + lambda[5] * (C_j[5] * t134 - C_j[3] * t130) + (s_j[2] * t123 - s_j[0] * t125);
-    jac_phi_q_t_lambda_A_i[44] = lambda[3] * (C_j[6] * t127 - C_j[7] * t132) + lambda[4] * (C_j[0] * t129 - C_j[1] *
-        t133) + lambda[5] * (C_j[3] * t131 - C_j[4] * t134) + (s_j[0] * t124 - s_j[1] * t123);
-    const jg_real t135 = d_ij_2 - t73;
-    const jg_real t136 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[45] = -(lambda[1] * t136 + lambda[2] * t135 + t79 + t81 + t83);
-    const jg_real t137 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[46] = lambda[0] * t136 - lambda[2] * t137;
-    const jg_real t138 = t78 * C_i[3] * lambda[3];
-    const jg_real t139 = t80 * C_i[6] * lambda[4];
-    const jg_real t140 = t82 * C_i[0] * lambda[5];
-    jac_phi_q_t_lambda_A_i[47] = lambda[0] * t135 + lambda[1] * t137 + t138 + t139 + t140;
-    const jg_real t141 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[48] = t141;
-    const jg_real t142 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[49] = t142;
-    const jg_real t143 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[50] = t143;
-    const jg_real t144 = A_j[8] * C_i[4];
-    const jg_real t145 = A_j[5] * C_i[4];
-    const jg_real t146 = A_j[8] * C_i[7];
-    const jg_real t147 = A_j[5] * C_i[7];
-    const jg_real t148 = A_j[8] * C_i[1];
-    const jg_real t149 = A_j[5] * C_i[1];
-    jac_phi_q_t_lambda_A_i[51] = lambda[3] * (C_j[7] * t144 - C_j[8] * t145) + lambda[4] * (C_j[1] * t146 - C_j[2] *
-        t147) + lambda[5] * (C_j[4] * t148 - C_j[5] * t149) + (s_j[1] * t143 - s_j[2] * t142);
-    const jg_real t150 = A_j[2] * C_i[4];
-    const jg_real t151 = A_j[2] * C_i[7];
-    const jg_real t152 = A_j[2] * C_i[1];
-    jac_phi_q_t_lambda_A_i[52] = lambda[3] * (C_j[8] * t150 - C_j[6] * t144) + lambda[4] * (C_j[2] * t151 - C_j[0] *
-        t146) + lambda[5] * (C_j[5] * t152 - C_j[3] * t148) + (s_j[2] * t141 - s_j[0] * t143);
-    jac_phi_q_t_lambda_A_i[53] = lambda[3] * (C_j[6] * t145 - C_j[7] * t150) + lambda[4] * (C_j[0] * t147 - C_j[1] *
-        t151) + lambda[5] * (C_j[3] * t149 - C_j[4] * t152) + (s_j[0] * t142 - s_j[1] * t141);
-    const jg_real t153 = d_ij_0 - t14;
-    const jg_real t154 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[54] = lambda[1] * t153 + lambda[2] * t154 + t24 + t25 + t26;
-    const jg_real t155 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[55] = -(lambda[2] * t155 + lambda[0] * t153 + t102 + t103 + t104);
-    jac_phi_q_t_lambda_A_i[56] = lambda[1] * t155 - lambda[0] * t154;
-    const jg_real t156 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[57] = t156;
-    const jg_real t157 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[58] = t157;
-    const jg_real t158 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[59] = t158;
-    const jg_real t159 = A_j[6] * C_i[5];
-    const jg_real t160 = A_j[3] * C_i[5];
-    const jg_real t161 = A_j[6] * C_i[8];
-    const jg_real t162 = A_j[3] * C_i[8];
-    const jg_real t163 = A_j[6] * C_i[2];
-    const jg_real t164 = A_j[3] * C_i[2];
-    jac_phi_q_t_lambda_A_i[60] = lambda[3] * (C_j[7] * t159 - C_j[8] * t160) + lambda[4] * (C_j[1] * t161 - C_j[2] *
-        t162) + lambda[5] * (C_j[4] * t163 - C_j[5] * t164) + (s_j[1] * t158 - s_j[2] * t157);
-    const jg_real t165 = A_j[0] * C_i[5];
-    const jg_real t166 = A_j[0] * C_i[8];
-    const jg_real t167 = A_j[0] * C_i[2];
-    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[8] * t165 - C_j[6] * t159) + lambda[4] * (C_j[2] * t166 - C_j[0] *
-        t161) + lambda[5] * (C_j[5] * t167 - C_j[3] * t163) + (s_j[2] * t156 - s_j[0] * t158);
-    jac_phi_q_t_lambda_A_i[62] = lambda[3] * (C_j[6] * t160 - C_j[7] * t165) + lambda[4] * (C_j[0] * t162 - C_j[1] *
-        t166) + lambda[5] * (C_j[3] * t164 - C_j[4] * t167) + (s_j[0] * t157 - s_j[1] * t156);
-    const jg_real t168 = d_ij_1 - t44;
-    const jg_real t169 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[63] = lambda[1] * t168 + lambda[2] * t169 + t54 + t55 + t56;
-    const jg_real t170 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[64] = -(lambda[2] * t170 + lambda[0] * t168 + t120 + t121 + t122);
-    jac_phi_q_t_lambda_A_i[65] = lambda[1] * t170 - lambda[0] * t169;
-    const jg_real t171 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[66] = t171;
-    const jg_real t172 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[67] = t172;
-    const jg_real t173 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[68] = t173;
-    const jg_real t174 = A_j[7] * C_i[5];
-    const jg_real t175 = A_j[4] * C_i[5];
-    const jg_real t176 = A_j[7] * C_i[8];
-    const jg_real t177 = A_j[4] * C_i[8];
-    const jg_real t178 = A_j[7] * C_i[2];
-    const jg_real t179 = A_j[4] * C_i[2];
-    jac_phi_q_t_lambda_A_i[69] = lambda[3] * (C_j[7] * t174 - C_j[8] * t175) + lambda[4] * (C_j[1] * t176 - C_j[2] *
-        t177) + lambda[5] * (C_j[4] * t178 - C_j[5] * t179) + (s_j[1] * t173 - s_j[2] * t172);
-    const jg_real t180 = A_j[1] * C_i[5];
-    const jg_real t181 = A_j[1] * C_i[8];
-    const jg_real t182 = A_j[1] * C_i[2];
-    jac_phi_q_t_lambda_A_i[70] = lambda[3] * (C_j[8] * t180 - C_j[6] * t174) + lambda[4] * (C_j[2] * t181 - C_j[0] *
-        t176) + lambda[5] * (C_j[5] * t182 - C_j[3] * t178) + (s_j[2] * t171 - s_j[0] * t173);
-    jac_phi_q_t_lambda_A_i[71] = lambda[3] * (C_j[6] * t175 - C_j[7] * t180) + lambda[4] * (C_j[0] * t177 - C_j[1] *
-        t181) + lambda[5] * (C_j[3] * t179 - C_j[4] * t182) + (s_j[0] * t172 - s_j[1] * t171);
-    const jg_real t183 = d_ij_2 - t74;
-    const jg_real t184 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[72] = lambda[1] * t183 + lambda[2] * t184 + t84 + t85 + t86;
-    const jg_real t185 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[73] = -(lambda[2] * t185 + lambda[0] * t183 + t138 + t139 + t140);
-    jac_phi_q_t_lambda_A_i[74] = lambda[1] * t185 - lambda[0] * t184;
-    const jg_real t186 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[75] = t186;
-    const jg_real t187 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[76] = t187;
-    const jg_real t188 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[77] = t188;
-    const jg_real t189 = A_j[8] * C_i[5];
-    const jg_real t190 = A_j[5] * C_i[5];
-    const jg_real t191 = A_j[8] * C_i[8];
-    const jg_real t192 = A_j[5] * C_i[8];
-    const jg_real t193 = A_j[8] * C_i[2];
-    const jg_real t194 = A_j[5] * C_i[2];
-    jac_phi_q_t_lambda_A_i[78] = lambda[3] * (C_j[7] * t189 - C_j[8] * t190) + lambda[4] * (C_j[1] * t191 - C_j[2] *
-        t192) + lambda[5] * (C_j[4] * t193 - C_j[5] * t194) + (s_j[1] * t188 - s_j[2] * t187);
-    const jg_real t195 = A_j[2] * C_i[5];
-    const jg_real t196 = A_j[2] * C_i[8];
-    const jg_real t197 = A_j[2] * C_i[2];
-    jac_phi_q_t_lambda_A_i[79] = lambda[3] * (C_j[8] * t195 - C_j[6] * t189) + lambda[4] * (C_j[2] * t196 - C_j[0] *
-        t191) + lambda[5] * (C_j[5] * t197 - C_j[3] * t193) + (s_j[2] * t186 - s_j[0] * t188);
-    jac_phi_q_t_lambda_A_i[80] = lambda[3] * (C_j[6] * t190 - C_j[7] * t195) + lambda[4] * (C_j[0] * t192 - C_j[1] *
-        t196) + lambda[5] * (C_j[3] * t194 - C_j[4] * t197) + (s_j[0] * t187 - s_j[1] * t186);
-    const jg_real t198 = s_j[0] * A_i[6];
-    const jg_real t199 = s_j[0] * A_i[3];
-    const jg_real t200 = A_i[3] * C_j[6];
-    const jg_real t201 = A_i[6] * C_j[6];
-    const jg_real t202 = A_i[3] * C_j[0];
-    const jg_real t203 = A_i[6] * C_j[0];
-    const jg_real t204 = A_i[3] * C_j[3];
-    const jg_real t205 = A_i[6] * C_j[3];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t198 - lambda[2] * t199 - (t200 * C_i[5] - t201 * C_i[4]) * lambda[3] -
-        (t202 * C_i[8] - t203 * C_i[7]) * lambda[4] - (t204 * C_i[2] - t205 * C_i[1]) * lambda[5];
-    const jg_real t206 = s_j[0] * A_i[0];
-    const jg_real t207 = A_i[0] * C_j[6];
-    const jg_real t208 = A_i[0] * C_j[0];
-    const jg_real t209 = A_i[0] * C_j[3];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t206 - lambda[0] * t198 - lambda[3] * (t201 * C_i[3] - C_i[5] * t207) -
-        lambda[4] * (t203 * C_i[6] - C_i[8] * t208) - lambda[5] * (t205 * C_i[0] - C_i[2] * t209);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t199 - lambda[1] * t206 - lambda[3] * (C_i[4] * t207 - t200 * C_i[3]) -
-        lambda[4] * (C_i[7] * t208 - t202 * C_i[6]) - lambda[5] * (C_i[1] * t209 - t204 * C_i[0]);
-    const jg_real t210 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t210;
-    jac_phi_q_t_lambda_A_j[21] = t210;
-    jac_phi_q_t_lambda_A_j[39] = t210;
-    const jg_real t211 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real t212 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t213 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real t214 = C_j[8] * t211 * lambda[3] + C_j[2] * t212 * lambda[4] + C_j[5] * t213 * lambda[5] + s_j[2]
-        * t210;
-    jac_phi_q_t_lambda_A_j[4] = t214;
-    const jg_real t215 = C_j[7] * t211 * lambda[3] + C_j[1] * t212 * lambda[4] + C_j[4] * t213 * lambda[5] + s_j[1]
-        * t210;
-    jac_phi_q_t_lambda_A_j[40] = t215;
-    jac_phi_q_t_lambda_A_j[5] = -t215;
-    const jg_real t216 = s_j[0] * A_i[7];
-    const jg_real t217 = s_j[0] * A_i[4];
-    const jg_real t218 = A_i[4] * C_j[6];
-    const jg_real t219 = A_i[7] * C_j[6];
-    const jg_real t220 = A_i[4] * C_j[0];
-    const jg_real t221 = A_i[7] * C_j[0];
-    const jg_real t222 = A_i[4] * C_j[3];
-    const jg_real t223 = A_i[7] * C_j[3];
-    jac_phi_q_t_lambda_A_j[6] = lambda[1] * t216 - lambda[2] * t217 - (t218 * C_i[5] - t219 * C_i[4]) * lambda[3] -
-        (t220 * C_i[8] - t221 * C_i[7]) * lambda[4] - (t222 * C_i[2] - t223 * C_i[1]) * lambda[5];
-    const jg_real t224 = s_j[0] * A_i[1];
-    const jg_real t225 = A_i[1] * C_j[6];
-    const jg_real t226 = A_i[1] * C_j[0];
-    const jg_real t227 = A_i[1] * C_j[3];
-    jac_phi_q_t_lambda_A_j[7] = lambda[2] * t224 - lambda[0] * t216 - lambda[3] * (t219 * C_i[3] - C_i[5] * t225) -
-        lambda[4] * (t221 * C_i[6] - C_i[8] * t226) - lambda[5] * (t223 * C_i[0] - C_i[2] * t227);
-    jac_phi_q_t_lambda_A_j[8] = lambda[0] * t217 - lambda[1] * t224 - lambda[3] * (C_i[4] * t225 - t218 * C_i[3]) -
-        lambda[4] * (C_i[7] * t226 - t220 * C_i[6]) - lambda[5] * (C_i[1] * t227 - t222 * C_i[0]);
-    const jg_real t228 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[9] = t228;
-    jac_phi_q_t_lambda_A_j[27] = t228;
-    jac_phi_q_t_lambda_A_j[45] = t228;
-    const jg_real t229 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real t230 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t231 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real t232 = C_j[8] * t229 * lambda[3] + C_j[2] * t230 * lambda[4] + C_j[5] * t231 * lambda[5] + s_j[2]
-        * t228;
-    jac_phi_q_t_lambda_A_j[10] = t232;
-    const jg_real t233 = C_j[7] * t229 * lambda[3] + C_j[1] * t230 * lambda[4] + C_j[4] * t231 * lambda[5] + s_j[1]
-        * t228;
-    jac_phi_q_t_lambda_A_j[46] = t233;
-    jac_phi_q_t_lambda_A_j[11] = -t233;
-    const jg_real t234 = s_j[0] * A_i[8];
-    const jg_real t235 = s_j[0] * A_i[5];
-    const jg_real t236 = A_i[5] * C_j[6];
-    const jg_real t237 = A_i[8] * C_j[6];
-    const jg_real t238 = A_i[5] * C_j[0];
-    const jg_real t239 = A_i[8] * C_j[0];
-    const jg_real t240 = A_i[5] * C_j[3];
-    const jg_real t241 = A_i[8] * C_j[3];
-    jac_phi_q_t_lambda_A_j[12] = lambda[1] * t234 - lambda[2] * t235 - (t236 * C_i[5] - t237 * C_i[4]) * lambda[3] -
+    jac_phi_q_t_lambda_A_i[57] = -t79;
+    const jg_real t117 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[58] = t117;
+    const jg_real t118 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[59] = t118;
+    const jg_real t119 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[60] = t119;
+    const jg_real t120 = A_j[7] * C_i[5];
+    const jg_real t121 = A_j[4] * C_i[5];
+    const jg_real t122 = A_j[7] * C_i[8];
+    const jg_real t123 = A_j[4] * C_i[8];
+    const jg_real t124 = A_j[7] * C_i[2];
+    const jg_real t125 = A_j[4] * C_i[2];
+    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[7] * t120 - C_j[8] * t121) + lambda[4] * (C_j[1] * t122 - C_j[2] *
+        t123) + lambda[5] * (C_j[4] * t124 - C_j[5] * t125) + (s_j[1] * t119 - s_j[2] * t118);
+    const jg_real t126 = A_j[1] * C_i[5];
+    const jg_real t127 = A_j[1] * C_i[8];
+    const jg_real t128 = A_j[1] * C_i[2];
+    jac_phi_q_t_lambda_A_i[62] = lambda[3] * (C_j[8] * t126 - C_j[6] * t120) + lambda[4] * (C_j[2] * t127 - C_j[0] *
+        t122) + lambda[5] * (C_j[5] * t128 - C_j[3] * t124) + (s_j[2] * t117 - s_j[0] * t119);
+    jac_phi_q_t_lambda_A_i[63] = lambda[3] * (C_j[6] * t121 - C_j[7] * t126) + lambda[4] * (C_j[0] * t123 - C_j[1] *
+        t127) + lambda[5] * (C_j[3] * t125 - C_j[4] * t128) + (s_j[0] * t118 - s_j[1] * t117);
+    jac_phi_q_t_lambda_A_i[65] = -t92;
+    const jg_real t129 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[66] = t129;
+    const jg_real t130 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[67] = t130;
+    const jg_real t131 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[68] = t131;
+    const jg_real t132 = A_j[8] * C_i[5];
+    const jg_real t133 = A_j[5] * C_i[5];
+    const jg_real t134 = A_j[8] * C_i[8];
+    const jg_real t135 = A_j[5] * C_i[8];
+    const jg_real t136 = A_j[8] * C_i[2];
+    const jg_real t137 = A_j[5] * C_i[2];
+    jac_phi_q_t_lambda_A_i[69] = lambda[3] * (C_j[7] * t132 - C_j[8] * t133) + lambda[4] * (C_j[1] * t134 - C_j[2] *
+        t135) + lambda[5] * (C_j[4] * t136 - C_j[5] * t137) + (s_j[1] * t131 - s_j[2] * t130);
+    const jg_real t138 = A_j[2] * C_i[5];
+    const jg_real t139 = A_j[2] * C_i[8];
+    const jg_real t140 = A_j[2] * C_i[2];
+    jac_phi_q_t_lambda_A_i[70] = lambda[3] * (C_j[8] * t138 - C_j[6] * t132) + lambda[4] * (C_j[2] * t139 - C_j[0] *
+        t134) + lambda[5] * (C_j[5] * t140 - C_j[3] * t136) + (s_j[2] * t129 - s_j[0] * t131);
+    jac_phi_q_t_lambda_A_i[71] = lambda[3] * (C_j[6] * t133 - C_j[7] * t138) + lambda[4] * (C_j[0] * t135 - C_j[1] *
+        t139) + lambda[5] * (C_j[3] * t137 - C_j[4] * t140) + (s_j[0] * t130 - s_j[1] * t129);
+    const jg_real t141 = s_j[0] * A_i[6];
+    const jg_real t142 = s_j[0] * A_i[3];
+    const jg_real t143 = A_i[3] * C_j[6];
+    const jg_real t144 = A_i[6] * C_j[6];
+    const jg_real t145 = A_i[3] * C_j[0];
+    const jg_real t146 = A_i[6] * C_j[0];
+    const jg_real t147 = A_i[3] * C_j[3];
+    const jg_real t148 = A_i[6] * C_j[3];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t141 - lambda[2] * t142 - (t143 * C_i[5] - t144 * C_i[4]) * lambda[3] -
+        (t145 * C_i[8] - t146 * C_i[7]) * lambda[4] - (t147 * C_i[2] - t148 * C_i[1]) * lambda[5];
+    const jg_real t149 = s_j[0] * A_i[0];
+    const jg_real t150 = C_j[6] * A_i[0];
+    const jg_real t151 = C_j[0] * A_i[0];
+    const jg_real t152 = C_j[3] * A_i[0];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t149 - lambda[0] * t141 - lambda[3] * (t144 * C_i[3] - C_i[5] * t150) -
+        lambda[4] * (t146 * C_i[6] - C_i[8] * t151) - lambda[5] * (t148 * C_i[0] - C_i[2] * t152);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t142 - lambda[1] * t149 - lambda[3] * (C_i[4] * t150 - t143 * C_i[3]) -
+        lambda[4] * (C_i[7] * t151 - t145 * C_i[6]) - lambda[5] * (C_i[1] * t152 - t147 * C_i[0]);
+    const jg_real t153 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t153;
+    jac_phi_q_t_lambda_A_j[21] = t153;
+    jac_phi_q_t_lambda_A_j[39] = t153;
+    const jg_real t154 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t155 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t156 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real t157 = C_j[8] * t154 * lambda[3] + C_j[2] * t155 * lambda[4] + C_j[5] * t156 * lambda[5] + s_j[2]
+        * t153;
+    jac_phi_q_t_lambda_A_j[4] = t157;
+    const jg_real t158 = C_j[7] * t154 * lambda[3] + C_j[1] * t155 * lambda[4] + C_j[4] * t156 * lambda[5] + s_j[1]
+        * t153;
+    jac_phi_q_t_lambda_A_j[40] = t158;
+    jac_phi_q_t_lambda_A_j[5] = -t158;
+    const jg_real t159 = s_j[0] * A_i[7];
+    const jg_real t160 = s_j[0] * A_i[4];
+    const jg_real t161 = A_i[4] * C_j[6];
+    const jg_real t162 = A_i[7] * C_j[6];
+    const jg_real t163 = A_i[4] * C_j[0];
+    const jg_real t164 = A_i[7] * C_j[0];
+    const jg_real t165 = A_i[4] * C_j[3];
+    const jg_real t166 = A_i[7] * C_j[3];
+    jac_phi_q_t_lambda_A_j[6] = lambda[1] * t159 - lambda[2] * t160 - (t161 * C_i[5] - t162 * C_i[4]) * lambda[3] -
+        (t163 * C_i[8] - t164 * C_i[7]) * lambda[4] - (t165 * C_i[2] - t166 * C_i[1]) * lambda[5];
+    const jg_real t167 = s_j[0] * A_i[1];
+    const jg_real t168 = C_j[6] * A_i[1];
+    const jg_real t169 = C_j[0] * A_i[1];
+    const jg_real t170 = C_j[3] * A_i[1];
+    jac_phi_q_t_lambda_A_j[7] = lambda[2] * t167 - lambda[0] * t159 - lambda[3] * (t162 * C_i[3] - C_i[5] * t168) -
+        lambda[4] * (t164 * C_i[6] - C_i[8] * t169) - lambda[5] * (t166 * C_i[0] - C_i[2] * t170);
+    jac_phi_q_t_lambda_A_j[8] = lambda[0] * t160 - lambda[1] * t167 - lambda[3] * (C_i[4] * t168 - t161 * C_i[3]) -
+        lambda[4] * (C_i[7] * t169 - t163 * C_i[6]) - lambda[5] * (C_i[1] * t170 - t165 * C_i[0]);
+    const jg_real t171 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[9] = t171;
+    jac_phi_q_t_lambda_A_j[27] = t171;
+    jac_phi_q_t_lambda_A_j[45] = t171;
+    const jg_real t172 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t173 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t174 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real t175 = C_j[8] * t172 * lambda[3] + C_j[2] * t173 * lambda[4] + C_j[5] * t174 * lambda[5] + s_j[2]
+        * t171;
+    jac_phi_q_t_lambda_A_j[10] = t175;
+    const jg_real t176 = C_j[7] * t172 * lambda[3] + C_j[1] * t173 * lambda[4] + C_j[4] * t174 * lambda[5] + s_j[1]
+        * t171;
+    jac_phi_q_t_lambda_A_j[46] = t176;
+    jac_phi_q_t_lambda_A_j[11] = -t176;
+    const jg_real t177 = s_j[0] * A_i[8];
+    const jg_real t178 = s_j[0] * A_i[5];
+    const jg_real t179 = A_i[5] * C_j[6];
+    const jg_real t180 = A_i[8] * C_j[6];
+    const jg_real t181 = A_i[5] * C_j[0];
+    const jg_real t182 = A_i[8] * C_j[0];
+    const jg_real t183 = A_i[5] * C_j[3];
+    const jg_real t184 = A_i[8] * C_j[3];
+    jac_phi_q_t_lambda_A_j[12] = lambda[1] * t177 - lambda[2] * t178 - (t179 * C_i[5] - t180 * C_i[4]) * lambda[3] -
+        (t181 * C_i[8] - t182 * C_i[7]) * lambda[4] - (t183 * C_i[2] - t184 * C_i[1]) * lambda[5];
+    const jg_real t185 = s_j[0] * A_i[2];
+    const jg_real t186 = C_j[6] * A_i[2];
+    const jg_real t187 = C_j[0] * A_i[2];
+    const jg_real t188 = C_j[3] * A_i[2];
+    jac_phi_q_t_lambda_A_j[13] = lambda[2] * t185 - lambda[0] * t177 - lambda[3] * (t180 * C_i[3] - C_i[5] * t186) -
+        lambda[4] * (t182 * C_i[6] - C_i[8] * t187) - lambda[5] * (t184 * C_i[0] - C_i[2] * t188);
+    jac_phi_q_t_lambda_A_j[14] = lambda[0] * t178 - lambda[1] * t185 - lambda[3] * (C_i[4] * t186 - t179 * C_i[3]) -
+        lambda[4] * (C_i[7] * t187 - t181 * C_i[6]) - lambda[5] * (C_i[1] * t188 - t183 * C_i[0]);
+    const jg_real t189 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[15] = t189;
+    jac_phi_q_t_lambda_A_j[33] = t189;
+    jac_phi_q_t_lambda_A_j[51] = t189;
+    const jg_real t190 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real t191 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t192 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real t193 = C_j[8] * t190 * lambda[3] + C_j[2] * t191 * lambda[4] + C_j[5] * t192 * lambda[5] + s_j[2]
+        * t189;
+    jac_phi_q_t_lambda_A_j[16] = t193;
+    const jg_real t194 = C_j[7] * t190 * lambda[3] + C_j[1] * t191 * lambda[4] + C_j[4] * t192 * lambda[5] + s_j[1]
+        * t189;
+    jac_phi_q_t_lambda_A_j[52] = t194;
+    jac_phi_q_t_lambda_A_j[17] = -t194;
+    const jg_real t195 = s_j[1] * A_i[6];
+    const jg_real t196 = s_j[1] * A_i[3];
+    const jg_real t197 = A_i[3] * C_j[7];
+    const jg_real t198 = A_i[6] * C_j[7];
+    const jg_real t199 = A_i[3] * C_j[1];
+    const jg_real t200 = A_i[6] * C_j[1];
+    const jg_real t201 = A_i[3] * C_j[4];
+    const jg_real t202 = A_i[6] * C_j[4];
+    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t195 - lambda[2] * t196 - (t197 * C_i[5] - t198 * C_i[4]) * lambda[3] -
+        (t199 * C_i[8] - t200 * C_i[7]) * lambda[4] - (t201 * C_i[2] - t202 * C_i[1]) * lambda[5];
+    const jg_real t203 = s_j[1] * A_i[0];
+    const jg_real t204 = C_j[7] * A_i[0];
+    const jg_real t205 = C_j[1] * A_i[0];
+    const jg_real t206 = C_j[4] * A_i[0];
+    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t203 - lambda[0] * t195 - lambda[3] * (t198 * C_i[3] - C_i[5] * t204) -
+        lambda[4] * (t200 * C_i[6] - C_i[8] * t205) - lambda[5] * (t202 * C_i[0] - C_i[2] * t206);
+    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t196 - lambda[1] * t203 - lambda[3] * (C_i[4] * t204 - t197 * C_i[3]) -
+        lambda[4] * (C_i[7] * t205 - t199 * C_i[6]) - lambda[5] * (C_i[1] * t206 - t201 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[22] = -t157;
+    const jg_real t207 = C_j[6] * t154 * lambda[3] + C_j[0] * t155 * lambda[4] + C_j[3] * t156 * lambda[5] + s_j[0]
+        * t153;
+    jac_phi_q_t_lambda_A_j[23] = t207;
+    const jg_real t208 = s_j[1] * A_i[7];
+    const jg_real t209 = s_j[1] * A_i[4];
+    const jg_real t210 = A_i[4] * C_j[7];
+    const jg_real t211 = A_i[7] * C_j[7];
+    const jg_real t212 = A_i[4] * C_j[1];
+    const jg_real t213 = A_i[7] * C_j[1];
+    const jg_real t214 = A_i[4] * C_j[4];
+    const jg_real t215 = A_i[7] * C_j[4];
+    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t208 - lambda[2] * t209 - (t210 * C_i[5] - t211 * C_i[4]) * lambda[3] -
+        (t212 * C_i[8] - t213 * C_i[7]) * lambda[4] - (t214 * C_i[2] - t215 * C_i[1]) * lambda[5];
+    const jg_real t216 = s_j[1] * A_i[1];
+    const jg_real t217 = C_j[7] * A_i[1];
+    const jg_real t218 = C_j[1] * A_i[1];
+    const jg_real t219 = C_j[4] * A_i[1];
+    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t216 - lambda[0] * t208 - lambda[3] * (t211 * C_i[3] - C_i[5] * t217) -
+        lambda[4] * (t213 * C_i[6] - C_i[8] * t218) - lambda[5] * (t215 * C_i[0] - C_i[2] * t219);
+    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t209 - lambda[1] * t216 - lambda[3] * (C_i[4] * t217 - t210 * C_i[3]) -
+        lambda[4] * (C_i[7] * t218 - t212 * C_i[6]) - lambda[5] * (C_i[1] * t219 - t214 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[28] = -t175;
+    const jg_real t220 = C_j[6] * t172 * lambda[3] + C_j[0] * t173 * lambda[4] + C_j[3] * t174 * lambda[5] + s_j[0]
+        * t171;
+    jac_phi_q_t_lambda_A_j[29] = t220;
+    const jg_real t221 = s_j[1] * A_i[8];
+    const jg_real t222 = s_j[1] * A_i[5];
+    const jg_real t223 = A_i[5] * C_j[7];
+    const jg_real t224 = A_i[8] * C_j[7];
+    const jg_real t225 = A_i[5] * C_j[1];
+    const jg_real t226 = A_i[8] * C_j[1];
+    const jg_real t227 = A_i[5] * C_j[4];
+    const jg_real t228 = A_i[8] * C_j[4];
+    jac_phi_q_t_lambda_A_j[30] = lambda[1] * t221 - lambda[2] * t222 - (t223 * C_i[5] - t224 * C_i[4]) * lambda[3] -
+        (t225 * C_i[8] - t226 * C_i[7]) * lambda[4] - (t227 * C_i[2] - t228 * C_i[1]) * lambda[5];
+    const jg_real t229 = s_j[1] * A_i[2];
+    const jg_real t230 = C_j[7] * A_i[2];
+    const jg_real t231 = C_j[1] * A_i[2];
+    const jg_real t232 = C_j[4] * A_i[2];
+    jac_phi_q_t_lambda_A_j[31] = lambda[2] * t229 - lambda[0] * t221 - lambda[3] * (t224 * C_i[3] - C_i[5] * t230) -
+        lambda[4] * (t226 * C_i[6] - C_i[8] * t231) - lambda[5] * (t228 * C_i[0] - C_i[2] * t232);
+    jac_phi_q_t_lambda_A_j[32] = lambda[0] * t222 - lambda[1] * t229 - lambda[3] * (C_i[4] * t230 - t223 * C_i[3]) -
+        lambda[4] * (C_i[7] * t231 - t225 * C_i[6]) - lambda[5] * (C_i[1] * t232 - t227 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[34] = -t193;
+    const jg_real t233 = C_j[6] * t190 * lambda[3] + C_j[0] * t191 * lambda[4] + C_j[3] * t192 * lambda[5] + s_j[0]
+        * t189;
+    jac_phi_q_t_lambda_A_j[35] = t233;
+    const jg_real t234 = s_j[2] * A_i[6];
+    const jg_real t235 = s_j[2] * A_i[3];
+    const jg_real t236 = A_i[3] * C_j[8];
+    const jg_real t237 = A_i[6] * C_j[8];
+    const jg_real t238 = A_i[3] * C_j[2];
+    const jg_real t239 = A_i[6] * C_j[2];
+    const jg_real t240 = A_i[3] * C_j[5];
+    const jg_real t241 = A_i[6] * C_j[5];
+    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t234 - lambda[2] * t235 - (t236 * C_i[5] - t237 * C_i[4]) * lambda[3] -
         (t238 * C_i[8] - t239 * C_i[7]) * lambda[4] - (t240 * C_i[2] - t241 * C_i[1]) * lambda[5];
-    const jg_real t242 = s_j[0] * A_i[2];
-    const jg_real t243 = A_i[2] * C_j[6];
-    const jg_real t244 = A_i[2] * C_j[0];
-    const jg_real t245 = A_i[2] * C_j[3];
-    jac_phi_q_t_lambda_A_j[13] = lambda[2] * t242 - lambda[0] * t234 - lambda[3] * (t237 * C_i[3] - C_i[5] * t243) -
+    const jg_real t242 = s_j[2] * A_i[0];
+    const jg_real t243 = C_j[8] * A_i[0];
+    const jg_real t244 = C_j[2] * A_i[0];
+    const jg_real t245 = C_j[5] * A_i[0];
+    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t242 - lambda[0] * t234 - lambda[3] * (t237 * C_i[3] - C_i[5] * t243) -
         lambda[4] * (t239 * C_i[6] - C_i[8] * t244) - lambda[5] * (t241 * C_i[0] - C_i[2] * t245);
-    jac_phi_q_t_lambda_A_j[14] = lambda[0] * t235 - lambda[1] * t242 - lambda[3] * (C_i[4] * t243 - t236 * C_i[3]) -
+    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t235 - lambda[1] * t242 - lambda[3] * (C_i[4] * t243 - t236 * C_i[3]) -
         lambda[4] * (C_i[7] * t244 - t238 * C_i[6]) - lambda[5] * (C_i[1] * t245 - t240 * C_i[0]);
-    const jg_real t246 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[15] = t246;
-    jac_phi_q_t_lambda_A_j[33] = t246;
-    jac_phi_q_t_lambda_A_j[51] = t246;
-    const jg_real t247 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real t248 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t249 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real t250 = C_j[8] * t247 * lambda[3] + C_j[2] * t248 * lambda[4] + C_j[5] * t249 * lambda[5] + s_j[2]
-        * t246;
-    jac_phi_q_t_lambda_A_j[16] = t250;
-    const jg_real t251 = C_j[7] * t247 * lambda[3] + C_j[1] * t248 * lambda[4] + C_j[4] * t249 * lambda[5] + s_j[1]
-        * t246;
-    jac_phi_q_t_lambda_A_j[52] = t251;
-    jac_phi_q_t_lambda_A_j[17] = -t251;
-    const jg_real t252 = s_j[1] * A_i[6];
-    const jg_real t253 = s_j[1] * A_i[3];
-    const jg_real t254 = A_i[3] * C_j[7];
-    const jg_real t255 = A_i[6] * C_j[7];
-    const jg_real t256 = A_i[3] * C_j[1];
-    const jg_real t257 = A_i[6] * C_j[1];
-    const jg_real t258 = A_i[3] * C_j[4];
-    const jg_real t259 = A_i[6] * C_j[4];
-    jac_phi_q_t_lambda_A_j[18] = lambda[1] * t252 - lambda[2] * t253 - (t254 * C_i[5] - t255 * C_i[4]) * lambda[3] -
-        (t256 * C_i[8] - t257 * C_i[7]) * lambda[4] - (t258 * C_i[2] - t259 * C_i[1]) * lambda[5];
-    const jg_real t260 = s_j[1] * A_i[0];
-    const jg_real t261 = A_i[0] * C_j[7];
-    const jg_real t262 = A_i[0] * C_j[1];
-    const jg_real t263 = A_i[0] * C_j[4];
-    jac_phi_q_t_lambda_A_j[19] = lambda[2] * t260 - lambda[0] * t252 - lambda[3] * (t255 * C_i[3] - C_i[5] * t261) -
-        lambda[4] * (t257 * C_i[6] - C_i[8] * t262) - lambda[5] * (t259 * C_i[0] - C_i[2] * t263);
-    jac_phi_q_t_lambda_A_j[20] = lambda[0] * t253 - lambda[1] * t260 - lambda[3] * (C_i[4] * t261 - t254 * C_i[3]) -
-        lambda[4] * (C_i[7] * t262 - t256 * C_i[6]) - lambda[5] * (C_i[1] * t263 - t258 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[22] = -t214;
-    const jg_real t264 = C_j[6] * t211 * lambda[3] + C_j[0] * t212 * lambda[4] + C_j[3] * t213 * lambda[5] + s_j[0]
-        * t210;
-    jac_phi_q_t_lambda_A_j[23] = t264;
-    const jg_real t265 = s_j[1] * A_i[7];
-    const jg_real t266 = s_j[1] * A_i[4];
-    const jg_real t267 = A_i[4] * C_j[7];
-    const jg_real t268 = A_i[7] * C_j[7];
-    const jg_real t269 = A_i[4] * C_j[1];
-    const jg_real t270 = A_i[7] * C_j[1];
-    const jg_real t271 = A_i[4] * C_j[4];
-    const jg_real t272 = A_i[7] * C_j[4];
-    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t265 - lambda[2] * t266 - (t267 * C_i[5] - t268 * C_i[4]) * lambda[3] -
-        (t269 * C_i[8] - t270 * C_i[7]) * lambda[4] - (t271 * C_i[2] - t272 * C_i[1]) * lambda[5];
-    const jg_real t273 = s_j[1] * A_i[1];
-    const jg_real t274 = A_i[1] * C_j[7];
-    const jg_real t275 = A_i[1] * C_j[1];
-    const jg_real t276 = A_i[1] * C_j[4];
-    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t273 - lambda[0] * t265 - lambda[3] * (t268 * C_i[3] - C_i[5] * t274) -
-        lambda[4] * (t270 * C_i[6] - C_i[8] * t275) - lambda[5] * (t272 * C_i[0] - C_i[2] * t276);
-    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t266 - lambda[1] * t273 - lambda[3] * (C_i[4] * t274 - t267 * C_i[3]) -
-        lambda[4] * (C_i[7] * t275 - t269 * C_i[6]) - lambda[5] * (C_i[1] * t276 - t271 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[28] = -t232;
-    const jg_real t277 = C_j[6] * t229 * lambda[3] + C_j[0] * t230 * lambda[4] + C_j[3] * t231 * lambda[5] + s_j[0]
-        * t228;
-    jac_phi_q_t_lambda_A_j[29] = t277;
-    const jg_real t278 = s_j[1] * A_i[8];
-    const jg_real t279 = s_j[1] * A_i[5];
-    const jg_real t280 = A_i[5] * C_j[7];
-    const jg_real t281 = A_i[8] * C_j[7];
-    const jg_real t282 = A_i[5] * C_j[1];
-    const jg_real t283 = A_i[8] * C_j[1];
-    const jg_real t284 = A_i[5] * C_j[4];
-    const jg_real t285 = A_i[8] * C_j[4];
-    jac_phi_q_t_lambda_A_j[30] = lambda[1] * t278 - lambda[2] * t279 - (t280 * C_i[5] - t281 * C_i[4]) * lambda[3] -
-        (t282 * C_i[8] - t283 * C_i[7]) * lambda[4] - (t284 * C_i[2] - t285 * C_i[1]) * lambda[5];
-    const jg_real t286 = s_j[1] * A_i[2];
-    const jg_real t287 = A_i[2] * C_j[7];
-    const jg_real t288 = A_i[2] * C_j[1];
-    const jg_real t289 = A_i[2] * C_j[4];
-    jac_phi_q_t_lambda_A_j[31] = lambda[2] * t286 - lambda[0] * t278 - lambda[3] * (t281 * C_i[3] - C_i[5] * t287) -
-        lambda[4] * (t283 * C_i[6] - C_i[8] * t288) - lambda[5] * (t285 * C_i[0] - C_i[2] * t289);
-    jac_phi_q_t_lambda_A_j[32] = lambda[0] * t279 - lambda[1] * t286 - lambda[3] * (C_i[4] * t287 - t280 * C_i[3]) -
-        lambda[4] * (C_i[7] * t288 - t282 * C_i[6]) - lambda[5] * (C_i[1] * t289 - t284 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[34] = -t250;
-    const jg_real t290 = C_j[6] * t247 * lambda[3] + C_j[0] * t248 * lambda[4] + C_j[3] * t249 * lambda[5] + s_j[0]
-        * t246;
-    jac_phi_q_t_lambda_A_j[35] = t290;
-    const jg_real t291 = s_j[2] * A_i[6];
-    const jg_real t292 = s_j[2] * A_i[3];
-    const jg_real t293 = A_i[3] * C_j[8];
-    const jg_real t294 = A_i[6] * C_j[8];
-    const jg_real t295 = A_i[3] * C_j[2];
-    const jg_real t296 = A_i[6] * C_j[2];
-    const jg_real t297 = A_i[3] * C_j[5];
-    const jg_real t298 = A_i[6] * C_j[5];
-    jac_phi_q_t_lambda_A_j[36] = lambda[1] * t291 - lambda[2] * t292 - (t293 * C_i[5] - t294 * C_i[4]) * lambda[3] -
-        (t295 * C_i[8] - t296 * C_i[7]) * lambda[4] - (t297 * C_i[2] - t298 * C_i[1]) * lambda[5];
-    const jg_real t299 = s_j[2] * A_i[0];
-    const jg_real t300 = A_i[0] * C_j[8];
-    const jg_real t301 = A_i[0] * C_j[2];
-    const jg_real t302 = A_i[0] * C_j[5];
-    jac_phi_q_t_lambda_A_j[37] = lambda[2] * t299 - lambda[0] * t291 - lambda[3] * (t294 * C_i[3] - C_i[5] * t300) -
-        lambda[4] * (t296 * C_i[6] - C_i[8] * t301) - lambda[5] * (t298 * C_i[0] - C_i[2] * t302);
-    jac_phi_q_t_lambda_A_j[38] = lambda[0] * t292 - lambda[1] * t299 - lambda[3] * (C_i[4] * t300 - t293 * C_i[3]) -
-        lambda[4] * (C_i[7] * t301 - t295 * C_i[6]) - lambda[5] * (C_i[1] * t302 - t297 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[41] = -t264;
-    const jg_real t303 = s_j[2] * A_i[7];
-    const jg_real t304 = s_j[2] * A_i[4];
-    const jg_real t305 = A_i[4] * C_j[8];
-    const jg_real t306 = A_i[7] * C_j[8];
-    const jg_real t307 = A_i[4] * C_j[2];
-    const jg_real t308 = A_i[7] * C_j[2];
-    const jg_real t309 = A_i[4] * C_j[5];
-    const jg_real t310 = A_i[7] * C_j[5];
-    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t303 - lambda[2] * t304 - (t305 * C_i[5] - t306 * C_i[4]) * lambda[3] -
-        (t307 * C_i[8] - t308 * C_i[7]) * lambda[4] - (t309 * C_i[2] - t310 * C_i[1]) * lambda[5];
-    const jg_real t311 = s_j[2] * A_i[1];
-    const jg_real t312 = A_i[1] * C_j[8];
-    const jg_real t313 = A_i[1] * C_j[2];
-    const jg_real t314 = A_i[1] * C_j[5];
-    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t311 - lambda[0] * t303 - lambda[3] * (t306 * C_i[3] - C_i[5] * t312) -
-        lambda[4] * (t308 * C_i[6] - C_i[8] * t313) - lambda[5] * (t310 * C_i[0] - C_i[2] * t314);
-    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t304 - lambda[1] * t311 - lambda[3] * (C_i[4] * t312 - t305 * C_i[3]) -
-        lambda[4] * (C_i[7] * t313 - t307 * C_i[6]) - lambda[5] * (C_i[1] * t314 - t309 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[47] = -t277;
-    const jg_real t315 = s_j[2] * A_i[8];
-    const jg_real t316 = s_j[2] * A_i[5];
-    const jg_real t317 = A_i[5] * C_j[8];
-    const jg_real t318 = A_i[8] * C_j[8];
-    const jg_real t319 = A_i[5] * C_j[2];
-    const jg_real t320 = A_i[8] * C_j[2];
-    const jg_real t321 = A_i[5] * C_j[5];
-    const jg_real t322 = A_i[8] * C_j[5];
-    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t315 - lambda[2] * t316 - (t317 * C_i[5] - t318 * C_i[4]) * lambda[3] -
-        (t319 * C_i[8] - t320 * C_i[7]) * lambda[4] - (t321 * C_i[2] - t322 * C_i[1]) * lambda[5];
-    const jg_real t323 = s_j[2] * A_i[2];
-    const jg_real t324 = A_i[2] * C_j[8];
-    const jg_real t325 = A_i[2] * C_j[2];
-    const jg_real t326 = A_i[2] * C_j[5];
-    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t323 - lambda[0] * t315 - lambda[3] * (t318 * C_i[3] - C_i[5] * t324) -
-        lambda[4] * (t320 * C_i[6] - C_i[8] * t325) - lambda[5] * (t322 * C_i[0] - C_i[2] * t326);
-    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t316 - lambda[1] * t323 - lambda[3] * (C_i[4] * t324 - t317 * C_i[3]) -
-        lambda[4] * (C_i[7] * t325 - t319 * C_i[6]) - lambda[5] * (C_i[1] * t326 - t321 * C_i[0]);
-    jac_phi_q_t_lambda_A_j[53] = -t290;
-    const jg_real t327 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t328 = lambda[2] * t327;
-    const jg_real t329 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t330 = lambda[1] * t329;
-    jac_phi_q_t_lambda_geometry[0] = t328 - t330;
-    const jg_real t331 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t331 + lambda[0] * t329;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t327 + lambda[1] * t331);
-    const jg_real t332 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t333 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t332 + lambda[2] * t333);
-    const jg_real t334 = lambda[0] * t332;
-    jac_phi_q_t_lambda_geometry[4] = t334 - t328;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t333 + lambda[1] * t327;
-    const jg_real t335 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t335 + lambda[2] * t332;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t329 + lambda[0] * t335);
-    jac_phi_q_t_lambda_geometry[8] = t330 - t334;
+    jac_phi_q_t_lambda_A_j[41] = -t207;
+    const jg_real t246 = s_j[2] * A_i[7];
+    const jg_real t247 = s_j[2] * A_i[4];
+    const jg_real t248 = A_i[4] * C_j[8];
+    const jg_real t249 = A_i[7] * C_j[8];
+    const jg_real t250 = A_i[4] * C_j[2];
+    const jg_real t251 = A_i[7] * C_j[2];
+    const jg_real t252 = A_i[4] * C_j[5];
+    const jg_real t253 = A_i[7] * C_j[5];
+    jac_phi_q_t_lambda_A_j[42] = lambda[1] * t246 - lambda[2] * t247 - (t248 * C_i[5] - t249 * C_i[4]) * lambda[3] -
+        (t250 * C_i[8] - t251 * C_i[7]) * lambda[4] - (t252 * C_i[2] - t253 * C_i[1]) * lambda[5];
+    const jg_real t254 = s_j[2] * A_i[1];
+    const jg_real t255 = C_j[8] * A_i[1];
+    const jg_real t256 = C_j[2] * A_i[1];
+    const jg_real t257 = C_j[5] * A_i[1];
+    jac_phi_q_t_lambda_A_j[43] = lambda[2] * t254 - lambda[0] * t246 - lambda[3] * (t249 * C_i[3] - C_i[5] * t255) -
+        lambda[4] * (t251 * C_i[6] - C_i[8] * t256) - lambda[5] * (t253 * C_i[0] - C_i[2] * t257);
+    jac_phi_q_t_lambda_A_j[44] = lambda[0] * t247 - lambda[1] * t254 - lambda[3] * (C_i[4] * t255 - t248 * C_i[3]) -
+        lambda[4] * (C_i[7] * t256 - t250 * C_i[6]) - lambda[5] * (C_i[1] * t257 - t252 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[47] = -t220;
+    const jg_real t258 = s_j[2] * A_i[8];
+    const jg_real t259 = s_j[2] * A_i[5];
+    const jg_real t260 = A_i[5] * C_j[8];
+    const jg_real t261 = A_i[8] * C_j[8];
+    const jg_real t262 = A_i[5] * C_j[2];
+    const jg_real t263 = A_i[8] * C_j[2];
+    const jg_real t264 = A_i[5] * C_j[5];
+    const jg_real t265 = A_i[8] * C_j[5];
+    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t258 - lambda[2] * t259 - (t260 * C_i[5] - t261 * C_i[4]) * lambda[3] -
+        (t262 * C_i[8] - t263 * C_i[7]) * lambda[4] - (t264 * C_i[2] - t265 * C_i[1]) * lambda[5];
+    const jg_real t266 = s_j[2] * A_i[2];
+    const jg_real t267 = C_j[8] * A_i[2];
+    const jg_real t268 = C_j[2] * A_i[2];
+    const jg_real t269 = C_j[5] * A_i[2];
+    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t266 - lambda[0] * t258 - lambda[3] * (t261 * C_i[3] - C_i[5] * t267) -
+        lambda[4] * (t263 * C_i[6] - C_i[8] * t268) - lambda[5] * (t265 * C_i[0] - C_i[2] * t269);
+    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t259 - lambda[1] * t266 - lambda[3] * (C_i[4] * t267 - t260 * C_i[3]) -
+        lambda[4] * (C_i[7] * t268 - t262 * C_i[6]) - lambda[5] * (C_i[1] * t269 - t264 * C_i[0]);
+    jac_phi_q_t_lambda_A_j[53] = -t233;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
@@ -1448,9 +1326,9 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_lambda[23] = A_ij_8;
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t340 = A_ij_g_j_2 * lambda[5];
-    jac_phi_q_t_lambda_geometry[14] = t340;
-    jac_phi_q_t_lambda_geometry[9] = -t340;
+    const jg_real t274 = A_ij_g_j_2 * lambda[5];
+    jac_phi_q_t_lambda_geometry[5] = t274;
+    jac_phi_q_t_lambda_geometry[0] = -t274;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_q_t_lambda_lambda[12] = A_ij_1;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
@@ -1458,178 +1336,175 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_q_t_lambda_lambda[14] = A_ij_7;
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t345 = A_ij_g_j_1 * lambda[5];
-    jac_phi_q_t_lambda_geometry[10] = t345;
+    const jg_real t279 = A_ij_g_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[1] = t279;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_q_t_lambda_lambda[5] = A_ij_6;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_q_t_lambda_lambda[4] = A_ij_3;
-    jac_phi_q_t_lambda_geometry[11] = lambda[5] * (C_j[4] * A_ij_6 - C_j[5] * A_ij_3);
+    jac_phi_q_t_lambda_geometry[2] = lambda[5] * (C_j[4] * A_ij_6 - C_j[5] * A_ij_3);
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = lambda[5] * (C_j[5] * A_ij_0 - C_j[3] * A_ij_6);
-    jac_phi_q_t_lambda_geometry[13] = lambda[5] * (C_j[3] * A_ij_3 - C_j[4] * A_ij_0);
+    jac_phi_q_t_lambda_geometry[3] = lambda[5] * (C_j[5] * A_ij_0 - C_j[3] * A_ij_6);
+    jac_phi_q_t_lambda_geometry[4] = lambda[5] * (C_j[3] * A_ij_3 - C_j[4] * A_ij_0);
     const jg_real A_ij_g_j_0 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
-    const jg_real t350 = lambda[5] * A_ij_g_j_0;
-    jac_phi_q_t_lambda_geometry[20] = t350;
-    jac_phi_q_t_lambda_geometry[15] = -t350;
-    jac_phi_q_t_lambda_geometry[16] = lambda[5] * (A_ij_7 * C_j[4] - A_ij_4 * C_j[5]);
-    jac_phi_q_t_lambda_geometry[17] = lambda[5] * (A_ij_1 * C_j[5] - A_ij_7 * C_j[3]);
-    jac_phi_q_t_lambda_geometry[18] = lambda[5] * (A_ij_4 * C_j[3] - A_ij_1 * C_j[4]);
-    jac_phi_q_t_lambda_geometry[19] = -t345;
-    jac_phi_q_t_lambda_geometry[21] = lambda[5] * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
-    jac_phi_q_t_lambda_geometry[22] = lambda[5] * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
-    jac_phi_q_t_lambda_geometry[23] = lambda[5] * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
+    const jg_real t284 = lambda[5] * A_ij_g_j_0;
+    jac_phi_q_t_lambda_geometry[11] = t284;
+    jac_phi_q_t_lambda_geometry[6] = -t284;
+    jac_phi_q_t_lambda_geometry[7] = lambda[5] * (A_ij_7 * C_j[4] - A_ij_4 * C_j[5]);
+    jac_phi_q_t_lambda_geometry[8] = lambda[5] * (A_ij_1 * C_j[5] - A_ij_7 * C_j[3]);
+    jac_phi_q_t_lambda_geometry[9] = lambda[5] * (A_ij_4 * C_j[3] - A_ij_1 * C_j[4]);
+    jac_phi_q_t_lambda_geometry[10] = -t279;
+    jac_phi_q_t_lambda_geometry[12] = lambda[5] * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
+    jac_phi_q_t_lambda_geometry[13] = lambda[5] * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
+    jac_phi_q_t_lambda_geometry[14] = lambda[5] * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t352 = A_ij_h_j_2 * lambda[3];
-    jac_phi_q_t_lambda_geometry[29] = t352;
-    jac_phi_q_t_lambda_geometry[24] = -t352;
+    const jg_real t286 = A_ij_h_j_2 * lambda[3];
+    jac_phi_q_t_lambda_geometry[20] = t286;
+    jac_phi_q_t_lambda_geometry[15] = -t286;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t354 = A_ij_h_j_1 * lambda[3];
-    jac_phi_q_t_lambda_geometry[25] = t354;
-    jac_phi_q_t_lambda_geometry[26] = lambda[3] * (C_j[7] * A_ij_6 - C_j[8] * A_ij_3);
-    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (C_j[8] * A_ij_0 - C_j[6] * A_ij_6);
-    jac_phi_q_t_lambda_geometry[28] = lambda[3] * (C_j[6] * A_ij_3 - C_j[7] * A_ij_0);
+    const jg_real t288 = A_ij_h_j_1 * lambda[3];
+    jac_phi_q_t_lambda_geometry[16] = t288;
+    jac_phi_q_t_lambda_geometry[17] = lambda[3] * (C_j[7] * A_ij_6 - C_j[8] * A_ij_3);
+    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[8] * A_ij_0 - C_j[6] * A_ij_6);
+    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[6] * A_ij_3 - C_j[7] * A_ij_0);
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    const jg_real t356 = lambda[3] * A_ij_h_j_0;
-    jac_phi_q_t_lambda_geometry[35] = t356;
-    jac_phi_q_t_lambda_geometry[30] = -t356;
-    jac_phi_q_t_lambda_geometry[31] = lambda[3] * (A_ij_7 * C_j[7] - A_ij_4 * C_j[8]);
-    jac_phi_q_t_lambda_geometry[32] = lambda[3] * (A_ij_1 * C_j[8] - A_ij_7 * C_j[6]);
-    jac_phi_q_t_lambda_geometry[33] = lambda[3] * (A_ij_4 * C_j[6] - A_ij_1 * C_j[7]);
-    jac_phi_q_t_lambda_geometry[34] = -t354;
-    jac_phi_q_t_lambda_geometry[36] = lambda[3] * (A_ij_8 * C_j[7] - A_ij_5 * C_j[8]);
-    jac_phi_q_t_lambda_geometry[37] = lambda[3] * (A_ij_2 * C_j[8] - A_ij_8 * C_j[6]);
-    jac_phi_q_t_lambda_geometry[38] = lambda[3] * (A_ij_5 * C_j[6] - A_ij_2 * C_j[7]);
+    const jg_real t290 = lambda[3] * A_ij_h_j_0;
+    jac_phi_q_t_lambda_geometry[26] = t290;
+    jac_phi_q_t_lambda_geometry[21] = -t290;
+    jac_phi_q_t_lambda_geometry[22] = lambda[3] * (A_ij_7 * C_j[7] - A_ij_4 * C_j[8]);
+    jac_phi_q_t_lambda_geometry[23] = lambda[3] * (A_ij_1 * C_j[8] - A_ij_7 * C_j[6]);
+    jac_phi_q_t_lambda_geometry[24] = lambda[3] * (A_ij_4 * C_j[6] - A_ij_1 * C_j[7]);
+    jac_phi_q_t_lambda_geometry[25] = -t288;
+    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (A_ij_8 * C_j[7] - A_ij_5 * C_j[8]);
+    jac_phi_q_t_lambda_geometry[28] = lambda[3] * (A_ij_2 * C_j[8] - A_ij_8 * C_j[6]);
+    jac_phi_q_t_lambda_geometry[29] = lambda[3] * (A_ij_5 * C_j[6] - A_ij_2 * C_j[7]);
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t358 = A_ij_f_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[44] = t358;
-    jac_phi_q_t_lambda_geometry[39] = -t358;
+    const jg_real t292 = A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[35] = t292;
+    jac_phi_q_t_lambda_geometry[30] = -t292;
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t360 = A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[40] = t360;
-    jac_phi_q_t_lambda_geometry[41] = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
-    jac_phi_q_t_lambda_geometry[42] = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
-    jac_phi_q_t_lambda_geometry[43] = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0);
+    const jg_real t294 = A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[31] = t294;
+    jac_phi_q_t_lambda_geometry[32] = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
+    jac_phi_q_t_lambda_geometry[33] = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
+    jac_phi_q_t_lambda_geometry[34] = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0);
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t362 = lambda[4] * A_ij_f_j_0;
-    jac_phi_q_t_lambda_geometry[50] = t362;
-    jac_phi_q_t_lambda_geometry[45] = -t362;
-    jac_phi_q_t_lambda_geometry[46] = lambda[4] * (A_ij_7 * C_j[1] - A_ij_4 * C_j[2]);
-    jac_phi_q_t_lambda_geometry[47] = lambda[4] * (A_ij_1 * C_j[2] - A_ij_7 * C_j[0]);
-    jac_phi_q_t_lambda_geometry[48] = lambda[4] * (A_ij_4 * C_j[0] - A_ij_1 * C_j[1]);
-    jac_phi_q_t_lambda_geometry[49] = -t360;
-    jac_phi_q_t_lambda_geometry[51] = lambda[4] * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
-    jac_phi_q_t_lambda_geometry[52] = lambda[4] * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
-    jac_phi_q_t_lambda_geometry[53] = lambda[4] * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
-    jac_phi_q_t_lambda_geometry[54] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[55] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[56] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t363 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[62] = t363;
-    jac_phi_q_t_lambda_geometry[57] = -t363;
-    const jg_real t364 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[58] = t364;
-    jac_phi_q_t_lambda_geometry[59] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[60] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[61] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t365 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[68] = t365;
-    jac_phi_q_t_lambda_geometry[63] = -t365;
-    jac_phi_q_t_lambda_geometry[64] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[65] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[66] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[67] = -t364;
-    jac_phi_q_t_lambda_geometry[69] = -((A_ij_1 * C_i[8] - A_ij_2 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[70] = -(lambda[4] * (A_ij_2 * C_i[6] - C_i[8] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[71] = -(lambda[4] * (C_i[7] * A_ij_0 - A_ij_1 * C_i[6]));
+    const jg_real t296 = lambda[4] * A_ij_f_j_0;
+    jac_phi_q_t_lambda_geometry[41] = t296;
+    jac_phi_q_t_lambda_geometry[36] = -t296;
+    jac_phi_q_t_lambda_geometry[37] = lambda[4] * (A_ij_7 * C_j[1] - A_ij_4 * C_j[2]);
+    jac_phi_q_t_lambda_geometry[38] = lambda[4] * (A_ij_1 * C_j[2] - A_ij_7 * C_j[0]);
+    jac_phi_q_t_lambda_geometry[39] = lambda[4] * (A_ij_4 * C_j[0] - A_ij_1 * C_j[1]);
+    jac_phi_q_t_lambda_geometry[40] = -t294;
+    jac_phi_q_t_lambda_geometry[42] = lambda[4] * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
+    jac_phi_q_t_lambda_geometry[43] = lambda[4] * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
+    jac_phi_q_t_lambda_geometry[44] = lambda[4] * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
+    jac_phi_q_t_lambda_geometry[45] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[46] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[47] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t297 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[53] = t297;
+    jac_phi_q_t_lambda_geometry[48] = -t297;
+    const jg_real t298 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[49] = t298;
+    jac_phi_q_t_lambda_geometry[50] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[51] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[52] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real t299 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[59] = t299;
+    jac_phi_q_t_lambda_geometry[54] = -t299;
+    jac_phi_q_t_lambda_geometry[55] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[56] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[57] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[58] = -t298;
+    jac_phi_q_t_lambda_geometry[60] = -((A_ij_1 * C_i[8] - A_ij_2 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[61] = -(lambda[4] * (A_ij_2 * C_i[6] - C_i[8] * A_ij_0));
+    jac_phi_q_t_lambda_geometry[62] = -(lambda[4] * (C_i[7] * A_ij_0 - A_ij_1 * C_i[6]));
     /* A_ijt_h_i = A_ij^T h_i */
     const jg_real A_ijt_h_i_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t367 = lambda[4] * A_ijt_h_i_2;
-    jac_phi_q_t_lambda_geometry[77] = t367;
-    jac_phi_q_t_lambda_geometry[72] = -t367;
+    const jg_real t301 = lambda[4] * A_ijt_h_i_2;
+    jac_phi_q_t_lambda_geometry[68] = t301;
+    jac_phi_q_t_lambda_geometry[63] = -t301;
     const jg_real A_ijt_h_i_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real t369 = lambda[4] * A_ijt_h_i_1;
-    jac_phi_q_t_lambda_geometry[73] = t369;
-    jac_phi_q_t_lambda_geometry[74] = -((A_ij_4 * C_i[8] - A_ij_5 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[75] = -(lambda[4] * (A_ij_5 * C_i[6] - C_i[8] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[76] = -(lambda[4] * (C_i[7] * A_ij_3 - A_ij_4 * C_i[6]));
+    const jg_real t303 = lambda[4] * A_ijt_h_i_1;
+    jac_phi_q_t_lambda_geometry[64] = t303;
+    jac_phi_q_t_lambda_geometry[65] = -((A_ij_4 * C_i[8] - A_ij_5 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[66] = -(lambda[4] * (A_ij_5 * C_i[6] - C_i[8] * A_ij_3));
+    jac_phi_q_t_lambda_geometry[67] = -(lambda[4] * (C_i[7] * A_ij_3 - A_ij_4 * C_i[6]));
     const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real t371 = lambda[4] * A_ijt_h_i_0;
-    jac_phi_q_t_lambda_geometry[83] = t371;
-    jac_phi_q_t_lambda_geometry[78] = -t371;
-    jac_phi_q_t_lambda_geometry[79] = -((A_ij_7 * C_i[8] - A_ij_8 * C_i[7]) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[80] = -(lambda[4] * (A_ij_8 * C_i[6] - C_i[8] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[81] = -(lambda[4] * (C_i[7] * A_ij_6 - A_ij_7 * C_i[6]));
-    jac_phi_q_t_lambda_geometry[82] = -t369;
-    jac_phi_q_t_lambda_geometry[84] = -((A_ij_1 * C_i[2] - A_ij_2 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[85] = -(lambda[5] * (A_ij_2 * C_i[0] - C_i[2] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[86] = -(lambda[5] * (C_i[1] * A_ij_0 - A_ij_1 * C_i[0]));
+    const jg_real t305 = lambda[4] * A_ijt_h_i_0;
+    jac_phi_q_t_lambda_geometry[74] = t305;
+    jac_phi_q_t_lambda_geometry[69] = -t305;
+    jac_phi_q_t_lambda_geometry[70] = -((A_ij_7 * C_i[8] - A_ij_8 * C_i[7]) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[71] = -(lambda[4] * (A_ij_8 * C_i[6] - C_i[8] * A_ij_6));
+    jac_phi_q_t_lambda_geometry[72] = -(lambda[4] * (C_i[7] * A_ij_6 - A_ij_7 * C_i[6]));
+    jac_phi_q_t_lambda_geometry[73] = -t303;
+    jac_phi_q_t_lambda_geometry[75] = -((A_ij_1 * C_i[2] - A_ij_2 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[76] = -(lambda[5] * (A_ij_2 * C_i[0] - C_i[2] * A_ij_0));
+    jac_phi_q_t_lambda_geometry[77] = -(lambda[5] * (C_i[1] * A_ij_0 - A_ij_1 * C_i[0]));
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    const jg_real t373 = lambda[5] * A_ijt_f_i_2;
-    jac_phi_q_t_lambda_geometry[92] = t373;
-    jac_phi_q_t_lambda_geometry[87] = -t373;
+    const jg_real t307 = lambda[5] * A_ijt_f_i_2;
+    jac_phi_q_t_lambda_geometry[83] = t307;
+    jac_phi_q_t_lambda_geometry[78] = -t307;
     const jg_real A_ijt_f_i_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    const jg_real t375 = lambda[5] * A_ijt_f_i_1;
-    jac_phi_q_t_lambda_geometry[88] = t375;
-    jac_phi_q_t_lambda_geometry[89] = -((A_ij_4 * C_i[2] - A_ij_5 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[90] = -(lambda[5] * (A_ij_5 * C_i[0] - C_i[2] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[91] = -(lambda[5] * (C_i[1] * A_ij_3 - A_ij_4 * C_i[0]));
+    const jg_real t309 = lambda[5] * A_ijt_f_i_1;
+    jac_phi_q_t_lambda_geometry[79] = t309;
+    jac_phi_q_t_lambda_geometry[80] = -((A_ij_4 * C_i[2] - A_ij_5 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[81] = -(lambda[5] * (A_ij_5 * C_i[0] - C_i[2] * A_ij_3));
+    jac_phi_q_t_lambda_geometry[82] = -(lambda[5] * (C_i[1] * A_ij_3 - A_ij_4 * C_i[0]));
     const jg_real A_ijt_f_i_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    const jg_real t377 = lambda[5] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_geometry[98] = t377;
-    jac_phi_q_t_lambda_geometry[93] = -t377;
-    jac_phi_q_t_lambda_geometry[94] = -((A_ij_7 * C_i[2] - A_ij_8 * C_i[1]) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[95] = -(lambda[5] * (A_ij_8 * C_i[0] - C_i[2] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[96] = -(lambda[5] * (C_i[1] * A_ij_6 - A_ij_7 * C_i[0]));
-    jac_phi_q_t_lambda_geometry[97] = -t375;
-    jac_phi_q_t_lambda_geometry[99] = -((A_ij_1 * C_i[5] - A_ij_2 * C_i[4]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[100] = -(lambda[3] * (A_ij_2 * C_i[3] - C_i[5] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[101] = -(lambda[3] * (C_i[4] * A_ij_0 - A_ij_1 * C_i[3]));
+    const jg_real t311 = lambda[5] * A_ijt_f_i_0;
+    jac_phi_q_t_lambda_geometry[89] = t311;
+    jac_phi_q_t_lambda_geometry[84] = -t311;
+    jac_phi_q_t_lambda_geometry[85] = -((A_ij_7 * C_i[2] - A_ij_8 * C_i[1]) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[86] = -(lambda[5] * (A_ij_8 * C_i[0] - C_i[2] * A_ij_6));
+    jac_phi_q_t_lambda_geometry[87] = -(lambda[5] * (C_i[1] * A_ij_6 - A_ij_7 * C_i[0]));
+    jac_phi_q_t_lambda_geometry[88] = -t309;
+    jac_phi_q_t_lambda_geometry[90] = -((A_ij_1 * C_i[5] - A_ij_2 * C_i[4]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[91] = -(lambda[3] * (A_ij_2 * C_i[3] - C_i[5] * A_ij_0));
+    jac_phi_q_t_lambda_geometry[92] = -(lambda[3] * (C_i[4] * A_ij_0 - A_ij_1 * C_i[3]));
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    const jg_real t379 = lambda[3] * A_ijt_g_i_2;
-    jac_phi_q_t_lambda_geometry[107] = t379;
-    jac_phi_q_t_lambda_geometry[102] = -t379;
+    const jg_real t313 = lambda[3] * A_ijt_g_i_2;
+    jac_phi_q_t_lambda_geometry[98] = t313;
+    jac_phi_q_t_lambda_geometry[93] = -t313;
     const jg_real A_ijt_g_i_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    const jg_real t381 = lambda[3] * A_ijt_g_i_1;
-    jac_phi_q_t_lambda_geometry[103] = t381;
-    jac_phi_q_t_lambda_geometry[104] = -((A_ij_4 * C_i[5] - A_ij_5 * C_i[4]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[105] = -(lambda[3] * (A_ij_5 * C_i[3] - C_i[5] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[106] = -(lambda[3] * (C_i[4] * A_ij_3 - A_ij_4 * C_i[3]));
+    const jg_real t315 = lambda[3] * A_ijt_g_i_1;
+    jac_phi_q_t_lambda_geometry[94] = t315;
+    jac_phi_q_t_lambda_geometry[95] = -((A_ij_4 * C_i[5] - A_ij_5 * C_i[4]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[96] = -(lambda[3] * (A_ij_5 * C_i[3] - C_i[5] * A_ij_3));
+    jac_phi_q_t_lambda_geometry[97] = -(lambda[3] * (C_i[4] * A_ij_3 - A_ij_4 * C_i[3]));
     const jg_real A_ijt_g_i_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
-    const jg_real t383 = lambda[3] * A_ijt_g_i_0;
-    jac_phi_q_t_lambda_geometry[113] = t383;
-    jac_phi_q_t_lambda_geometry[108] = -t383;
-    jac_phi_q_t_lambda_geometry[109] = -((A_ij_7 * C_i[5] - A_ij_8 * C_i[4]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[110] = -(lambda[3] * (A_ij_8 * C_i[3] - C_i[5] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[111] = -(lambda[3] * (C_i[4] * A_ij_6 - A_ij_7 * C_i[3]));
-    jac_phi_q_t_lambda_geometry[112] = -t381;
+    const jg_real t317 = lambda[3] * A_ijt_g_i_0;
+    jac_phi_q_t_lambda_geometry[104] = t317;
+    jac_phi_q_t_lambda_geometry[99] = -t317;
+    jac_phi_q_t_lambda_geometry[100] = -((A_ij_7 * C_i[5] - A_ij_8 * C_i[4]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[101] = -(lambda[3] * (A_ij_8 * C_i[3] - C_i[5] * A_ij_6));
+    jac_phi_q_t_lambda_geometry[102] = -(lambda[3] * (C_i[4] * A_ij_6 - A_ij_7 * C_i[3]));
+    jac_phi_q_t_lambda_geometry[103] = -t315;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t385 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[10] = t385;
-    jac_phi_q_t_lambda_lambda[1] = -t385;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t387 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t387;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    jac_phi_q_t_lambda_lambda[10] = ep_ij_2;
+    jac_phi_q_t_lambda_lambda[1] = -ep_ij_2;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    jac_phi_q_t_lambda_lambda[2] = ep_ij_1;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t389 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[20] = t389;
-    jac_phi_q_t_lambda_lambda[11] = -t389;
+    const jg_real ep_ij_0 = e_ij_0 * A_i[0] + e_ij_1 * A_i[1] + e_ij_2 * A_i[2];
+    jac_phi_q_t_lambda_lambda[20] = ep_ij_0;
+    jac_phi_q_t_lambda_lambda[11] = -ep_ij_0;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_t_lambda_lambda[19] = -t387;
+    jac_phi_q_t_lambda_lambda[19] = -ep_ij_1;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[26] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
@@ -1959,7 +1834,7 @@ int jac_jg_rigid_parametric_phi_q_v_external(const double **arg, double **res, c
     double unwanted_1[54];
     double unwanted_2[9];
     double unwanted_3[54];
-    double unwanted_4[36];
+    double unwanted_4[27];
     double unwanted_5[45];
     (void)iw;
     (void)w;
@@ -2054,8 +1929,8 @@ const casadi_int *jac_jg_rigid_parametric_phi_q_v_external_sparsity_out(casadi_i
         3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
     };
     static const casadi_int pattern_4[] = {
-        6, 24, 0, 3, 6, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 21, 24, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 5, 5, 5, 3, 3, 3, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
+        6, 24, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 15, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 5, 5, 5, 3, 3,
+        3, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_5[] = {
         6, 12, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0, 1, 3, 4, 5,
@@ -2174,10 +2049,10 @@ int jac_jg_rigid_parametric_phi_q_t_lambda_external(const double **arg, double *
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[81];
+    double unwanted_1[72];
     double unwanted_2[9];
     double unwanted_3[54];
-    double unwanted_4[114];
+    double unwanted_4[105];
     double unwanted_5[45];
     (void)iw;
     (void)w;
@@ -2261,9 +2136,9 @@ const casadi_int *jac_jg_rigid_parametric_phi_q_t_lambda_external_sparsity_out(c
         12, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        12, 9, 0, 9, 18, 27, 36, 45, 54, 63, 72, 81, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4,
-        5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10,
-        11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 6, 7, 8, 9, 10, 11
+        12, 9, 0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 4, 5, 6, 7, 8, 9, 10, 11, 4, 5, 6, 7, 8, 9, 10, 11, 4, 5, 6, 7,
+        8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 5, 6, 7, 8, 9, 10, 11, 3, 4, 6, 7, 8,
+        9, 10, 11, 3, 4, 6, 7, 8, 9, 10, 11, 3, 4, 6, 7, 8, 9, 10, 11
     };
     static const casadi_int pattern_2[] = {
         12, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -2274,11 +2149,11 @@ const casadi_int *jac_jg_rigid_parametric_phi_q_t_lambda_external_sparsity_out(c
         10
     };
     static const casadi_int pattern_4[] = {
-        12, 24, 0, 3, 6, 9, 14, 19, 24, 29, 34, 39, 44, 49, 54, 59, 64, 69, 74, 79, 84, 89, 94, 99, 104, 109, 114,
-        3, 4, 5, 3, 4, 5, 3, 4, 5, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 4, 5, 9, 10, 11, 3, 5, 9, 10,
-        11, 3, 4, 9, 10, 11, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3,
-        4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9,
-        10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10
+        12, 24, 0, 0, 0, 0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 85, 90, 95, 100, 105, 4,
+        5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 4, 5, 9, 10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 4, 5, 9,
+        10, 11, 3, 5, 9, 10, 11, 3, 4, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11,
+        3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5,
+        9, 11, 3, 4, 5, 9, 10
     };
     static const casadi_int pattern_5[] = {
         12, 6, 0, 9, 18, 27, 33, 39, 45, 0, 4, 5, 6, 7, 8, 9, 10, 11, 1, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 4, 6, 7, 8,

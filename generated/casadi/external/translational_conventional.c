@@ -55,209 +55,213 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_A_i[2] = C_i[0] * t7;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t9 = A_i[0] * s_i[0];
-    const jg_real t10 = A_i[3] * s_i[1];
-    const jg_real t11 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t10 = A_i[0] * s_i[0];
+    const jg_real t11 = A_i[3] * s_i[1];
+    const jg_real t12 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t9 + t10 + t11;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t14 = d_ij_0 - t9;
-    const jg_real t15 = A_i[3] * s_i[0];
-    const jg_real t16 = A_i[6] * s_i[0];
-    jac_phi_A_i[3] = C_i[0] * t14 - C_i[1] * t15 - C_i[2] * t16;
-    jac_phi_A_i[4] = C_i[3] * t14 - C_i[4] * t15 - C_i[5] * t16;
-    const jg_real t17 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[5] = t17 * C_i[0];
-    jac_phi_A_i[6] = t17 * C_i[3];
-    const jg_real t18 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[7] = C_i[0] * t18;
+    const jg_real A_i_s_i_0 = t10 + t11 + t12;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    const jg_real t15 = d_ij_0 - t10;
+    const jg_real t16 = A_i[3] * s_i[0];
+    const jg_real t17 = A_i[6] * s_i[0];
+    jac_phi_A_i[3] = C_i[0] * t15 - C_i[1] * t16 - C_i[2] * t17;
+    jac_phi_A_i[4] = C_i[3] * t15 - C_i[4] * t16 - C_i[5] * t17;
+    const jg_real t18 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[5] = t18 * C_i[0];
+    jac_phi_A_i[6] = t18 * C_i[3];
+    const jg_real t19 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[7] = C_i[0] * t19;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t20 = A_i[1] * s_i[0];
-    const jg_real t21 = A_i[4] * s_i[1];
-    const jg_real t22 = A_i[7] * s_i[2];
-    const jg_real A_i_s_i_1 = t20 + t21 + t22;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t25 = d_ij_1 - t20;
-    const jg_real t26 = A_i[4] * s_i[0];
-    const jg_real t27 = A_i[7] * s_i[0];
-    jac_phi_A_i[8] = C_i[0] * t25 - C_i[1] * t26 - C_i[2] * t27;
-    jac_phi_A_i[9] = C_i[3] * t25 - C_i[4] * t26 - C_i[5] * t27;
-    const jg_real t28 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[10] = t28 * C_i[0];
-    jac_phi_A_i[11] = t28 * C_i[3];
-    const jg_real t29 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[12] = C_i[0] * t29;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t22 = A_i[1] * s_i[0];
+    const jg_real t23 = A_i[4] * s_i[1];
+    const jg_real t24 = A_i[7] * s_i[2];
+    const jg_real A_i_s_i_1 = t22 + t23 + t24;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    const jg_real t27 = d_ij_1 - t22;
+    const jg_real t28 = A_i[4] * s_i[0];
+    const jg_real t29 = A_i[7] * s_i[0];
+    jac_phi_A_i[8] = C_i[0] * t27 - C_i[1] * t28 - C_i[2] * t29;
+    jac_phi_A_i[9] = C_i[3] * t27 - C_i[4] * t28 - C_i[5] * t29;
+    const jg_real t30 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[10] = t30 * C_i[0];
+    jac_phi_A_i[11] = t30 * C_i[3];
+    const jg_real t31 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[12] = C_i[0] * t31;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t31 = A_i[2] * s_i[0];
-    const jg_real t32 = A_i[5] * s_i[1];
-    const jg_real t33 = A_i[8] * s_i[2];
-    const jg_real A_i_s_i_2 = t31 + t32 + t33;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t36 = d_ij_2 - t31;
-    const jg_real t37 = A_i[5] * s_i[0];
-    const jg_real t38 = A_i[8] * s_i[0];
-    jac_phi_A_i[13] = C_i[0] * t36 - C_i[1] * t37 - C_i[2] * t38;
-    jac_phi_A_i[14] = C_i[3] * t36 - C_i[4] * t37 - C_i[5] * t38;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t34 = A_i[2] * s_i[0];
+    const jg_real t35 = A_i[5] * s_i[1];
+    const jg_real t36 = A_i[8] * s_i[2];
+    const jg_real A_i_s_i_2 = t34 + t35 + t36;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    const jg_real t39 = d_ij_2 - t34;
+    const jg_real t40 = A_i[5] * s_i[0];
+    const jg_real t41 = A_i[8] * s_i[0];
+    jac_phi_A_i[13] = C_i[0] * t39 - C_i[1] * t40 - C_i[2] * t41;
+    jac_phi_A_i[14] = C_i[3] * t39 - C_i[4] * t40 - C_i[5] * t41;
     jac_phi_A_i[15] = t6 * C_i[1];
     jac_phi_A_i[16] = t6 * C_i[4];
     jac_phi_A_i[17] = C_i[1] * t7;
-    const jg_real t39 = d_ij_0 - t10;
-    const jg_real t40 = A_i[0] * s_i[1];
-    const jg_real t41 = A_i[6] * s_i[1];
-    jac_phi_A_i[18] = C_i[1] * t39 - C_i[0] * t40 - C_i[2] * t41;
-    jac_phi_A_i[19] = C_i[4] * t39 - C_i[3] * t40 - C_i[5] * t41;
-    jac_phi_A_i[20] = t17 * C_i[1];
-    jac_phi_A_i[21] = t17 * C_i[4];
-    jac_phi_A_i[22] = C_i[1] * t18;
-    const jg_real t42 = d_ij_1 - t21;
-    const jg_real t43 = A_i[1] * s_i[1];
-    const jg_real t44 = A_i[7] * s_i[1];
-    jac_phi_A_i[23] = C_i[1] * t42 - C_i[0] * t43 - C_i[2] * t44;
-    jac_phi_A_i[24] = C_i[4] * t42 - C_i[3] * t43 - C_i[5] * t44;
-    jac_phi_A_i[25] = t28 * C_i[1];
-    jac_phi_A_i[26] = t28 * C_i[4];
-    jac_phi_A_i[27] = C_i[1] * t29;
-    const jg_real t45 = d_ij_2 - t32;
-    const jg_real t46 = A_i[2] * s_i[1];
-    const jg_real t47 = A_i[8] * s_i[1];
-    jac_phi_A_i[28] = C_i[1] * t45 - C_i[0] * t46 - C_i[2] * t47;
-    jac_phi_A_i[29] = C_i[4] * t45 - C_i[3] * t46 - C_i[5] * t47;
+    const jg_real t42 = d_ij_0 - t11;
+    const jg_real t43 = A_i[0] * s_i[1];
+    const jg_real t44 = A_i[6] * s_i[1];
+    jac_phi_A_i[18] = C_i[1] * t42 - C_i[0] * t43 - C_i[2] * t44;
+    jac_phi_A_i[19] = C_i[4] * t42 - C_i[3] * t43 - C_i[5] * t44;
+    jac_phi_A_i[20] = t18 * C_i[1];
+    jac_phi_A_i[21] = t18 * C_i[4];
+    jac_phi_A_i[22] = C_i[1] * t19;
+    const jg_real t45 = d_ij_1 - t23;
+    const jg_real t46 = A_i[1] * s_i[1];
+    const jg_real t47 = A_i[7] * s_i[1];
+    jac_phi_A_i[23] = C_i[1] * t45 - C_i[0] * t46 - C_i[2] * t47;
+    jac_phi_A_i[24] = C_i[4] * t45 - C_i[3] * t46 - C_i[5] * t47;
+    jac_phi_A_i[25] = t30 * C_i[1];
+    jac_phi_A_i[26] = t30 * C_i[4];
+    jac_phi_A_i[27] = C_i[1] * t31;
+    const jg_real t48 = d_ij_2 - t35;
+    const jg_real t49 = A_i[2] * s_i[1];
+    const jg_real t50 = A_i[8] * s_i[1];
+    jac_phi_A_i[28] = C_i[1] * t48 - C_i[0] * t49 - C_i[2] * t50;
+    jac_phi_A_i[29] = C_i[4] * t48 - C_i[3] * t49 - C_i[5] * t50;
     jac_phi_A_i[30] = t6 * C_i[2];
     jac_phi_A_i[31] = t6 * C_i[5];
     jac_phi_A_i[32] = C_i[2] * t7;
-    const jg_real t48 = d_ij_0 - t11;
-    const jg_real t49 = A_i[0] * s_i[2];
-    const jg_real t50 = A_i[3] * s_i[2];
-    jac_phi_A_i[33] = C_i[2] * t48 - (C_i[0] * t49 + C_i[1] * t50);
-    jac_phi_A_i[34] = C_i[5] * t48 - (C_i[3] * t49 + C_i[4] * t50);
-    jac_phi_A_i[35] = t17 * C_i[2];
-    jac_phi_A_i[36] = t17 * C_i[5];
-    jac_phi_A_i[37] = C_i[2] * t18;
-    const jg_real t51 = d_ij_1 - t22;
-    const jg_real t52 = A_i[1] * s_i[2];
-    const jg_real t53 = A_i[4] * s_i[2];
-    jac_phi_A_i[38] = C_i[2] * t51 - (C_i[0] * t52 + C_i[1] * t53);
-    jac_phi_A_i[39] = C_i[5] * t51 - (C_i[3] * t52 + C_i[4] * t53);
-    jac_phi_A_i[40] = t28 * C_i[2];
-    jac_phi_A_i[41] = t28 * C_i[5];
-    jac_phi_A_i[42] = C_i[2] * t29;
-    const jg_real t54 = d_ij_2 - t33;
-    const jg_real t55 = A_i[2] * s_i[2];
-    const jg_real t56 = A_i[5] * s_i[2];
-    jac_phi_A_i[43] = C_i[2] * t54 - (C_i[0] * t55 + C_i[1] * t56);
-    jac_phi_A_i[44] = C_i[5] * t54 - (C_i[3] * t55 + C_i[4] * t56);
-    const jg_real t57 = A_i[0] * C_j[6];
-    const jg_real t58 = C_j[6] * A_i[3];
-    const jg_real t59 = C_j[6] * A_i[6];
-    jac_phi_A_j[0] = t57 * C_i[0] + t58 * C_i[1] + t59 * C_i[2];
-    jac_phi_A_j[1] = t57 * C_i[3] + t58 * C_i[4] + t59 * C_i[5];
+    const jg_real t51 = d_ij_0 - t12;
+    const jg_real t52 = A_i[0] * s_i[2];
+    const jg_real t53 = A_i[3] * s_i[2];
+    jac_phi_A_i[33] = C_i[2] * t51 - (C_i[0] * t52 + C_i[1] * t53);
+    jac_phi_A_i[34] = C_i[5] * t51 - (C_i[3] * t52 + C_i[4] * t53);
+    jac_phi_A_i[35] = t18 * C_i[2];
+    jac_phi_A_i[36] = t18 * C_i[5];
+    jac_phi_A_i[37] = C_i[2] * t19;
+    const jg_real t54 = d_ij_1 - t24;
+    const jg_real t55 = A_i[1] * s_i[2];
+    const jg_real t56 = A_i[4] * s_i[2];
+    jac_phi_A_i[38] = C_i[2] * t54 - (C_i[0] * t55 + C_i[1] * t56);
+    jac_phi_A_i[39] = C_i[5] * t54 - (C_i[3] * t55 + C_i[4] * t56);
+    jac_phi_A_i[40] = t30 * C_i[2];
+    jac_phi_A_i[41] = t30 * C_i[5];
+    jac_phi_A_i[42] = C_i[2] * t31;
+    const jg_real t57 = d_ij_2 - t36;
+    const jg_real t58 = A_i[2] * s_i[2];
+    const jg_real t59 = A_i[5] * s_i[2];
+    jac_phi_A_i[43] = C_i[2] * t57 - (C_i[0] * t58 + C_i[1] * t59);
+    jac_phi_A_i[44] = C_i[5] * t57 - (C_i[3] * t58 + C_i[4] * t59);
+    const jg_real t60 = A_i[0] * C_j[6];
+    const jg_real t61 = C_j[6] * A_i[3];
+    const jg_real t62 = C_j[6] * A_i[6];
+    jac_phi_A_j[0] = t60 * C_i[0] + t61 * C_i[1] + t62 * C_i[2];
+    jac_phi_A_j[1] = t60 * C_i[3] + t61 * C_i[4] + t62 * C_i[5];
     jac_phi_A_j[2] = A_i[0] * C_j[3] * C_i[0] + A_i[3] * C_j[3] * C_i[1] + A_i[6] * C_j[3] * C_i[2];
-    const jg_real t60 = A_i[0] * s_j[0];
-    const jg_real t61 = A_i[3] * s_j[0];
-    const jg_real t62 = A_i[6] * s_j[0];
-    jac_phi_A_j[3] = C_i[0] * t60 + C_i[1] * t61 + C_i[2] * t62;
-    jac_phi_A_j[4] = C_i[3] * t60 + C_i[4] * t61 + C_i[5] * t62;
-    const jg_real t63 = A_i[1] * C_j[6];
-    const jg_real t64 = C_j[6] * A_i[4];
-    const jg_real t65 = C_j[6] * A_i[7];
-    jac_phi_A_j[5] = t63 * C_i[0] + t64 * C_i[1] + t65 * C_i[2];
-    jac_phi_A_j[6] = t63 * C_i[3] + t64 * C_i[4] + t65 * C_i[5];
+    const jg_real t63 = A_i[0] * s_j[0];
+    const jg_real t64 = A_i[3] * s_j[0];
+    const jg_real t65 = A_i[6] * s_j[0];
+    jac_phi_A_j[3] = C_i[0] * t63 + C_i[1] * t64 + C_i[2] * t65;
+    jac_phi_A_j[4] = C_i[3] * t63 + C_i[4] * t64 + C_i[5] * t65;
+    const jg_real t66 = A_i[1] * C_j[6];
+    const jg_real t67 = C_j[6] * A_i[4];
+    const jg_real t68 = C_j[6] * A_i[7];
+    jac_phi_A_j[5] = t66 * C_i[0] + t67 * C_i[1] + t68 * C_i[2];
+    jac_phi_A_j[6] = t66 * C_i[3] + t67 * C_i[4] + t68 * C_i[5];
     jac_phi_A_j[7] = A_i[1] * C_j[3] * C_i[0] + A_i[4] * C_j[3] * C_i[1] + A_i[7] * C_j[3] * C_i[2];
-    const jg_real t66 = A_i[1] * s_j[0];
-    const jg_real t67 = A_i[4] * s_j[0];
-    const jg_real t68 = A_i[7] * s_j[0];
-    jac_phi_A_j[8] = C_i[0] * t66 + C_i[1] * t67 + C_i[2] * t68;
-    jac_phi_A_j[9] = C_i[3] * t66 + C_i[4] * t67 + C_i[5] * t68;
-    const jg_real t69 = A_i[2] * C_j[6];
-    const jg_real t70 = C_j[6] * A_i[5];
-    const jg_real t71 = C_j[6] * A_i[8];
-    jac_phi_A_j[10] = t69 * C_i[0] + t70 * C_i[1] + t71 * C_i[2];
-    jac_phi_A_j[11] = t69 * C_i[3] + t70 * C_i[4] + t71 * C_i[5];
+    const jg_real t69 = A_i[1] * s_j[0];
+    const jg_real t70 = A_i[4] * s_j[0];
+    const jg_real t71 = A_i[7] * s_j[0];
+    jac_phi_A_j[8] = C_i[0] * t69 + C_i[1] * t70 + C_i[2] * t71;
+    jac_phi_A_j[9] = C_i[3] * t69 + C_i[4] * t70 + C_i[5] * t71;
+    const jg_real t72 = A_i[2] * C_j[6];
+    const jg_real t73 = C_j[6] * A_i[5];
+    const jg_real t74 = C_j[6] * A_i[8];
+    jac_phi_A_j[10] = t72 * C_i[0] + t73 * C_i[1] + t74 * C_i[2];
+    jac_phi_A_j[11] = t72 * C_i[3] + t73 * C_i[4] + t74 * C_i[5];
     jac_phi_A_j[12] = A_i[2] * C_j[3] * C_i[0] + A_i[5] * C_j[3] * C_i[1] + A_i[8] * C_j[3] * C_i[2];
-    const jg_real t72 = A_i[2] * s_j[0];
-    const jg_real t73 = A_i[5] * s_j[0];
-    const jg_real t74 = A_i[8] * s_j[0];
-    jac_phi_A_j[13] = C_i[0] * t72 + C_i[1] * t73 + C_i[2] * t74;
-    jac_phi_A_j[14] = C_i[3] * t72 + C_i[4] * t73 + C_i[5] * t74;
-    const jg_real t75 = A_i[0] * C_j[7];
-    const jg_real t76 = C_j[7] * A_i[3];
-    const jg_real t77 = C_j[7] * A_i[6];
-    jac_phi_A_j[15] = t75 * C_i[0] + t76 * C_i[1] + t77 * C_i[2];
-    jac_phi_A_j[16] = t75 * C_i[3] + t76 * C_i[4] + t77 * C_i[5];
+    const jg_real t75 = A_i[2] * s_j[0];
+    const jg_real t76 = A_i[5] * s_j[0];
+    const jg_real t77 = A_i[8] * s_j[0];
+    jac_phi_A_j[13] = C_i[0] * t75 + C_i[1] * t76 + C_i[2] * t77;
+    jac_phi_A_j[14] = C_i[3] * t75 + C_i[4] * t76 + C_i[5] * t77;
+    const jg_real t78 = A_i[0] * C_j[7];
+    const jg_real t79 = C_j[7] * A_i[3];
+    const jg_real t80 = C_j[7] * A_i[6];
+    jac_phi_A_j[15] = t78 * C_i[0] + t79 * C_i[1] + t80 * C_i[2];
+    jac_phi_A_j[16] = t78 * C_i[3] + t79 * C_i[4] + t80 * C_i[5];
     jac_phi_A_j[17] = A_i[0] * C_j[4] * C_i[0] + A_i[3] * C_j[4] * C_i[1] + A_i[6] * C_j[4] * C_i[2];
-    const jg_real t78 = A_i[0] * s_j[1];
-    const jg_real t79 = A_i[3] * s_j[1];
-    const jg_real t80 = A_i[6] * s_j[1];
-    jac_phi_A_j[18] = C_i[0] * t78 + C_i[1] * t79 + C_i[2] * t80;
-    jac_phi_A_j[19] = C_i[3] * t78 + C_i[4] * t79 + C_i[5] * t80;
-    const jg_real t81 = A_i[1] * C_j[7];
-    const jg_real t82 = C_j[7] * A_i[4];
-    const jg_real t83 = C_j[7] * A_i[7];
-    jac_phi_A_j[20] = t81 * C_i[0] + t82 * C_i[1] + t83 * C_i[2];
-    jac_phi_A_j[21] = t81 * C_i[3] + t82 * C_i[4] + t83 * C_i[5];
+    const jg_real t81 = A_i[0] * s_j[1];
+    const jg_real t82 = A_i[3] * s_j[1];
+    const jg_real t83 = A_i[6] * s_j[1];
+    jac_phi_A_j[18] = C_i[0] * t81 + C_i[1] * t82 + C_i[2] * t83;
+    jac_phi_A_j[19] = C_i[3] * t81 + C_i[4] * t82 + C_i[5] * t83;
+    const jg_real t84 = A_i[1] * C_j[7];
+    const jg_real t85 = C_j[7] * A_i[4];
+    const jg_real t86 = C_j[7] * A_i[7];
+    jac_phi_A_j[20] = t84 * C_i[0] + t85 * C_i[1] + t86 * C_i[2];
+    jac_phi_A_j[21] = t84 * C_i[3] + t85 * C_i[4] + t86 * C_i[5];
     jac_phi_A_j[22] = A_i[1] * C_j[4] * C_i[0] + A_i[4] * C_j[4] * C_i[1] + A_i[7] * C_j[4] * C_i[2];
-    const jg_real t84 = A_i[1] * s_j[1];
-    const jg_real t85 = A_i[4] * s_j[1];
-    const jg_real t86 = A_i[7] * s_j[1];
-    jac_phi_A_j[23] = C_i[0] * t84 + C_i[1] * t85 + C_i[2] * t86;
-    jac_phi_A_j[24] = C_i[3] * t84 + C_i[4] * t85 + C_i[5] * t86;
-    const jg_real t87 = A_i[2] * C_j[7];
-    const jg_real t88 = C_j[7] * A_i[5];
-    const jg_real t89 = C_j[7] * A_i[8];
-    jac_phi_A_j[25] = t87 * C_i[0] + t88 * C_i[1] + t89 * C_i[2];
-    jac_phi_A_j[26] = t87 * C_i[3] + t88 * C_i[4] + t89 * C_i[5];
+    const jg_real t87 = A_i[1] * s_j[1];
+    const jg_real t88 = A_i[4] * s_j[1];
+    const jg_real t89 = A_i[7] * s_j[1];
+    jac_phi_A_j[23] = C_i[0] * t87 + C_i[1] * t88 + C_i[2] * t89;
+    jac_phi_A_j[24] = C_i[3] * t87 + C_i[4] * t88 + C_i[5] * t89;
+    const jg_real t90 = A_i[2] * C_j[7];
+    const jg_real t91 = C_j[7] * A_i[5];
+    const jg_real t92 = C_j[7] * A_i[8];
+    jac_phi_A_j[25] = t90 * C_i[0] + t91 * C_i[1] + t92 * C_i[2];
+    jac_phi_A_j[26] = t90 * C_i[3] + t91 * C_i[4] + t92 * C_i[5];
     jac_phi_A_j[27] = A_i[2] * C_j[4] * C_i[0] + A_i[5] * C_j[4] * C_i[1] + A_i[8] * C_j[4] * C_i[2];
-    const jg_real t90 = A_i[2] * s_j[1];
-    const jg_real t91 = A_i[5] * s_j[1];
-    const jg_real t92 = A_i[8] * s_j[1];
-    jac_phi_A_j[28] = C_i[0] * t90 + C_i[1] * t91 + C_i[2] * t92;
-    jac_phi_A_j[29] = C_i[3] * t90 + C_i[4] * t91 + C_i[5] * t92;
-    const jg_real t93 = A_i[0] * C_j[8];
-    const jg_real t94 = C_j[8] * A_i[3];
-    const jg_real t95 = C_j[8] * A_i[6];
-    jac_phi_A_j[30] = t93 * C_i[0] + t94 * C_i[1] + t95 * C_i[2];
-    jac_phi_A_j[31] = t93 * C_i[3] + t94 * C_i[4] + t95 * C_i[5];
+    const jg_real t93 = A_i[2] * s_j[1];
+    const jg_real t94 = A_i[5] * s_j[1];
+    const jg_real t95 = A_i[8] * s_j[1];
+    jac_phi_A_j[28] = C_i[0] * t93 + C_i[1] * t94 + C_i[2] * t95;
+    jac_phi_A_j[29] = C_i[3] * t93 + C_i[4] * t94 + C_i[5] * t95;
+    const jg_real t96 = A_i[0] * C_j[8];
+    const jg_real t97 = C_j[8] * A_i[3];
+    const jg_real t98 = C_j[8] * A_i[6];
+    jac_phi_A_j[30] = t96 * C_i[0] + t97 * C_i[1] + t98 * C_i[2];
+    jac_phi_A_j[31] = t96 * C_i[3] + t97 * C_i[4] + t98 * C_i[5];
     jac_phi_A_j[32] = A_i[0] * C_j[5] * C_i[0] + A_i[3] * C_j[5] * C_i[1] + A_i[6] * C_j[5] * C_i[2];
-    const jg_real t96 = A_i[0] * s_j[2];
-    const jg_real t97 = A_i[3] * s_j[2];
-    const jg_real t98 = A_i[6] * s_j[2];
-    jac_phi_A_j[33] = C_i[0] * t96 + C_i[1] * t97 + C_i[2] * t98;
-    jac_phi_A_j[34] = C_i[3] * t96 + C_i[4] * t97 + C_i[5] * t98;
-    const jg_real t99 = A_i[1] * C_j[8];
-    const jg_real t100 = C_j[8] * A_i[4];
-    const jg_real t101 = C_j[8] * A_i[7];
-    jac_phi_A_j[35] = t99 * C_i[0] + t100 * C_i[1] + t101 * C_i[2];
-    jac_phi_A_j[36] = t99 * C_i[3] + t100 * C_i[4] + t101 * C_i[5];
+    const jg_real t99 = A_i[0] * s_j[2];
+    const jg_real t100 = A_i[3] * s_j[2];
+    const jg_real t101 = A_i[6] * s_j[2];
+    jac_phi_A_j[33] = C_i[0] * t99 + C_i[1] * t100 + C_i[2] * t101;
+    jac_phi_A_j[34] = C_i[3] * t99 + C_i[4] * t100 + C_i[5] * t101;
+    const jg_real t102 = A_i[1] * C_j[8];
+    const jg_real t103 = C_j[8] * A_i[4];
+    const jg_real t104 = C_j[8] * A_i[7];
+    jac_phi_A_j[35] = t102 * C_i[0] + t103 * C_i[1] + t104 * C_i[2];
+    jac_phi_A_j[36] = t102 * C_i[3] + t103 * C_i[4] + t104 * C_i[5];
     jac_phi_A_j[37] = A_i[1] * C_j[5] * C_i[0] + A_i[4] * C_j[5] * C_i[1] + A_i[7] * C_j[5] * C_i[2];
-    const jg_real t102 = A_i[1] * s_j[2];
-    const jg_real t103 = A_i[4] * s_j[2];
-    const jg_real t104 = A_i[7] * s_j[2];
-    jac_phi_A_j[38] = C_i[0] * t102 + C_i[1] * t103 + C_i[2] * t104;
-    jac_phi_A_j[39] = C_i[3] * t102 + C_i[4] * t103 + C_i[5] * t104;
-    const jg_real t105 = A_i[2] * C_j[8];
-    const jg_real t106 = C_j[8] * A_i[5];
-    const jg_real t107 = C_j[8] * A_i[8];
-    jac_phi_A_j[40] = t105 * C_i[0] + t106 * C_i[1] + t107 * C_i[2];
-    jac_phi_A_j[41] = t105 * C_i[3] + t106 * C_i[4] + t107 * C_i[5];
+    const jg_real t105 = A_i[1] * s_j[2];
+    const jg_real t106 = A_i[4] * s_j[2];
+    const jg_real t107 = A_i[7] * s_j[2];
+    jac_phi_A_j[38] = C_i[0] * t105 + C_i[1] * t106 + C_i[2] * t107;
+    jac_phi_A_j[39] = C_i[3] * t105 + C_i[4] * t106 + C_i[5] * t107;
+    const jg_real t108 = A_i[2] * C_j[8];
+    const jg_real t109 = C_j[8] * A_i[5];
+    const jg_real t110 = C_j[8] * A_i[8];
+    jac_phi_A_j[40] = t108 * C_i[0] + t109 * C_i[1] + t110 * C_i[2];
+    jac_phi_A_j[41] = t108 * C_i[3] + t109 * C_i[4] + t110 * C_i[5];
     jac_phi_A_j[42] = A_i[2] * C_j[5] * C_i[0] + A_i[5] * C_j[5] * C_i[1] + A_i[8] * C_j[5] * C_i[2];
-    const jg_real t108 = A_i[2] * s_j[2];
-    const jg_real t109 = A_i[5] * s_j[2];
-    const jg_real t110 = A_i[8] * s_j[2];
-    jac_phi_A_j[43] = C_i[0] * t108 + C_i[1] * t109 + C_i[2] * t110;
-    jac_phi_A_j[44] = C_i[3] * t108 + C_i[4] * t109 + C_i[5] * t110;
-    const jg_real t111 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    const jg_real t112 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t113 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    jac_phi_geometry[0] = -(C_i[0] * t111 + C_i[1] * t112 + C_i[2] * t113);
-    jac_phi_geometry[1] = -(C_i[3] * t111 + C_i[4] * t112 + C_i[5] * t113);
-    const jg_real t114 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t115 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_geometry[2] = -(C_i[0] * t112 + C_i[1] * t114 + C_i[2] * t115);
-    jac_phi_geometry[3] = -(C_i[3] * t112 + C_i[4] * t114 + C_i[5] * t115);
-    const jg_real t116 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_geometry[4] = -(C_i[0] * t113 + C_i[1] * t115 + C_i[2] * t116);
-    jac_phi_geometry[5] = -(C_i[3] * t113 + C_i[4] * t115 + C_i[5] * t116);
+    const jg_real t111 = A_i[2] * s_j[2];
+    const jg_real t112 = A_i[5] * s_j[2];
+    const jg_real t113 = A_i[8] * s_j[2];
+    jac_phi_A_j[43] = C_i[0] * t111 + C_i[1] * t112 + C_i[2] * t113;
+    jac_phi_A_j[44] = C_i[3] * t111 + C_i[4] * t112 + C_i[5] * t113;
+    const jg_real t114 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
+    const jg_real t115 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
+    const jg_real t116 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
+    jac_phi_geometry[0] = -(C_i[0] * t114 + C_i[1] * t115 + C_i[2] * t116);
+    jac_phi_geometry[1] = -(C_i[3] * t114 + C_i[4] * t115 + C_i[5] * t116);
+    const jg_real t117 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
+    const jg_real t118 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
+    jac_phi_geometry[2] = -(C_i[0] * t115 + C_i[1] * t117 + C_i[2] * t118);
+    jac_phi_geometry[3] = -(C_i[3] * t115 + C_i[4] * t117 + C_i[5] * t118);
+    const jg_real t119 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
+    jac_phi_geometry[4] = -(C_i[0] * t116 + C_i[1] * t118 + C_i[2] * t119);
+    jac_phi_geometry[5] = -(C_i[3] * t116 + C_i[4] * t118 + C_i[5] * t119);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -295,27 +299,27 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     jac_phi_geometry[14] = dp_ij_2;
     jac_phi_geometry[20] = dp_ij_2;
-    const jg_real t135 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    jac_phi_geometry[21] = t135;
-    jac_phi_geometry[27] = t135;
-    jac_phi_geometry[30] = t135;
-    const jg_real t136 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
-    jac_phi_geometry[22] = t136;
-    jac_phi_geometry[31] = t136;
-    const jg_real t137 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    jac_phi_geometry[23] = t137;
-    jac_phi_geometry[28] = t137;
-    jac_phi_geometry[32] = t137;
-    const jg_real t138 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    jac_phi_geometry[24] = t138;
-    jac_phi_geometry[33] = t138;
-    const jg_real t139 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    jac_phi_geometry[25] = t139;
-    jac_phi_geometry[29] = t139;
-    jac_phi_geometry[34] = t139;
-    const jg_real t140 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    jac_phi_geometry[26] = t140;
-    jac_phi_geometry[35] = t140;
+    const jg_real t138 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    jac_phi_geometry[21] = t138;
+    jac_phi_geometry[27] = t138;
+    jac_phi_geometry[30] = t138;
+    const jg_real t139 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    jac_phi_geometry[22] = t139;
+    jac_phi_geometry[31] = t139;
+    const jg_real t140 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    jac_phi_geometry[23] = t140;
+    jac_phi_geometry[28] = t140;
+    jac_phi_geometry[32] = t140;
+    const jg_real t141 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    jac_phi_geometry[24] = t141;
+    jac_phi_geometry[33] = t141;
+    const jg_real t142 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
+    jac_phi_geometry[25] = t142;
+    jac_phi_geometry[29] = t142;
+    jac_phi_geometry[34] = t142;
+    const jg_real t143 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
+    jac_phi_geometry[26] = t143;
+    jac_phi_geometry[35] = t143;
 }
 
 static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -372,494 +376,384 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t27 = omega_i[2] * t26;
     const jg_real t28 = omega_i[1] * t26;
     jac_phi_q_v_A_i[2] = C_i[0] * t25 - (C_i[1] * t27 - C_i[2] * t28);
-    /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t30 = A_i[0] * s_i[0];
-    const jg_real t31 = A_i[3] * s_i[1];
-    const jg_real t32 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t30 + t31 + t32;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t35 = d_ij_0 - t30;
-    const jg_real t36 = A_i[6] * s_i[0];
-    const jg_real t37 = omega_i[2] * t35 + omega_i[0] * t36;
-    const jg_real t38 = A_i[3] * s_i[0];
-    const jg_real t39 = omega_i[2] * t38 - omega_i[1] * t36;
-    const jg_real t40 = omega_i[0] * t38 + omega_i[1] * t35;
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - omega_j[0] * s_j[2];
     const jg_real omega_j_cross_s_j_2 = omega_j[0] * s_j[1] - omega_j[1] * s_j[0];
-    const jg_real t44 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[3] = C_i[0] * v_j[0] - (C_i[0] * t39 + C_i[1] * t37 - C_i[2] * t40 + C_i[0] * v_i[0]) + C_i[0] *
-        t44;
-    jac_phi_q_v_A_i[4] = C_i[3] * v_j[0] - (C_i[3] * t39 + C_i[4] * t37 - C_i[5] * t40 + C_i[3] * v_i[0]) + C_i[3] *
-        t44;
-    const jg_real t45 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    const jg_real t46 = A_j[1] * C_j[6] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    const jg_real t47 = t46 * omega_i[2];
-    const jg_real t48 = t46 * omega_i[1];
-    jac_phi_q_v_A_i[5] = t45 * C_i[0] - (C_i[1] * t47 - C_i[2] * t48);
-    jac_phi_q_v_A_i[6] = t45 * C_i[3] - (t47 * C_i[4] - t48 * C_i[5]);
-    const jg_real t49 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    const jg_real t50 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t51 = omega_i[2] * t50;
-    const jg_real t52 = omega_i[1] * t50;
-    jac_phi_q_v_A_i[7] = C_i[0] * t49 - (C_i[1] * t51 - C_i[2] * t52);
+    const jg_real t32 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
+    /* A_j_s_j = A_j s_j */
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t35 = omega_i[2] * e_ij_0;
+    const jg_real t36 = omega_i[1] * e_ij_0;
+    jac_phi_q_v_A_i[3] = C_i[0] * v_j[0] - (C_i[1] * t35 - C_i[2] * t36 + C_i[0] * v_i[0]) + C_i[0] * t32;
+    jac_phi_q_v_A_i[4] = C_i[3] * v_j[0] - (C_i[4] * t35 - C_i[5] * t36 + C_i[3] * v_i[0]) + C_i[3] * t32;
+    const jg_real t37 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    const jg_real t38 = A_j[1] * C_j[6] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    const jg_real t39 = t38 * omega_i[2];
+    const jg_real t40 = t38 * omega_i[1];
+    jac_phi_q_v_A_i[5] = t37 * C_i[0] - (C_i[1] * t39 - C_i[2] * t40);
+    jac_phi_q_v_A_i[6] = t37 * C_i[3] - (t39 * C_i[4] - t40 * C_i[5]);
+    const jg_real t41 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    const jg_real t42 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t43 = omega_i[2] * t42;
+    const jg_real t44 = omega_i[1] * t42;
+    jac_phi_q_v_A_i[7] = C_i[0] * t41 - (C_i[1] * t43 - C_i[2] * t44);
+    const jg_real t45 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t54 = A_i[1] * s_i[0];
-    const jg_real t55 = A_i[4] * s_i[1];
-    const jg_real t56 = A_i[7] * s_i[2];
-    const jg_real A_i_s_i_1 = t54 + t55 + t56;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t59 = d_ij_1 - t54;
-    const jg_real t60 = A_i[7] * s_i[0];
-    const jg_real t61 = omega_i[2] * t59 + omega_i[0] * t60;
-    const jg_real t62 = A_i[4] * s_i[0];
-    const jg_real t63 = omega_i[2] * t62 - omega_i[1] * t60;
-    const jg_real t64 = omega_i[0] * t62 + omega_i[1] * t59;
-    const jg_real t65 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[8] = C_i[0] * v_j[1] - (C_i[0] * t63 + C_i[1] * t61 - C_i[2] * t64 + C_i[0] * v_i[1]) + C_i[0] *
-        t65;
-    jac_phi_q_v_A_i[9] = C_i[3] * v_j[1] - (C_i[3] * t63 + C_i[4] * t61 - C_i[5] * t64 + C_i[3] * v_i[1]) + C_i[3] *
-        t65;
-    const jg_real t66 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    const jg_real t67 = A_j[2] * C_j[6] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    const jg_real t68 = t67 * omega_i[2];
-    const jg_real t69 = t67 * omega_i[1];
-    jac_phi_q_v_A_i[10] = t66 * C_i[0] - (C_i[1] * t68 - C_i[2] * t69);
-    jac_phi_q_v_A_i[11] = t66 * C_i[3] - (t68 * C_i[4] - t69 * C_i[5]);
-    const jg_real t70 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    const jg_real t71 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t72 = omega_i[2] * t71;
-    const jg_real t73 = omega_i[1] * t71;
-    jac_phi_q_v_A_i[12] = C_i[0] * t70 - (C_i[1] * t72 - C_i[2] * t73);
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t48 = omega_i[2] * e_ij_1;
+    const jg_real t49 = omega_i[1] * e_ij_1;
+    jac_phi_q_v_A_i[8] = C_i[0] * v_j[1] - (C_i[1] * t48 - C_i[2] * t49 + C_i[0] * v_i[1]) + C_i[0] * t45;
+    jac_phi_q_v_A_i[9] = C_i[3] * v_j[1] - (C_i[4] * t48 - C_i[5] * t49 + C_i[3] * v_i[1]) + C_i[3] * t45;
+    const jg_real t50 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    const jg_real t51 = A_j[2] * C_j[6] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
+    const jg_real t52 = t51 * omega_i[2];
+    const jg_real t53 = t51 * omega_i[1];
+    jac_phi_q_v_A_i[10] = t50 * C_i[0] - (C_i[1] * t52 - C_i[2] * t53);
+    jac_phi_q_v_A_i[11] = t50 * C_i[3] - (t52 * C_i[4] - t53 * C_i[5]);
+    const jg_real t54 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    const jg_real t55 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t56 = omega_i[2] * t55;
+    const jg_real t57 = omega_i[1] * t55;
+    jac_phi_q_v_A_i[12] = C_i[0] * t54 - (C_i[1] * t56 - C_i[2] * t57);
+    const jg_real t58 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t75 = A_i[2] * s_i[0];
-    const jg_real t76 = A_i[5] * s_i[1];
-    const jg_real t77 = A_i[8] * s_i[2];
-    const jg_real A_i_s_i_2 = t75 + t76 + t77;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t80 = d_ij_2 - t75;
-    const jg_real t81 = A_i[8] * s_i[0];
-    const jg_real t82 = omega_i[2] * t80 + omega_i[0] * t81;
-    const jg_real t83 = A_i[5] * s_i[0];
-    const jg_real t84 = omega_i[2] * t83 - omega_i[1] * t81;
-    const jg_real t85 = omega_i[0] * t83 + omega_i[1] * t80;
-    const jg_real t86 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[13] = C_i[0] * v_j[2] - (C_i[0] * t84 + C_i[1] * t82 - C_i[2] * t85 + C_i[0] * v_i[2]) + C_i[0]
-        * t86;
-    jac_phi_q_v_A_i[14] = C_i[3] * v_j[2] - (C_i[3] * t84 + C_i[4] * t82 - C_i[5] * t85 + C_i[3] * v_i[2]) + C_i[3]
-        * t86;
-    const jg_real t87 = t19 * omega_i[0];
-    jac_phi_q_v_A_i[15] = t18 * C_i[1] - (C_i[2] * t87 - C_i[0] * t20);
-    jac_phi_q_v_A_i[16] = t18 * C_i[4] - (t87 * C_i[5] - t20 * C_i[3]);
-    const jg_real t88 = omega_i[0] * t26;
-    jac_phi_q_v_A_i[17] = C_i[1] * t25 - (C_i[2] * t88 - C_i[0] * t27);
-    const jg_real t89 = d_ij_0 - t31;
-    const jg_real t90 = A_i[6] * s_i[1];
-    const jg_real t91 = omega_i[1] * t90 + omega_i[2] * t89;
-    const jg_real t92 = A_i[0] * s_i[1];
-    const jg_real t93 = omega_i[0] * t90 - omega_i[2] * t92;
-    const jg_real t94 = omega_i[0] * t89 + omega_i[1] * t92;
-    jac_phi_q_v_A_i[18] = C_i[1] * v_j[0] - (C_i[1] * t93 - C_i[0] * t91 + C_i[2] * t94 + C_i[1] * v_i[0]) + C_i[1]
-        * t44;
-    jac_phi_q_v_A_i[19] = C_i[4] * v_j[0] - (C_i[4] * t93 - C_i[3] * t91 + C_i[5] * t94 + C_i[4] * v_i[0]) + C_i[4]
-        * t44;
-    const jg_real t95 = t46 * omega_i[0];
-    jac_phi_q_v_A_i[20] = t45 * C_i[1] - (C_i[2] * t95 - C_i[0] * t47);
-    jac_phi_q_v_A_i[21] = t45 * C_i[4] - (t95 * C_i[5] - t47 * C_i[3]);
-    const jg_real t96 = omega_i[0] * t50;
-    jac_phi_q_v_A_i[22] = C_i[1] * t49 - (C_i[2] * t96 - C_i[0] * t51);
-    const jg_real t97 = d_ij_1 - t55;
-    const jg_real t98 = A_i[7] * s_i[1];
-    const jg_real t99 = omega_i[1] * t98 + omega_i[2] * t97;
-    const jg_real t100 = A_i[1] * s_i[1];
-    const jg_real t101 = omega_i[0] * t98 - omega_i[2] * t100;
-    const jg_real t102 = omega_i[0] * t97 + omega_i[1] * t100;
-    jac_phi_q_v_A_i[23] = C_i[1] * v_j[1] - (C_i[1] * t101 - C_i[0] * t99 + C_i[2] * t102 + C_i[1] * v_i[1]) +
-        C_i[1] * t65;
-    jac_phi_q_v_A_i[24] = C_i[4] * v_j[1] - (C_i[4] * t101 - C_i[3] * t99 + C_i[5] * t102 + C_i[4] * v_i[1]) +
-        C_i[4] * t65;
-    const jg_real t103 = t67 * omega_i[0];
-    jac_phi_q_v_A_i[25] = t66 * C_i[1] - (C_i[2] * t103 - C_i[0] * t68);
-    jac_phi_q_v_A_i[26] = t66 * C_i[4] - (t103 * C_i[5] - t68 * C_i[3]);
-    const jg_real t104 = omega_i[0] * t71;
-    jac_phi_q_v_A_i[27] = C_i[1] * t70 - (C_i[2] * t104 - C_i[0] * t72);
-    const jg_real t105 = d_ij_2 - t76;
-    const jg_real t106 = A_i[8] * s_i[1];
-    const jg_real t107 = omega_i[1] * t106 + omega_i[2] * t105;
-    const jg_real t108 = A_i[2] * s_i[1];
-    const jg_real t109 = omega_i[0] * t106 - omega_i[2] * t108;
-    const jg_real t110 = omega_i[0] * t105 + omega_i[1] * t108;
-    jac_phi_q_v_A_i[28] = C_i[1] * v_j[2] - (C_i[1] * t109 - C_i[0] * t107 + C_i[2] * t110 + C_i[1] * v_i[2]) +
-        C_i[1] * t86;
-    jac_phi_q_v_A_i[29] = C_i[4] * v_j[2] - (C_i[4] * t109 - C_i[3] * t107 + C_i[5] * t110 + C_i[4] * v_i[2]) +
-        C_i[4] * t86;
-    jac_phi_q_v_A_i[30] = t18 * C_i[2] - (C_i[0] * t21 - C_i[1] * t87);
-    jac_phi_q_v_A_i[31] = t18 * C_i[5] - (t21 * C_i[3] - t87 * C_i[4]);
-    jac_phi_q_v_A_i[32] = C_i[2] * t25 - (C_i[0] * t28 - C_i[1] * t88);
-    const jg_real t111 = d_ij_0 - t32;
-    const jg_real t112 = A_i[3] * s_i[2];
-    const jg_real t113 = omega_i[1] * t111 + omega_i[2] * t112;
-    const jg_real t114 = A_i[0] * s_i[2];
-    const jg_real t115 = omega_i[2] * t114 + omega_i[0] * t111;
-    const jg_real t116 = omega_i[1] * t114 - omega_i[0] * t112;
-    jac_phi_q_v_A_i[33] = C_i[2] * v_j[0] - (C_i[0] * t113 - C_i[1] * t115 + C_i[2] * t116 + C_i[2] * v_i[0]) +
-        C_i[2] * t44;
-    jac_phi_q_v_A_i[34] = C_i[5] * v_j[0] - (C_i[3] * t113 - C_i[4] * t115 + C_i[5] * t116 + C_i[5] * v_i[0]) +
-        C_i[5] * t44;
-    jac_phi_q_v_A_i[35] = t45 * C_i[2] - (C_i[0] * t48 - C_i[1] * t95);
-    jac_phi_q_v_A_i[36] = t45 * C_i[5] - (t48 * C_i[3] - t95 * C_i[4]);
-    jac_phi_q_v_A_i[37] = C_i[2] * t49 - (C_i[0] * t52 - C_i[1] * t96);
-    const jg_real t117 = d_ij_1 - t56;
-    const jg_real t118 = A_i[4] * s_i[2];
-    const jg_real t119 = omega_i[1] * t117 + omega_i[2] * t118;
-    const jg_real t120 = A_i[1] * s_i[2];
-    const jg_real t121 = omega_i[2] * t120 + omega_i[0] * t117;
-    const jg_real t122 = omega_i[1] * t120 - omega_i[0] * t118;
-    jac_phi_q_v_A_i[38] = C_i[2] * v_j[1] - (C_i[0] * t119 - C_i[1] * t121 + C_i[2] * t122 + C_i[2] * v_i[1]) +
-        C_i[2] * t65;
-    jac_phi_q_v_A_i[39] = C_i[5] * v_j[1] - (C_i[3] * t119 - C_i[4] * t121 + C_i[5] * t122 + C_i[5] * v_i[1]) +
-        C_i[5] * t65;
-    jac_phi_q_v_A_i[40] = t66 * C_i[2] - (C_i[0] * t69 - C_i[1] * t103);
-    jac_phi_q_v_A_i[41] = t66 * C_i[5] - (t69 * C_i[3] - t103 * C_i[4]);
-    jac_phi_q_v_A_i[42] = C_i[2] * t70 - (C_i[0] * t73 - C_i[1] * t104);
-    const jg_real t123 = d_ij_2 - t77;
-    const jg_real t124 = A_i[5] * s_i[2];
-    const jg_real t125 = omega_i[1] * t123 + omega_i[2] * t124;
-    const jg_real t126 = A_i[2] * s_i[2];
-    const jg_real t127 = omega_i[2] * t126 + omega_i[0] * t123;
-    const jg_real t128 = omega_i[1] * t126 - omega_i[0] * t124;
-    jac_phi_q_v_A_i[43] = C_i[2] * v_j[2] - (C_i[0] * t125 - C_i[1] * t127 + C_i[2] * t128 + C_i[2] * v_i[2]) +
-        C_i[2] * t86;
-    jac_phi_q_v_A_i[44] = C_i[5] * v_j[2] - (C_i[3] * t125 - C_i[4] * t127 + C_i[5] * t128 + C_i[5] * v_i[2]) +
-        C_i[5] * t86;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t61 = omega_i[2] * e_ij_2;
+    const jg_real t62 = omega_i[1] * e_ij_2;
+    jac_phi_q_v_A_i[13] = C_i[0] * v_j[2] - (C_i[1] * t61 - C_i[2] * t62 + C_i[0] * v_i[2]) + C_i[0] * t58;
+    jac_phi_q_v_A_i[14] = C_i[3] * v_j[2] - (C_i[4] * t61 - C_i[5] * t62 + C_i[3] * v_i[2]) + C_i[3] * t58;
+    const jg_real t63 = t19 * omega_i[0];
+    jac_phi_q_v_A_i[15] = t18 * C_i[1] - (C_i[2] * t63 - C_i[0] * t20);
+    jac_phi_q_v_A_i[16] = t18 * C_i[4] - (t63 * C_i[5] - t20 * C_i[3]);
+    const jg_real t64 = omega_i[0] * t26;
+    jac_phi_q_v_A_i[17] = C_i[1] * t25 - (C_i[2] * t64 - C_i[0] * t27);
+    const jg_real t65 = omega_i[0] * e_ij_0;
+    jac_phi_q_v_A_i[18] = C_i[1] * v_j[0] - (C_i[2] * t65 - C_i[0] * t35 + C_i[1] * v_i[0]) + C_i[1] * t32;
+    jac_phi_q_v_A_i[19] = C_i[4] * v_j[0] - (C_i[5] * t65 - C_i[3] * t35 + C_i[4] * v_i[0]) + C_i[4] * t32;
+    const jg_real t66 = t38 * omega_i[0];
+    jac_phi_q_v_A_i[20] = t37 * C_i[1] - (C_i[2] * t66 - C_i[0] * t39);
+    jac_phi_q_v_A_i[21] = t37 * C_i[4] - (t66 * C_i[5] - t39 * C_i[3]);
+    const jg_real t67 = omega_i[0] * t42;
+    jac_phi_q_v_A_i[22] = C_i[1] * t41 - (C_i[2] * t67 - C_i[0] * t43);
+    const jg_real t68 = omega_i[0] * e_ij_1;
+    jac_phi_q_v_A_i[23] = C_i[1] * v_j[1] - (C_i[2] * t68 - C_i[0] * t48 + C_i[1] * v_i[1]) + C_i[1] * t45;
+    jac_phi_q_v_A_i[24] = C_i[4] * v_j[1] - (C_i[5] * t68 - C_i[3] * t48 + C_i[4] * v_i[1]) + C_i[4] * t45;
+    const jg_real t69 = t51 * omega_i[0];
+    jac_phi_q_v_A_i[25] = t50 * C_i[1] - (C_i[2] * t69 - C_i[0] * t52);
+    jac_phi_q_v_A_i[26] = t50 * C_i[4] - (t69 * C_i[5] - t52 * C_i[3]);
+    const jg_real t70 = omega_i[0] * t55;
+    jac_phi_q_v_A_i[27] = C_i[1] * t54 - (C_i[2] * t70 - C_i[0] * t56);
+    const jg_real t71 = omega_i[0] * e_ij_2;
+    jac_phi_q_v_A_i[28] = C_i[1] * v_j[2] - (C_i[2] * t71 - C_i[0] * t61 + C_i[1] * v_i[2]) + C_i[1] * t58;
+    jac_phi_q_v_A_i[29] = C_i[4] * v_j[2] - (C_i[5] * t71 - C_i[3] * t61 + C_i[4] * v_i[2]) + C_i[4] * t58;
+    jac_phi_q_v_A_i[30] = t18 * C_i[2] - (C_i[0] * t21 - C_i[1] * t63);
+    jac_phi_q_v_A_i[31] = t18 * C_i[5] - (t21 * C_i[3] - t63 * C_i[4]);
+    jac_phi_q_v_A_i[32] = C_i[2] * t25 - (C_i[0] * t28 - C_i[1] * t64);
+    jac_phi_q_v_A_i[33] = C_i[2] * v_j[0] - (C_i[0] * t36 - C_i[1] * t65 + C_i[2] * v_i[0]) + C_i[2] * t32;
+    jac_phi_q_v_A_i[34] = C_i[5] * v_j[0] - (C_i[3] * t36 - C_i[4] * t65 + C_i[5] * v_i[0]) + C_i[5] * t32;
+    jac_phi_q_v_A_i[35] = t37 * C_i[2] - (C_i[0] * t40 - C_i[1] * t66);
+    jac_phi_q_v_A_i[36] = t37 * C_i[5] - (t40 * C_i[3] - t66 * C_i[4]);
+    jac_phi_q_v_A_i[37] = C_i[2] * t41 - (C_i[0] * t44 - C_i[1] * t67);
+    jac_phi_q_v_A_i[38] = C_i[2] * v_j[1] - (C_i[0] * t49 - C_i[1] * t68 + C_i[2] * v_i[1]) + C_i[2] * t45;
+    jac_phi_q_v_A_i[39] = C_i[5] * v_j[1] - (C_i[3] * t49 - C_i[4] * t68 + C_i[5] * v_i[1]) + C_i[5] * t45;
+    jac_phi_q_v_A_i[40] = t50 * C_i[2] - (C_i[0] * t53 - C_i[1] * t69);
+    jac_phi_q_v_A_i[41] = t50 * C_i[5] - (t53 * C_i[3] - t69 * C_i[4]);
+    jac_phi_q_v_A_i[42] = C_i[2] * t54 - (C_i[0] * t57 - C_i[1] * t70);
+    jac_phi_q_v_A_i[43] = C_i[2] * v_j[2] - (C_i[0] * t62 - C_i[1] * t71 + C_i[2] * v_i[2]) + C_i[2] * t58;
+    jac_phi_q_v_A_i[44] = C_i[5] * v_j[2] - (C_i[3] * t62 - C_i[4] * t71 + C_i[5] * v_i[2]) + C_i[5] * t58;
     jac_phi_q_v_r_j[0] = -t3;
     jac_phi_q_v_r_j[1] = -t4;
     jac_phi_q_v_r_j[2] = -t8;
     jac_phi_q_v_r_j[3] = -t9;
     jac_phi_q_v_r_j[4] = -t13;
     jac_phi_q_v_r_j[5] = -t14;
-    const jg_real t129 = A_i[0] * omega_j_cross_h_j_0;
-    const jg_real t130 = omega_j_cross_h_j_0 * A_i[3];
-    const jg_real t131 = omega_j_cross_h_j_0 * A_i[6];
-    const jg_real t132 = C_j[6] * A_i[6];
-    const jg_real t133 = C_j[6] * A_i[3];
-    const jg_real t134 = t132 * omega_i[1] - t133 * omega_i[2];
-    const jg_real t135 = A_i[0] * C_j[6];
-    const jg_real t136 = omega_i[2] * t135 - t132 * omega_i[0];
-    const jg_real t137 = t133 * omega_i[0] - omega_i[1] * t135;
-    jac_phi_q_v_A_j[0] = t129 * C_i[0] + t130 * C_i[1] + t131 * C_i[2] - (C_i[0] * t134 + C_i[1] * t136 + C_i[2] *
-        t137);
-    jac_phi_q_v_A_j[1] = t129 * C_i[3] + t130 * C_i[4] + t131 * C_i[5] - (t134 * C_i[3] + t136 * C_i[4] + t137 *
-        C_i[5]);
-    const jg_real t138 = A_i[6] * C_j[3];
-    const jg_real t139 = A_i[3] * C_j[3];
-    const jg_real t140 = A_i[0] * C_j[3];
+    const jg_real t72 = A_i[0] * omega_j_cross_h_j_0;
+    const jg_real t73 = omega_j_cross_h_j_0 * A_i[3];
+    const jg_real t74 = omega_j_cross_h_j_0 * A_i[6];
+    const jg_real t75 = C_j[6] * A_i[6];
+    const jg_real t76 = C_j[6] * A_i[3];
+    const jg_real t77 = t75 * omega_i[1] - t76 * omega_i[2];
+    const jg_real t78 = A_i[0] * C_j[6];
+    const jg_real t79 = omega_i[2] * t78 - t75 * omega_i[0];
+    const jg_real t80 = t76 * omega_i[0] - omega_i[1] * t78;
+    jac_phi_q_v_A_j[0] = t72 * C_i[0] + t73 * C_i[1] + t74 * C_i[2] - (C_i[0] * t77 + C_i[1] * t79 + C_i[2] * t80);
+    jac_phi_q_v_A_j[1] = t72 * C_i[3] + t73 * C_i[4] + t74 * C_i[5] - (t77 * C_i[3] + t79 * C_i[4] + t80 * C_i[5]);
+    const jg_real t81 = A_i[6] * C_j[3];
+    const jg_real t82 = A_i[3] * C_j[3];
+    const jg_real t83 = A_i[0] * C_j[3];
     jac_phi_q_v_A_j[2] = A_i[0] * omega_j_cross_g_j_0 * C_i[0] + A_i[3] * omega_j_cross_g_j_0 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t138 - omega_i[2] * t139) + C_i[1] * (omega_i[2] *
-        t140 - omega_i[0] * t138) + C_i[2] * (omega_i[0] * t139 - omega_i[1] * t140));
-    const jg_real t141 = A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t142 = A_i[3] * omega_j_cross_s_j_0;
-    const jg_real t143 = A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t144 = A_i[6] * s_j[0];
-    const jg_real t145 = A_i[3] * s_j[0];
-    const jg_real t146 = omega_i[1] * t144 - omega_i[2] * t145;
-    const jg_real t147 = A_i[0] * s_j[0];
-    const jg_real t148 = omega_i[2] * t147 - omega_i[0] * t144;
-    const jg_real t149 = omega_i[0] * t145 - omega_i[1] * t147;
-    jac_phi_q_v_A_j[3] = C_i[0] * t141 + C_i[1] * t142 + C_i[2] * t143 - (C_i[0] * t146 + C_i[1] * t148 + C_i[2] *
-        t149);
-    jac_phi_q_v_A_j[4] = C_i[3] * t141 + C_i[4] * t142 + C_i[5] * t143 - (C_i[3] * t146 + C_i[4] * t148 + C_i[5] *
-        t149);
-    const jg_real t150 = A_i[1] * omega_j_cross_h_j_0;
-    const jg_real t151 = omega_j_cross_h_j_0 * A_i[4];
-    const jg_real t152 = omega_j_cross_h_j_0 * A_i[7];
-    const jg_real t153 = C_j[6] * A_i[7];
-    const jg_real t154 = C_j[6] * A_i[4];
-    const jg_real t155 = t153 * omega_i[1] - t154 * omega_i[2];
-    const jg_real t156 = A_i[1] * C_j[6];
-    const jg_real t157 = omega_i[2] * t156 - t153 * omega_i[0];
-    const jg_real t158 = t154 * omega_i[0] - omega_i[1] * t156;
-    jac_phi_q_v_A_j[5] = t150 * C_i[0] + t151 * C_i[1] + t152 * C_i[2] - (C_i[0] * t155 + C_i[1] * t157 + C_i[2] *
-        t158);
-    jac_phi_q_v_A_j[6] = t150 * C_i[3] + t151 * C_i[4] + t152 * C_i[5] - (t155 * C_i[3] + t157 * C_i[4] + t158 *
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t81 - omega_i[2] * t82) + C_i[1] * (omega_i[2] * t83
+        - omega_i[0] * t81) + C_i[2] * (omega_i[0] * t82 - omega_i[1] * t83));
+    const jg_real t84 = A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t85 = A_i[3] * omega_j_cross_s_j_0;
+    const jg_real t86 = A_i[6] * omega_j_cross_s_j_0;
+    const jg_real t87 = A_i[6] * s_j[0];
+    const jg_real t88 = A_i[3] * s_j[0];
+    const jg_real t89 = omega_i[1] * t87 - omega_i[2] * t88;
+    const jg_real t90 = A_i[0] * s_j[0];
+    const jg_real t91 = omega_i[2] * t90 - omega_i[0] * t87;
+    const jg_real t92 = omega_i[0] * t88 - omega_i[1] * t90;
+    jac_phi_q_v_A_j[3] = C_i[0] * t84 + C_i[1] * t85 + C_i[2] * t86 - (C_i[0] * t89 + C_i[1] * t91 + C_i[2] * t92);
+    jac_phi_q_v_A_j[4] = C_i[3] * t84 + C_i[4] * t85 + C_i[5] * t86 - (C_i[3] * t89 + C_i[4] * t91 + C_i[5] * t92);
+    const jg_real t93 = A_i[1] * omega_j_cross_h_j_0;
+    const jg_real t94 = omega_j_cross_h_j_0 * A_i[4];
+    const jg_real t95 = omega_j_cross_h_j_0 * A_i[7];
+    const jg_real t96 = C_j[6] * A_i[7];
+    const jg_real t97 = C_j[6] * A_i[4];
+    const jg_real t98 = t96 * omega_i[1] - t97 * omega_i[2];
+    const jg_real t99 = A_i[1] * C_j[6];
+    const jg_real t100 = omega_i[2] * t99 - t96 * omega_i[0];
+    const jg_real t101 = t97 * omega_i[0] - omega_i[1] * t99;
+    jac_phi_q_v_A_j[5] = t93 * C_i[0] + t94 * C_i[1] + t95 * C_i[2] - (C_i[0] * t98 + C_i[1] * t100 + C_i[2] *
+        t101);
+    jac_phi_q_v_A_j[6] = t93 * C_i[3] + t94 * C_i[4] + t95 * C_i[5] - (t98 * C_i[3] + t100 * C_i[4] + t101 *
         C_i[5]);
-    const jg_real t159 = A_i[7] * C_j[3];
-    const jg_real t160 = A_i[4] * C_j[3];
-    const jg_real t161 = A_i[1] * C_j[3];
+    const jg_real t102 = A_i[7] * C_j[3];
+    const jg_real t103 = A_i[4] * C_j[3];
+    const jg_real t104 = A_i[1] * C_j[3];
     jac_phi_q_v_A_j[7] = A_i[1] * omega_j_cross_g_j_0 * C_i[0] + A_i[4] * omega_j_cross_g_j_0 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t159 - omega_i[2] * t160) + C_i[1] * (omega_i[2] *
-        t161 - omega_i[0] * t159) + C_i[2] * (omega_i[0] * t160 - omega_i[1] * t161));
-    const jg_real t162 = A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t163 = A_i[4] * omega_j_cross_s_j_0;
-    const jg_real t164 = A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t165 = A_i[7] * s_j[0];
-    const jg_real t166 = A_i[4] * s_j[0];
-    const jg_real t167 = omega_i[1] * t165 - omega_i[2] * t166;
-    const jg_real t168 = A_i[1] * s_j[0];
-    const jg_real t169 = omega_i[2] * t168 - omega_i[0] * t165;
-    const jg_real t170 = omega_i[0] * t166 - omega_i[1] * t168;
-    jac_phi_q_v_A_j[8] = C_i[0] * t162 + C_i[1] * t163 + C_i[2] * t164 - (C_i[0] * t167 + C_i[1] * t169 + C_i[2] *
-        t170);
-    jac_phi_q_v_A_j[9] = C_i[3] * t162 + C_i[4] * t163 + C_i[5] * t164 - (C_i[3] * t167 + C_i[4] * t169 + C_i[5] *
-        t170);
-    const jg_real t171 = A_i[2] * omega_j_cross_h_j_0;
-    const jg_real t172 = omega_j_cross_h_j_0 * A_i[5];
-    const jg_real t173 = omega_j_cross_h_j_0 * A_i[8];
-    const jg_real t174 = C_j[6] * A_i[8];
-    const jg_real t175 = C_j[6] * A_i[5];
-    const jg_real t176 = t174 * omega_i[1] - t175 * omega_i[2];
-    const jg_real t177 = A_i[2] * C_j[6];
-    const jg_real t178 = omega_i[2] * t177 - t174 * omega_i[0];
-    const jg_real t179 = t175 * omega_i[0] - omega_i[1] * t177;
-    jac_phi_q_v_A_j[10] = t171 * C_i[0] + t172 * C_i[1] + t173 * C_i[2] - (C_i[0] * t176 + C_i[1] * t178 + C_i[2] *
-        t179);
-    jac_phi_q_v_A_j[11] = t171 * C_i[3] + t172 * C_i[4] + t173 * C_i[5] - (t176 * C_i[3] + t178 * C_i[4] + t179 *
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t102 - omega_i[2] * t103) + C_i[1] * (omega_i[2] *
+        t104 - omega_i[0] * t102) + C_i[2] * (omega_i[0] * t103 - omega_i[1] * t104));
+    const jg_real t105 = A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t106 = A_i[4] * omega_j_cross_s_j_0;
+    const jg_real t107 = A_i[7] * omega_j_cross_s_j_0;
+    const jg_real t108 = A_i[7] * s_j[0];
+    const jg_real t109 = A_i[4] * s_j[0];
+    const jg_real t110 = omega_i[1] * t108 - omega_i[2] * t109;
+    const jg_real t111 = A_i[1] * s_j[0];
+    const jg_real t112 = omega_i[2] * t111 - omega_i[0] * t108;
+    const jg_real t113 = omega_i[0] * t109 - omega_i[1] * t111;
+    jac_phi_q_v_A_j[8] = C_i[0] * t105 + C_i[1] * t106 + C_i[2] * t107 - (C_i[0] * t110 + C_i[1] * t112 + C_i[2] *
+        t113);
+    jac_phi_q_v_A_j[9] = C_i[3] * t105 + C_i[4] * t106 + C_i[5] * t107 - (C_i[3] * t110 + C_i[4] * t112 + C_i[5] *
+        t113);
+    const jg_real t114 = A_i[2] * omega_j_cross_h_j_0;
+    const jg_real t115 = omega_j_cross_h_j_0 * A_i[5];
+    const jg_real t116 = omega_j_cross_h_j_0 * A_i[8];
+    const jg_real t117 = C_j[6] * A_i[8];
+    const jg_real t118 = C_j[6] * A_i[5];
+    const jg_real t119 = t117 * omega_i[1] - t118 * omega_i[2];
+    const jg_real t120 = A_i[2] * C_j[6];
+    const jg_real t121 = omega_i[2] * t120 - t117 * omega_i[0];
+    const jg_real t122 = t118 * omega_i[0] - omega_i[1] * t120;
+    jac_phi_q_v_A_j[10] = t114 * C_i[0] + t115 * C_i[1] + t116 * C_i[2] - (C_i[0] * t119 + C_i[1] * t121 + C_i[2] *
+        t122);
+    jac_phi_q_v_A_j[11] = t114 * C_i[3] + t115 * C_i[4] + t116 * C_i[5] - (t119 * C_i[3] + t121 * C_i[4] + t122 *
         C_i[5]);
-    const jg_real t180 = A_i[8] * C_j[3];
-    const jg_real t181 = A_i[5] * C_j[3];
-    const jg_real t182 = A_i[2] * C_j[3];
+    const jg_real t123 = A_i[8] * C_j[3];
+    const jg_real t124 = A_i[5] * C_j[3];
+    const jg_real t125 = A_i[2] * C_j[3];
     jac_phi_q_v_A_j[12] = A_i[2] * omega_j_cross_g_j_0 * C_i[0] + A_i[5] * omega_j_cross_g_j_0 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t180 - omega_i[2] * t181) + C_i[1] * (omega_i[2] *
-        t182 - omega_i[0] * t180) + C_i[2] * (omega_i[0] * t181 - omega_i[1] * t182));
-    const jg_real t183 = A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t184 = A_i[5] * omega_j_cross_s_j_0;
-    const jg_real t185 = A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t186 = A_i[8] * s_j[0];
-    const jg_real t187 = A_i[5] * s_j[0];
-    const jg_real t188 = omega_i[1] * t186 - omega_i[2] * t187;
-    const jg_real t189 = A_i[2] * s_j[0];
-    const jg_real t190 = omega_i[2] * t189 - omega_i[0] * t186;
-    const jg_real t191 = omega_i[0] * t187 - omega_i[1] * t189;
-    jac_phi_q_v_A_j[13] = C_i[0] * t183 + C_i[1] * t184 + C_i[2] * t185 - (C_i[0] * t188 + C_i[1] * t190 + C_i[2] *
-        t191);
-    jac_phi_q_v_A_j[14] = C_i[3] * t183 + C_i[4] * t184 + C_i[5] * t185 - (C_i[3] * t188 + C_i[4] * t190 + C_i[5] *
-        t191);
-    const jg_real t192 = A_i[0] * omega_j_cross_h_j_1;
-    const jg_real t193 = omega_j_cross_h_j_1 * A_i[3];
-    const jg_real t194 = omega_j_cross_h_j_1 * A_i[6];
-    const jg_real t195 = C_j[7] * A_i[6];
-    const jg_real t196 = C_j[7] * A_i[3];
-    const jg_real t197 = t195 * omega_i[1] - t196 * omega_i[2];
-    const jg_real t198 = A_i[0] * C_j[7];
-    const jg_real t199 = omega_i[2] * t198 - t195 * omega_i[0];
-    const jg_real t200 = t196 * omega_i[0] - omega_i[1] * t198;
-    jac_phi_q_v_A_j[15] = t192 * C_i[0] + t193 * C_i[1] + t194 * C_i[2] - (C_i[0] * t197 + C_i[1] * t199 + C_i[2] *
-        t200);
-    jac_phi_q_v_A_j[16] = t192 * C_i[3] + t193 * C_i[4] + t194 * C_i[5] - (t197 * C_i[3] + t199 * C_i[4] + t200 *
+        omega_j_cross_g_j_0 * C_i[2] - (C_i[0] * (omega_i[1] * t123 - omega_i[2] * t124) + C_i[1] * (omega_i[2] *
+        t125 - omega_i[0] * t123) + C_i[2] * (omega_i[0] * t124 - omega_i[1] * t125));
+    const jg_real t126 = A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t127 = A_i[5] * omega_j_cross_s_j_0;
+    const jg_real t128 = A_i[8] * omega_j_cross_s_j_0;
+    const jg_real t129 = A_i[8] * s_j[0];
+    const jg_real t130 = A_i[5] * s_j[0];
+    const jg_real t131 = omega_i[1] * t129 - omega_i[2] * t130;
+    const jg_real t132 = A_i[2] * s_j[0];
+    const jg_real t133 = omega_i[2] * t132 - omega_i[0] * t129;
+    const jg_real t134 = omega_i[0] * t130 - omega_i[1] * t132;
+    jac_phi_q_v_A_j[13] = C_i[0] * t126 + C_i[1] * t127 + C_i[2] * t128 - (C_i[0] * t131 + C_i[1] * t133 + C_i[2] *
+        t134);
+    jac_phi_q_v_A_j[14] = C_i[3] * t126 + C_i[4] * t127 + C_i[5] * t128 - (C_i[3] * t131 + C_i[4] * t133 + C_i[5] *
+        t134);
+    const jg_real t135 = A_i[0] * omega_j_cross_h_j_1;
+    const jg_real t136 = omega_j_cross_h_j_1 * A_i[3];
+    const jg_real t137 = omega_j_cross_h_j_1 * A_i[6];
+    const jg_real t138 = C_j[7] * A_i[6];
+    const jg_real t139 = C_j[7] * A_i[3];
+    const jg_real t140 = t138 * omega_i[1] - t139 * omega_i[2];
+    const jg_real t141 = A_i[0] * C_j[7];
+    const jg_real t142 = omega_i[2] * t141 - t138 * omega_i[0];
+    const jg_real t143 = t139 * omega_i[0] - omega_i[1] * t141;
+    jac_phi_q_v_A_j[15] = t135 * C_i[0] + t136 * C_i[1] + t137 * C_i[2] - (C_i[0] * t140 + C_i[1] * t142 + C_i[2] *
+        t143);
+    jac_phi_q_v_A_j[16] = t135 * C_i[3] + t136 * C_i[4] + t137 * C_i[5] - (t140 * C_i[3] + t142 * C_i[4] + t143 *
         C_i[5]);
-    const jg_real t201 = A_i[6] * C_j[4];
-    const jg_real t202 = A_i[3] * C_j[4];
-    const jg_real t203 = A_i[0] * C_j[4];
+    const jg_real t144 = A_i[6] * C_j[4];
+    const jg_real t145 = A_i[3] * C_j[4];
+    const jg_real t146 = A_i[0] * C_j[4];
     jac_phi_q_v_A_j[17] = A_i[0] * omega_j_cross_g_j_1 * C_i[0] + A_i[3] * omega_j_cross_g_j_1 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t201 - omega_i[2] * t202) + C_i[1] * (omega_i[2] *
-        t203 - omega_i[0] * t201) + C_i[2] * (omega_i[0] * t202 - omega_i[1] * t203));
-    const jg_real t204 = A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t205 = A_i[3] * omega_j_cross_s_j_1;
-    const jg_real t206 = A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t207 = A_i[6] * s_j[1];
-    const jg_real t208 = A_i[3] * s_j[1];
-    const jg_real t209 = omega_i[1] * t207 - omega_i[2] * t208;
-    const jg_real t210 = A_i[0] * s_j[1];
-    const jg_real t211 = omega_i[2] * t210 - omega_i[0] * t207;
-    const jg_real t212 = omega_i[0] * t208 - omega_i[1] * t210;
-    jac_phi_q_v_A_j[18] = C_i[0] * t204 + C_i[1] * t205 + C_i[2] * t206 - (C_i[0] * t209 + C_i[1] * t211 + C_i[2] *
-        t212);
-    jac_phi_q_v_A_j[19] = C_i[3] * t204 + C_i[4] * t205 + C_i[5] * t206 - (C_i[3] * t209 + C_i[4] * t211 + C_i[5] *
-        t212);
-    const jg_real t213 = A_i[1] * omega_j_cross_h_j_1;
-    const jg_real t214 = omega_j_cross_h_j_1 * A_i[4];
-    const jg_real t215 = omega_j_cross_h_j_1 * A_i[7];
-    const jg_real t216 = C_j[7] * A_i[7];
-    const jg_real t217 = C_j[7] * A_i[4];
-    const jg_real t218 = t216 * omega_i[1] - t217 * omega_i[2];
-    const jg_real t219 = A_i[1] * C_j[7];
-    const jg_real t220 = omega_i[2] * t219 - t216 * omega_i[0];
-    const jg_real t221 = t217 * omega_i[0] - omega_i[1] * t219;
-    jac_phi_q_v_A_j[20] = t213 * C_i[0] + t214 * C_i[1] + t215 * C_i[2] - (C_i[0] * t218 + C_i[1] * t220 + C_i[2] *
-        t221);
-    jac_phi_q_v_A_j[21] = t213 * C_i[3] + t214 * C_i[4] + t215 * C_i[5] - (t218 * C_i[3] + t220 * C_i[4] + t221 *
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t144 - omega_i[2] * t145) + C_i[1] * (omega_i[2] *
+        t146 - omega_i[0] * t144) + C_i[2] * (omega_i[0] * t145 - omega_i[1] * t146));
+    const jg_real t147 = A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t148 = A_i[3] * omega_j_cross_s_j_1;
+    const jg_real t149 = A_i[6] * omega_j_cross_s_j_1;
+    const jg_real t150 = A_i[6] * s_j[1];
+    const jg_real t151 = A_i[3] * s_j[1];
+    const jg_real t152 = omega_i[1] * t150 - omega_i[2] * t151;
+    const jg_real t153 = A_i[0] * s_j[1];
+    const jg_real t154 = omega_i[2] * t153 - omega_i[0] * t150;
+    const jg_real t155 = omega_i[0] * t151 - omega_i[1] * t153;
+    jac_phi_q_v_A_j[18] = C_i[0] * t147 + C_i[1] * t148 + C_i[2] * t149 - (C_i[0] * t152 + C_i[1] * t154 + C_i[2] *
+        t155);
+    jac_phi_q_v_A_j[19] = C_i[3] * t147 + C_i[4] * t148 + C_i[5] * t149 - (C_i[3] * t152 + C_i[4] * t154 + C_i[5] *
+        t155);
+    const jg_real t156 = A_i[1] * omega_j_cross_h_j_1;
+    const jg_real t157 = omega_j_cross_h_j_1 * A_i[4];
+    const jg_real t158 = omega_j_cross_h_j_1 * A_i[7];
+    const jg_real t159 = C_j[7] * A_i[7];
+    const jg_real t160 = C_j[7] * A_i[4];
+    const jg_real t161 = t159 * omega_i[1] - t160 * omega_i[2];
+    const jg_real t162 = A_i[1] * C_j[7];
+    const jg_real t163 = omega_i[2] * t162 - t159 * omega_i[0];
+    const jg_real t164 = t160 * omega_i[0] - omega_i[1] * t162;
+    jac_phi_q_v_A_j[20] = t156 * C_i[0] + t157 * C_i[1] + t158 * C_i[2] - (C_i[0] * t161 + C_i[1] * t163 + C_i[2] *
+        t164);
+    jac_phi_q_v_A_j[21] = t156 * C_i[3] + t157 * C_i[4] + t158 * C_i[5] - (t161 * C_i[3] + t163 * C_i[4] + t164 *
         C_i[5]);
-    const jg_real t222 = A_i[7] * C_j[4];
-    const jg_real t223 = A_i[4] * C_j[4];
-    const jg_real t224 = A_i[1] * C_j[4];
+    const jg_real t165 = A_i[7] * C_j[4];
+    const jg_real t166 = A_i[4] * C_j[4];
+    const jg_real t167 = A_i[1] * C_j[4];
     jac_phi_q_v_A_j[22] = A_i[1] * omega_j_cross_g_j_1 * C_i[0] + A_i[4] * omega_j_cross_g_j_1 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t222 - omega_i[2] * t223) + C_i[1] * (omega_i[2] *
-        t224 - omega_i[0] * t222) + C_i[2] * (omega_i[0] * t223 - omega_i[1] * t224));
-    const jg_real t225 = A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t226 = A_i[4] * omega_j_cross_s_j_1;
-    const jg_real t227 = A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t228 = A_i[7] * s_j[1];
-    const jg_real t229 = A_i[4] * s_j[1];
-    const jg_real t230 = omega_i[1] * t228 - omega_i[2] * t229;
-    const jg_real t231 = A_i[1] * s_j[1];
-    const jg_real t232 = omega_i[2] * t231 - omega_i[0] * t228;
-    const jg_real t233 = omega_i[0] * t229 - omega_i[1] * t231;
-    jac_phi_q_v_A_j[23] = C_i[0] * t225 + C_i[1] * t226 + C_i[2] * t227 - (C_i[0] * t230 + C_i[1] * t232 + C_i[2] *
-        t233);
-    jac_phi_q_v_A_j[24] = C_i[3] * t225 + C_i[4] * t226 + C_i[5] * t227 - (C_i[3] * t230 + C_i[4] * t232 + C_i[5] *
-        t233);
-    const jg_real t234 = A_i[2] * omega_j_cross_h_j_1;
-    const jg_real t235 = omega_j_cross_h_j_1 * A_i[5];
-    const jg_real t236 = omega_j_cross_h_j_1 * A_i[8];
-    const jg_real t237 = C_j[7] * A_i[8];
-    const jg_real t238 = C_j[7] * A_i[5];
-    const jg_real t239 = t237 * omega_i[1] - t238 * omega_i[2];
-    const jg_real t240 = A_i[2] * C_j[7];
-    const jg_real t241 = omega_i[2] * t240 - t237 * omega_i[0];
-    const jg_real t242 = t238 * omega_i[0] - omega_i[1] * t240;
-    jac_phi_q_v_A_j[25] = t234 * C_i[0] + t235 * C_i[1] + t236 * C_i[2] - (C_i[0] * t239 + C_i[1] * t241 + C_i[2] *
-        t242);
-    jac_phi_q_v_A_j[26] = t234 * C_i[3] + t235 * C_i[4] + t236 * C_i[5] - (t239 * C_i[3] + t241 * C_i[4] + t242 *
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t165 - omega_i[2] * t166) + C_i[1] * (omega_i[2] *
+        t167 - omega_i[0] * t165) + C_i[2] * (omega_i[0] * t166 - omega_i[1] * t167));
+    const jg_real t168 = A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t169 = A_i[4] * omega_j_cross_s_j_1;
+    const jg_real t170 = A_i[7] * omega_j_cross_s_j_1;
+    const jg_real t171 = A_i[7] * s_j[1];
+    const jg_real t172 = A_i[4] * s_j[1];
+    const jg_real t173 = omega_i[1] * t171 - omega_i[2] * t172;
+    const jg_real t174 = A_i[1] * s_j[1];
+    const jg_real t175 = omega_i[2] * t174 - omega_i[0] * t171;
+    const jg_real t176 = omega_i[0] * t172 - omega_i[1] * t174;
+    jac_phi_q_v_A_j[23] = C_i[0] * t168 + C_i[1] * t169 + C_i[2] * t170 - (C_i[0] * t173 + C_i[1] * t175 + C_i[2] *
+        t176);
+    jac_phi_q_v_A_j[24] = C_i[3] * t168 + C_i[4] * t169 + C_i[5] * t170 - (C_i[3] * t173 + C_i[4] * t175 + C_i[5] *
+        t176);
+    const jg_real t177 = A_i[2] * omega_j_cross_h_j_1;
+    const jg_real t178 = omega_j_cross_h_j_1 * A_i[5];
+    const jg_real t179 = omega_j_cross_h_j_1 * A_i[8];
+    const jg_real t180 = C_j[7] * A_i[8];
+    const jg_real t181 = C_j[7] * A_i[5];
+    const jg_real t182 = t180 * omega_i[1] - t181 * omega_i[2];
+    const jg_real t183 = A_i[2] * C_j[7];
+    const jg_real t184 = omega_i[2] * t183 - t180 * omega_i[0];
+    const jg_real t185 = t181 * omega_i[0] - omega_i[1] * t183;
+    jac_phi_q_v_A_j[25] = t177 * C_i[0] + t178 * C_i[1] + t179 * C_i[2] - (C_i[0] * t182 + C_i[1] * t184 + C_i[2] *
+        t185);
+    jac_phi_q_v_A_j[26] = t177 * C_i[3] + t178 * C_i[4] + t179 * C_i[5] - (t182 * C_i[3] + t184 * C_i[4] + t185 *
         C_i[5]);
-    const jg_real t243 = A_i[8] * C_j[4];
-    const jg_real t244 = A_i[5] * C_j[4];
-    const jg_real t245 = A_i[2] * C_j[4];
+    const jg_real t186 = A_i[8] * C_j[4];
+    const jg_real t187 = A_i[5] * C_j[4];
+    const jg_real t188 = A_i[2] * C_j[4];
     jac_phi_q_v_A_j[27] = A_i[2] * omega_j_cross_g_j_1 * C_i[0] + A_i[5] * omega_j_cross_g_j_1 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t243 - omega_i[2] * t244) + C_i[1] * (omega_i[2] *
-        t245 - omega_i[0] * t243) + C_i[2] * (omega_i[0] * t244 - omega_i[1] * t245));
-    const jg_real t246 = A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t247 = A_i[5] * omega_j_cross_s_j_1;
-    const jg_real t248 = A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t249 = A_i[8] * s_j[1];
-    const jg_real t250 = A_i[5] * s_j[1];
-    const jg_real t251 = omega_i[1] * t249 - omega_i[2] * t250;
-    const jg_real t252 = A_i[2] * s_j[1];
-    const jg_real t253 = omega_i[2] * t252 - omega_i[0] * t249;
-    const jg_real t254 = omega_i[0] * t250 - omega_i[1] * t252;
-    jac_phi_q_v_A_j[28] = C_i[0] * t246 + C_i[1] * t247 + C_i[2] * t248 - (C_i[0] * t251 + C_i[1] * t253 + C_i[2] *
-        t254);
-    jac_phi_q_v_A_j[29] = C_i[3] * t246 + C_i[4] * t247 + C_i[5] * t248 - (C_i[3] * t251 + C_i[4] * t253 + C_i[5] *
-        t254);
-    const jg_real t255 = A_i[0] * omega_j_cross_h_j_2;
-    const jg_real t256 = omega_j_cross_h_j_2 * A_i[3];
-    const jg_real t257 = omega_j_cross_h_j_2 * A_i[6];
-    const jg_real t258 = C_j[8] * A_i[6];
-    const jg_real t259 = C_j[8] * A_i[3];
-    const jg_real t260 = t258 * omega_i[1] - t259 * omega_i[2];
-    const jg_real t261 = A_i[0] * C_j[8];
-    const jg_real t262 = omega_i[2] * t261 - t258 * omega_i[0];
-    const jg_real t263 = t259 * omega_i[0] - omega_i[1] * t261;
-    jac_phi_q_v_A_j[30] = t255 * C_i[0] + t256 * C_i[1] + t257 * C_i[2] - (C_i[0] * t260 + C_i[1] * t262 + C_i[2] *
-        t263);
-    jac_phi_q_v_A_j[31] = t255 * C_i[3] + t256 * C_i[4] + t257 * C_i[5] - (t260 * C_i[3] + t262 * C_i[4] + t263 *
+        omega_j_cross_g_j_1 * C_i[2] - (C_i[0] * (omega_i[1] * t186 - omega_i[2] * t187) + C_i[1] * (omega_i[2] *
+        t188 - omega_i[0] * t186) + C_i[2] * (omega_i[0] * t187 - omega_i[1] * t188));
+    const jg_real t189 = A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t190 = A_i[5] * omega_j_cross_s_j_1;
+    const jg_real t191 = A_i[8] * omega_j_cross_s_j_1;
+    const jg_real t192 = A_i[8] * s_j[1];
+    const jg_real t193 = A_i[5] * s_j[1];
+    const jg_real t194 = omega_i[1] * t192 - omega_i[2] * t193;
+    const jg_real t195 = A_i[2] * s_j[1];
+    const jg_real t196 = omega_i[2] * t195 - omega_i[0] * t192;
+    const jg_real t197 = omega_i[0] * t193 - omega_i[1] * t195;
+    jac_phi_q_v_A_j[28] = C_i[0] * t189 + C_i[1] * t190 + C_i[2] * t191 - (C_i[0] * t194 + C_i[1] * t196 + C_i[2] *
+        t197);
+    jac_phi_q_v_A_j[29] = C_i[3] * t189 + C_i[4] * t190 + C_i[5] * t191 - (C_i[3] * t194 + C_i[4] * t196 + C_i[5] *
+        t197);
+    const jg_real t198 = A_i[0] * omega_j_cross_h_j_2;
+    const jg_real t199 = omega_j_cross_h_j_2 * A_i[3];
+    const jg_real t200 = omega_j_cross_h_j_2 * A_i[6];
+    const jg_real t201 = C_j[8] * A_i[6];
+    const jg_real t202 = C_j[8] * A_i[3];
+    const jg_real t203 = t201 * omega_i[1] - t202 * omega_i[2];
+    const jg_real t204 = A_i[0] * C_j[8];
+    const jg_real t205 = omega_i[2] * t204 - t201 * omega_i[0];
+    const jg_real t206 = t202 * omega_i[0] - omega_i[1] * t204;
+    jac_phi_q_v_A_j[30] = t198 * C_i[0] + t199 * C_i[1] + t200 * C_i[2] - (C_i[0] * t203 + C_i[1] * t205 + C_i[2] *
+        t206);
+    jac_phi_q_v_A_j[31] = t198 * C_i[3] + t199 * C_i[4] + t200 * C_i[5] - (t203 * C_i[3] + t205 * C_i[4] + t206 *
         C_i[5]);
-    const jg_real t264 = A_i[6] * C_j[5];
-    const jg_real t265 = A_i[3] * C_j[5];
-    const jg_real t266 = A_i[0] * C_j[5];
+    const jg_real t207 = A_i[6] * C_j[5];
+    const jg_real t208 = A_i[3] * C_j[5];
+    const jg_real t209 = A_i[0] * C_j[5];
     jac_phi_q_v_A_j[32] = A_i[0] * omega_j_cross_g_j_2 * C_i[0] + A_i[3] * omega_j_cross_g_j_2 * C_i[1] + A_i[6] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t264 - omega_i[2] * t265) + C_i[1] * (omega_i[2] *
-        t266 - omega_i[0] * t264) + C_i[2] * (omega_i[0] * t265 - omega_i[1] * t266));
-    const jg_real t267 = A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t268 = A_i[3] * omega_j_cross_s_j_2;
-    const jg_real t269 = A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t270 = A_i[6] * s_j[2];
-    const jg_real t271 = A_i[3] * s_j[2];
-    const jg_real t272 = omega_i[1] * t270 - omega_i[2] * t271;
-    const jg_real t273 = A_i[0] * s_j[2];
-    const jg_real t274 = omega_i[2] * t273 - omega_i[0] * t270;
-    const jg_real t275 = omega_i[0] * t271 - omega_i[1] * t273;
-    jac_phi_q_v_A_j[33] = C_i[0] * t267 + C_i[1] * t268 + C_i[2] * t269 - (C_i[0] * t272 + C_i[1] * t274 + C_i[2] *
-        t275);
-    jac_phi_q_v_A_j[34] = C_i[3] * t267 + C_i[4] * t268 + C_i[5] * t269 - (C_i[3] * t272 + C_i[4] * t274 + C_i[5] *
-        t275);
-    const jg_real t276 = A_i[1] * omega_j_cross_h_j_2;
-    const jg_real t277 = omega_j_cross_h_j_2 * A_i[4];
-    const jg_real t278 = omega_j_cross_h_j_2 * A_i[7];
-    const jg_real t279 = C_j[8] * A_i[7];
-    const jg_real t280 = C_j[8] * A_i[4];
-    const jg_real t281 = t279 * omega_i[1] - t280 * omega_i[2];
-    const jg_real t282 = A_i[1] * C_j[8];
-    const jg_real t283 = omega_i[2] * t282 - t279 * omega_i[0];
-    const jg_real t284 = t280 * omega_i[0] - omega_i[1] * t282;
-    jac_phi_q_v_A_j[35] = t276 * C_i[0] + t277 * C_i[1] + t278 * C_i[2] - (C_i[0] * t281 + C_i[1] * t283 + C_i[2] *
-        t284);
-    jac_phi_q_v_A_j[36] = t276 * C_i[3] + t277 * C_i[4] + t278 * C_i[5] - (t281 * C_i[3] + t283 * C_i[4] + t284 *
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t207 - omega_i[2] * t208) + C_i[1] * (omega_i[2] *
+        t209 - omega_i[0] * t207) + C_i[2] * (omega_i[0] * t208 - omega_i[1] * t209));
+    const jg_real t210 = A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t211 = A_i[3] * omega_j_cross_s_j_2;
+    const jg_real t212 = A_i[6] * omega_j_cross_s_j_2;
+    const jg_real t213 = A_i[6] * s_j[2];
+    const jg_real t214 = A_i[3] * s_j[2];
+    const jg_real t215 = omega_i[1] * t213 - omega_i[2] * t214;
+    const jg_real t216 = A_i[0] * s_j[2];
+    const jg_real t217 = omega_i[2] * t216 - omega_i[0] * t213;
+    const jg_real t218 = omega_i[0] * t214 - omega_i[1] * t216;
+    jac_phi_q_v_A_j[33] = C_i[0] * t210 + C_i[1] * t211 + C_i[2] * t212 - (C_i[0] * t215 + C_i[1] * t217 + C_i[2] *
+        t218);
+    jac_phi_q_v_A_j[34] = C_i[3] * t210 + C_i[4] * t211 + C_i[5] * t212 - (C_i[3] * t215 + C_i[4] * t217 + C_i[5] *
+        t218);
+    const jg_real t219 = A_i[1] * omega_j_cross_h_j_2;
+    const jg_real t220 = omega_j_cross_h_j_2 * A_i[4];
+    const jg_real t221 = omega_j_cross_h_j_2 * A_i[7];
+    const jg_real t222 = C_j[8] * A_i[7];
+    const jg_real t223 = C_j[8] * A_i[4];
+    const jg_real t224 = t222 * omega_i[1] - t223 * omega_i[2];
+    const jg_real t225 = A_i[1] * C_j[8];
+    const jg_real t226 = omega_i[2] * t225 - t222 * omega_i[0];
+    const jg_real t227 = t223 * omega_i[0] - omega_i[1] * t225;
+    jac_phi_q_v_A_j[35] = t219 * C_i[0] + t220 * C_i[1] + t221 * C_i[2] - (C_i[0] * t224 + C_i[1] * t226 + C_i[2] *
+        t227);
+    jac_phi_q_v_A_j[36] = t219 * C_i[3] + t220 * C_i[4] + t221 * C_i[5] - (t224 * C_i[3] + t226 * C_i[4] + t227 *
         C_i[5]);
-    const jg_real t285 = A_i[7] * C_j[5];
-    const jg_real t286 = A_i[4] * C_j[5];
-    const jg_real t287 = A_i[1] * C_j[5];
+    const jg_real t228 = A_i[7] * C_j[5];
+    const jg_real t229 = A_i[4] * C_j[5];
+    const jg_real t230 = A_i[1] * C_j[5];
     jac_phi_q_v_A_j[37] = A_i[1] * omega_j_cross_g_j_2 * C_i[0] + A_i[4] * omega_j_cross_g_j_2 * C_i[1] + A_i[7] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t285 - omega_i[2] * t286) + C_i[1] * (omega_i[2] *
-        t287 - omega_i[0] * t285) + C_i[2] * (omega_i[0] * t286 - omega_i[1] * t287));
-    const jg_real t288 = A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t289 = A_i[4] * omega_j_cross_s_j_2;
-    const jg_real t290 = A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t291 = A_i[7] * s_j[2];
-    const jg_real t292 = A_i[4] * s_j[2];
-    const jg_real t293 = omega_i[1] * t291 - omega_i[2] * t292;
-    const jg_real t294 = A_i[1] * s_j[2];
-    const jg_real t295 = omega_i[2] * t294 - omega_i[0] * t291;
-    const jg_real t296 = omega_i[0] * t292 - omega_i[1] * t294;
-    jac_phi_q_v_A_j[38] = C_i[0] * t288 + C_i[1] * t289 + C_i[2] * t290 - (C_i[0] * t293 + C_i[1] * t295 + C_i[2] *
-        t296);
-    jac_phi_q_v_A_j[39] = C_i[3] * t288 + C_i[4] * t289 + C_i[5] * t290 - (C_i[3] * t293 + C_i[4] * t295 + C_i[5] *
-        t296);
-    const jg_real t297 = A_i[2] * omega_j_cross_h_j_2;
-    const jg_real t298 = omega_j_cross_h_j_2 * A_i[5];
-    const jg_real t299 = omega_j_cross_h_j_2 * A_i[8];
-    const jg_real t300 = C_j[8] * A_i[8];
-    const jg_real t301 = C_j[8] * A_i[5];
-    const jg_real t302 = t300 * omega_i[1] - t301 * omega_i[2];
-    const jg_real t303 = A_i[2] * C_j[8];
-    const jg_real t304 = omega_i[2] * t303 - t300 * omega_i[0];
-    const jg_real t305 = t301 * omega_i[0] - omega_i[1] * t303;
-    jac_phi_q_v_A_j[40] = t297 * C_i[0] + t298 * C_i[1] + t299 * C_i[2] - (C_i[0] * t302 + C_i[1] * t304 + C_i[2] *
-        t305);
-    jac_phi_q_v_A_j[41] = t297 * C_i[3] + t298 * C_i[4] + t299 * C_i[5] - (t302 * C_i[3] + t304 * C_i[4] + t305 *
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t228 - omega_i[2] * t229) + C_i[1] * (omega_i[2] *
+        t230 - omega_i[0] * t228) + C_i[2] * (omega_i[0] * t229 - omega_i[1] * t230));
+    const jg_real t231 = A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t232 = A_i[4] * omega_j_cross_s_j_2;
+    const jg_real t233 = A_i[7] * omega_j_cross_s_j_2;
+    const jg_real t234 = A_i[7] * s_j[2];
+    const jg_real t235 = A_i[4] * s_j[2];
+    const jg_real t236 = omega_i[1] * t234 - omega_i[2] * t235;
+    const jg_real t237 = A_i[1] * s_j[2];
+    const jg_real t238 = omega_i[2] * t237 - omega_i[0] * t234;
+    const jg_real t239 = omega_i[0] * t235 - omega_i[1] * t237;
+    jac_phi_q_v_A_j[38] = C_i[0] * t231 + C_i[1] * t232 + C_i[2] * t233 - (C_i[0] * t236 + C_i[1] * t238 + C_i[2] *
+        t239);
+    jac_phi_q_v_A_j[39] = C_i[3] * t231 + C_i[4] * t232 + C_i[5] * t233 - (C_i[3] * t236 + C_i[4] * t238 + C_i[5] *
+        t239);
+    const jg_real t240 = A_i[2] * omega_j_cross_h_j_2;
+    const jg_real t241 = omega_j_cross_h_j_2 * A_i[5];
+    const jg_real t242 = omega_j_cross_h_j_2 * A_i[8];
+    const jg_real t243 = C_j[8] * A_i[8];
+    const jg_real t244 = C_j[8] * A_i[5];
+    const jg_real t245 = t243 * omega_i[1] - t244 * omega_i[2];
+    const jg_real t246 = A_i[2] * C_j[8];
+    const jg_real t247 = omega_i[2] * t246 - t243 * omega_i[0];
+    const jg_real t248 = t244 * omega_i[0] - omega_i[1] * t246;
+    jac_phi_q_v_A_j[40] = t240 * C_i[0] + t241 * C_i[1] + t242 * C_i[2] - (C_i[0] * t245 + C_i[1] * t247 + C_i[2] *
+        t248);
+    jac_phi_q_v_A_j[41] = t240 * C_i[3] + t241 * C_i[4] + t242 * C_i[5] - (t245 * C_i[3] + t247 * C_i[4] + t248 *
         C_i[5]);
-    const jg_real t306 = A_i[8] * C_j[5];
-    const jg_real t307 = A_i[5] * C_j[5];
-    const jg_real t308 = A_i[2] * C_j[5];
+    const jg_real t249 = A_i[8] * C_j[5];
+    const jg_real t250 = A_i[5] * C_j[5];
+    const jg_real t251 = A_i[2] * C_j[5];
     jac_phi_q_v_A_j[42] = A_i[2] * omega_j_cross_g_j_2 * C_i[0] + A_i[5] * omega_j_cross_g_j_2 * C_i[1] + A_i[8] *
-        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t306 - omega_i[2] * t307) + C_i[1] * (omega_i[2] *
-        t308 - omega_i[0] * t306) + C_i[2] * (omega_i[0] * t307 - omega_i[1] * t308));
-    const jg_real t309 = A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t310 = A_i[5] * omega_j_cross_s_j_2;
-    const jg_real t311 = A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t312 = A_i[8] * s_j[2];
-    const jg_real t313 = A_i[5] * s_j[2];
-    const jg_real t314 = omega_i[1] * t312 - omega_i[2] * t313;
-    const jg_real t315 = A_i[2] * s_j[2];
-    const jg_real t316 = omega_i[2] * t315 - omega_i[0] * t312;
-    const jg_real t317 = omega_i[0] * t313 - omega_i[1] * t315;
-    jac_phi_q_v_A_j[43] = C_i[0] * t309 + C_i[1] * t310 + C_i[2] * t311 - (C_i[0] * t314 + C_i[1] * t316 + C_i[2] *
-        t317);
-    jac_phi_q_v_A_j[44] = C_i[3] * t309 + C_i[4] * t310 + C_i[5] * t311 - (C_i[3] * t314 + C_i[4] * t316 + C_i[5] *
-        t317);
-    const jg_real t318 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t319 = omega_i[2] * t318;
-    const jg_real t320 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t321 = omega_i[1] * t320;
-    const jg_real t322 = t319 - t321;
-    const jg_real t323 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    const jg_real t324 = omega_i[0] * t320 - omega_i[2] * t323;
-    const jg_real t325 = omega_i[1] * t323 - omega_i[0] * t318;
-    jac_phi_q_v_geometry[0] = -(C_i[0] * t322 + C_i[1] * t324 + C_i[2] * t325 + (C_i[1] * omega_i[2] - C_i[2] *
-        omega_i[1]));
-    jac_phi_q_v_geometry[1] = -(C_i[3] * t322 + C_i[4] * t324 + C_i[5] * t325 + (omega_i[2] * C_i[4] - omega_i[1] *
-        C_i[5]));
-    const jg_real t326 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t327 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t328 = omega_i[2] * t326 - omega_i[1] * t327;
-    const jg_real t329 = omega_i[0] * t327;
-    const jg_real t330 = t329 - t319;
-    const jg_real t331 = omega_i[1] * t318 - omega_i[0] * t326;
-    jac_phi_q_v_geometry[2] = -(C_i[0] * t328 + C_i[1] * t330 + C_i[2] * t331 + (C_i[2] * omega_i[0] - C_i[0] *
-        omega_i[2]));
-    jac_phi_q_v_geometry[3] = -(C_i[3] * t328 + C_i[4] * t330 + C_i[5] * t331 + (omega_i[0] * C_i[5] - omega_i[2] *
-        C_i[3]));
-    const jg_real t332 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    const jg_real t333 = omega_i[2] * t327 - omega_i[1] * t332;
-    const jg_real t334 = omega_i[0] * t332 - omega_i[2] * t320;
-    const jg_real t335 = t321 - t329;
-    jac_phi_q_v_geometry[4] = -(C_i[0] * t333 + C_i[1] * t334 + C_i[2] * t335 + (C_i[0] * omega_i[1] - C_i[1] *
-        omega_i[0]));
-    jac_phi_q_v_geometry[5] = -(C_i[3] * t333 + C_i[4] * t334 + C_i[5] * t335 + (omega_i[1] * C_i[3] - omega_i[0] *
-        C_i[4]));
+        omega_j_cross_g_j_2 * C_i[2] - (C_i[0] * (omega_i[1] * t249 - omega_i[2] * t250) + C_i[1] * (omega_i[2] *
+        t251 - omega_i[0] * t249) + C_i[2] * (omega_i[0] * t250 - omega_i[1] * t251));
+    const jg_real t252 = A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t253 = A_i[5] * omega_j_cross_s_j_2;
+    const jg_real t254 = A_i[8] * omega_j_cross_s_j_2;
+    const jg_real t255 = A_i[8] * s_j[2];
+    const jg_real t256 = A_i[5] * s_j[2];
+    const jg_real t257 = omega_i[1] * t255 - omega_i[2] * t256;
+    const jg_real t258 = A_i[2] * s_j[2];
+    const jg_real t259 = omega_i[2] * t258 - omega_i[0] * t255;
+    const jg_real t260 = omega_i[0] * t256 - omega_i[1] * t258;
+    jac_phi_q_v_A_j[43] = C_i[0] * t252 + C_i[1] * t253 + C_i[2] * t254 - (C_i[0] * t257 + C_i[1] * t259 + C_i[2] *
+        t260);
+    jac_phi_q_v_A_j[44] = C_i[3] * t252 + C_i[4] * t253 + C_i[5] * t254 - (C_i[3] * t257 + C_i[4] * t259 + C_i[5] *
+        t260);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
@@ -878,9 +772,9 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real A_ij_h_j_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = A_ij_h_j_2 * omega_i[1] - A_ij_h_j_1 * omega_i[2];
-    const jg_real t349 = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
-    jac_phi_q_v_geometry[6] = t349;
-    jac_phi_q_v_geometry[15] = t349;
+    const jg_real t274 = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
+    jac_phi_q_v_geometry[0] = t274;
+    jac_phi_q_v_geometry[9] = t274;
     /* A_ij_omega_j_cross_g_j = A_ij tilde(omega_j) g_j */
     const jg_real A_ij_omega_j_cross_g_j_0 = A_ij_0 * omega_j_cross_g_j_0 + A_ij_3 * omega_j_cross_g_j_1 + A_ij_6 *
         omega_j_cross_g_j_2;
@@ -889,182 +783,181 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     /* omega_i_cross_A_ij_g_j = tilde(omega_i) A_ij g_j */
     const jg_real omega_i_cross_A_ij_g_j_0 = omega_i[1] * A_ij_g_j_2 - omega_i[2] * A_ij_g_j_1;
-    jac_phi_q_v_geometry[7] = A_ij_omega_j_cross_g_j_0 - omega_i_cross_A_ij_g_j_0;
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    /* omega_i_cross_dp_ij = tilde(omega_i) dp_ij */
-    const jg_real omega_i_cross_dp_ij_0 = omega_i[1] * dp_ij_2 - omega_i[2] * dp_ij_1;
+    jac_phi_q_v_geometry[1] = A_ij_omega_j_cross_g_j_0 - omega_i_cross_A_ij_g_j_0;
+    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
+    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
+        omega_j_cross_s_j_2;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t281 = ep_ij_2 - s_i[2];
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t283 = ep_ij_1 - s_i[1];
     /* omega_i_cross_s_i = tilde(omega_i) s_i */
     const jg_real omega_i_cross_s_i_0 = omega_i[1] * s_i[2] - omega_i[2] * s_i[1];
     /* A_it_v_i = A_i^T v_i */
     const jg_real A_it_v_i_0 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
     /* A_it_v_j = A_i^T v_j */
     const jg_real A_it_v_j_0 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    /* A_ij_omega_j_cross_s_j = A_ij tilde(omega_j) s_j */
-    const jg_real A_ij_omega_j_cross_s_j_0 = A_ij_0 * omega_j_cross_s_j_0 + A_ij_3 * omega_j_cross_s_j_1 + A_ij_6 *
-        omega_j_cross_s_j_2;
-    const jg_real t361 = A_it_v_j_0 - (omega_i_cross_dp_ij_0 + omega_i_cross_s_i_0 + A_it_v_i_0) +
+    const jg_real t287 = A_it_v_j_0 - (omega_i[1] * t281 - omega_i[2] * t283 + omega_i_cross_s_i_0 + A_it_v_i_0) +
         A_ij_omega_j_cross_s_j_0;
-    jac_phi_q_v_geometry[8] = t361;
-    jac_phi_q_v_geometry[16] = t361;
+    jac_phi_q_v_geometry[2] = t287;
+    jac_phi_q_v_geometry[10] = t287;
     const jg_real A_ij_omega_j_cross_h_j_1 = omega_j_cross_h_j_0 * A_ij_1 + omega_j_cross_h_j_1 * A_ij_4 +
         omega_j_cross_h_j_2 * A_ij_7;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - A_ij_h_j_2 * omega_i[0];
-    const jg_real t365 = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
-    jac_phi_q_v_geometry[9] = t365;
-    jac_phi_q_v_geometry[17] = t365;
+    const jg_real t291 = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
+    jac_phi_q_v_geometry[3] = t291;
+    jac_phi_q_v_geometry[11] = t291;
     const jg_real A_ij_omega_j_cross_g_j_1 = A_ij_1 * omega_j_cross_g_j_0 + A_ij_4 * omega_j_cross_g_j_1 + A_ij_7 *
         omega_j_cross_g_j_2;
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real omega_i_cross_A_ij_g_j_1 = omega_i[2] * A_ij_g_j_0 - omega_i[0] * A_ij_g_j_2;
-    jac_phi_q_v_geometry[10] = A_ij_omega_j_cross_g_j_1 - omega_i_cross_A_ij_g_j_1;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real omega_i_cross_dp_ij_1 = omega_i[2] * dp_ij_0 - omega_i[0] * dp_ij_2;
+    jac_phi_q_v_geometry[4] = A_ij_omega_j_cross_g_j_1 - omega_i_cross_A_ij_g_j_1;
+    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
+        omega_j_cross_s_j_2;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t297 = ep_ij_0 - s_i[0];
     const jg_real omega_i_cross_s_i_1 = omega_i[2] * s_i[0] - omega_i[0] * s_i[2];
     const jg_real A_it_v_i_1 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
     const jg_real A_it_v_j_1 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    const jg_real A_ij_omega_j_cross_s_j_1 = A_ij_1 * omega_j_cross_s_j_0 + A_ij_4 * omega_j_cross_s_j_1 + A_ij_7 *
-        omega_j_cross_s_j_2;
-    const jg_real t375 = A_it_v_j_1 - (omega_i_cross_dp_ij_1 + omega_i_cross_s_i_1 + A_it_v_i_1) +
+    const jg_real t301 = A_it_v_j_1 - (omega_i[2] * t297 - omega_i[0] * t281 + omega_i_cross_s_i_1 + A_it_v_i_1) +
         A_ij_omega_j_cross_s_j_1;
-    jac_phi_q_v_geometry[11] = t375;
-    jac_phi_q_v_geometry[18] = t375;
+    jac_phi_q_v_geometry[5] = t301;
+    jac_phi_q_v_geometry[12] = t301;
     const jg_real A_ij_omega_j_cross_h_j_2 = omega_j_cross_h_j_0 * A_ij_2 + omega_j_cross_h_j_1 * A_ij_5 +
         omega_j_cross_h_j_2 * A_ij_8;
     const jg_real omega_i_cross_A_ij_h_j_2 = A_ij_h_j_1 * omega_i[0] - omega_i[1] * A_ij_h_j_0;
-    const jg_real t378 = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
-    jac_phi_q_v_geometry[12] = t378;
-    jac_phi_q_v_geometry[19] = t378;
+    const jg_real t304 = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
+    jac_phi_q_v_geometry[6] = t304;
+    jac_phi_q_v_geometry[13] = t304;
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
     const jg_real omega_i_cross_A_ij_g_j_2 = omega_i[0] * A_ij_g_j_1 - omega_i[1] * A_ij_g_j_0;
-    jac_phi_q_v_geometry[13] = A_ij_omega_j_cross_g_j_2 - omega_i_cross_A_ij_g_j_2;
-    const jg_real omega_i_cross_dp_ij_2 = omega_i[0] * dp_ij_1 - omega_i[1] * dp_ij_0;
+    jac_phi_q_v_geometry[7] = A_ij_omega_j_cross_g_j_2 - omega_i_cross_A_ij_g_j_2;
+    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
+        omega_j_cross_s_j_2;
     const jg_real omega_i_cross_s_i_2 = omega_i[0] * s_i[1] - omega_i[1] * s_i[0];
     const jg_real A_it_v_i_2 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
     const jg_real A_it_v_j_2 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    const jg_real A_ij_omega_j_cross_s_j_2 = A_ij_2 * omega_j_cross_s_j_0 + A_ij_5 * omega_j_cross_s_j_1 + A_ij_8 *
-        omega_j_cross_s_j_2;
-    const jg_real t386 = A_it_v_j_2 - (omega_i_cross_dp_ij_2 + omega_i_cross_s_i_2 + A_it_v_i_2) +
+    const jg_real t311 = A_it_v_j_2 - (omega_i[0] * t283 - omega_i[1] * t297 + omega_i_cross_s_i_2 + A_it_v_i_2) +
         A_ij_omega_j_cross_s_j_2;
-    jac_phi_q_v_geometry[14] = t386;
-    jac_phi_q_v_geometry[20] = t386;
-    const jg_real t387 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
-    const jg_real t388 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
-    const jg_real t389 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
-    const jg_real t390 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    const jg_real t391 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
-    const jg_real t392 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
-    const jg_real t393 = t387 * C_i[0] + t388 * C_i[1] + t389 * C_i[2] - (C_i[0] * t390 + C_i[1] * t391 + C_i[2] *
-        t392);
-    jac_phi_q_v_geometry[21] = t393;
-    jac_phi_q_v_geometry[27] = t393;
-    jac_phi_q_v_geometry[30] = t393;
-    const jg_real t394 = t387 * C_i[3] + t388 * C_i[4] + t389 * C_i[5] - (t390 * C_i[3] + t391 * C_i[4] + t392 *
+    jac_phi_q_v_geometry[8] = t311;
+    jac_phi_q_v_geometry[14] = t311;
+    const jg_real t312 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t313 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t314 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t315 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    const jg_real t316 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    const jg_real t317 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    const jg_real t318 = t312 * C_i[0] + t313 * C_i[1] + t314 * C_i[2] - (C_i[0] * t315 + C_i[1] * t316 + C_i[2] *
+        t317);
+    jac_phi_q_v_geometry[15] = t318;
+    jac_phi_q_v_geometry[21] = t318;
+    jac_phi_q_v_geometry[24] = t318;
+    const jg_real t319 = t312 * C_i[3] + t313 * C_i[4] + t314 * C_i[5] - (t315 * C_i[3] + t316 * C_i[4] + t317 *
         C_i[5]);
-    jac_phi_q_v_geometry[22] = t394;
-    jac_phi_q_v_geometry[31] = t394;
-    const jg_real t395 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
-    const jg_real t396 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
-    const jg_real t397 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
-    const jg_real t398 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    const jg_real t399 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
-    const jg_real t400 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
-    const jg_real t401 = t395 * C_i[0] + t396 * C_i[1] + t397 * C_i[2] - (C_i[0] * t398 + C_i[1] * t399 + C_i[2] *
-        t400);
-    jac_phi_q_v_geometry[23] = t401;
-    jac_phi_q_v_geometry[28] = t401;
-    jac_phi_q_v_geometry[32] = t401;
-    const jg_real t402 = t395 * C_i[3] + t396 * C_i[4] + t397 * C_i[5] - (t398 * C_i[3] + t399 * C_i[4] + t400 *
+    jac_phi_q_v_geometry[16] = t319;
+    jac_phi_q_v_geometry[25] = t319;
+    const jg_real t320 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t321 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t322 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t323 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    const jg_real t324 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    const jg_real t325 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    const jg_real t326 = t320 * C_i[0] + t321 * C_i[1] + t322 * C_i[2] - (C_i[0] * t323 + C_i[1] * t324 + C_i[2] *
+        t325);
+    jac_phi_q_v_geometry[17] = t326;
+    jac_phi_q_v_geometry[22] = t326;
+    jac_phi_q_v_geometry[26] = t326;
+    const jg_real t327 = t320 * C_i[3] + t321 * C_i[4] + t322 * C_i[5] - (t323 * C_i[3] + t324 * C_i[4] + t325 *
         C_i[5]);
-    jac_phi_q_v_geometry[24] = t402;
-    jac_phi_q_v_geometry[33] = t402;
-    const jg_real t403 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t404 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
-    const jg_real t405 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
-    const jg_real t406 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    const jg_real t407 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
-    const jg_real t408 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
-    const jg_real t409 = t403 * C_i[0] + t404 * C_i[1] + t405 * C_i[2] - (C_i[0] * t406 + C_i[1] * t407 + C_i[2] *
-        t408);
-    jac_phi_q_v_geometry[25] = t409;
-    jac_phi_q_v_geometry[29] = t409;
-    jac_phi_q_v_geometry[34] = t409;
-    const jg_real t410 = t403 * C_i[3] + t404 * C_i[4] + t405 * C_i[5] - (t406 * C_i[3] + t407 * C_i[4] + t408 *
+    jac_phi_q_v_geometry[18] = t327;
+    jac_phi_q_v_geometry[27] = t327;
+    const jg_real t328 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t329 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t330 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t331 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    const jg_real t332 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    const jg_real t333 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    const jg_real t334 = t328 * C_i[0] + t329 * C_i[1] + t330 * C_i[2] - (C_i[0] * t331 + C_i[1] * t332 + C_i[2] *
+        t333);
+    jac_phi_q_v_geometry[19] = t334;
+    jac_phi_q_v_geometry[23] = t334;
+    jac_phi_q_v_geometry[28] = t334;
+    const jg_real t335 = t328 * C_i[3] + t329 * C_i[4] + t330 * C_i[5] - (t331 * C_i[3] + t332 * C_i[4] + t333 *
         C_i[5]);
-    jac_phi_q_v_geometry[26] = t410;
-    jac_phi_q_v_geometry[35] = t410;
-    const jg_real t411 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_q_v_velocity[21] = t411;
-    jac_phi_q_v_velocity[0] = -t411;
-    const jg_real t412 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    jac_phi_q_v_velocity[22] = t412;
-    jac_phi_q_v_velocity[1] = -t412;
-    const jg_real t413 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    jac_phi_q_v_velocity[23] = t413;
-    jac_phi_q_v_velocity[2] = -t413;
-    const jg_real t414 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    jac_phi_q_v_velocity[24] = t414;
-    jac_phi_q_v_velocity[3] = -t414;
-    const jg_real t415 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    jac_phi_q_v_velocity[25] = t415;
-    jac_phi_q_v_velocity[4] = -t415;
-    const jg_real t416 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    jac_phi_q_v_velocity[26] = t416;
-    jac_phi_q_v_velocity[5] = -t416;
+    jac_phi_q_v_geometry[20] = t335;
+    jac_phi_q_v_geometry[29] = t335;
+    const jg_real t336 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    jac_phi_q_v_velocity[21] = t336;
+    jac_phi_q_v_velocity[0] = -t336;
+    const jg_real t337 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    jac_phi_q_v_velocity[22] = t337;
+    jac_phi_q_v_velocity[1] = -t337;
+    const jg_real t338 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    jac_phi_q_v_velocity[23] = t338;
+    jac_phi_q_v_velocity[2] = -t338;
+    const jg_real t339 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    jac_phi_q_v_velocity[24] = t339;
+    jac_phi_q_v_velocity[3] = -t339;
+    const jg_real t340 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    jac_phi_q_v_velocity[25] = t340;
+    jac_phi_q_v_velocity[4] = -t340;
+    const jg_real t341 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    jac_phi_q_v_velocity[26] = t341;
+    jac_phi_q_v_velocity[5] = -t341;
     jac_phi_q_v_velocity[6] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     jac_phi_q_v_velocity[7] = A_ij_h_j_2 * C_i[4] - A_ij_h_j_1 * C_i[5];
     jac_phi_q_v_velocity[8] = C_i[1] * A_ij_g_j_2 - C_i[2] * A_ij_g_j_1;
-    jac_phi_q_v_velocity[9] = -(C_i[2] * dp_ij_1 - C_i[1] * dp_ij_2 + (C_i[2] * s_i[1] - C_i[1] * s_i[2]));
-    jac_phi_q_v_velocity[10] = -(C_i[5] * dp_ij_1 - C_i[4] * dp_ij_2 + (C_i[5] * s_i[1] - C_i[4] * s_i[2]));
+    jac_phi_q_v_velocity[9] = -(C_i[2] * t283 - C_i[1] * t281 + (C_i[2] * s_i[1] - C_i[1] * s_i[2]));
+    jac_phi_q_v_velocity[10] = -(C_i[5] * t283 - C_i[4] * t281 + (C_i[5] * s_i[1] - C_i[4] * s_i[2]));
     jac_phi_q_v_velocity[11] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     jac_phi_q_v_velocity[12] = A_ij_h_j_0 * C_i[5] - A_ij_h_j_2 * C_i[3];
     jac_phi_q_v_velocity[13] = C_i[2] * A_ij_g_j_0 - C_i[0] * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -(C_i[0] * dp_ij_2 - C_i[2] * dp_ij_0 + (C_i[0] * s_i[2] - C_i[2] * s_i[0]));
-    jac_phi_q_v_velocity[15] = -(C_i[3] * dp_ij_2 - C_i[5] * dp_ij_0 + (C_i[3] * s_i[2] - C_i[5] * s_i[0]));
+    jac_phi_q_v_velocity[14] = -(C_i[0] * t281 - C_i[2] * t297 + (C_i[0] * s_i[2] - C_i[2] * s_i[0]));
+    jac_phi_q_v_velocity[15] = -(C_i[3] * t281 - C_i[5] * t297 + (C_i[3] * s_i[2] - C_i[5] * s_i[0]));
     jac_phi_q_v_velocity[16] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
     jac_phi_q_v_velocity[17] = A_ij_h_j_1 * C_i[3] - A_ij_h_j_0 * C_i[4];
     jac_phi_q_v_velocity[18] = C_i[0] * A_ij_g_j_1 - C_i[1] * A_ij_g_j_0;
-    jac_phi_q_v_velocity[19] = -(C_i[1] * dp_ij_0 - C_i[0] * dp_ij_1 + (C_i[1] * s_i[0] - C_i[0] * s_i[1]));
-    jac_phi_q_v_velocity[20] = -(C_i[4] * dp_ij_0 - C_i[3] * dp_ij_1 + (C_i[4] * s_i[0] - C_i[3] * s_i[1]));
-    const jg_real t417 = C_j[7] * A_ij_6 - C_j[8] * A_ij_3;
-    const jg_real t418 = C_j[7] * A_ij_7 - C_j[8] * A_ij_4;
-    const jg_real t419 = C_j[7] * A_ij_8 - C_j[8] * A_ij_5;
-    jac_phi_q_v_velocity[27] = t417 * C_i[0] + t418 * C_i[1] + t419 * C_i[2];
-    jac_phi_q_v_velocity[28] = t417 * C_i[3] + t418 * C_i[4] + t419 * C_i[5];
+    jac_phi_q_v_velocity[19] = -(C_i[1] * t297 - C_i[0] * t283 + (C_i[1] * s_i[0] - C_i[0] * s_i[1]));
+    jac_phi_q_v_velocity[20] = -(C_i[4] * t297 - C_i[3] * t283 + (C_i[4] * s_i[0] - C_i[3] * s_i[1]));
+    const jg_real t342 = C_j[7] * A_ij_6 - C_j[8] * A_ij_3;
+    const jg_real t343 = C_j[7] * A_ij_7 - C_j[8] * A_ij_4;
+    const jg_real t344 = C_j[7] * A_ij_8 - C_j[8] * A_ij_5;
+    jac_phi_q_v_velocity[27] = t342 * C_i[0] + t343 * C_i[1] + t344 * C_i[2];
+    jac_phi_q_v_velocity[28] = t342 * C_i[3] + t343 * C_i[4] + t344 * C_i[5];
     jac_phi_q_v_velocity[29] = C_i[0] * (A_ij_6 * C_j[4] - A_ij_3 * C_j[5]) + C_i[1] * (A_ij_7 * C_j[4] - A_ij_4 *
         C_j[5]) + C_i[2] * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
-    const jg_real t420 = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
-    const jg_real t421 = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real t422 = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
-    jac_phi_q_v_velocity[30] = C_i[0] * t420 + C_i[1] * t421 + C_i[2] * t422;
-    jac_phi_q_v_velocity[31] = C_i[3] * t420 + C_i[4] * t421 + C_i[5] * t422;
-    const jg_real t423 = A_ij_0 * C_j[8] - C_j[6] * A_ij_6;
-    const jg_real t424 = C_j[8] * A_ij_1 - C_j[6] * A_ij_7;
-    const jg_real t425 = C_j[8] * A_ij_2 - C_j[6] * A_ij_8;
-    jac_phi_q_v_velocity[32] = t423 * C_i[0] + t424 * C_i[1] + t425 * C_i[2];
-    jac_phi_q_v_velocity[33] = t423 * C_i[3] + t424 * C_i[4] + t425 * C_i[5];
+    const jg_real t345 = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
+    const jg_real t346 = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
+    const jg_real t347 = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    jac_phi_q_v_velocity[30] = C_i[0] * t345 + C_i[1] * t346 + C_i[2] * t347;
+    jac_phi_q_v_velocity[31] = C_i[3] * t345 + C_i[4] * t346 + C_i[5] * t347;
+    const jg_real t348 = A_ij_0 * C_j[8] - C_j[6] * A_ij_6;
+    const jg_real t349 = C_j[8] * A_ij_1 - C_j[6] * A_ij_7;
+    const jg_real t350 = C_j[8] * A_ij_2 - C_j[6] * A_ij_8;
+    jac_phi_q_v_velocity[32] = t348 * C_i[0] + t349 * C_i[1] + t350 * C_i[2];
+    jac_phi_q_v_velocity[33] = t348 * C_i[3] + t349 * C_i[4] + t350 * C_i[5];
     jac_phi_q_v_velocity[34] = C_i[0] * (A_ij_0 * C_j[5] - A_ij_6 * C_j[3]) + C_i[1] * (A_ij_1 * C_j[5] - A_ij_7 *
         C_j[3]) + C_i[2] * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
-    const jg_real t426 = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
-    const jg_real t427 = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
-    const jg_real t428 = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
-    jac_phi_q_v_velocity[35] = C_i[0] * t426 + C_i[1] * t427 + C_i[2] * t428;
-    jac_phi_q_v_velocity[36] = C_i[3] * t426 + C_i[4] * t427 + C_i[5] * t428;
-    const jg_real t429 = A_ij_3 * C_j[6] - A_ij_0 * C_j[7];
-    const jg_real t430 = C_j[6] * A_ij_4 - C_j[7] * A_ij_1;
-    const jg_real t431 = C_j[6] * A_ij_5 - C_j[7] * A_ij_2;
-    jac_phi_q_v_velocity[37] = t429 * C_i[0] + t430 * C_i[1] + t431 * C_i[2];
-    jac_phi_q_v_velocity[38] = t429 * C_i[3] + t430 * C_i[4] + t431 * C_i[5];
+    const jg_real t351 = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
+    const jg_real t352 = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
+    const jg_real t353 = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
+    jac_phi_q_v_velocity[35] = C_i[0] * t351 + C_i[1] * t352 + C_i[2] * t353;
+    jac_phi_q_v_velocity[36] = C_i[3] * t351 + C_i[4] * t352 + C_i[5] * t353;
+    const jg_real t354 = A_ij_3 * C_j[6] - A_ij_0 * C_j[7];
+    const jg_real t355 = C_j[6] * A_ij_4 - C_j[7] * A_ij_1;
+    const jg_real t356 = C_j[6] * A_ij_5 - C_j[7] * A_ij_2;
+    jac_phi_q_v_velocity[37] = t354 * C_i[0] + t355 * C_i[1] + t356 * C_i[2];
+    jac_phi_q_v_velocity[38] = t354 * C_i[3] + t355 * C_i[4] + t356 * C_i[5];
     jac_phi_q_v_velocity[39] = C_i[0] * (A_ij_3 * C_j[3] - A_ij_0 * C_j[4]) + C_i[1] * (A_ij_4 * C_j[3] - A_ij_1 *
         C_j[4]) + C_i[2] * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
-    const jg_real t432 = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
-    const jg_real t433 = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
-    const jg_real t434 = A_ij_5 * s_j[0] - A_ij_2 * s_j[1];
-    jac_phi_q_v_velocity[40] = C_i[0] * t432 + C_i[1] * t433 + C_i[2] * t434;
-    jac_phi_q_v_velocity[41] = C_i[3] * t432 + C_i[4] * t433 + C_i[5] * t434;
+    const jg_real t357 = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
+    const jg_real t358 = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
+    const jg_real t359 = A_ij_5 * s_j[0] - A_ij_2 * s_j[1];
+    jac_phi_q_v_velocity[40] = C_i[0] * t357 + C_i[1] * t358 + C_i[2] * t359;
+    jac_phi_q_v_velocity[41] = C_i[3] * t357 + C_i[4] * t358 + C_i[5] * t359;
 }
 
 static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -1074,25 +967,24 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry, jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
-    jac_phi_q_t_lambda_A_i[28] = t0;
-    jac_phi_q_t_lambda_A_i[36] = t0;
-    jac_phi_q_t_lambda_A_i[44] = t0;
+    jac_phi_q_t_lambda_A_i[24] = t0;
+    jac_phi_q_t_lambda_A_i[31] = t0;
+    jac_phi_q_t_lambda_A_i[38] = t0;
     const jg_real t1 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
+    jac_phi_q_t_lambda_A_i[45] = t1;
     jac_phi_q_t_lambda_A_i[52] = t1;
-    jac_phi_q_t_lambda_A_i[60] = t1;
-    jac_phi_q_t_lambda_A_i[68] = t1;
+    jac_phi_q_t_lambda_A_i[59] = t1;
     const jg_real t2 = t0 * A_i[6] - A_i[3] * t1;
     jac_phi_q_t_lambda_r_j[0] = t2;
     jac_phi_q_t_lambda_r_i[0] = -t2;
     const jg_real t3 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    jac_phi_q_t_lambda_A_i[4] = t3;
-    jac_phi_q_t_lambda_A_i[12] = t3;
-    jac_phi_q_t_lambda_A_i[20] = t3;
+    jac_phi_q_t_lambda_A_i[3] = t3;
+    jac_phi_q_t_lambda_A_i[10] = t3;
+    jac_phi_q_t_lambda_A_i[17] = t3;
     const jg_real t4 = A_i[0] * t1 - t3 * A_i[6];
     jac_phi_q_t_lambda_r_j[1] = t4;
     jac_phi_q_t_lambda_r_i[1] = -t4;
@@ -1119,675 +1011,596 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_r_i[8] = -t11;
     const jg_real t12 = -t3;
     jac_phi_q_t_lambda_A_i[0] = t12;
-    jac_phi_q_t_lambda_A_i[8] = t12;
-    jac_phi_q_t_lambda_A_i[16] = t12;
-    const jg_real t13 = A_i[3] * s_i[0];
-    const jg_real t14 = A_i[6] * s_i[0];
-    jac_phi_q_t_lambda_A_i[1] = t1 * t13 - t0 * t14;
-    const jg_real t15 = C_j[3] * lambda[2] + C_j[6] * lambda[0];
-    const jg_real t16 = lambda[2] * C_j[4] + lambda[0] * C_j[7];
-    const jg_real t17 = lambda[2] * C_j[5] + lambda[0] * C_j[8];
-    const jg_real t18 = A_j[0] * t15 + A_j[3] * t16 + A_j[6] * t17;
-    const jg_real t19 = C_i[2] * t18;
+    jac_phi_q_t_lambda_A_i[7] = t12;
+    jac_phi_q_t_lambda_A_i[14] = t12;
+    const jg_real t13 = C_j[3] * lambda[2] + C_j[6] * lambda[0];
+    const jg_real t14 = lambda[2] * C_j[4] + lambda[0] * C_j[7];
+    const jg_real t15 = lambda[2] * C_j[5] + lambda[0] * C_j[8];
+    const jg_real t16 = A_j[0] * t13 + A_j[3] * t14 + A_j[6] * t15;
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t21 = A_i[0] * s_i[0];
-    const jg_real t22 = A_i[3] * s_i[1];
-    const jg_real t23 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t21 + t22 + t23;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t26 = d_ij_0 - t21;
-    const jg_real t27 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t28 = C_i[5] * t27 * lambda[1];
-    jac_phi_q_t_lambda_A_i[2] = t1 * t26 + t3 * t14 + t28 + t19;
-    const jg_real t29 = C_i[1] * t18;
-    const jg_real t30 = C_i[4] * t27 * lambda[1];
-    jac_phi_q_t_lambda_A_i[3] = -(t3 * t13 + t0 * t26 + t30 + t29);
-    const jg_real t31 = t3 * A_j[6];
-    const jg_real t32 = t3 * A_j[3];
-    const jg_real t33 = C_i[3] * A_j[6];
-    const jg_real t34 = C_i[3] * A_j[3];
-    const jg_real t35 = C_i[0] * A_j[6];
-    const jg_real t36 = C_i[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[5] = s_j[1] * t31 - s_j[2] * t32 + lambda[1] * (C_j[7] * t33 - C_j[8] * t34) + (t16 * t35
-        - t17 * t36);
-    const jg_real t37 = t3 * A_j[0];
-    const jg_real t38 = C_i[3] * A_j[0];
-    const jg_real t39 = C_i[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[6] = s_j[2] * t37 - s_j[0] * t31 + lambda[1] * (C_j[8] * t38 - C_j[6] * t33) + (t17 * t39
-        - t15 * t35);
-    jac_phi_q_t_lambda_A_i[7] = s_j[0] * t32 - s_j[1] * t37 + lambda[1] * (C_j[6] * t34 - C_j[7] * t38) + (t15 * t36
-        - t16 * t39);
-    const jg_real t40 = A_i[4] * s_i[0];
-    const jg_real t41 = A_i[7] * s_i[0];
-    jac_phi_q_t_lambda_A_i[9] = t1 * t40 - t0 * t41;
-    const jg_real t42 = A_j[1] * t15 + A_j[4] * t16 + A_j[7] * t17;
-    const jg_real t43 = C_i[2] * t42;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t19 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t20 = t1 * e_ij_0 + C_i[5] * t19 * lambda[1] + C_i[2] * t16;
+    jac_phi_q_t_lambda_A_i[1] = t20;
+    const jg_real t21 = t0 * e_ij_0 + C_i[4] * t19 * lambda[1] + C_i[1] * t16;
+    jac_phi_q_t_lambda_A_i[43] = t21;
+    jac_phi_q_t_lambda_A_i[2] = -t21;
+    const jg_real t22 = t3 * A_j[6];
+    const jg_real t23 = t3 * A_j[3];
+    const jg_real t24 = C_i[3] * A_j[6];
+    const jg_real t25 = C_i[3] * A_j[3];
+    const jg_real t26 = C_i[0] * A_j[6];
+    const jg_real t27 = C_i[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[4] = s_j[1] * t22 - s_j[2] * t23 + lambda[1] * (C_j[7] * t24 - C_j[8] * t25) + (t14 * t26
+        - t15 * t27);
+    const jg_real t28 = t3 * A_j[0];
+    const jg_real t29 = C_i[3] * A_j[0];
+    const jg_real t30 = C_i[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[5] = s_j[2] * t28 - s_j[0] * t22 + lambda[1] * (C_j[8] * t29 - C_j[6] * t24) + (t15 * t30
+        - t13 * t26);
+    jac_phi_q_t_lambda_A_i[6] = s_j[0] * t23 - s_j[1] * t28 + lambda[1] * (C_j[6] * t25 - C_j[7] * t29) + (t13 * t27
+        - t14 * t30);
+    const jg_real t31 = A_j[1] * t13 + A_j[4] * t14 + A_j[7] * t15;
     const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t45 = A_i[1] * s_i[0];
-    const jg_real t46 = A_i[4] * s_i[1];
-    const jg_real t47 = A_i[7] * s_i[2];
-    const jg_real A_i_s_i_1 = t45 + t46 + t47;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t50 = d_ij_1 - t45;
-    const jg_real t51 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t52 = C_i[5] * t51 * lambda[1];
-    jac_phi_q_t_lambda_A_i[10] = t1 * t50 + t3 * t41 + t52 + t43;
-    const jg_real t53 = C_i[1] * t42;
-    const jg_real t54 = C_i[4] * t51 * lambda[1];
-    jac_phi_q_t_lambda_A_i[11] = -(t3 * t40 + t0 * t50 + t54 + t53);
-    const jg_real t55 = t3 * A_j[7];
-    const jg_real t56 = t3 * A_j[4];
-    const jg_real t57 = C_i[3] * A_j[7];
-    const jg_real t58 = C_i[3] * A_j[4];
-    const jg_real t59 = C_i[0] * A_j[7];
-    const jg_real t60 = C_i[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[13] = s_j[1] * t55 - s_j[2] * t56 + lambda[1] * (C_j[7] * t57 - C_j[8] * t58) + (t16 *
-        t59 - t17 * t60);
-    const jg_real t61 = t3 * A_j[1];
-    const jg_real t62 = C_i[3] * A_j[1];
-    const jg_real t63 = C_i[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[14] = s_j[2] * t61 - s_j[0] * t55 + lambda[1] * (C_j[8] * t62 - C_j[6] * t57) + (t17 *
-        t63 - t15 * t59);
-    jac_phi_q_t_lambda_A_i[15] = s_j[0] * t56 - s_j[1] * t61 + lambda[1] * (C_j[6] * t58 - C_j[7] * t62) + (t15 *
-        t60 - t16 * t63);
-    const jg_real t64 = A_i[5] * s_i[0];
-    const jg_real t65 = A_i[8] * s_i[0];
-    jac_phi_q_t_lambda_A_i[17] = t1 * t64 - t0 * t65;
-    const jg_real t66 = A_j[2] * t15 + A_j[5] * t16 + A_j[8] * t17;
-    const jg_real t67 = C_i[2] * t66;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t34 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t35 = t1 * e_ij_1 + C_i[5] * t34 * lambda[1] + C_i[2] * t31;
+    jac_phi_q_t_lambda_A_i[8] = t35;
+    const jg_real t36 = t0 * e_ij_1 + C_i[4] * t34 * lambda[1] + C_i[1] * t31;
+    jac_phi_q_t_lambda_A_i[50] = t36;
+    jac_phi_q_t_lambda_A_i[9] = -t36;
+    const jg_real t37 = t3 * A_j[7];
+    const jg_real t38 = t3 * A_j[4];
+    const jg_real t39 = C_i[3] * A_j[7];
+    const jg_real t40 = C_i[3] * A_j[4];
+    const jg_real t41 = C_i[0] * A_j[7];
+    const jg_real t42 = C_i[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[11] = s_j[1] * t37 - s_j[2] * t38 + lambda[1] * (C_j[7] * t39 - C_j[8] * t40) + (t14 *
+        t41 - t15 * t42);
+    const jg_real t43 = t3 * A_j[1];
+    const jg_real t44 = C_i[3] * A_j[1];
+    const jg_real t45 = C_i[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[12] = s_j[2] * t43 - s_j[0] * t37 + lambda[1] * (C_j[8] * t44 - C_j[6] * t39) + (t15 *
+        t45 - t13 * t41);
+    jac_phi_q_t_lambda_A_i[13] = s_j[0] * t38 - s_j[1] * t43 + lambda[1] * (C_j[6] * t40 - C_j[7] * t44) + (t13 *
+        t42 - t14 * t45);
+    const jg_real t46 = A_j[2] * t13 + A_j[5] * t14 + A_j[8] * t15;
     const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t69 = A_i[2] * s_i[0];
-    const jg_real t70 = A_i[5] * s_i[1];
-    const jg_real t71 = A_i[8] * s_i[2];
-    const jg_real A_i_s_i_2 = t69 + t70 + t71;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t74 = d_ij_2 - t69;
-    const jg_real t75 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t76 = C_i[5] * t75 * lambda[1];
-    jac_phi_q_t_lambda_A_i[18] = t1 * t74 + t3 * t65 + t76 + t67;
-    const jg_real t77 = C_i[1] * t66;
-    const jg_real t78 = C_i[4] * t75 * lambda[1];
-    jac_phi_q_t_lambda_A_i[19] = -(t3 * t64 + t0 * t74 + t78 + t77);
-    const jg_real t79 = t3 * A_j[8];
-    const jg_real t80 = t3 * A_j[5];
-    const jg_real t81 = C_i[3] * A_j[8];
-    const jg_real t82 = C_i[3] * A_j[5];
-    const jg_real t83 = C_i[0] * A_j[8];
-    const jg_real t84 = C_i[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[21] = s_j[1] * t79 - s_j[2] * t80 + lambda[1] * (C_j[7] * t81 - C_j[8] * t82) + (t16 *
-        t83 - t17 * t84);
-    const jg_real t85 = t3 * A_j[2];
-    const jg_real t86 = C_i[3] * A_j[2];
-    const jg_real t87 = C_i[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[22] = s_j[2] * t85 - s_j[0] * t79 + lambda[1] * (C_j[8] * t86 - C_j[6] * t81) + (t17 *
-        t87 - t15 * t83);
-    jac_phi_q_t_lambda_A_i[23] = s_j[0] * t80 - s_j[1] * t85 + lambda[1] * (C_j[6] * t82 - C_j[7] * t86) + (t15 *
-        t84 - t16 * t87);
-    const jg_real t88 = -t0;
-    jac_phi_q_t_lambda_A_i[24] = t88;
-    jac_phi_q_t_lambda_A_i[32] = t88;
-    jac_phi_q_t_lambda_A_i[40] = t88;
-    const jg_real t89 = d_ij_0 - t22;
-    const jg_real t90 = A_i[6] * s_i[1];
-    jac_phi_q_t_lambda_A_i[25] = -(t0 * t90 + t1 * t89 + t28 + t19);
-    const jg_real t91 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[26] = t3 * t90 - t1 * t91;
-    const jg_real t92 = C_i[0] * t18;
-    const jg_real t93 = C_i[3] * t27 * lambda[1];
-    jac_phi_q_t_lambda_A_i[27] = t3 * t89 + t0 * t91 + t93 + t92;
-    const jg_real t94 = t0 * A_j[6];
-    const jg_real t95 = t0 * A_j[3];
-    const jg_real t96 = C_i[4] * A_j[6];
-    const jg_real t97 = C_i[4] * A_j[3];
-    const jg_real t98 = C_i[1] * A_j[6];
-    const jg_real t99 = C_i[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[29] = s_j[1] * t94 - s_j[2] * t95 + lambda[1] * (C_j[7] * t96 - C_j[8] * t97) + (t16 *
-        t98 - t17 * t99);
-    const jg_real t100 = t0 * A_j[0];
-    const jg_real t101 = C_i[4] * A_j[0];
-    const jg_real t102 = C_i[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[30] = s_j[2] * t100 - s_j[0] * t94 + lambda[1] * (C_j[8] * t101 - C_j[6] * t96) + (t17 *
-        t102 - t15 * t98);
-    jac_phi_q_t_lambda_A_i[31] = s_j[0] * t95 - s_j[1] * t100 + lambda[1] * (C_j[6] * t97 - C_j[7] * t101) + (t15 *
-        t99 - t16 * t102);
-    const jg_real t103 = d_ij_1 - t46;
-    const jg_real t104 = A_i[7] * s_i[1];
-    jac_phi_q_t_lambda_A_i[33] = -(t0 * t104 + t1 * t103 + t52 + t43);
-    const jg_real t105 = A_i[1] * s_i[1];
-    jac_phi_q_t_lambda_A_i[34] = t3 * t104 - t1 * t105;
-    const jg_real t106 = C_i[0] * t42;
-    const jg_real t107 = C_i[3] * t51 * lambda[1];
-    jac_phi_q_t_lambda_A_i[35] = t3 * t103 + t0 * t105 + t107 + t106;
-    const jg_real t108 = t0 * A_j[7];
-    const jg_real t109 = t0 * A_j[4];
-    const jg_real t110 = C_i[4] * A_j[7];
-    const jg_real t111 = C_i[4] * A_j[4];
-    const jg_real t112 = C_i[1] * A_j[7];
-    const jg_real t113 = C_i[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[37] = s_j[1] * t108 - s_j[2] * t109 + lambda[1] * (C_j[7] * t110 - C_j[8] * t111) + (t16
-        * t112 - t17 * t113);
-    const jg_real t114 = t0 * A_j[1];
-    const jg_real t115 = C_i[4] * A_j[1];
-    const jg_real t116 = C_i[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[38] = s_j[2] * t114 - s_j[0] * t108 + lambda[1] * (C_j[8] * t115 - C_j[6] * t110) + (t17
-        * t116 - t15 * t112);
-    jac_phi_q_t_lambda_A_i[39] = s_j[0] * t109 - s_j[1] * t114 + lambda[1] * (C_j[6] * t111 - C_j[7] * t115) + (t15
-        * t113 - t16 * t116);
-    const jg_real t117 = d_ij_2 - t70;
-    const jg_real t118 = A_i[8] * s_i[1];
-    jac_phi_q_t_lambda_A_i[41] = -(t0 * t118 + t1 * t117 + t76 + t67);
-    const jg_real t119 = A_i[2] * s_i[1];
-    jac_phi_q_t_lambda_A_i[42] = t3 * t118 - t1 * t119;
-    const jg_real t120 = C_i[0] * t66;
-    const jg_real t121 = C_i[3] * t75 * lambda[1];
-    jac_phi_q_t_lambda_A_i[43] = t3 * t117 + t0 * t119 + t121 + t120;
-    const jg_real t122 = t0 * A_j[8];
-    const jg_real t123 = t0 * A_j[5];
-    const jg_real t124 = C_i[4] * A_j[8];
-    const jg_real t125 = C_i[4] * A_j[5];
-    const jg_real t126 = C_i[1] * A_j[8];
-    const jg_real t127 = C_i[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[45] = s_j[1] * t122 - s_j[2] * t123 + lambda[1] * (C_j[7] * t124 - C_j[8] * t125) + (t16
-        * t126 - t17 * t127);
-    const jg_real t128 = t0 * A_j[2];
-    const jg_real t129 = C_i[4] * A_j[2];
-    const jg_real t130 = C_i[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[46] = s_j[2] * t128 - s_j[0] * t122 + lambda[1] * (C_j[8] * t129 - C_j[6] * t124) + (t17
-        * t130 - t15 * t126);
-    jac_phi_q_t_lambda_A_i[47] = s_j[0] * t123 - s_j[1] * t128 + lambda[1] * (C_j[6] * t125 - C_j[7] * t129) + (t15
-        * t127 - t16 * t130);
-    const jg_real t131 = -t1;
-    jac_phi_q_t_lambda_A_i[48] = t131;
-    jac_phi_q_t_lambda_A_i[56] = t131;
-    jac_phi_q_t_lambda_A_i[64] = t131;
-    const jg_real t132 = d_ij_0 - t23;
-    const jg_real t133 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[49] = t0 * t132 + t1 * t133 + t30 + t29;
-    const jg_real t134 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[50] = -(t1 * t134 + t3 * t132 + t93 + t92);
-    jac_phi_q_t_lambda_A_i[51] = t0 * t134 - t3 * t133;
-    const jg_real t135 = t1 * A_j[6];
-    const jg_real t136 = t1 * A_j[3];
-    const jg_real t137 = C_i[5] * A_j[6];
-    const jg_real t138 = C_i[5] * A_j[3];
-    const jg_real t139 = C_i[2] * A_j[6];
-    const jg_real t140 = C_i[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[53] = s_j[1] * t135 - s_j[2] * t136 + lambda[1] * (C_j[7] * t137 - C_j[8] * t138) + (t16
-        * t139 - t17 * t140);
-    const jg_real t141 = t1 * A_j[0];
-    const jg_real t142 = C_i[5] * A_j[0];
-    const jg_real t143 = C_i[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[54] = s_j[2] * t141 - s_j[0] * t135 + lambda[1] * (C_j[8] * t142 - C_j[6] * t137) + (t17
-        * t143 - t15 * t139);
-    jac_phi_q_t_lambda_A_i[55] = s_j[0] * t136 - s_j[1] * t141 + lambda[1] * (C_j[6] * t138 - C_j[7] * t142) + (t15
-        * t140 - t16 * t143);
-    const jg_real t144 = d_ij_1 - t47;
-    const jg_real t145 = A_i[4] * s_i[2];
-    jac_phi_q_t_lambda_A_i[57] = t0 * t144 + t1 * t145 + t54 + t53;
-    const jg_real t146 = A_i[1] * s_i[2];
-    jac_phi_q_t_lambda_A_i[58] = -(t1 * t146 + t3 * t144 + t107 + t106);
-    jac_phi_q_t_lambda_A_i[59] = t0 * t146 - t3 * t145;
-    const jg_real t147 = t1 * A_j[7];
-    const jg_real t148 = t1 * A_j[4];
-    const jg_real t149 = C_i[5] * A_j[7];
-    const jg_real t150 = C_i[5] * A_j[4];
-    const jg_real t151 = C_i[2] * A_j[7];
-    const jg_real t152 = C_i[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[61] = s_j[1] * t147 - s_j[2] * t148 + lambda[1] * (C_j[7] * t149 - C_j[8] * t150) + (t16
-        * t151 - t17 * t152);
-    const jg_real t153 = t1 * A_j[1];
-    const jg_real t154 = C_i[5] * A_j[1];
-    const jg_real t155 = C_i[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[62] = s_j[2] * t153 - s_j[0] * t147 + lambda[1] * (C_j[8] * t154 - C_j[6] * t149) + (t17
-        * t155 - t15 * t151);
-    jac_phi_q_t_lambda_A_i[63] = s_j[0] * t148 - s_j[1] * t153 + lambda[1] * (C_j[6] * t150 - C_j[7] * t154) + (t15
-        * t152 - t16 * t155);
-    const jg_real t156 = d_ij_2 - t71;
-    const jg_real t157 = A_i[5] * s_i[2];
-    jac_phi_q_t_lambda_A_i[65] = t0 * t156 + t1 * t157 + t78 + t77;
-    const jg_real t158 = A_i[2] * s_i[2];
-    jac_phi_q_t_lambda_A_i[66] = -(t1 * t158 + t3 * t156 + t121 + t120);
-    jac_phi_q_t_lambda_A_i[67] = t0 * t158 - t3 * t157;
-    const jg_real t159 = t1 * A_j[8];
-    const jg_real t160 = t1 * A_j[5];
-    const jg_real t161 = C_i[5] * A_j[8];
-    const jg_real t162 = C_i[5] * A_j[5];
-    const jg_real t163 = C_i[2] * A_j[8];
-    const jg_real t164 = C_i[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[69] = s_j[1] * t159 - s_j[2] * t160 + lambda[1] * (C_j[7] * t161 - C_j[8] * t162) + (t16
-        * t163 - t17 * t164);
-    const jg_real t165 = t1 * A_j[2];
-    const jg_real t166 = C_i[5] * A_j[2];
-    const jg_real t167 = C_i[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[70] = s_j[2] * t165 - s_j[0] * t159 + lambda[1] * (C_j[8] * t166 - C_j[6] * t161) + (t17
-        * t167 - t15 * t163);
-    jac_phi_q_t_lambda_A_i[71] = s_j[0] * t160 - s_j[1] * t165 + lambda[1] * (C_j[6] * t162 - C_j[7] * t166) + (t15
-        * t164 - t16 * t167);
-    const jg_real t168 = A_i[6] * t15;
-    const jg_real t169 = A_i[3] * t15;
-    const jg_real t170 = A_i[6] * s_j[0];
-    const jg_real t171 = A_i[3] * s_j[0];
-    const jg_real t172 = A_i[3] * C_j[6];
-    const jg_real t173 = A_i[6] * C_j[6];
-    jac_phi_q_t_lambda_A_j[0] = C_i[1] * t168 - C_i[2] * t169 + (t0 * t170 - t1 * t171 - (C_i[5] * t172 - C_i[4] *
-        t173) * lambda[1]);
-    const jg_real t174 = A_i[0] * t15;
-    const jg_real t175 = A_i[0] * s_j[0];
-    const jg_real t176 = A_i[0] * C_j[6];
-    jac_phi_q_t_lambda_A_j[1] = C_i[2] * t174 - C_i[0] * t168 + (t1 * t175 - t3 * t170 - lambda[1] * (C_i[3] * t173
-        - C_i[5] * t176));
-    jac_phi_q_t_lambda_A_j[2] = C_i[0] * t169 - C_i[1] * t174 + (t3 * t171 - t0 * t175 - lambda[1] * (C_i[4] * t176
-        - C_i[3] * t172));
-    const jg_real t177 = t3 * A_i[0] + t0 * A_i[3] + t1 * A_i[6];
-    const jg_real t178 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    jac_phi_q_t_lambda_lambda[36] = t178;
-    const jg_real t179 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    jac_phi_q_t_lambda_lambda[24] = t179;
-    const jg_real t180 = t177 * s_j[2] + t178 * C_j[8] * lambda[1] + t179 * t17;
-    jac_phi_q_t_lambda_A_j[3] = t180;
-    const jg_real t181 = t177 * s_j[1] + t178 * C_j[7] * lambda[1] + t179 * t16;
-    jac_phi_q_t_lambda_A_j[33] = t181;
-    jac_phi_q_t_lambda_A_j[4] = -t181;
-    const jg_real t182 = A_i[7] * t15;
-    const jg_real t183 = A_i[4] * t15;
-    const jg_real t184 = A_i[7] * s_j[0];
-    const jg_real t185 = A_i[4] * s_j[0];
-    const jg_real t186 = A_i[4] * C_j[6];
-    const jg_real t187 = A_i[7] * C_j[6];
-    jac_phi_q_t_lambda_A_j[5] = C_i[1] * t182 - C_i[2] * t183 + (t0 * t184 - t1 * t185 - (C_i[5] * t186 - C_i[4] *
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t49 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t50 = t1 * e_ij_2 + C_i[5] * t49 * lambda[1] + C_i[2] * t46;
+    jac_phi_q_t_lambda_A_i[15] = t50;
+    const jg_real t51 = t0 * e_ij_2 + C_i[4] * t49 * lambda[1] + C_i[1] * t46;
+    jac_phi_q_t_lambda_A_i[57] = t51;
+    jac_phi_q_t_lambda_A_i[16] = -t51;
+    const jg_real t52 = t3 * A_j[8];
+    const jg_real t53 = t3 * A_j[5];
+    const jg_real t54 = C_i[3] * A_j[8];
+    const jg_real t55 = C_i[3] * A_j[5];
+    const jg_real t56 = C_i[0] * A_j[8];
+    const jg_real t57 = C_i[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[18] = s_j[1] * t52 - s_j[2] * t53 + lambda[1] * (C_j[7] * t54 - C_j[8] * t55) + (t14 *
+        t56 - t15 * t57);
+    const jg_real t58 = t3 * A_j[2];
+    const jg_real t59 = C_i[3] * A_j[2];
+    const jg_real t60 = C_i[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[19] = s_j[2] * t58 - s_j[0] * t52 + lambda[1] * (C_j[8] * t59 - C_j[6] * t54) + (t15 *
+        t60 - t13 * t56);
+    jac_phi_q_t_lambda_A_i[20] = s_j[0] * t53 - s_j[1] * t58 + lambda[1] * (C_j[6] * t55 - C_j[7] * t59) + (t13 *
+        t57 - t14 * t60);
+    const jg_real t61 = -t0;
+    jac_phi_q_t_lambda_A_i[21] = t61;
+    jac_phi_q_t_lambda_A_i[28] = t61;
+    jac_phi_q_t_lambda_A_i[35] = t61;
+    jac_phi_q_t_lambda_A_i[22] = -t20;
+    const jg_real t62 = t3 * e_ij_0 + C_i[3] * t19 * lambda[1] + C_i[0] * t16;
+    jac_phi_q_t_lambda_A_i[23] = t62;
+    const jg_real t63 = t0 * A_j[6];
+    const jg_real t64 = t0 * A_j[3];
+    const jg_real t65 = C_i[4] * A_j[6];
+    const jg_real t66 = C_i[4] * A_j[3];
+    const jg_real t67 = C_i[1] * A_j[6];
+    const jg_real t68 = C_i[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[25] = s_j[1] * t63 - s_j[2] * t64 + lambda[1] * (C_j[7] * t65 - C_j[8] * t66) + (t14 *
+        t67 - t15 * t68);
+    const jg_real t69 = t0 * A_j[0];
+    const jg_real t70 = C_i[4] * A_j[0];
+    const jg_real t71 = C_i[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[26] = s_j[2] * t69 - s_j[0] * t63 + lambda[1] * (C_j[8] * t70 - C_j[6] * t65) + (t15 *
+        t71 - t13 * t67);
+    jac_phi_q_t_lambda_A_i[27] = s_j[0] * t64 - s_j[1] * t69 + lambda[1] * (C_j[6] * t66 - C_j[7] * t70) + (t13 *
+        t68 - t14 * t71);
+    jac_phi_q_t_lambda_A_i[29] = -t35;
+    const jg_real t72 = t3 * e_ij_1 + C_i[3] * t34 * lambda[1] + C_i[0] * t31;
+    jac_phi_q_t_lambda_A_i[30] = t72;
+    const jg_real t73 = t0 * A_j[7];
+    const jg_real t74 = t0 * A_j[4];
+    const jg_real t75 = C_i[4] * A_j[7];
+    const jg_real t76 = C_i[4] * A_j[4];
+    const jg_real t77 = C_i[1] * A_j[7];
+    const jg_real t78 = C_i[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[32] = s_j[1] * t73 - s_j[2] * t74 + lambda[1] * (C_j[7] * t75 - C_j[8] * t76) + (t14 *
+        t77 - t15 * t78);
+    const jg_real t79 = t0 * A_j[1];
+    const jg_real t80 = C_i[4] * A_j[1];
+    const jg_real t81 = C_i[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[33] = s_j[2] * t79 - s_j[0] * t73 + lambda[1] * (C_j[8] * t80 - C_j[6] * t75) + (t15 *
+        t81 - t13 * t77);
+    jac_phi_q_t_lambda_A_i[34] = s_j[0] * t74 - s_j[1] * t79 + lambda[1] * (C_j[6] * t76 - C_j[7] * t80) + (t13 *
+        t78 - t14 * t81);
+    jac_phi_q_t_lambda_A_i[36] = -t50;
+    const jg_real t82 = t3 * e_ij_2 + C_i[3] * t49 * lambda[1] + C_i[0] * t46;
+    jac_phi_q_t_lambda_A_i[37] = t82;
+    const jg_real t83 = t0 * A_j[8];
+    const jg_real t84 = t0 * A_j[5];
+    const jg_real t85 = C_i[4] * A_j[8];
+    const jg_real t86 = C_i[4] * A_j[5];
+    const jg_real t87 = C_i[1] * A_j[8];
+    const jg_real t88 = C_i[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[39] = s_j[1] * t83 - s_j[2] * t84 + lambda[1] * (C_j[7] * t85 - C_j[8] * t86) + (t14 *
+        t87 - t15 * t88);
+    const jg_real t89 = t0 * A_j[2];
+    const jg_real t90 = C_i[4] * A_j[2];
+    const jg_real t91 = C_i[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[40] = s_j[2] * t89 - s_j[0] * t83 + lambda[1] * (C_j[8] * t90 - C_j[6] * t85) + (t15 *
+        t91 - t13 * t87);
+    jac_phi_q_t_lambda_A_i[41] = s_j[0] * t84 - s_j[1] * t89 + lambda[1] * (C_j[6] * t86 - C_j[7] * t90) + (t13 *
+        t88 - t14 * t91);
+    const jg_real t92 = -t1;
+    jac_phi_q_t_lambda_A_i[42] = t92;
+    jac_phi_q_t_lambda_A_i[49] = t92;
+    jac_phi_q_t_lambda_A_i[56] = t92;
+    jac_phi_q_t_lambda_A_i[44] = -t62;
+    const jg_real t93 = t1 * A_j[6];
+    const jg_real t94 = t1 * A_j[3];
+    const jg_real t95 = C_i[5] * A_j[6];
+    const jg_real t96 = C_i[5] * A_j[3];
+    const jg_real t97 = C_i[2] * A_j[6];
+    const jg_real t98 = C_i[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[46] = s_j[1] * t93 - s_j[2] * t94 + lambda[1] * (C_j[7] * t95 - C_j[8] * t96) + (t14 *
+        t97 - t15 * t98);
+    const jg_real t99 = t1 * A_j[0];
+    const jg_real t100 = C_i[5] * A_j[0];
+    const jg_real t101 = C_i[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[47] = s_j[2] * t99 - s_j[0] * t93 + lambda[1] * (C_j[8] * t100 - C_j[6] * t95) + (t15 *
+        t101 - t13 * t97);
+    jac_phi_q_t_lambda_A_i[48] = s_j[0] * t94 - s_j[1] * t99 + lambda[1] * (C_j[6] * t96 - C_j[7] * t100) + (t13 *
+        t98 - t14 * t101);
+    jac_phi_q_t_lambda_A_i[51] = -t72;
+    const jg_real t102 = t1 * A_j[7];
+    const jg_real t103 = t1 * A_j[4];
+    const jg_real t104 = C_i[5] * A_j[7];
+    const jg_real t105 = C_i[5] * A_j[4];
+    const jg_real t106 = C_i[2] * A_j[7];
+    const jg_real t107 = C_i[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[53] = s_j[1] * t102 - s_j[2] * t103 + lambda[1] * (C_j[7] * t104 - C_j[8] * t105) + (t14
+        * t106 - t15 * t107);
+    const jg_real t108 = t1 * A_j[1];
+    const jg_real t109 = C_i[5] * A_j[1];
+    const jg_real t110 = C_i[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[54] = s_j[2] * t108 - s_j[0] * t102 + lambda[1] * (C_j[8] * t109 - C_j[6] * t104) + (t15
+        * t110 - t13 * t106);
+    jac_phi_q_t_lambda_A_i[55] = s_j[0] * t103 - s_j[1] * t108 + lambda[1] * (C_j[6] * t105 - C_j[7] * t109) + (t13
+        * t107 - t14 * t110);
+    jac_phi_q_t_lambda_A_i[58] = -t82;
+    const jg_real t111 = t1 * A_j[8];
+    const jg_real t112 = t1 * A_j[5];
+    const jg_real t113 = C_i[5] * A_j[8];
+    const jg_real t114 = C_i[5] * A_j[5];
+    const jg_real t115 = C_i[2] * A_j[8];
+    const jg_real t116 = C_i[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[60] = s_j[1] * t111 - s_j[2] * t112 + lambda[1] * (C_j[7] * t113 - C_j[8] * t114) + (t14
+        * t115 - t15 * t116);
+    const jg_real t117 = t1 * A_j[2];
+    const jg_real t118 = C_i[5] * A_j[2];
+    const jg_real t119 = C_i[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[61] = s_j[2] * t117 - s_j[0] * t111 + lambda[1] * (C_j[8] * t118 - C_j[6] * t113) + (t15
+        * t119 - t13 * t115);
+    jac_phi_q_t_lambda_A_i[62] = s_j[0] * t112 - s_j[1] * t117 + lambda[1] * (C_j[6] * t114 - C_j[7] * t118) + (t13
+        * t116 - t14 * t119);
+    const jg_real t120 = A_i[6] * t13;
+    const jg_real t121 = A_i[3] * t13;
+    const jg_real t122 = A_i[6] * s_j[0];
+    const jg_real t123 = A_i[3] * s_j[0];
+    const jg_real t124 = A_i[3] * C_j[6];
+    const jg_real t125 = A_i[6] * C_j[6];
+    jac_phi_q_t_lambda_A_j[0] = C_i[1] * t120 - C_i[2] * t121 + (t0 * t122 - t1 * t123 - (C_i[5] * t124 - C_i[4] *
+        t125) * lambda[1]);
+    const jg_real t126 = A_i[0] * t13;
+    const jg_real t127 = A_i[0] * s_j[0];
+    const jg_real t128 = A_i[0] * C_j[6];
+    jac_phi_q_t_lambda_A_j[1] = C_i[2] * t126 - C_i[0] * t120 + (t1 * t127 - t3 * t122 - lambda[1] * (C_i[3] * t125
+        - C_i[5] * t128));
+    jac_phi_q_t_lambda_A_j[2] = C_i[0] * t121 - C_i[1] * t126 + (t3 * t123 - t0 * t127 - lambda[1] * (C_i[4] * t128
+        - C_i[3] * t124));
+    const jg_real t129 = t3 * A_i[0] + t0 * A_i[3] + t1 * A_i[6];
+    const jg_real t130 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
+    jac_phi_q_t_lambda_lambda[36] = t130;
+    const jg_real t131 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    jac_phi_q_t_lambda_lambda[24] = t131;
+    const jg_real t132 = t129 * s_j[2] + t130 * C_j[8] * lambda[1] + t131 * t15;
+    jac_phi_q_t_lambda_A_j[3] = t132;
+    const jg_real t133 = t129 * s_j[1] + t130 * C_j[7] * lambda[1] + t131 * t14;
+    jac_phi_q_t_lambda_A_j[33] = t133;
+    jac_phi_q_t_lambda_A_j[4] = -t133;
+    const jg_real t134 = A_i[7] * t13;
+    const jg_real t135 = A_i[4] * t13;
+    const jg_real t136 = A_i[7] * s_j[0];
+    const jg_real t137 = A_i[4] * s_j[0];
+    const jg_real t138 = A_i[4] * C_j[6];
+    const jg_real t139 = A_i[7] * C_j[6];
+    jac_phi_q_t_lambda_A_j[5] = C_i[1] * t134 - C_i[2] * t135 + (t0 * t136 - t1 * t137 - (C_i[5] * t138 - C_i[4] *
+        t139) * lambda[1]);
+    const jg_real t140 = A_i[1] * t13;
+    const jg_real t141 = A_i[1] * s_j[0];
+    const jg_real t142 = A_i[1] * C_j[6];
+    jac_phi_q_t_lambda_A_j[6] = C_i[2] * t140 - C_i[0] * t134 + (t1 * t141 - t3 * t136 - lambda[1] * (C_i[3] * t139
+        - C_i[5] * t142));
+    jac_phi_q_t_lambda_A_j[7] = C_i[0] * t135 - C_i[1] * t140 + (t3 * t137 - t0 * t141 - lambda[1] * (C_i[4] * t142
+        - C_i[3] * t138));
+    const jg_real t143 = t3 * A_i[1] + t0 * A_i[4] + t1 * A_i[7];
+    const jg_real t144 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
+    jac_phi_q_t_lambda_lambda[37] = t144;
+    const jg_real t145 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    jac_phi_q_t_lambda_lambda[25] = t145;
+    const jg_real t146 = t143 * s_j[2] + t144 * C_j[8] * lambda[1] + t145 * t15;
+    jac_phi_q_t_lambda_A_j[8] = t146;
+    const jg_real t147 = t143 * s_j[1] + t144 * C_j[7] * lambda[1] + t145 * t14;
+    jac_phi_q_t_lambda_A_j[38] = t147;
+    jac_phi_q_t_lambda_A_j[9] = -t147;
+    const jg_real t148 = A_i[8] * t13;
+    const jg_real t149 = A_i[5] * t13;
+    const jg_real t150 = A_i[8] * s_j[0];
+    const jg_real t151 = A_i[5] * s_j[0];
+    const jg_real t152 = A_i[5] * C_j[6];
+    const jg_real t153 = A_i[8] * C_j[6];
+    jac_phi_q_t_lambda_A_j[10] = C_i[1] * t148 - C_i[2] * t149 + (t0 * t150 - t1 * t151 - (C_i[5] * t152 - C_i[4] *
+        t153) * lambda[1]);
+    const jg_real t154 = A_i[2] * t13;
+    const jg_real t155 = A_i[2] * s_j[0];
+    const jg_real t156 = A_i[2] * C_j[6];
+    jac_phi_q_t_lambda_A_j[11] = C_i[2] * t154 - C_i[0] * t148 + (t1 * t155 - t3 * t150 - lambda[1] * (C_i[3] * t153
+        - C_i[5] * t156));
+    jac_phi_q_t_lambda_A_j[12] = C_i[0] * t149 - C_i[1] * t154 + (t3 * t151 - t0 * t155 - lambda[1] * (C_i[4] * t156
+        - C_i[3] * t152));
+    const jg_real t157 = t3 * A_i[2] + t0 * A_i[5] + t1 * A_i[8];
+    const jg_real t158 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
+    jac_phi_q_t_lambda_lambda[38] = t158;
+    const jg_real t159 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    jac_phi_q_t_lambda_lambda[26] = t159;
+    const jg_real t160 = t157 * s_j[2] + t158 * C_j[8] * lambda[1] + t159 * t15;
+    jac_phi_q_t_lambda_A_j[13] = t160;
+    const jg_real t161 = t157 * s_j[1] + t158 * C_j[7] * lambda[1] + t159 * t14;
+    jac_phi_q_t_lambda_A_j[43] = t161;
+    jac_phi_q_t_lambda_A_j[14] = -t161;
+    const jg_real t162 = A_i[6] * t14;
+    const jg_real t163 = A_i[3] * t14;
+    const jg_real t164 = A_i[6] * s_j[1];
+    const jg_real t165 = A_i[3] * s_j[1];
+    const jg_real t166 = A_i[3] * C_j[7];
+    const jg_real t167 = A_i[6] * C_j[7];
+    jac_phi_q_t_lambda_A_j[15] = C_i[1] * t162 - C_i[2] * t163 + (t0 * t164 - t1 * t165 - (C_i[5] * t166 - C_i[4] *
+        t167) * lambda[1]);
+    const jg_real t168 = A_i[0] * t14;
+    const jg_real t169 = A_i[0] * s_j[1];
+    const jg_real t170 = A_i[0] * C_j[7];
+    jac_phi_q_t_lambda_A_j[16] = C_i[2] * t168 - C_i[0] * t162 + (t1 * t169 - t3 * t164 - lambda[1] * (C_i[3] * t167
+        - C_i[5] * t170));
+    jac_phi_q_t_lambda_A_j[17] = C_i[0] * t163 - C_i[1] * t168 + (t3 * t165 - t0 * t169 - lambda[1] * (C_i[4] * t170
+        - C_i[3] * t166));
+    jac_phi_q_t_lambda_A_j[18] = -t132;
+    const jg_real t171 = t129 * s_j[0] + t130 * C_j[6] * lambda[1] + t131 * t13;
+    jac_phi_q_t_lambda_A_j[19] = t171;
+    const jg_real t172 = A_i[7] * t14;
+    const jg_real t173 = A_i[4] * t14;
+    const jg_real t174 = A_i[7] * s_j[1];
+    const jg_real t175 = A_i[4] * s_j[1];
+    const jg_real t176 = A_i[4] * C_j[7];
+    const jg_real t177 = A_i[7] * C_j[7];
+    jac_phi_q_t_lambda_A_j[20] = C_i[1] * t172 - C_i[2] * t173 + (t0 * t174 - t1 * t175 - (C_i[5] * t176 - C_i[4] *
+        t177) * lambda[1]);
+    const jg_real t178 = A_i[1] * t14;
+    const jg_real t179 = A_i[1] * s_j[1];
+    const jg_real t180 = A_i[1] * C_j[7];
+    jac_phi_q_t_lambda_A_j[21] = C_i[2] * t178 - C_i[0] * t172 + (t1 * t179 - t3 * t174 - lambda[1] * (C_i[3] * t177
+        - C_i[5] * t180));
+    jac_phi_q_t_lambda_A_j[22] = C_i[0] * t173 - C_i[1] * t178 + (t3 * t175 - t0 * t179 - lambda[1] * (C_i[4] * t180
+        - C_i[3] * t176));
+    jac_phi_q_t_lambda_A_j[23] = -t146;
+    const jg_real t181 = t143 * s_j[0] + t144 * C_j[6] * lambda[1] + t145 * t13;
+    jac_phi_q_t_lambda_A_j[24] = t181;
+    const jg_real t182 = A_i[8] * t14;
+    const jg_real t183 = A_i[5] * t14;
+    const jg_real t184 = A_i[8] * s_j[1];
+    const jg_real t185 = A_i[5] * s_j[1];
+    const jg_real t186 = A_i[5] * C_j[7];
+    const jg_real t187 = A_i[8] * C_j[7];
+    jac_phi_q_t_lambda_A_j[25] = C_i[1] * t182 - C_i[2] * t183 + (t0 * t184 - t1 * t185 - (C_i[5] * t186 - C_i[4] *
         t187) * lambda[1]);
-    const jg_real t188 = A_i[1] * t15;
-    const jg_real t189 = A_i[1] * s_j[0];
-    const jg_real t190 = A_i[1] * C_j[6];
-    jac_phi_q_t_lambda_A_j[6] = C_i[2] * t188 - C_i[0] * t182 + (t1 * t189 - t3 * t184 - lambda[1] * (C_i[3] * t187
+    const jg_real t188 = A_i[2] * t14;
+    const jg_real t189 = A_i[2] * s_j[1];
+    const jg_real t190 = A_i[2] * C_j[7];
+    jac_phi_q_t_lambda_A_j[26] = C_i[2] * t188 - C_i[0] * t182 + (t1 * t189 - t3 * t184 - lambda[1] * (C_i[3] * t187
         - C_i[5] * t190));
-    jac_phi_q_t_lambda_A_j[7] = C_i[0] * t183 - C_i[1] * t188 + (t3 * t185 - t0 * t189 - lambda[1] * (C_i[4] * t190
+    jac_phi_q_t_lambda_A_j[27] = C_i[0] * t183 - C_i[1] * t188 + (t3 * t185 - t0 * t189 - lambda[1] * (C_i[4] * t190
         - C_i[3] * t186));
-    const jg_real t191 = t3 * A_i[1] + t0 * A_i[4] + t1 * A_i[7];
-    const jg_real t192 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    jac_phi_q_t_lambda_lambda[37] = t192;
-    const jg_real t193 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    jac_phi_q_t_lambda_lambda[25] = t193;
-    const jg_real t194 = t191 * s_j[2] + t192 * C_j[8] * lambda[1] + t193 * t17;
-    jac_phi_q_t_lambda_A_j[8] = t194;
-    const jg_real t195 = t191 * s_j[1] + t192 * C_j[7] * lambda[1] + t193 * t16;
-    jac_phi_q_t_lambda_A_j[38] = t195;
-    jac_phi_q_t_lambda_A_j[9] = -t195;
-    const jg_real t196 = A_i[8] * t15;
-    const jg_real t197 = A_i[5] * t15;
-    const jg_real t198 = A_i[8] * s_j[0];
-    const jg_real t199 = A_i[5] * s_j[0];
-    const jg_real t200 = A_i[5] * C_j[6];
-    const jg_real t201 = A_i[8] * C_j[6];
-    jac_phi_q_t_lambda_A_j[10] = C_i[1] * t196 - C_i[2] * t197 + (t0 * t198 - t1 * t199 - (C_i[5] * t200 - C_i[4] *
-        t201) * lambda[1]);
-    const jg_real t202 = A_i[2] * t15;
-    const jg_real t203 = A_i[2] * s_j[0];
-    const jg_real t204 = A_i[2] * C_j[6];
-    jac_phi_q_t_lambda_A_j[11] = C_i[2] * t202 - C_i[0] * t196 + (t1 * t203 - t3 * t198 - lambda[1] * (C_i[3] * t201
-        - C_i[5] * t204));
-    jac_phi_q_t_lambda_A_j[12] = C_i[0] * t197 - C_i[1] * t202 + (t3 * t199 - t0 * t203 - lambda[1] * (C_i[4] * t204
-        - C_i[3] * t200));
-    const jg_real t205 = t3 * A_i[2] + t0 * A_i[5] + t1 * A_i[8];
-    const jg_real t206 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[38] = t206;
-    const jg_real t207 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = t207;
-    const jg_real t208 = t205 * s_j[2] + t206 * C_j[8] * lambda[1] + t207 * t17;
-    jac_phi_q_t_lambda_A_j[13] = t208;
-    const jg_real t209 = t205 * s_j[1] + t206 * C_j[7] * lambda[1] + t207 * t16;
-    jac_phi_q_t_lambda_A_j[43] = t209;
-    jac_phi_q_t_lambda_A_j[14] = -t209;
-    const jg_real t210 = A_i[6] * t16;
-    const jg_real t211 = A_i[3] * t16;
-    const jg_real t212 = A_i[6] * s_j[1];
-    const jg_real t213 = A_i[3] * s_j[1];
-    const jg_real t214 = A_i[3] * C_j[7];
-    const jg_real t215 = A_i[6] * C_j[7];
-    jac_phi_q_t_lambda_A_j[15] = C_i[1] * t210 - C_i[2] * t211 + (t0 * t212 - t1 * t213 - (C_i[5] * t214 - C_i[4] *
+    jac_phi_q_t_lambda_A_j[28] = -t160;
+    const jg_real t191 = t157 * s_j[0] + t158 * C_j[6] * lambda[1] + t159 * t13;
+    jac_phi_q_t_lambda_A_j[29] = t191;
+    const jg_real t192 = A_i[6] * t15;
+    const jg_real t193 = A_i[3] * t15;
+    const jg_real t194 = A_i[6] * s_j[2];
+    const jg_real t195 = A_i[3] * s_j[2];
+    const jg_real t196 = A_i[3] * C_j[8];
+    const jg_real t197 = A_i[6] * C_j[8];
+    jac_phi_q_t_lambda_A_j[30] = C_i[1] * t192 - C_i[2] * t193 + (t0 * t194 - t1 * t195 - (C_i[5] * t196 - C_i[4] *
+        t197) * lambda[1]);
+    const jg_real t198 = A_i[0] * t15;
+    const jg_real t199 = A_i[0] * s_j[2];
+    const jg_real t200 = A_i[0] * C_j[8];
+    jac_phi_q_t_lambda_A_j[31] = C_i[2] * t198 - C_i[0] * t192 + (t1 * t199 - t3 * t194 - lambda[1] * (C_i[3] * t197
+        - C_i[5] * t200));
+    jac_phi_q_t_lambda_A_j[32] = C_i[0] * t193 - C_i[1] * t198 + (t3 * t195 - t0 * t199 - lambda[1] * (C_i[4] * t200
+        - C_i[3] * t196));
+    jac_phi_q_t_lambda_A_j[34] = -t171;
+    const jg_real t201 = A_i[7] * t15;
+    const jg_real t202 = A_i[4] * t15;
+    const jg_real t203 = A_i[7] * s_j[2];
+    const jg_real t204 = A_i[4] * s_j[2];
+    const jg_real t205 = A_i[4] * C_j[8];
+    const jg_real t206 = A_i[7] * C_j[8];
+    jac_phi_q_t_lambda_A_j[35] = C_i[1] * t201 - C_i[2] * t202 + (t0 * t203 - t1 * t204 - (C_i[5] * t205 - C_i[4] *
+        t206) * lambda[1]);
+    const jg_real t207 = A_i[1] * t15;
+    const jg_real t208 = A_i[1] * s_j[2];
+    const jg_real t209 = A_i[1] * C_j[8];
+    jac_phi_q_t_lambda_A_j[36] = C_i[2] * t207 - C_i[0] * t201 + (t1 * t208 - t3 * t203 - lambda[1] * (C_i[3] * t206
+        - C_i[5] * t209));
+    jac_phi_q_t_lambda_A_j[37] = C_i[0] * t202 - C_i[1] * t207 + (t3 * t204 - t0 * t208 - lambda[1] * (C_i[4] * t209
+        - C_i[3] * t205));
+    jac_phi_q_t_lambda_A_j[39] = -t181;
+    const jg_real t210 = A_i[8] * t15;
+    const jg_real t211 = A_i[5] * t15;
+    const jg_real t212 = A_i[8] * s_j[2];
+    const jg_real t213 = A_i[5] * s_j[2];
+    const jg_real t214 = A_i[5] * C_j[8];
+    const jg_real t215 = A_i[8] * C_j[8];
+    jac_phi_q_t_lambda_A_j[40] = C_i[1] * t210 - C_i[2] * t211 + (t0 * t212 - t1 * t213 - (C_i[5] * t214 - C_i[4] *
         t215) * lambda[1]);
-    const jg_real t216 = A_i[0] * t16;
-    const jg_real t217 = A_i[0] * s_j[1];
-    const jg_real t218 = A_i[0] * C_j[7];
-    jac_phi_q_t_lambda_A_j[16] = C_i[2] * t216 - C_i[0] * t210 + (t1 * t217 - t3 * t212 - lambda[1] * (C_i[3] * t215
+    const jg_real t216 = A_i[2] * t15;
+    const jg_real t217 = A_i[2] * s_j[2];
+    const jg_real t218 = A_i[2] * C_j[8];
+    jac_phi_q_t_lambda_A_j[41] = C_i[2] * t216 - C_i[0] * t210 + (t1 * t217 - t3 * t212 - lambda[1] * (C_i[3] * t215
         - C_i[5] * t218));
-    jac_phi_q_t_lambda_A_j[17] = C_i[0] * t211 - C_i[1] * t216 + (t3 * t213 - t0 * t217 - lambda[1] * (C_i[4] * t218
+    jac_phi_q_t_lambda_A_j[42] = C_i[0] * t211 - C_i[1] * t216 + (t3 * t213 - t0 * t217 - lambda[1] * (C_i[4] * t218
         - C_i[3] * t214));
-    jac_phi_q_t_lambda_A_j[18] = -t180;
-    const jg_real t219 = t177 * s_j[0] + t178 * C_j[6] * lambda[1] + t179 * t15;
-    jac_phi_q_t_lambda_A_j[19] = t219;
-    const jg_real t220 = A_i[7] * t16;
-    const jg_real t221 = A_i[4] * t16;
-    const jg_real t222 = A_i[7] * s_j[1];
-    const jg_real t223 = A_i[4] * s_j[1];
-    const jg_real t224 = A_i[4] * C_j[7];
-    const jg_real t225 = A_i[7] * C_j[7];
-    jac_phi_q_t_lambda_A_j[20] = C_i[1] * t220 - C_i[2] * t221 + (t0 * t222 - t1 * t223 - (C_i[5] * t224 - C_i[4] *
-        t225) * lambda[1]);
-    const jg_real t226 = A_i[1] * t16;
-    const jg_real t227 = A_i[1] * s_j[1];
-    const jg_real t228 = A_i[1] * C_j[7];
-    jac_phi_q_t_lambda_A_j[21] = C_i[2] * t226 - C_i[0] * t220 + (t1 * t227 - t3 * t222 - lambda[1] * (C_i[3] * t225
-        - C_i[5] * t228));
-    jac_phi_q_t_lambda_A_j[22] = C_i[0] * t221 - C_i[1] * t226 + (t3 * t223 - t0 * t227 - lambda[1] * (C_i[4] * t228
-        - C_i[3] * t224));
-    jac_phi_q_t_lambda_A_j[23] = -t194;
-    const jg_real t229 = t191 * s_j[0] + t192 * C_j[6] * lambda[1] + t193 * t15;
-    jac_phi_q_t_lambda_A_j[24] = t229;
-    const jg_real t230 = A_i[8] * t16;
-    const jg_real t231 = A_i[5] * t16;
-    const jg_real t232 = A_i[8] * s_j[1];
-    const jg_real t233 = A_i[5] * s_j[1];
-    const jg_real t234 = A_i[5] * C_j[7];
-    const jg_real t235 = A_i[8] * C_j[7];
-    jac_phi_q_t_lambda_A_j[25] = C_i[1] * t230 - C_i[2] * t231 + (t0 * t232 - t1 * t233 - (C_i[5] * t234 - C_i[4] *
-        t235) * lambda[1]);
-    const jg_real t236 = A_i[2] * t16;
-    const jg_real t237 = A_i[2] * s_j[1];
-    const jg_real t238 = A_i[2] * C_j[7];
-    jac_phi_q_t_lambda_A_j[26] = C_i[2] * t236 - C_i[0] * t230 + (t1 * t237 - t3 * t232 - lambda[1] * (C_i[3] * t235
-        - C_i[5] * t238));
-    jac_phi_q_t_lambda_A_j[27] = C_i[0] * t231 - C_i[1] * t236 + (t3 * t233 - t0 * t237 - lambda[1] * (C_i[4] * t238
-        - C_i[3] * t234));
-    jac_phi_q_t_lambda_A_j[28] = -t208;
-    const jg_real t239 = t205 * s_j[0] + t206 * C_j[6] * lambda[1] + t207 * t15;
-    jac_phi_q_t_lambda_A_j[29] = t239;
-    const jg_real t240 = A_i[6] * t17;
-    const jg_real t241 = A_i[3] * t17;
-    const jg_real t242 = A_i[6] * s_j[2];
-    const jg_real t243 = A_i[3] * s_j[2];
-    const jg_real t244 = A_i[3] * C_j[8];
-    const jg_real t245 = A_i[6] * C_j[8];
-    jac_phi_q_t_lambda_A_j[30] = C_i[1] * t240 - C_i[2] * t241 + (t0 * t242 - t1 * t243 - (C_i[5] * t244 - C_i[4] *
-        t245) * lambda[1]);
-    const jg_real t246 = A_i[0] * t17;
-    const jg_real t247 = A_i[0] * s_j[2];
-    const jg_real t248 = A_i[0] * C_j[8];
-    jac_phi_q_t_lambda_A_j[31] = C_i[2] * t246 - C_i[0] * t240 + (t1 * t247 - t3 * t242 - lambda[1] * (C_i[3] * t245
-        - C_i[5] * t248));
-    jac_phi_q_t_lambda_A_j[32] = C_i[0] * t241 - C_i[1] * t246 + (t3 * t243 - t0 * t247 - lambda[1] * (C_i[4] * t248
-        - C_i[3] * t244));
-    jac_phi_q_t_lambda_A_j[34] = -t219;
-    const jg_real t249 = A_i[7] * t17;
-    const jg_real t250 = A_i[4] * t17;
-    const jg_real t251 = A_i[7] * s_j[2];
-    const jg_real t252 = A_i[4] * s_j[2];
-    const jg_real t253 = A_i[4] * C_j[8];
-    const jg_real t254 = A_i[7] * C_j[8];
-    jac_phi_q_t_lambda_A_j[35] = C_i[1] * t249 - C_i[2] * t250 + (t0 * t251 - t1 * t252 - (C_i[5] * t253 - C_i[4] *
-        t254) * lambda[1]);
-    const jg_real t255 = A_i[1] * t17;
-    const jg_real t256 = A_i[1] * s_j[2];
-    const jg_real t257 = A_i[1] * C_j[8];
-    jac_phi_q_t_lambda_A_j[36] = C_i[2] * t255 - C_i[0] * t249 + (t1 * t256 - t3 * t251 - lambda[1] * (C_i[3] * t254
-        - C_i[5] * t257));
-    jac_phi_q_t_lambda_A_j[37] = C_i[0] * t250 - C_i[1] * t255 + (t3 * t252 - t0 * t256 - lambda[1] * (C_i[4] * t257
-        - C_i[3] * t253));
-    jac_phi_q_t_lambda_A_j[39] = -t229;
-    const jg_real t258 = A_i[8] * t17;
-    const jg_real t259 = A_i[5] * t17;
-    const jg_real t260 = A_i[8] * s_j[2];
-    const jg_real t261 = A_i[5] * s_j[2];
-    const jg_real t262 = A_i[5] * C_j[8];
-    const jg_real t263 = A_i[8] * C_j[8];
-    jac_phi_q_t_lambda_A_j[40] = C_i[1] * t258 - C_i[2] * t259 + (t0 * t260 - t1 * t261 - (C_i[5] * t262 - C_i[4] *
-        t263) * lambda[1]);
-    const jg_real t264 = A_i[2] * t17;
-    const jg_real t265 = A_i[2] * s_j[2];
-    const jg_real t266 = A_i[2] * C_j[8];
-    jac_phi_q_t_lambda_A_j[41] = C_i[2] * t264 - C_i[0] * t258 + (t1 * t265 - t3 * t260 - lambda[1] * (C_i[3] * t263
-        - C_i[5] * t266));
-    jac_phi_q_t_lambda_A_j[42] = C_i[0] * t259 - C_i[1] * t264 + (t3 * t261 - t0 * t265 - lambda[1] * (C_i[4] * t266
-        - C_i[3] * t262));
-    jac_phi_q_t_lambda_A_j[44] = -t239;
-    const jg_real t267 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t268 = t1 * t267;
-    const jg_real t269 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t270 = t0 * t269;
-    jac_phi_q_t_lambda_geometry[0] = t268 - t270;
-    const jg_real t271 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = t1 * t271 + t3 * t269;
-    jac_phi_q_t_lambda_geometry[2] = -(t3 * t267 + t0 * t271);
-    const jg_real t272 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t273 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(t0 * t272 + t1 * t273);
-    const jg_real t274 = t3 * t272;
-    jac_phi_q_t_lambda_geometry[4] = t274 - t268;
-    jac_phi_q_t_lambda_geometry[5] = t3 * t273 + t0 * t267;
-    const jg_real t275 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = t0 * t275 + t1 * t272;
-    jac_phi_q_t_lambda_geometry[7] = -(t1 * t269 + t3 * t275);
-    jac_phi_q_t_lambda_geometry[8] = t270 - t274;
-    const jg_real t276 = lambda[3] * A_i[0];
-    jac_phi_q_t_lambda_geometry[14] = t276;
-    jac_phi_q_t_lambda_geometry[9] = -t276;
-    const jg_real t277 = lambda[3] * A_i[1];
-    jac_phi_q_t_lambda_geometry[15] = t277;
-    jac_phi_q_t_lambda_geometry[10] = -t277;
-    const jg_real t278 = lambda[3] * A_i[2];
-    jac_phi_q_t_lambda_geometry[16] = t278;
-    jac_phi_q_t_lambda_geometry[11] = -t278;
+    jac_phi_q_t_lambda_A_j[44] = -t191;
+    const jg_real t219 = lambda[3] * A_i[0];
+    jac_phi_q_t_lambda_geometry[5] = t219;
+    jac_phi_q_t_lambda_geometry[0] = -t219;
+    const jg_real t220 = lambda[3] * A_i[1];
+    jac_phi_q_t_lambda_geometry[6] = t220;
+    jac_phi_q_t_lambda_geometry[1] = -t220;
+    const jg_real t221 = lambda[3] * A_i[2];
+    jac_phi_q_t_lambda_geometry[7] = t221;
+    jac_phi_q_t_lambda_geometry[2] = -t221;
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t283 = s_i[2] + dp_ij_2;
-    const jg_real t284 = A_ij_2 * t15 + A_ij_5 * t16 + A_ij_8 * t17 + lambda[3] * t283;
-    jac_phi_q_t_lambda_geometry[23] = t284;
-    jac_phi_q_t_lambda_geometry[12] = -t284;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = A_i[6] * e_ij_0 + A_i[7] * e_ij_1 + A_i[8] * e_ij_2;
+    const jg_real t226 = A_ij_2 * t13 + A_ij_5 * t14 + A_ij_8 * t15 + lambda[3] * ep_ij_2;
+    jac_phi_q_t_lambda_geometry[14] = t226;
+    jac_phi_q_t_lambda_geometry[3] = -t226;
     const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t289 = s_i[1] + dp_ij_1;
-    const jg_real t290 = t15 * A_ij_1 + t16 * A_ij_4 + t17 * A_ij_7 + lambda[3] * t289;
-    jac_phi_q_t_lambda_geometry[13] = t290;
+    const jg_real ep_ij_1 = A_i[3] * e_ij_0 + A_i[4] * e_ij_1 + A_i[5] * e_ij_2;
+    const jg_real t231 = t13 * A_ij_1 + t14 * A_ij_4 + t15 * A_ij_7 + lambda[3] * ep_ij_1;
+    jac_phi_q_t_lambda_geometry[4] = t231;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t293 = lambda[3] * A_ij_6;
-    const jg_real t294 = lambda[3] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t293 - s_j[2] * t294 + (t16 * A_ij_6 - t17 * A_ij_3);
+    const jg_real t234 = lambda[3] * A_ij_6;
+    const jg_real t235 = lambda[3] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[8] = s_j[1] * t234 - s_j[2] * t235 + (t14 * A_ij_6 - t15 * A_ij_3);
     const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t296 = lambda[3] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t296 - s_j[0] * t293 + (t17 * A_ij_0 - t15 * A_ij_6);
-    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t294 - s_j[1] * t296 + (t15 * A_ij_3 - t16 * A_ij_0);
-    const jg_real t297 = lambda[3] * A_i[3];
-    jac_phi_q_t_lambda_geometry[25] = t297;
-    jac_phi_q_t_lambda_geometry[20] = -t297;
-    const jg_real t298 = lambda[3] * A_i[4];
-    jac_phi_q_t_lambda_geometry[26] = t298;
-    jac_phi_q_t_lambda_geometry[21] = -t298;
-    const jg_real t299 = lambda[3] * A_i[5];
-    jac_phi_q_t_lambda_geometry[27] = t299;
-    jac_phi_q_t_lambda_geometry[22] = -t299;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t301 = s_i[0] + dp_ij_0;
-    const jg_real t302 = t15 * A_ij_0 + t16 * A_ij_3 + t17 * A_ij_6 + lambda[3] * t301;
-    jac_phi_q_t_lambda_geometry[35] = t302;
-    jac_phi_q_t_lambda_geometry[24] = -t302;
-    const jg_real t303 = lambda[3] * A_ij_7;
-    const jg_real t304 = lambda[3] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[28] = s_j[1] * t303 - s_j[2] * t304 + (t16 * A_ij_7 - t17 * A_ij_4);
-    const jg_real t305 = lambda[3] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[29] = s_j[2] * t305 - s_j[0] * t303 + (t17 * A_ij_1 - t15 * A_ij_7);
-    jac_phi_q_t_lambda_geometry[30] = s_j[0] * t304 - s_j[1] * t305 + (t15 * A_ij_4 - t16 * A_ij_1);
-    const jg_real t306 = lambda[3] * A_i[6];
-    jac_phi_q_t_lambda_geometry[36] = t306;
-    jac_phi_q_t_lambda_geometry[31] = -t306;
-    const jg_real t307 = lambda[3] * A_i[7];
-    jac_phi_q_t_lambda_geometry[37] = t307;
-    jac_phi_q_t_lambda_geometry[32] = -t307;
-    const jg_real t308 = lambda[3] * A_i[8];
-    jac_phi_q_t_lambda_geometry[38] = t308;
-    jac_phi_q_t_lambda_geometry[33] = -t308;
-    jac_phi_q_t_lambda_geometry[34] = -t290;
-    const jg_real t309 = lambda[3] * A_ij_8;
-    const jg_real t310 = lambda[3] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[39] = s_j[1] * t309 - s_j[2] * t310 + (t16 * A_ij_8 - A_ij_5 * t17);
-    const jg_real t311 = lambda[3] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[40] = s_j[2] * t311 - s_j[0] * t309 + (A_ij_2 * t17 - t15 * A_ij_8);
-    jac_phi_q_t_lambda_geometry[41] = s_j[0] * t310 - s_j[1] * t311 + (t15 * A_ij_5 - A_ij_2 * t16);
-    const jg_real t312 = lambda[4] * A_i[0];
-    jac_phi_q_t_lambda_geometry[47] = t312;
-    jac_phi_q_t_lambda_geometry[42] = -t312;
-    const jg_real t313 = lambda[4] * A_i[1];
-    jac_phi_q_t_lambda_geometry[48] = t313;
-    jac_phi_q_t_lambda_geometry[43] = -t313;
-    const jg_real t314 = lambda[4] * A_i[2];
-    jac_phi_q_t_lambda_geometry[49] = t314;
-    jac_phi_q_t_lambda_geometry[44] = -t314;
+    const jg_real t237 = lambda[3] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[9] = s_j[2] * t237 - s_j[0] * t234 + (t15 * A_ij_0 - t13 * A_ij_6);
+    jac_phi_q_t_lambda_geometry[10] = s_j[0] * t235 - s_j[1] * t237 + (t13 * A_ij_3 - t14 * A_ij_0);
+    const jg_real t238 = lambda[3] * A_i[3];
+    jac_phi_q_t_lambda_geometry[16] = t238;
+    jac_phi_q_t_lambda_geometry[11] = -t238;
+    const jg_real t239 = lambda[3] * A_i[4];
+    jac_phi_q_t_lambda_geometry[17] = t239;
+    jac_phi_q_t_lambda_geometry[12] = -t239;
+    const jg_real t240 = lambda[3] * A_i[5];
+    jac_phi_q_t_lambda_geometry[18] = t240;
+    jac_phi_q_t_lambda_geometry[13] = -t240;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t242 = t13 * A_ij_0 + t14 * A_ij_3 + t15 * A_ij_6 + lambda[3] * ep_ij_0;
+    jac_phi_q_t_lambda_geometry[26] = t242;
+    jac_phi_q_t_lambda_geometry[15] = -t242;
+    const jg_real t243 = lambda[3] * A_ij_7;
+    const jg_real t244 = lambda[3] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[19] = s_j[1] * t243 - s_j[2] * t244 + (t14 * A_ij_7 - t15 * A_ij_4);
+    const jg_real t245 = lambda[3] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[20] = s_j[2] * t245 - s_j[0] * t243 + (t15 * A_ij_1 - t13 * A_ij_7);
+    jac_phi_q_t_lambda_geometry[21] = s_j[0] * t244 - s_j[1] * t245 + (t13 * A_ij_4 - t14 * A_ij_1);
+    const jg_real t246 = lambda[3] * A_i[6];
+    jac_phi_q_t_lambda_geometry[27] = t246;
+    jac_phi_q_t_lambda_geometry[22] = -t246;
+    const jg_real t247 = lambda[3] * A_i[7];
+    jac_phi_q_t_lambda_geometry[28] = t247;
+    jac_phi_q_t_lambda_geometry[23] = -t247;
+    const jg_real t248 = lambda[3] * A_i[8];
+    jac_phi_q_t_lambda_geometry[29] = t248;
+    jac_phi_q_t_lambda_geometry[24] = -t248;
+    jac_phi_q_t_lambda_geometry[25] = -t231;
+    const jg_real t249 = lambda[3] * A_ij_8;
+    const jg_real t250 = lambda[3] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[30] = s_j[1] * t249 - s_j[2] * t250 + (t14 * A_ij_8 - A_ij_5 * t15);
+    const jg_real t251 = lambda[3] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[31] = s_j[2] * t251 - s_j[0] * t249 + (A_ij_2 * t15 - t13 * A_ij_8);
+    jac_phi_q_t_lambda_geometry[32] = s_j[0] * t250 - s_j[1] * t251 + (t13 * A_ij_5 - A_ij_2 * t14);
+    const jg_real t252 = lambda[4] * A_i[0];
+    jac_phi_q_t_lambda_geometry[38] = t252;
+    jac_phi_q_t_lambda_geometry[33] = -t252;
+    const jg_real t253 = lambda[4] * A_i[1];
+    jac_phi_q_t_lambda_geometry[39] = t253;
+    jac_phi_q_t_lambda_geometry[34] = -t253;
+    const jg_real t254 = lambda[4] * A_i[2];
+    jac_phi_q_t_lambda_geometry[40] = t254;
+    jac_phi_q_t_lambda_geometry[35] = -t254;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t316 = lambda[4] * t283 + A_ij_h_j_2 * lambda[1];
-    jac_phi_q_t_lambda_geometry[56] = t316;
-    jac_phi_q_t_lambda_geometry[45] = -t316;
+    const jg_real t256 = lambda[4] * ep_ij_2 + A_ij_h_j_2 * lambda[1];
+    jac_phi_q_t_lambda_geometry[47] = t256;
+    jac_phi_q_t_lambda_geometry[36] = -t256;
     const jg_real A_ij_h_j_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
-    const jg_real t318 = lambda[4] * t289 + A_ij_h_j_1 * lambda[1];
-    jac_phi_q_t_lambda_geometry[46] = t318;
-    const jg_real t319 = lambda[4] * A_ij_6;
-    const jg_real t320 = lambda[4] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[50] = s_j[1] * t319 - s_j[2] * t320 + lambda[1] * (C_j[7] * A_ij_6 - C_j[8] *
+    const jg_real t258 = lambda[4] * ep_ij_1 + A_ij_h_j_1 * lambda[1];
+    jac_phi_q_t_lambda_geometry[37] = t258;
+    const jg_real t259 = lambda[4] * A_ij_6;
+    const jg_real t260 = lambda[4] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[41] = s_j[1] * t259 - s_j[2] * t260 + lambda[1] * (C_j[7] * A_ij_6 - C_j[8] *
         A_ij_3);
-    const jg_real t321 = lambda[4] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[51] = s_j[2] * t321 - s_j[0] * t319 + lambda[1] * (C_j[8] * A_ij_0 - C_j[6] *
+    const jg_real t261 = lambda[4] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[42] = s_j[2] * t261 - s_j[0] * t259 + lambda[1] * (C_j[8] * A_ij_0 - C_j[6] *
         A_ij_6);
-    jac_phi_q_t_lambda_geometry[52] = s_j[0] * t320 - s_j[1] * t321 + lambda[1] * (C_j[6] * A_ij_3 - C_j[7] *
+    jac_phi_q_t_lambda_geometry[43] = s_j[0] * t260 - s_j[1] * t261 + lambda[1] * (C_j[6] * A_ij_3 - C_j[7] *
         A_ij_0);
-    const jg_real t322 = lambda[4] * A_i[3];
-    jac_phi_q_t_lambda_geometry[58] = t322;
-    jac_phi_q_t_lambda_geometry[53] = -t322;
-    const jg_real t323 = lambda[4] * A_i[4];
-    jac_phi_q_t_lambda_geometry[59] = t323;
-    jac_phi_q_t_lambda_geometry[54] = -t323;
-    const jg_real t324 = lambda[4] * A_i[5];
-    jac_phi_q_t_lambda_geometry[60] = t324;
-    jac_phi_q_t_lambda_geometry[55] = -t324;
+    const jg_real t262 = lambda[4] * A_i[3];
+    jac_phi_q_t_lambda_geometry[49] = t262;
+    jac_phi_q_t_lambda_geometry[44] = -t262;
+    const jg_real t263 = lambda[4] * A_i[4];
+    jac_phi_q_t_lambda_geometry[50] = t263;
+    jac_phi_q_t_lambda_geometry[45] = -t263;
+    const jg_real t264 = lambda[4] * A_i[5];
+    jac_phi_q_t_lambda_geometry[51] = t264;
+    jac_phi_q_t_lambda_geometry[46] = -t264;
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    const jg_real t326 = lambda[4] * t301 + lambda[1] * A_ij_h_j_0;
-    jac_phi_q_t_lambda_geometry[68] = t326;
-    jac_phi_q_t_lambda_geometry[57] = -t326;
-    const jg_real t327 = lambda[4] * A_ij_7;
-    const jg_real t328 = lambda[4] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[61] = s_j[1] * t327 - s_j[2] * t328 + lambda[1] * (C_j[7] * A_ij_7 - C_j[8] *
+    const jg_real t266 = lambda[4] * ep_ij_0 + lambda[1] * A_ij_h_j_0;
+    jac_phi_q_t_lambda_geometry[59] = t266;
+    jac_phi_q_t_lambda_geometry[48] = -t266;
+    const jg_real t267 = lambda[4] * A_ij_7;
+    const jg_real t268 = lambda[4] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t267 - s_j[2] * t268 + lambda[1] * (C_j[7] * A_ij_7 - C_j[8] *
         A_ij_4);
-    const jg_real t329 = lambda[4] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[62] = s_j[2] * t329 - s_j[0] * t327 + lambda[1] * (C_j[8] * A_ij_1 - C_j[6] *
+    const jg_real t269 = lambda[4] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t269 - s_j[0] * t267 + lambda[1] * (C_j[8] * A_ij_1 - C_j[6] *
         A_ij_7);
-    jac_phi_q_t_lambda_geometry[63] = s_j[0] * t328 - s_j[1] * t329 + lambda[1] * (C_j[6] * A_ij_4 - C_j[7] *
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t268 - s_j[1] * t269 + lambda[1] * (C_j[6] * A_ij_4 - C_j[7] *
         A_ij_1);
-    const jg_real t330 = lambda[4] * A_i[6];
-    jac_phi_q_t_lambda_geometry[69] = t330;
-    jac_phi_q_t_lambda_geometry[64] = -t330;
-    const jg_real t331 = lambda[4] * A_i[7];
-    jac_phi_q_t_lambda_geometry[70] = t331;
-    jac_phi_q_t_lambda_geometry[65] = -t331;
-    const jg_real t332 = lambda[4] * A_i[8];
-    jac_phi_q_t_lambda_geometry[71] = t332;
-    jac_phi_q_t_lambda_geometry[66] = -t332;
-    jac_phi_q_t_lambda_geometry[67] = -t318;
-    const jg_real t333 = lambda[4] * A_ij_8;
-    const jg_real t334 = lambda[4] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[72] = s_j[1] * t333 - s_j[2] * t334 + lambda[1] * (C_j[7] * A_ij_8 - A_ij_5 *
+    const jg_real t270 = lambda[4] * A_i[6];
+    jac_phi_q_t_lambda_geometry[60] = t270;
+    jac_phi_q_t_lambda_geometry[55] = -t270;
+    const jg_real t271 = lambda[4] * A_i[7];
+    jac_phi_q_t_lambda_geometry[61] = t271;
+    jac_phi_q_t_lambda_geometry[56] = -t271;
+    const jg_real t272 = lambda[4] * A_i[8];
+    jac_phi_q_t_lambda_geometry[62] = t272;
+    jac_phi_q_t_lambda_geometry[57] = -t272;
+    jac_phi_q_t_lambda_geometry[58] = -t258;
+    const jg_real t273 = lambda[4] * A_ij_8;
+    const jg_real t274 = lambda[4] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[63] = s_j[1] * t273 - s_j[2] * t274 + lambda[1] * (C_j[7] * A_ij_8 - A_ij_5 *
         C_j[8]);
-    const jg_real t335 = lambda[4] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[73] = s_j[2] * t335 - s_j[0] * t333 + lambda[1] * (A_ij_2 * C_j[8] - C_j[6] *
+    const jg_real t275 = lambda[4] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[64] = s_j[2] * t275 - s_j[0] * t273 + lambda[1] * (A_ij_2 * C_j[8] - C_j[6] *
         A_ij_8);
-    jac_phi_q_t_lambda_geometry[74] = s_j[0] * t334 - s_j[1] * t335 + lambda[1] * (C_j[6] * A_ij_5 - A_ij_2 *
+    jac_phi_q_t_lambda_geometry[65] = s_j[0] * t274 - s_j[1] * t275 + lambda[1] * (C_j[6] * A_ij_5 - A_ij_2 *
         C_j[7]);
-    jac_phi_q_t_lambda_geometry[75] = t0 * A_ij_2 - t1 * A_ij_1;
-    jac_phi_q_t_lambda_geometry[76] = t1 * A_ij_0 - t3 * A_ij_2;
-    jac_phi_q_t_lambda_geometry[77] = t3 * A_ij_1 - t0 * A_ij_0;
-    const jg_real t336 = t3 * A_ij_6 + t0 * A_ij_7 + t1 * A_ij_8;
-    jac_phi_q_t_lambda_geometry[83] = t336;
-    jac_phi_q_t_lambda_geometry[78] = -t336;
-    const jg_real t337 = t3 * A_ij_3 + t0 * A_ij_4 + t1 * A_ij_5;
-    jac_phi_q_t_lambda_geometry[79] = t337;
-    jac_phi_q_t_lambda_geometry[80] = t0 * A_ij_5 - t1 * A_ij_4;
-    jac_phi_q_t_lambda_geometry[81] = t1 * A_ij_3 - t3 * A_ij_5;
-    jac_phi_q_t_lambda_geometry[82] = t3 * A_ij_4 - t0 * A_ij_3;
-    const jg_real t338 = t3 * A_ij_0 + t0 * A_ij_1 + t1 * A_ij_2;
-    jac_phi_q_t_lambda_geometry[89] = t338;
-    jac_phi_q_t_lambda_geometry[84] = -t338;
-    jac_phi_q_t_lambda_geometry[85] = t0 * A_ij_8 - t1 * A_ij_7;
-    jac_phi_q_t_lambda_geometry[86] = t1 * A_ij_6 - t3 * A_ij_8;
-    jac_phi_q_t_lambda_geometry[87] = t3 * A_ij_7 - t0 * A_ij_6;
-    jac_phi_q_t_lambda_geometry[88] = -t337;
-    const jg_real t339 = A_ij_2 * lambda[2];
-    const jg_real t340 = lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[90] = C_i[1] * t339 - C_i[2] * t340;
-    const jg_real t341 = lambda[2] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[91] = C_i[2] * t341 - C_i[0] * t339;
-    jac_phi_q_t_lambda_geometry[92] = C_i[0] * t340 - C_i[1] * t341;
+    jac_phi_q_t_lambda_geometry[66] = t0 * A_ij_2 - t1 * A_ij_1;
+    jac_phi_q_t_lambda_geometry[67] = t1 * A_ij_0 - t3 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[68] = t3 * A_ij_1 - t0 * A_ij_0;
+    const jg_real t276 = t3 * A_ij_6 + t0 * A_ij_7 + t1 * A_ij_8;
+    jac_phi_q_t_lambda_geometry[74] = t276;
+    jac_phi_q_t_lambda_geometry[69] = -t276;
+    const jg_real t277 = t3 * A_ij_3 + t0 * A_ij_4 + t1 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[70] = t277;
+    jac_phi_q_t_lambda_geometry[71] = t0 * A_ij_5 - t1 * A_ij_4;
+    jac_phi_q_t_lambda_geometry[72] = t1 * A_ij_3 - t3 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[73] = t3 * A_ij_4 - t0 * A_ij_3;
+    const jg_real t278 = t3 * A_ij_0 + t0 * A_ij_1 + t1 * A_ij_2;
+    jac_phi_q_t_lambda_geometry[80] = t278;
+    jac_phi_q_t_lambda_geometry[75] = -t278;
+    jac_phi_q_t_lambda_geometry[76] = t0 * A_ij_8 - t1 * A_ij_7;
+    jac_phi_q_t_lambda_geometry[77] = t1 * A_ij_6 - t3 * A_ij_8;
+    jac_phi_q_t_lambda_geometry[78] = t3 * A_ij_7 - t0 * A_ij_6;
+    jac_phi_q_t_lambda_geometry[79] = -t277;
+    const jg_real t279 = A_ij_2 * lambda[2];
+    const jg_real t280 = lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[81] = C_i[1] * t279 - C_i[2] * t280;
+    const jg_real t281 = lambda[2] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[82] = C_i[2] * t281 - C_i[0] * t279;
+    jac_phi_q_t_lambda_geometry[83] = C_i[0] * t280 - C_i[1] * t281;
     /* A_ijt_f_i = A_ij^T f_i */
     const jg_real A_ijt_f_i_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real t343 = lambda[2] * A_ijt_f_i_2;
-    jac_phi_q_t_lambda_geometry[98] = t343;
-    jac_phi_q_t_lambda_geometry[93] = -t343;
+    const jg_real t283 = lambda[2] * A_ijt_f_i_2;
+    jac_phi_q_t_lambda_geometry[89] = t283;
+    jac_phi_q_t_lambda_geometry[84] = -t283;
     const jg_real A_ijt_f_i_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
-    const jg_real t345 = lambda[2] * A_ijt_f_i_1;
-    jac_phi_q_t_lambda_geometry[94] = t345;
-    const jg_real t346 = lambda[2] * A_ij_5;
-    const jg_real t347 = lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[95] = C_i[1] * t346 - C_i[2] * t347;
-    const jg_real t348 = lambda[2] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[96] = C_i[2] * t348 - C_i[0] * t346;
-    jac_phi_q_t_lambda_geometry[97] = C_i[0] * t347 - C_i[1] * t348;
+    const jg_real t285 = lambda[2] * A_ijt_f_i_1;
+    jac_phi_q_t_lambda_geometry[85] = t285;
+    const jg_real t286 = lambda[2] * A_ij_5;
+    const jg_real t287 = lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[86] = C_i[1] * t286 - C_i[2] * t287;
+    const jg_real t288 = lambda[2] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[87] = C_i[2] * t288 - C_i[0] * t286;
+    jac_phi_q_t_lambda_geometry[88] = C_i[0] * t287 - C_i[1] * t288;
     const jg_real A_ijt_f_i_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
-    const jg_real t350 = lambda[2] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_geometry[104] = t350;
-    jac_phi_q_t_lambda_geometry[99] = -t350;
-    const jg_real t351 = lambda[2] * A_ij_8;
-    const jg_real t352 = lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[100] = C_i[1] * t351 - C_i[2] * t352;
-    const jg_real t353 = lambda[2] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[101] = C_i[2] * t353 - C_i[0] * t351;
-    jac_phi_q_t_lambda_geometry[102] = C_i[0] * t352 - C_i[1] * t353;
-    jac_phi_q_t_lambda_geometry[103] = -t345;
-    const jg_real t354 = A_ij_2 * lambda[0];
-    const jg_real t355 = lambda[0] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[105] = C_i[1] * t354 - C_i[2] * t355 - (C_i[5] * A_ij_1 - C_i[4] * A_ij_2) *
+    const jg_real t290 = lambda[2] * A_ijt_f_i_0;
+    jac_phi_q_t_lambda_geometry[95] = t290;
+    jac_phi_q_t_lambda_geometry[90] = -t290;
+    const jg_real t291 = lambda[2] * A_ij_8;
+    const jg_real t292 = lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[91] = C_i[1] * t291 - C_i[2] * t292;
+    const jg_real t293 = lambda[2] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[92] = C_i[2] * t293 - C_i[0] * t291;
+    jac_phi_q_t_lambda_geometry[93] = C_i[0] * t292 - C_i[1] * t293;
+    jac_phi_q_t_lambda_geometry[94] = -t285;
+    const jg_real t294 = A_ij_2 * lambda[0];
+    const jg_real t295 = lambda[0] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[96] = C_i[1] * t294 - C_i[2] * t295 - (C_i[5] * A_ij_1 - C_i[4] * A_ij_2) *
         lambda[1];
-    const jg_real t356 = lambda[0] * A_ij_0;
-    jac_phi_q_t_lambda_geometry[106] = C_i[2] * t356 - C_i[0] * t354 - lambda[1] * (C_i[3] * A_ij_2 - C_i[5] *
+    const jg_real t296 = lambda[0] * A_ij_0;
+    jac_phi_q_t_lambda_geometry[97] = C_i[2] * t296 - C_i[0] * t294 - lambda[1] * (C_i[3] * A_ij_2 - C_i[5] *
         A_ij_0);
-    jac_phi_q_t_lambda_geometry[107] = C_i[0] * t355 - C_i[1] * t356 - lambda[1] * (C_i[4] * A_ij_0 - C_i[3] *
+    jac_phi_q_t_lambda_geometry[98] = C_i[0] * t295 - C_i[1] * t296 - lambda[1] * (C_i[4] * A_ij_0 - C_i[3] *
         A_ij_1);
     /* A_ijt_g_i = A_ij^T g_i */
     const jg_real A_ijt_g_i_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real t358 = lambda[1] * A_ijt_g_i_2 + lambda[0] * A_ijt_f_i_2;
-    jac_phi_q_t_lambda_geometry[113] = t358;
-    jac_phi_q_t_lambda_geometry[108] = -t358;
+    const jg_real t298 = lambda[1] * A_ijt_g_i_2 + lambda[0] * A_ijt_f_i_2;
+    jac_phi_q_t_lambda_geometry[104] = t298;
+    jac_phi_q_t_lambda_geometry[99] = -t298;
     const jg_real A_ijt_g_i_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
-    const jg_real t360 = lambda[1] * A_ijt_g_i_1 + lambda[0] * A_ijt_f_i_1;
-    jac_phi_q_t_lambda_geometry[109] = t360;
-    const jg_real t361 = lambda[0] * A_ij_5;
-    const jg_real t362 = lambda[0] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[110] = C_i[1] * t361 - C_i[2] * t362 - (C_i[5] * A_ij_4 - C_i[4] * A_ij_5) *
+    const jg_real t300 = lambda[1] * A_ijt_g_i_1 + lambda[0] * A_ijt_f_i_1;
+    jac_phi_q_t_lambda_geometry[100] = t300;
+    const jg_real t301 = lambda[0] * A_ij_5;
+    const jg_real t302 = lambda[0] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[101] = C_i[1] * t301 - C_i[2] * t302 - (C_i[5] * A_ij_4 - C_i[4] * A_ij_5) *
         lambda[1];
-    const jg_real t363 = lambda[0] * A_ij_3;
-    jac_phi_q_t_lambda_geometry[111] = C_i[2] * t363 - C_i[0] * t361 - lambda[1] * (C_i[3] * A_ij_5 - C_i[5] *
+    const jg_real t303 = lambda[0] * A_ij_3;
+    jac_phi_q_t_lambda_geometry[102] = C_i[2] * t303 - C_i[0] * t301 - lambda[1] * (C_i[3] * A_ij_5 - C_i[5] *
         A_ij_3);
-    jac_phi_q_t_lambda_geometry[112] = C_i[0] * t362 - C_i[1] * t363 - lambda[1] * (C_i[4] * A_ij_3 - C_i[3] *
+    jac_phi_q_t_lambda_geometry[103] = C_i[0] * t302 - C_i[1] * t303 - lambda[1] * (C_i[4] * A_ij_3 - C_i[3] *
         A_ij_4);
     const jg_real A_ijt_g_i_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + C_i[5] * A_ij_2;
-    const jg_real t365 = lambda[1] * A_ijt_g_i_0 + lambda[0] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_geometry[119] = t365;
-    jac_phi_q_t_lambda_geometry[114] = -t365;
-    const jg_real t366 = lambda[0] * A_ij_8;
-    const jg_real t367 = lambda[0] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[115] = C_i[1] * t366 - C_i[2] * t367 - (C_i[5] * A_ij_7 - C_i[4] * A_ij_8) *
+    const jg_real t305 = lambda[1] * A_ijt_g_i_0 + lambda[0] * A_ijt_f_i_0;
+    jac_phi_q_t_lambda_geometry[110] = t305;
+    jac_phi_q_t_lambda_geometry[105] = -t305;
+    const jg_real t306 = lambda[0] * A_ij_8;
+    const jg_real t307 = lambda[0] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[106] = C_i[1] * t306 - C_i[2] * t307 - (C_i[5] * A_ij_7 - C_i[4] * A_ij_8) *
         lambda[1];
-    const jg_real t368 = lambda[0] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[116] = C_i[2] * t368 - C_i[0] * t366 - lambda[1] * (C_i[3] * A_ij_8 - C_i[5] *
+    const jg_real t308 = lambda[0] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[107] = C_i[2] * t308 - C_i[0] * t306 - lambda[1] * (C_i[3] * A_ij_8 - C_i[5] *
         A_ij_6);
-    jac_phi_q_t_lambda_geometry[117] = C_i[0] * t367 - C_i[1] * t368 - lambda[1] * (C_i[4] * A_ij_6 - C_i[3] *
+    jac_phi_q_t_lambda_geometry[108] = C_i[0] * t307 - C_i[1] * t308 - lambda[1] * (C_i[4] * A_ij_6 - C_i[3] *
         A_ij_7);
-    jac_phi_q_t_lambda_geometry[118] = -t360;
+    jac_phi_q_t_lambda_geometry[109] = -t300;
     jac_phi_q_t_lambda_lambda[0] = C_i[1] * A_ij_h_j_2 - C_i[2] * A_ij_h_j_1;
     jac_phi_q_t_lambda_lambda[1] = C_i[2] * A_ij_h_j_0 - C_i[0] * A_ij_h_j_2;
     jac_phi_q_t_lambda_lambda[2] = C_i[0] * A_ij_h_j_1 - C_i[1] * A_ij_h_j_0;
@@ -1800,30 +1613,30 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[9] = C_j[7] * A_ijt_g_i_2 - C_j[8] * A_ijt_g_i_1;
     jac_phi_q_t_lambda_lambda[10] = C_j[8] * A_ijt_g_i_0 - C_j[6] * A_ijt_g_i_2;
     jac_phi_q_t_lambda_lambda[11] = C_j[6] * A_ijt_g_i_1 - C_j[7] * A_ijt_g_i_0;
-    const jg_real t369 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t370 = C_j[3] * A_ij_1 + C_j[4] * A_ij_4 + C_j[5] * A_ij_7;
-    jac_phi_q_t_lambda_lambda[12] = C_i[1] * t369 - C_i[2] * t370;
-    const jg_real t371 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
-    jac_phi_q_t_lambda_lambda[13] = C_i[2] * t371 - C_i[0] * t369;
-    jac_phi_q_t_lambda_lambda[14] = C_i[0] * t370 - C_i[1] * t371;
+    const jg_real t309 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    const jg_real t310 = C_j[3] * A_ij_1 + C_j[4] * A_ij_4 + C_j[5] * A_ij_7;
+    jac_phi_q_t_lambda_lambda[12] = C_i[1] * t309 - C_i[2] * t310;
+    const jg_real t311 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
+    jac_phi_q_t_lambda_lambda[13] = C_i[2] * t311 - C_i[0] * t309;
+    jac_phi_q_t_lambda_lambda[14] = C_i[0] * t310 - C_i[1] * t311;
     jac_phi_q_t_lambda_lambda[15] = C_j[4] * A_ijt_f_i_2 - C_j[5] * A_ijt_f_i_1;
     jac_phi_q_t_lambda_lambda[16] = C_j[5] * A_ijt_f_i_0 - C_j[3] * A_ijt_f_i_2;
     jac_phi_q_t_lambda_lambda[17] = C_j[3] * A_ijt_f_i_1 - C_j[4] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_lambda[18] = -t179;
-    jac_phi_q_t_lambda_lambda[19] = -t193;
-    jac_phi_q_t_lambda_lambda[20] = -t207;
-    jac_phi_q_t_lambda_lambda[21] = C_i[1] * t283 - C_i[2] * t289;
-    jac_phi_q_t_lambda_lambda[22] = C_i[2] * t301 - C_i[0] * t283;
-    jac_phi_q_t_lambda_lambda[23] = C_i[0] * t289 - C_i[1] * t301;
+    jac_phi_q_t_lambda_lambda[18] = -t131;
+    jac_phi_q_t_lambda_lambda[19] = -t145;
+    jac_phi_q_t_lambda_lambda[20] = -t159;
+    jac_phi_q_t_lambda_lambda[21] = C_i[1] * ep_ij_2 - C_i[2] * ep_ij_1;
+    jac_phi_q_t_lambda_lambda[22] = C_i[2] * ep_ij_0 - C_i[0] * ep_ij_2;
+    jac_phi_q_t_lambda_lambda[23] = C_i[0] * ep_ij_1 - C_i[1] * ep_ij_0;
     jac_phi_q_t_lambda_lambda[27] = s_j[1] * A_ijt_f_i_2 - s_j[2] * A_ijt_f_i_1;
     jac_phi_q_t_lambda_lambda[28] = s_j[2] * A_ijt_f_i_0 - s_j[0] * A_ijt_f_i_2;
     jac_phi_q_t_lambda_lambda[29] = s_j[0] * A_ijt_f_i_1 - s_j[1] * A_ijt_f_i_0;
-    jac_phi_q_t_lambda_lambda[30] = -t178;
-    jac_phi_q_t_lambda_lambda[31] = -t192;
-    jac_phi_q_t_lambda_lambda[32] = -t206;
-    jac_phi_q_t_lambda_lambda[33] = C_i[4] * t283 - C_i[5] * t289;
-    jac_phi_q_t_lambda_lambda[34] = C_i[5] * t301 - C_i[3] * t283;
-    jac_phi_q_t_lambda_lambda[35] = C_i[3] * t289 - C_i[4] * t301;
+    jac_phi_q_t_lambda_lambda[30] = -t130;
+    jac_phi_q_t_lambda_lambda[31] = -t144;
+    jac_phi_q_t_lambda_lambda[32] = -t158;
+    jac_phi_q_t_lambda_lambda[33] = C_i[4] * ep_ij_2 - C_i[5] * ep_ij_1;
+    jac_phi_q_t_lambda_lambda[34] = C_i[5] * ep_ij_0 - C_i[3] * ep_ij_2;
+    jac_phi_q_t_lambda_lambda[35] = C_i[3] * ep_ij_1 - C_i[4] * ep_ij_0;
     jac_phi_q_t_lambda_lambda[39] = s_j[1] * A_ijt_g_i_2 - s_j[2] * A_ijt_g_i_1;
     jac_phi_q_t_lambda_lambda[40] = s_j[2] * A_ijt_g_i_0 - s_j[0] * A_ijt_g_i_2;
     jac_phi_q_t_lambda_lambda[41] = s_j[0] * A_ijt_g_i_1 - s_j[1] * A_ijt_g_i_0;
@@ -2135,7 +1948,7 @@ int jac_jg_translational_conventional_phi_q_v_external(const double **arg, doubl
     double unwanted_1[45];
     double unwanted_2[6];
     double unwanted_3[45];
-    double unwanted_4[36];
+    double unwanted_4[30];
     double unwanted_5[42];
     (void)iw;
     (void)w;
@@ -2230,8 +2043,8 @@ const casadi_int *jac_jg_translational_conventional_phi_q_v_external_sparsity_ou
         1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4
     };
     static const casadi_int pattern_4[] = {
-        5, 24, 0, 2, 4, 6, 9, 12, 15, 17, 19, 21, 21, 21, 21, 23, 25, 27, 27, 27, 27, 28, 29, 30, 32, 34, 36, 3, 4,
-        3, 4, 3, 4, 0, 2, 3, 0, 2, 3, 0, 2, 3, 1, 4, 1, 4, 1, 4, 3, 4, 3, 4, 3, 4, 2, 2, 2, 0, 1, 0, 1, 0, 1
+        5, 24, 0, 0, 0, 0, 3, 6, 9, 11, 13, 15, 15, 15, 15, 17, 19, 21, 21, 21, 21, 22, 23, 24, 26, 28, 30, 0, 2, 3,
+        0, 2, 3, 0, 2, 3, 1, 4, 1, 4, 1, 4, 3, 4, 3, 4, 3, 4, 2, 2, 2, 0, 1, 0, 1, 0, 1
     };
     static const casadi_int pattern_5[] = {
         5, 12, 0, 2, 4, 6, 11, 16, 21, 23, 25, 27, 32, 37, 42, 3, 4, 3, 4, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1,
@@ -2350,10 +2163,10 @@ int jac_jg_translational_conventional_phi_q_t_lambda_external(const double **arg
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[72];
+    double unwanted_1[63];
     double unwanted_2[9];
     double unwanted_3[45];
-    double unwanted_4[120];
+    double unwanted_4[111];
     double unwanted_5[42];
     (void)iw;
     (void)w;
@@ -2437,9 +2250,9 @@ const casadi_int *jac_jg_translational_conventional_phi_q_t_lambda_external_spar
         12, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        12, 9, 0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 0, 3, 4, 5, 6, 9, 10, 11, 1, 3, 4, 5, 7, 9, 10, 11, 2, 3, 4, 5,
-        8, 9, 10, 11, 0, 3, 4, 5, 6, 9, 10, 11, 1, 3, 4, 5, 7, 9, 10, 11, 2, 3, 4, 5, 8, 9, 10, 11, 0, 3, 4, 5, 6,
-        9, 10, 11, 1, 3, 4, 5, 7, 9, 10, 11, 2, 3, 4, 5, 8, 9, 10, 11
+        12, 9, 0, 7, 14, 21, 28, 35, 42, 49, 56, 63, 0, 4, 5, 6, 9, 10, 11, 1, 4, 5, 7, 9, 10, 11, 2, 4, 5, 8, 9,
+        10, 11, 0, 3, 5, 6, 9, 10, 11, 1, 3, 5, 7, 9, 10, 11, 2, 3, 5, 8, 9, 10, 11, 0, 3, 4, 6, 9, 10, 11, 1, 3, 4,
+        7, 9, 10, 11, 2, 3, 4, 8, 9, 10, 11
     };
     static const casadi_int pattern_2[] = {
         12, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -2449,11 +2262,11 @@ const casadi_int *jac_jg_translational_conventional_phi_q_t_lambda_external_spar
         11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 9, 10, 3, 4, 5, 9, 10
     };
     static const casadi_int pattern_4[] = {
-        12, 24, 0, 3, 6, 9, 20, 31, 42, 53, 64, 75, 75, 75, 75, 80, 85, 90, 90, 90, 90, 95, 100, 105, 110, 115, 120,
-        3, 4, 5, 3, 4, 5, 3, 4, 5, 0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3,
-        4, 6, 7, 8, 9, 10, 11, 0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4,
-        6, 7, 8, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4,
-        5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10
+        12, 24, 0, 0, 0, 0, 11, 22, 33, 44, 55, 66, 66, 66, 66, 71, 76, 81, 81, 81, 81, 86, 91, 96, 101, 106, 111,
+        0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11, 0,
+        1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11, 3, 4,
+        5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11,
+        3, 4, 5, 9, 11, 3, 4, 5, 9, 10
     };
     static const casadi_int pattern_5[] = {
         12, 5, 0, 6, 12, 18, 30, 42, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 0, 1, 2, 3, 4, 5,

@@ -51,17 +51,19 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_r_i[8] = -A_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t1 = A_i[0] * s_i[0];
-    const jg_real t2 = A_i[3] * s_i[1];
-    const jg_real t3 = A_i[6] * s_i[2];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t2 = A_i[0] * s_i[0];
+    const jg_real t3 = A_i[3] * s_i[1];
+    const jg_real t4 = A_i[6] * s_i[2];
     /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t1 + t2 + t3;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    jac_phi_A_i[0] = d_ij_0 - t1;
+    const jg_real A_i_s_i_0 = t2 + t3 + t4;
+    /* d_ij = e_ij - A_i s_i */
+    const jg_real d_ij_0 = e_ij_0 - A_i_s_i_0;
+    jac_phi_A_i[0] = d_ij_0 - t2;
     jac_phi_A_i[1] = -(s_i[0] * A_i[3]);
     jac_phi_A_i[2] = -(s_i[0] * A_i[6]);
-    const jg_real t6 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t7 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -71,92 +73,94 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t12 = sine_0 * cosine_1;
+    const jg_real t13 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_0 = H_4 * C_i[3] - t12 * C_i[0] + sine_1 * C_i[6];
-    jac_phi_A_i[3] = t6 * g_star_0;
+    const jg_real g_star_0 = H_4 * C_i[3] - t13 * C_i[0] + sine_1 * C_i[6];
+    jac_phi_A_i[3] = t7 * g_star_0;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t15 = cosine_0 * sine_1;
+    const jg_real t16 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t15 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real t17 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[4] = h_star_0 * t17;
-    const jg_real t18 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_0 = H_6 * C_i[0] - t16 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t18 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[4] = h_star_0 * t18;
+    const jg_real t19 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    jac_phi_A_i[5] = t18 * f_star_0;
+    jac_phi_A_i[5] = t19 * f_star_0;
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t21 = s_i[0] * A_i[1];
-    const jg_real t22 = s_i[1] * A_i[4];
-    const jg_real t23 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t21 + t22 + t23;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    jac_phi_A_i[6] = d_ij_1 - t21;
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t23 = s_i[0] * A_i[1];
+    const jg_real t24 = s_i[1] * A_i[4];
+    const jg_real t25 = s_i[2] * A_i[7];
+    const jg_real A_i_s_i_1 = t23 + t24 + t25;
+    const jg_real d_ij_1 = e_ij_1 - A_i_s_i_1;
+    jac_phi_A_i[6] = d_ij_1 - t23;
     jac_phi_A_i[7] = -(s_i[0] * A_i[4]);
     jac_phi_A_i[8] = -(s_i[0] * A_i[7]);
-    const jg_real t26 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[9] = t26 * g_star_0;
-    const jg_real t27 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[10] = h_star_0 * t27;
-    const jg_real t28 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    jac_phi_A_i[11] = t28 * f_star_0;
+    const jg_real t28 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[9] = t28 * g_star_0;
+    const jg_real t29 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    jac_phi_A_i[10] = h_star_0 * t29;
+    const jg_real t30 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jac_phi_A_i[11] = t30 * f_star_0;
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t30 = s_i[0] * A_i[2];
-    const jg_real t31 = s_i[1] * A_i[5];
-    const jg_real t32 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t30 + t31 + t32;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    jac_phi_A_i[12] = d_ij_2 - t30;
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t33 = s_i[0] * A_i[2];
+    const jg_real t34 = s_i[1] * A_i[5];
+    const jg_real t35 = s_i[2] * A_i[8];
+    const jg_real A_i_s_i_2 = t33 + t34 + t35;
+    const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
+    jac_phi_A_i[12] = d_ij_2 - t33;
     jac_phi_A_i[13] = -(s_i[0] * A_i[5]);
     jac_phi_A_i[14] = -(s_i[0] * A_i[8]);
-    const jg_real t35 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[15] = t35 * g_star_0;
-    const jg_real t36 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[16] = h_star_0 * t36;
-    const jg_real t37 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_A_i[17] = t37 * f_star_0;
+    const jg_real t38 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[15] = t38 * g_star_0;
+    const jg_real t39 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    jac_phi_A_i[16] = h_star_0 * t39;
+    const jg_real t40 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[17] = t40 * f_star_0;
     jac_phi_A_i[18] = -(A_i[0] * s_i[1]);
-    jac_phi_A_i[19] = d_ij_0 - t2;
+    jac_phi_A_i[19] = d_ij_0 - t3;
     jac_phi_A_i[20] = -(s_i[1] * A_i[6]);
-    const jg_real g_star_1 = H_4 * C_i[4] - t12 * C_i[1] + sine_1 * C_i[7];
-    jac_phi_A_i[21] = t6 * g_star_1;
-    const jg_real h_star_1 = H_6 * C_i[1] - t15 * C_i[4] + cosine_1 * C_i[7];
-    jac_phi_A_i[22] = h_star_1 * t17;
+    const jg_real g_star_1 = H_4 * C_i[4] - t13 * C_i[1] + sine_1 * C_i[7];
+    jac_phi_A_i[21] = t7 * g_star_1;
+    const jg_real h_star_1 = H_6 * C_i[1] - t16 * C_i[4] + cosine_1 * C_i[7];
+    jac_phi_A_i[22] = h_star_1 * t18;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    jac_phi_A_i[23] = t18 * f_star_1;
+    jac_phi_A_i[23] = t19 * f_star_1;
     jac_phi_A_i[24] = -(s_i[1] * A_i[1]);
-    jac_phi_A_i[25] = d_ij_1 - t22;
+    jac_phi_A_i[25] = d_ij_1 - t24;
     jac_phi_A_i[26] = -(s_i[1] * A_i[7]);
-    jac_phi_A_i[27] = t26 * g_star_1;
-    jac_phi_A_i[28] = h_star_1 * t27;
-    jac_phi_A_i[29] = t28 * f_star_1;
+    jac_phi_A_i[27] = t28 * g_star_1;
+    jac_phi_A_i[28] = h_star_1 * t29;
+    jac_phi_A_i[29] = t30 * f_star_1;
     jac_phi_A_i[30] = -(s_i[1] * A_i[2]);
-    jac_phi_A_i[31] = d_ij_2 - t31;
+    jac_phi_A_i[31] = d_ij_2 - t34;
     jac_phi_A_i[32] = -(s_i[1] * A_i[8]);
-    jac_phi_A_i[33] = t35 * g_star_1;
-    jac_phi_A_i[34] = h_star_1 * t36;
-    jac_phi_A_i[35] = t37 * f_star_1;
+    jac_phi_A_i[33] = t38 * g_star_1;
+    jac_phi_A_i[34] = h_star_1 * t39;
+    jac_phi_A_i[35] = t40 * f_star_1;
     jac_phi_A_i[36] = -(A_i[0] * s_i[2]);
     jac_phi_A_i[37] = -(A_i[3] * s_i[2]);
-    jac_phi_A_i[38] = d_ij_0 - t3;
-    const jg_real g_star_2 = H_4 * C_i[5] - t12 * C_i[2] + sine_1 * C_i[8];
-    jac_phi_A_i[39] = t6 * g_star_2;
-    const jg_real h_star_2 = H_6 * C_i[2] - t15 * C_i[5] + cosine_1 * C_i[8];
-    jac_phi_A_i[40] = h_star_2 * t17;
+    jac_phi_A_i[38] = d_ij_0 - t4;
+    const jg_real g_star_2 = H_4 * C_i[5] - t13 * C_i[2] + sine_1 * C_i[8];
+    jac_phi_A_i[39] = t7 * g_star_2;
+    const jg_real h_star_2 = H_6 * C_i[2] - t16 * C_i[5] + cosine_1 * C_i[8];
+    jac_phi_A_i[40] = h_star_2 * t18;
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    jac_phi_A_i[41] = t18 * f_star_2;
+    jac_phi_A_i[41] = t19 * f_star_2;
     jac_phi_A_i[42] = -(s_i[2] * A_i[1]);
     jac_phi_A_i[43] = -(s_i[2] * A_i[4]);
-    jac_phi_A_i[44] = d_ij_1 - t23;
-    jac_phi_A_i[45] = t26 * g_star_2;
-    jac_phi_A_i[46] = h_star_2 * t27;
-    jac_phi_A_i[47] = t28 * f_star_2;
+    jac_phi_A_i[44] = d_ij_1 - t25;
+    jac_phi_A_i[45] = t28 * g_star_2;
+    jac_phi_A_i[46] = h_star_2 * t29;
+    jac_phi_A_i[47] = t30 * f_star_2;
     jac_phi_A_i[48] = -(s_i[2] * A_i[2]);
     jac_phi_A_i[49] = -(s_i[2] * A_i[5]);
-    jac_phi_A_i[50] = d_ij_2 - t32;
-    jac_phi_A_i[51] = t35 * g_star_2;
-    jac_phi_A_i[52] = h_star_2 * t36;
-    jac_phi_A_i[53] = t37 * f_star_2;
+    jac_phi_A_i[50] = d_ij_2 - t35;
+    jac_phi_A_i[51] = t38 * g_star_2;
+    jac_phi_A_i[52] = h_star_2 * t39;
+    jac_phi_A_i[53] = t40 * f_star_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -234,14 +238,14 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[41] = A_ij_8;
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t12 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t12 * C_i[4] + H_4 * C_i[1]) +
-        A_ij_h_j_2 * (t12 * C_i[5] + H_4 * C_i[2]));
+    jac_phi_alpha[0] = -(A_ij_h_j_0 * (t13 * C_i[3] + H_4 * C_i[0]) + A_ij_h_j_1 * (t13 * C_i[4] + H_4 * C_i[1]) +
+        A_ij_h_j_2 * (t13 * C_i[5] + H_4 * C_i[2]));
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    jac_phi_alpha[1] = A_ij_f_j_0 * (t15 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t15 * C_i[1] + H_6 * C_i[4]) +
-        A_ij_f_j_2 * (t15 * C_i[2] + H_6 * C_i[5]);
+    jac_phi_alpha[1] = A_ij_f_j_0 * (t16 * C_i[0] + C_i[3] * H_6) + A_ij_f_j_1 * (t16 * C_i[1] + H_6 * C_i[4]) +
+        A_ij_f_j_2 * (t16 * C_i[2] + H_6 * C_i[5]);
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -251,34 +255,34 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_alpha[3] = A_ij_h_j_0 * h_star_0 + A_ij_h_j_1 * h_star_1 + A_ij_h_j_2 * h_star_2;
     jac_phi_alpha[4] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_geometry[0] = -(A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    const jg_real t62 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
-    jac_phi_geometry[1] = t62;
-    jac_phi_geometry[3] = t62;
-    const jg_real t63 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
-    jac_phi_geometry[2] = t63;
-    jac_phi_geometry[6] = t63;
+    const jg_real t65 = -(A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5]);
+    jac_phi_geometry[1] = t65;
+    jac_phi_geometry[3] = t65;
+    const jg_real t66 = -(A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8]);
+    jac_phi_geometry[2] = t66;
+    jac_phi_geometry[6] = t66;
     jac_phi_geometry[4] = -(A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    const jg_real t64 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
-    jac_phi_geometry[5] = t64;
-    jac_phi_geometry[7] = t64;
+    const jg_real t67 = -(A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8]);
+    jac_phi_geometry[5] = t67;
+    jac_phi_geometry[7] = t67;
     jac_phi_geometry[8] = -(A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_geometry[9] = -(A_ij_h_j_0 * t12);
+    jac_phi_geometry[9] = -(A_ij_h_j_0 * t13);
     jac_phi_geometry[10] = H_6 * A_ij_f_j_0;
     jac_phi_geometry[11] = cosine_0 * A_ij_g_j_0;
-    jac_phi_geometry[12] = -(t12 * A_ij_h_j_1);
+    jac_phi_geometry[12] = -(t13 * A_ij_h_j_1);
     jac_phi_geometry[13] = H_6 * A_ij_f_j_1;
     jac_phi_geometry[14] = cosine_0 * A_ij_g_j_1;
-    jac_phi_geometry[15] = -(t12 * A_ij_h_j_2);
+    jac_phi_geometry[15] = -(t13 * A_ij_h_j_2);
     jac_phi_geometry[16] = H_6 * A_ij_f_j_2;
     jac_phi_geometry[17] = cosine_0 * A_ij_g_j_2;
     jac_phi_geometry[18] = A_ij_h_j_0 * H_4;
-    jac_phi_geometry[19] = -(t15 * A_ij_f_j_0);
+    jac_phi_geometry[19] = -(t16 * A_ij_f_j_0);
     jac_phi_geometry[20] = sine_0 * A_ij_g_j_0;
     jac_phi_geometry[21] = H_4 * A_ij_h_j_1;
-    jac_phi_geometry[22] = -(t15 * A_ij_f_j_1);
+    jac_phi_geometry[22] = -(t16 * A_ij_f_j_1);
     jac_phi_geometry[23] = sine_0 * A_ij_g_j_1;
     jac_phi_geometry[24] = H_4 * A_ij_h_j_2;
-    jac_phi_geometry[25] = -(t15 * A_ij_f_j_2);
+    jac_phi_geometry[25] = -(t16 * A_ij_f_j_2);
     jac_phi_geometry[26] = sine_0 * A_ij_g_j_2;
     jac_phi_geometry[27] = A_ij_h_j_0 * sine_1;
     jac_phi_geometry[28] = cosine_1 * A_ij_f_j_0;
@@ -330,27 +334,24 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_r_i[7] = t7;
     const jg_real t8 = A_i[5] * omega_i[0] - A_i[2] * omega_i[1];
     jac_phi_q_v_r_i[8] = t8;
-    const jg_real t9 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
-    const jg_real t10 = s_i[0] * A_i[3];
-    const jg_real t11 = s_i[0] * A_i[6];
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    const jg_real omega_j_cross_s_j_1 = s_j[0] * omega_j[2] - s_j[2] * omega_j[0];
-    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - s_j[0] * omega_j[1];
-    const jg_real t15 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[0] = t9 - (t10 * omega_i[2] - t11 * omega_i[1]) + t15;
+    const jg_real omega_j_cross_s_j_1 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    const jg_real omega_j_cross_s_j_2 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t12 = A_j[0] * omega_j_cross_s_j_0 + A_j[3] * omega_j_cross_s_j_1 + A_j[6] * omega_j_cross_s_j_2 +
+        (A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2]);
+    jac_phi_q_v_A_i[0] = t12;
+    jac_phi_q_v_A_i[19] = t12;
+    jac_phi_q_v_A_i[38] = t12;
     /* A_j_s_j = A_j s_j */
-    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t17 = A_i[0] * s_i[0];
-    const jg_real t18 = A_i[3] * s_i[1];
-    const jg_real t19 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t17 + t18 + t19;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t22 = d_ij_0 - t17;
-    jac_phi_q_v_A_i[1] = -(omega_i[2] * t22 + t11 * omega_i[0]);
-    jac_phi_q_v_A_i[2] = t10 * omega_i[0] + omega_i[1] * t22;
+    const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
+    const jg_real t15 = e_ij_0 * omega_i[2];
+    jac_phi_q_v_A_i[18] = t15;
+    jac_phi_q_v_A_i[1] = -t15;
+    const jg_real t16 = e_ij_0 * omega_i[1];
+    jac_phi_q_v_A_i[2] = t16;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -360,192 +361,164 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t28 = sine_0 * cosine_1;
+    const jg_real t22 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_1 = H_4 * C_i[4] - t28 * C_i[1] + sine_1 * C_i[7];
-    const jg_real t30 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t31 = omega_i[2] * t30;
-    const jg_real g_star_2 = H_4 * C_i[5] - t28 * C_i[2] + sine_1 * C_i[8];
-    const jg_real t33 = omega_i[1] * t30;
+    const jg_real g_star_1 = H_4 * C_i[4] - t22 * C_i[1] + sine_1 * C_i[7];
+    const jg_real t24 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t25 = omega_i[2] * t24;
+    const jg_real g_star_2 = H_4 * C_i[5] - t22 * C_i[2] + sine_1 * C_i[8];
+    const jg_real t27 = omega_i[1] * t24;
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t35 = cosine_0 * sine_1;
+    const jg_real t29 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_0 = H_6 * C_i[0] - t35 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real h_star_0 = H_6 * C_i[0] - t29 * C_i[3] + cosine_1 * C_i[6];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t41 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    const jg_real g_star_0 = H_4 * C_i[3] - t28 * C_i[0] + sine_1 * C_i[6];
-    jac_phi_q_v_A_i[3] = h_star_0 * t30 * alphadot[1] - (g_star_1 * t31 - g_star_2 * t33) - t30 * f_star_0 *
-        alphadot[0] * cosine_1 + t41 * g_star_0;
-    const jg_real h_star_1 = H_6 * C_i[1] - t35 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real t44 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t45 = omega_i[2] * t44;
-    const jg_real h_star_2 = H_6 * C_i[2] - t35 * C_i[5] + cosine_1 * C_i[8];
-    const jg_real t47 = omega_i[1] * t44;
+    const jg_real t35 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
+    const jg_real g_star_0 = H_4 * C_i[3] - t22 * C_i[0] + sine_1 * C_i[6];
+    jac_phi_q_v_A_i[3] = h_star_0 * t24 * alphadot[1] - (g_star_1 * t25 - g_star_2 * t27) - t24 * f_star_0 *
+        alphadot[0] * cosine_1 + t35 * g_star_0;
+    const jg_real h_star_1 = H_6 * C_i[1] - t29 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real t38 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t39 = omega_i[2] * t38;
+    const jg_real h_star_2 = H_6 * C_i[2] - t29 * C_i[5] + cosine_1 * C_i[8];
+    const jg_real t41 = omega_i[1] * t38;
     /* omega_j_cross_f_j = tilde(omega_j) f_j */
     const jg_real omega_j_cross_f_j_0 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real omega_j_cross_f_j_1 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real omega_j_cross_f_j_2 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t51 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[4] = f_star_0 * t44 * alphadot[0] * sine_1 - (h_star_1 * t45 - h_star_2 * t47 + g_star_0 * t44 *
-        alphadot[1]) + h_star_0 * t51;
+    const jg_real t45 = A_j[0] * omega_j_cross_f_j_0 + A_j[3] * omega_j_cross_f_j_1 + A_j[6] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[4] = f_star_0 * t38 * alphadot[0] * sine_1 - (h_star_1 * t39 - h_star_2 * t41 + g_star_0 * t38 *
+        alphadot[1]) + h_star_0 * t45;
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    const jg_real t53 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t54 = omega_i[2] * t53;
+    const jg_real t47 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t48 = omega_i[2] * t47;
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    const jg_real t56 = omega_i[1] * t53;
-    const jg_real t57 = cosine_1 * H_4 + sine_1 * t35;
-    const jg_real t58 = cosine_1 * t28 + sine_1 * H_6;
-    const jg_real t59 = C_i[3] * t57 - C_i[0] * t58;
+    const jg_real t50 = omega_i[1] * t47;
+    const jg_real t51 = cosine_1 * H_4 + sine_1 * t29;
+    const jg_real t52 = cosine_1 * t22 + sine_1 * H_6;
+    const jg_real t53 = C_i[3] * t51 - C_i[0] * t52;
     /* omega_j_cross_g_j = tilde(omega_j) g_j */
     const jg_real omega_j_cross_g_j_0 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real omega_j_cross_g_j_1 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real omega_j_cross_g_j_2 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t63 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[5] = t53 * t59 * alphadot[0] - (f_star_1 * t54 - f_star_2 * t56) + f_star_0 * t63;
-    const jg_real t64 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
-    const jg_real t65 = s_i[0] * A_i[4];
-    const jg_real t66 = s_i[0] * A_i[7];
-    const jg_real t67 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[6] = t64 - (t65 * omega_i[2] - t66 * omega_i[1]) + t67;
-    const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t69 = s_i[0] * A_i[1];
-    const jg_real t70 = s_i[1] * A_i[4];
-    const jg_real t71 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t69 + t70 + t71;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t74 = d_ij_1 - t69;
-    jac_phi_q_v_A_i[7] = -(omega_i[2] * t74 + t66 * omega_i[0]);
-    jac_phi_q_v_A_i[8] = t65 * omega_i[0] + omega_i[1] * t74;
-    const jg_real t75 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t76 = omega_i[2] * t75;
-    const jg_real t77 = omega_i[1] * t75;
-    const jg_real t78 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[9] = h_star_0 * t75 * alphadot[1] - (g_star_1 * t76 - g_star_2 * t77) - t75 * f_star_0 *
-        alphadot[0] * cosine_1 + t78 * g_star_0;
-    const jg_real t79 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t80 = omega_i[2] * t79;
-    const jg_real t81 = omega_i[1] * t79;
-    const jg_real t82 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[10] = f_star_0 * t79 * alphadot[0] * sine_1 - (h_star_1 * t80 - h_star_2 * t81 + g_star_0 * t79
-        * alphadot[1]) + h_star_0 * t82;
-    const jg_real t83 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t84 = omega_i[2] * t83;
-    const jg_real t85 = omega_i[1] * t83;
-    const jg_real t86 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[11] = t83 * t59 * alphadot[0] - (f_star_1 * t84 - f_star_2 * t85) + f_star_0 * t86;
-    const jg_real t87 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t88 = s_i[0] * A_i[5];
-    const jg_real t89 = s_i[0] * A_i[8];
-    const jg_real t90 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_i[12] = t87 - (t88 * omega_i[2] - t89 * omega_i[1]) + t90;
-    const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t92 = s_i[0] * A_i[2];
-    const jg_real t93 = s_i[1] * A_i[5];
-    const jg_real t94 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t92 + t93 + t94;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t97 = d_ij_2 - t92;
-    jac_phi_q_v_A_i[13] = -(omega_i[2] * t97 + t89 * omega_i[0]);
-    jac_phi_q_v_A_i[14] = t88 * omega_i[0] + omega_i[1] * t97;
-    const jg_real t98 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t99 = omega_i[2] * t98;
-    const jg_real t100 = omega_i[1] * t98;
-    const jg_real t101 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    jac_phi_q_v_A_i[15] = h_star_0 * t98 * alphadot[1] - (g_star_1 * t99 - g_star_2 * t100) - t98 * f_star_0 *
-        alphadot[0] * cosine_1 + t101 * g_star_0;
-    const jg_real t102 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t103 = omega_i[2] * t102;
-    const jg_real t104 = omega_i[1] * t102;
-    const jg_real t105 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
-    jac_phi_q_v_A_i[16] = f_star_0 * t102 * alphadot[0] * sine_1 - (h_star_1 * t103 - h_star_2 * t104 + g_star_0 *
-        t102 * alphadot[1]) + h_star_0 * t105;
-    const jg_real t106 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t107 = omega_i[2] * t106;
-    const jg_real t108 = omega_i[1] * t106;
-    const jg_real t109 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
-    jac_phi_q_v_A_i[17] = t106 * t59 * alphadot[0] - (f_star_1 * t107 - f_star_2 * t108) + f_star_0 * t109;
-    const jg_real t110 = d_ij_0 - t18;
-    const jg_real t111 = s_i[1] * A_i[6];
-    jac_phi_q_v_A_i[18] = t111 * omega_i[1] + t110 * omega_i[2];
-    const jg_real t112 = A_i[0] * s_i[1];
-    jac_phi_q_v_A_i[19] = t9 - (t111 * omega_i[0] - omega_i[2] * t112) + t15;
-    jac_phi_q_v_A_i[20] = -(t110 * omega_i[0] + omega_i[1] * t112);
-    const jg_real t113 = omega_i[0] * t30;
-    jac_phi_q_v_A_i[21] = h_star_1 * t30 * alphadot[1] - (g_star_2 * t113 - g_star_0 * t31) - t30 * f_star_1 *
-        alphadot[0] * cosine_1 + t41 * g_star_1;
-    const jg_real t114 = omega_i[0] * t44;
-    jac_phi_q_v_A_i[22] = f_star_1 * t44 * alphadot[0] * sine_1 - (h_star_2 * t114 - h_star_0 * t45 + g_star_1 * t44
-        * alphadot[1]) + h_star_1 * t51;
-    const jg_real t115 = omega_i[0] * t53;
-    const jg_real t116 = C_i[4] * t57 - C_i[1] * t58;
-    jac_phi_q_v_A_i[23] = t53 * t116 * alphadot[0] - (f_star_2 * t115 - f_star_0 * t54) + f_star_1 * t63;
-    const jg_real t117 = d_ij_1 - t70;
-    const jg_real t118 = s_i[1] * A_i[7];
-    jac_phi_q_v_A_i[24] = t118 * omega_i[1] + t117 * omega_i[2];
-    const jg_real t119 = s_i[1] * A_i[1];
-    jac_phi_q_v_A_i[25] = t64 - (t118 * omega_i[0] - omega_i[2] * t119) + t67;
-    jac_phi_q_v_A_i[26] = -(t117 * omega_i[0] + omega_i[1] * t119);
-    const jg_real t120 = omega_i[0] * t75;
-    jac_phi_q_v_A_i[27] = h_star_1 * t75 * alphadot[1] - (g_star_2 * t120 - g_star_0 * t76) - t75 * f_star_1 *
-        alphadot[0] * cosine_1 + t78 * g_star_1;
-    const jg_real t121 = omega_i[0] * t79;
-    jac_phi_q_v_A_i[28] = f_star_1 * t79 * alphadot[0] * sine_1 - (h_star_2 * t121 - h_star_0 * t80 + g_star_1 * t79
-        * alphadot[1]) + h_star_1 * t82;
-    const jg_real t122 = omega_i[0] * t83;
-    jac_phi_q_v_A_i[29] = t83 * t116 * alphadot[0] - (f_star_2 * t122 - f_star_0 * t84) + f_star_1 * t86;
-    const jg_real t123 = d_ij_2 - t93;
-    const jg_real t124 = s_i[1] * A_i[8];
-    jac_phi_q_v_A_i[30] = t124 * omega_i[1] + t123 * omega_i[2];
-    const jg_real t125 = s_i[1] * A_i[2];
-    jac_phi_q_v_A_i[31] = t87 - (t124 * omega_i[0] - omega_i[2] * t125) + t90;
-    jac_phi_q_v_A_i[32] = -(t123 * omega_i[0] + omega_i[1] * t125);
-    const jg_real t126 = omega_i[0] * t98;
-    jac_phi_q_v_A_i[33] = h_star_1 * t98 * alphadot[1] - (g_star_2 * t126 - g_star_0 * t99) - t98 * f_star_1 *
-        alphadot[0] * cosine_1 + t101 * g_star_1;
-    const jg_real t127 = omega_i[0] * t102;
-    jac_phi_q_v_A_i[34] = f_star_1 * t102 * alphadot[0] * sine_1 - (h_star_2 * t127 - h_star_0 * t103 + g_star_1 *
-        t102 * alphadot[1]) + h_star_1 * t105;
-    const jg_real t128 = omega_i[0] * t106;
-    jac_phi_q_v_A_i[35] = t106 * t116 * alphadot[0] - (f_star_2 * t128 - f_star_0 * t107) + f_star_1 * t109;
-    const jg_real t129 = d_ij_0 - t19;
-    const jg_real t130 = A_i[3] * s_i[2];
-    jac_phi_q_v_A_i[36] = -(t129 * omega_i[1] + t130 * omega_i[2]);
-    const jg_real t131 = A_i[0] * s_i[2];
-    jac_phi_q_v_A_i[37] = omega_i[2] * t131 + t129 * omega_i[0];
-    jac_phi_q_v_A_i[38] = t9 - (omega_i[1] * t131 - t130 * omega_i[0]) + t15;
-    jac_phi_q_v_A_i[39] = h_star_2 * t30 * alphadot[1] - (g_star_0 * t33 - g_star_1 * t113) - t30 * f_star_2 *
-        alphadot[0] * cosine_1 + t41 * g_star_2;
-    jac_phi_q_v_A_i[40] = f_star_2 * t44 * alphadot[0] * sine_1 - (h_star_0 * t47 - h_star_1 * t114 + g_star_2 * t44
-        * alphadot[1]) + h_star_2 * t51;
-    const jg_real t132 = C_i[5] * t57 - C_i[2] * t58;
-    jac_phi_q_v_A_i[41] = t53 * t132 * alphadot[0] - (f_star_0 * t56 - f_star_1 * t115) + f_star_2 * t63;
-    const jg_real t133 = d_ij_1 - t71;
-    const jg_real t134 = s_i[2] * A_i[4];
-    jac_phi_q_v_A_i[42] = -(t133 * omega_i[1] + t134 * omega_i[2]);
-    const jg_real t135 = s_i[2] * A_i[1];
-    jac_phi_q_v_A_i[43] = omega_i[2] * t135 + t133 * omega_i[0];
-    jac_phi_q_v_A_i[44] = t64 - (omega_i[1] * t135 - t134 * omega_i[0]) + t67;
-    jac_phi_q_v_A_i[45] = h_star_2 * t75 * alphadot[1] - (g_star_0 * t77 - g_star_1 * t120) - t75 * f_star_2 *
-        alphadot[0] * cosine_1 + t78 * g_star_2;
-    jac_phi_q_v_A_i[46] = f_star_2 * t79 * alphadot[0] * sine_1 - (h_star_0 * t81 - h_star_1 * t121 + g_star_2 * t79
-        * alphadot[1]) + h_star_2 * t82;
-    jac_phi_q_v_A_i[47] = t83 * t132 * alphadot[0] - (f_star_0 * t85 - f_star_1 * t122) + f_star_2 * t86;
-    const jg_real t136 = d_ij_2 - t94;
-    const jg_real t137 = s_i[2] * A_i[5];
-    jac_phi_q_v_A_i[48] = -(t136 * omega_i[1] + t137 * omega_i[2]);
-    const jg_real t138 = s_i[2] * A_i[2];
-    jac_phi_q_v_A_i[49] = omega_i[2] * t138 + t136 * omega_i[0];
-    jac_phi_q_v_A_i[50] = t87 - (omega_i[1] * t138 - t137 * omega_i[0]) + t90;
-    jac_phi_q_v_A_i[51] = h_star_2 * t98 * alphadot[1] - (g_star_0 * t100 - g_star_1 * t126) - t98 * f_star_2 *
-        alphadot[0] * cosine_1 + t101 * g_star_2;
-    jac_phi_q_v_A_i[52] = f_star_2 * t102 * alphadot[0] * sine_1 - (h_star_0 * t104 - h_star_1 * t127 + g_star_2 *
-        t102 * alphadot[1]) + h_star_2 * t105;
-    jac_phi_q_v_A_i[53] = t106 * t132 * alphadot[0] - (f_star_0 * t108 - f_star_1 * t128) + f_star_2 * t109;
+    const jg_real t57 = A_j[0] * omega_j_cross_g_j_0 + A_j[3] * omega_j_cross_g_j_1 + A_j[6] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[5] = t47 * t53 * alphadot[0] - (f_star_1 * t48 - f_star_2 * t50) + f_star_0 * t57;
+    const jg_real t58 = A_j[1] * omega_j_cross_s_j_0 + A_j[4] * omega_j_cross_s_j_1 + A_j[7] * omega_j_cross_s_j_2 +
+        (A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2]);
+    jac_phi_q_v_A_i[6] = t58;
+    jac_phi_q_v_A_i[25] = t58;
+    jac_phi_q_v_A_i[44] = t58;
+    const jg_real A_j_s_j_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t61 = e_ij_1 * omega_i[2];
+    jac_phi_q_v_A_i[24] = t61;
+    jac_phi_q_v_A_i[7] = -t61;
+    const jg_real t62 = e_ij_1 * omega_i[1];
+    jac_phi_q_v_A_i[8] = t62;
+    const jg_real t63 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t64 = omega_i[2] * t63;
+    const jg_real t65 = omega_i[1] * t63;
+    const jg_real t66 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[9] = h_star_0 * t63 * alphadot[1] - (g_star_1 * t64 - g_star_2 * t65) - t63 * f_star_0 *
+        alphadot[0] * cosine_1 + t66 * g_star_0;
+    const jg_real t67 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t68 = omega_i[2] * t67;
+    const jg_real t69 = omega_i[1] * t67;
+    const jg_real t70 = A_j[1] * omega_j_cross_f_j_0 + A_j[4] * omega_j_cross_f_j_1 + A_j[7] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[10] = f_star_0 * t67 * alphadot[0] * sine_1 - (h_star_1 * t68 - h_star_2 * t69 + g_star_0 * t67
+        * alphadot[1]) + h_star_0 * t70;
+    const jg_real t71 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t72 = omega_i[2] * t71;
+    const jg_real t73 = omega_i[1] * t71;
+    const jg_real t74 = A_j[1] * omega_j_cross_g_j_0 + A_j[4] * omega_j_cross_g_j_1 + A_j[7] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[11] = t71 * t53 * alphadot[0] - (f_star_1 * t72 - f_star_2 * t73) + f_star_0 * t74;
+    const jg_real t75 = A_j[2] * omega_j_cross_s_j_0 + A_j[5] * omega_j_cross_s_j_1 + A_j[8] * omega_j_cross_s_j_2 +
+        (A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2]);
+    jac_phi_q_v_A_i[12] = t75;
+    jac_phi_q_v_A_i[31] = t75;
+    jac_phi_q_v_A_i[50] = t75;
+    const jg_real A_j_s_j_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t78 = e_ij_2 * omega_i[2];
+    jac_phi_q_v_A_i[30] = t78;
+    jac_phi_q_v_A_i[13] = -t78;
+    const jg_real t79 = e_ij_2 * omega_i[1];
+    jac_phi_q_v_A_i[14] = t79;
+    const jg_real t80 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t81 = omega_i[2] * t80;
+    const jg_real t82 = omega_i[1] * t80;
+    const jg_real t83 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
+    jac_phi_q_v_A_i[15] = h_star_0 * t80 * alphadot[1] - (g_star_1 * t81 - g_star_2 * t82) - t80 * f_star_0 *
+        alphadot[0] * cosine_1 + t83 * g_star_0;
+    const jg_real t84 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t85 = omega_i[2] * t84;
+    const jg_real t86 = omega_i[1] * t84;
+    const jg_real t87 = A_j[2] * omega_j_cross_f_j_0 + A_j[5] * omega_j_cross_f_j_1 + A_j[8] * omega_j_cross_f_j_2;
+    jac_phi_q_v_A_i[16] = f_star_0 * t84 * alphadot[0] * sine_1 - (h_star_1 * t85 - h_star_2 * t86 + g_star_0 * t84
+        * alphadot[1]) + h_star_0 * t87;
+    const jg_real t88 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t89 = omega_i[2] * t88;
+    const jg_real t90 = omega_i[1] * t88;
+    const jg_real t91 = A_j[2] * omega_j_cross_g_j_0 + A_j[5] * omega_j_cross_g_j_1 + A_j[8] * omega_j_cross_g_j_2;
+    jac_phi_q_v_A_i[17] = t88 * t53 * alphadot[0] - (f_star_1 * t89 - f_star_2 * t90) + f_star_0 * t91;
+    const jg_real t92 = e_ij_0 * omega_i[0];
+    jac_phi_q_v_A_i[37] = t92;
+    jac_phi_q_v_A_i[20] = -t92;
+    const jg_real t93 = omega_i[0] * t24;
+    jac_phi_q_v_A_i[21] = h_star_1 * t24 * alphadot[1] - (g_star_2 * t93 - g_star_0 * t25) - t24 * f_star_1 *
+        alphadot[0] * cosine_1 + t35 * g_star_1;
+    const jg_real t94 = omega_i[0] * t38;
+    jac_phi_q_v_A_i[22] = f_star_1 * t38 * alphadot[0] * sine_1 - (h_star_2 * t94 - h_star_0 * t39 + g_star_1 * t38
+        * alphadot[1]) + h_star_1 * t45;
+    const jg_real t95 = omega_i[0] * t47;
+    const jg_real t96 = C_i[4] * t51 - C_i[1] * t52;
+    jac_phi_q_v_A_i[23] = t47 * t96 * alphadot[0] - (f_star_2 * t95 - f_star_0 * t48) + f_star_1 * t57;
+    const jg_real t97 = e_ij_1 * omega_i[0];
+    jac_phi_q_v_A_i[43] = t97;
+    jac_phi_q_v_A_i[26] = -t97;
+    const jg_real t98 = omega_i[0] * t63;
+    jac_phi_q_v_A_i[27] = h_star_1 * t63 * alphadot[1] - (g_star_2 * t98 - g_star_0 * t64) - t63 * f_star_1 *
+        alphadot[0] * cosine_1 + t66 * g_star_1;
+    const jg_real t99 = omega_i[0] * t67;
+    jac_phi_q_v_A_i[28] = f_star_1 * t67 * alphadot[0] * sine_1 - (h_star_2 * t99 - h_star_0 * t68 + g_star_1 * t67
+        * alphadot[1]) + h_star_1 * t70;
+    const jg_real t100 = omega_i[0] * t71;
+    jac_phi_q_v_A_i[29] = t71 * t96 * alphadot[0] - (f_star_2 * t100 - f_star_0 * t72) + f_star_1 * t74;
+    const jg_real t101 = e_ij_2 * omega_i[0];
+    jac_phi_q_v_A_i[49] = t101;
+    jac_phi_q_v_A_i[32] = -t101;
+    const jg_real t102 = omega_i[0] * t80;
+    jac_phi_q_v_A_i[33] = h_star_1 * t80 * alphadot[1] - (g_star_2 * t102 - g_star_0 * t81) - t80 * f_star_1 *
+        alphadot[0] * cosine_1 + t83 * g_star_1;
+    const jg_real t103 = omega_i[0] * t84;
+    jac_phi_q_v_A_i[34] = f_star_1 * t84 * alphadot[0] * sine_1 - (h_star_2 * t103 - h_star_0 * t85 + g_star_1 * t84
+        * alphadot[1]) + h_star_1 * t87;
+    const jg_real t104 = omega_i[0] * t88;
+    jac_phi_q_v_A_i[35] = t88 * t96 * alphadot[0] - (f_star_2 * t104 - f_star_0 * t89) + f_star_1 * t91;
+    jac_phi_q_v_A_i[36] = -t16;
+    jac_phi_q_v_A_i[39] = h_star_2 * t24 * alphadot[1] - (g_star_0 * t27 - g_star_1 * t93) - t24 * f_star_2 *
+        alphadot[0] * cosine_1 + t35 * g_star_2;
+    jac_phi_q_v_A_i[40] = f_star_2 * t38 * alphadot[0] * sine_1 - (h_star_0 * t41 - h_star_1 * t94 + g_star_2 * t38
+        * alphadot[1]) + h_star_2 * t45;
+    const jg_real t105 = C_i[5] * t51 - C_i[2] * t52;
+    jac_phi_q_v_A_i[41] = t47 * t105 * alphadot[0] - (f_star_0 * t50 - f_star_1 * t95) + f_star_2 * t57;
+    jac_phi_q_v_A_i[42] = -t62;
+    jac_phi_q_v_A_i[45] = h_star_2 * t63 * alphadot[1] - (g_star_0 * t65 - g_star_1 * t98) - t63 * f_star_2 *
+        alphadot[0] * cosine_1 + t66 * g_star_2;
+    jac_phi_q_v_A_i[46] = f_star_2 * t67 * alphadot[0] * sine_1 - (h_star_0 * t69 - h_star_1 * t99 + g_star_2 * t67
+        * alphadot[1]) + h_star_2 * t70;
+    jac_phi_q_v_A_i[47] = t71 * t105 * alphadot[0] - (f_star_0 * t73 - f_star_1 * t100) + f_star_2 * t74;
+    jac_phi_q_v_A_i[48] = -t79;
+    jac_phi_q_v_A_i[51] = h_star_2 * t80 * alphadot[1] - (g_star_0 * t82 - g_star_1 * t102) - t80 * f_star_2 *
+        alphadot[0] * cosine_1 + t83 * g_star_2;
+    jac_phi_q_v_A_i[52] = f_star_2 * t84 * alphadot[0] * sine_1 - (h_star_0 * t86 - h_star_1 * t103 + g_star_2 * t84
+        * alphadot[1]) + h_star_2 * t87;
+    jac_phi_q_v_A_i[53] = t88 * t105 * alphadot[0] - (f_star_0 * t90 - f_star_1 * t104) + f_star_2 * t91;
     jac_phi_q_v_r_j[0] = -t0;
     jac_phi_q_v_r_j[1] = -t1;
     jac_phi_q_v_r_j[2] = -t2;
@@ -555,266 +528,266 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_r_j[6] = -t6;
     jac_phi_q_v_r_j[7] = -t7;
     jac_phi_q_v_r_j[8] = -t8;
-    const jg_real t139 = s_j[0] * A_i[6];
-    const jg_real t140 = s_j[0] * A_i[3];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t139 * omega_i[1] - t140 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
-    const jg_real t141 = s_j[0] * A_i[0];
-    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t141 - t139 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t140 * omega_i[0] - omega_i[1] * t141) + A_i[6] * omega_j_cross_s_j_0;
-    const jg_real t142 = A_i[6] * C_j[6];
-    const jg_real t143 = A_i[3] * C_j[6];
-    const jg_real t144 = A_i[0] * C_j[6];
+    const jg_real t106 = s_j[0] * A_i[6];
+    const jg_real t107 = s_j[0] * A_i[3];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t106 * omega_i[1] - t107 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_0;
+    const jg_real t108 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_j[1] = A_i[3] * v_j[0] - (omega_i[2] * t108 - t106 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[3];
+    jac_phi_q_v_A_j[2] = A_i[6] * v_j[0] - (t107 * omega_i[0] - omega_i[1] * t108) + omega_j_cross_s_j_0 * A_i[6];
+    const jg_real t109 = A_i[6] * C_j[6];
+    const jg_real t110 = A_i[3] * C_j[6];
+    const jg_real t111 = A_i[0] * C_j[6];
     jac_phi_q_v_A_j[3] = A_i[0] * omega_j_cross_h_j_0 * g_star_0 + A_i[3] * omega_j_cross_h_j_0 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t144 + h_star_1 * t143 + h_star_2 * t142) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t142 - omega_i[2] * t143) + g_star_1 * (omega_i[2] * t144 - omega_i[0] * t142) +
-        g_star_2 * (omega_i[0] * t143 - omega_i[1] * t144)) - (t144 * f_star_0 + t143 * f_star_1 + t142 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t111 + h_star_1 * t110 + h_star_2 * t109) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t109 - omega_i[2] * t110) + g_star_1 * (omega_i[2] * t111 - omega_i[0] * t109) +
+        g_star_2 * (omega_i[0] * t110 - omega_i[1] * t111)) - (t111 * f_star_0 + t110 * f_star_1 + t109 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t145 = A_i[6] * C_j[0];
-    const jg_real t146 = A_i[3] * C_j[0];
-    const jg_real t147 = A_i[0] * C_j[0];
+    const jg_real t112 = A_i[6] * C_j[0];
+    const jg_real t113 = A_i[3] * C_j[0];
+    const jg_real t114 = A_i[0] * C_j[0];
     jac_phi_q_v_A_j[4] = A_i[0] * omega_j_cross_f_j_0 * h_star_0 + A_i[3] * omega_j_cross_f_j_0 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t147 + f_star_1 * t146 + f_star_2 * t145) *
-        sine_1 - (h_star_0 * (omega_i[1] * t145 - omega_i[2] * t146) + h_star_1 * (omega_i[2] * t147 - omega_i[0] *
-        t145) + h_star_2 * (omega_i[0] * t146 - omega_i[1] * t147) + alphadot[1] * (g_star_0 * t147 + g_star_1 *
-        t146 + g_star_2 * t145)));
-    const jg_real t148 = A_i[0] * C_j[3];
-    const jg_real t149 = A_i[3] * C_j[3];
-    const jg_real t150 = A_i[6] * C_j[3];
-    jac_phi_q_v_A_j[5] = alphadot[0] * (t148 * t59 + t149 * t116 + t150 * t132) - (f_star_0 * (omega_i[1] * t150 -
-        omega_i[2] * t149) + f_star_1 * (omega_i[2] * t148 - omega_i[0] * t150) + f_star_2 * (omega_i[0] * t149 -
-        omega_i[1] * t148)) + (A_i[0] * omega_j_cross_g_j_0 * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t114 + f_star_1 * t113 + f_star_2 * t112) *
+        sine_1 - (h_star_0 * (omega_i[1] * t112 - omega_i[2] * t113) + h_star_1 * (omega_i[2] * t114 - omega_i[0] *
+        t112) + h_star_2 * (omega_i[0] * t113 - omega_i[1] * t114) + alphadot[1] * (g_star_0 * t114 + g_star_1 *
+        t113 + g_star_2 * t112)));
+    const jg_real t115 = A_i[0] * C_j[3];
+    const jg_real t116 = A_i[3] * C_j[3];
+    const jg_real t117 = A_i[6] * C_j[3];
+    jac_phi_q_v_A_j[5] = alphadot[0] * (t115 * t53 + t116 * t96 + t117 * t105) - (f_star_0 * (omega_i[1] * t117 -
+        omega_i[2] * t116) + f_star_1 * (omega_i[2] * t115 - omega_i[0] * t117) + f_star_2 * (omega_i[0] * t116 -
+        omega_i[1] * t115)) + (A_i[0] * omega_j_cross_g_j_0 * f_star_0 + A_i[3] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t151 = s_j[0] * A_i[7];
-    const jg_real t152 = s_j[0] * A_i[4];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t151 * omega_i[1] - t152 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
-    const jg_real t153 = s_j[0] * A_i[1];
-    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t153 - t151 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t152 * omega_i[0] - omega_i[1] * t153) + A_i[7] * omega_j_cross_s_j_0;
-    const jg_real t154 = A_i[7] * C_j[6];
-    const jg_real t155 = A_i[4] * C_j[6];
-    const jg_real t156 = A_i[1] * C_j[6];
+    const jg_real t118 = s_j[0] * A_i[7];
+    const jg_real t119 = s_j[0] * A_i[4];
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t118 * omega_i[1] - t119 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_0;
+    const jg_real t120 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[7] = A_i[4] * v_j[0] - (omega_i[2] * t120 - t118 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[4];
+    jac_phi_q_v_A_j[8] = A_i[7] * v_j[0] - (t119 * omega_i[0] - omega_i[1] * t120) + omega_j_cross_s_j_0 * A_i[7];
+    const jg_real t121 = A_i[7] * C_j[6];
+    const jg_real t122 = A_i[4] * C_j[6];
+    const jg_real t123 = A_i[1] * C_j[6];
     jac_phi_q_v_A_j[9] = A_i[1] * omega_j_cross_h_j_0 * g_star_0 + A_i[4] * omega_j_cross_h_j_0 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t156 + h_star_1 * t155 + h_star_2 * t154) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t154 - omega_i[2] * t155) + g_star_1 * (omega_i[2] * t156 - omega_i[0] * t154) +
-        g_star_2 * (omega_i[0] * t155 - omega_i[1] * t156)) - (t156 * f_star_0 + t155 * f_star_1 + t154 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t123 + h_star_1 * t122 + h_star_2 * t121) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t121 - omega_i[2] * t122) + g_star_1 * (omega_i[2] * t123 - omega_i[0] * t121) +
+        g_star_2 * (omega_i[0] * t122 - omega_i[1] * t123)) - (t123 * f_star_0 + t122 * f_star_1 + t121 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t157 = A_i[7] * C_j[0];
-    const jg_real t158 = A_i[4] * C_j[0];
-    const jg_real t159 = A_i[1] * C_j[0];
+    const jg_real t124 = A_i[7] * C_j[0];
+    const jg_real t125 = A_i[4] * C_j[0];
+    const jg_real t126 = A_i[1] * C_j[0];
     jac_phi_q_v_A_j[10] = A_i[1] * omega_j_cross_f_j_0 * h_star_0 + A_i[4] * omega_j_cross_f_j_0 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t159 + f_star_1 * t158 + f_star_2 * t157) *
-        sine_1 - (h_star_0 * (omega_i[1] * t157 - omega_i[2] * t158) + h_star_1 * (omega_i[2] * t159 - omega_i[0] *
-        t157) + h_star_2 * (omega_i[0] * t158 - omega_i[1] * t159) + alphadot[1] * (g_star_0 * t159 + g_star_1 *
-        t158 + g_star_2 * t157)));
-    const jg_real t160 = A_i[1] * C_j[3];
-    const jg_real t161 = A_i[4] * C_j[3];
-    const jg_real t162 = A_i[7] * C_j[3];
-    jac_phi_q_v_A_j[11] = alphadot[0] * (t160 * t59 + t161 * t116 + t162 * t132) - (f_star_0 * (omega_i[1] * t162 -
-        omega_i[2] * t161) + f_star_1 * (omega_i[2] * t160 - omega_i[0] * t162) + f_star_2 * (omega_i[0] * t161 -
-        omega_i[1] * t160)) + (A_i[1] * omega_j_cross_g_j_0 * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t126 + f_star_1 * t125 + f_star_2 * t124) *
+        sine_1 - (h_star_0 * (omega_i[1] * t124 - omega_i[2] * t125) + h_star_1 * (omega_i[2] * t126 - omega_i[0] *
+        t124) + h_star_2 * (omega_i[0] * t125 - omega_i[1] * t126) + alphadot[1] * (g_star_0 * t126 + g_star_1 *
+        t125 + g_star_2 * t124)));
+    const jg_real t127 = A_i[1] * C_j[3];
+    const jg_real t128 = A_i[4] * C_j[3];
+    const jg_real t129 = A_i[7] * C_j[3];
+    jac_phi_q_v_A_j[11] = alphadot[0] * (t127 * t53 + t128 * t96 + t129 * t105) - (f_star_0 * (omega_i[1] * t129 -
+        omega_i[2] * t128) + f_star_1 * (omega_i[2] * t127 - omega_i[0] * t129) + f_star_2 * (omega_i[0] * t128 -
+        omega_i[1] * t127)) + (A_i[1] * omega_j_cross_g_j_0 * f_star_0 + A_i[4] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t163 = s_j[0] * A_i[8];
-    const jg_real t164 = s_j[0] * A_i[5];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t163 * omega_i[1] - t164 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
-    const jg_real t165 = s_j[0] * A_i[2];
-    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t165 - t163 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_0;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t164 * omega_i[0] - omega_i[1] * t165) + A_i[8] * omega_j_cross_s_j_0;
-    const jg_real t166 = A_i[8] * C_j[6];
-    const jg_real t167 = A_i[5] * C_j[6];
-    const jg_real t168 = A_i[2] * C_j[6];
+    const jg_real t130 = s_j[0] * A_i[8];
+    const jg_real t131 = s_j[0] * A_i[5];
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t130 * omega_i[1] - t131 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_0;
+    const jg_real t132 = A_i[2] * s_j[0];
+    jac_phi_q_v_A_j[13] = A_i[5] * v_j[0] - (omega_i[2] * t132 - t130 * omega_i[0]) + omega_j_cross_s_j_0 * A_i[5];
+    jac_phi_q_v_A_j[14] = A_i[8] * v_j[0] - (t131 * omega_i[0] - omega_i[1] * t132) + omega_j_cross_s_j_0 * A_i[8];
+    const jg_real t133 = A_i[8] * C_j[6];
+    const jg_real t134 = A_i[5] * C_j[6];
+    const jg_real t135 = A_i[2] * C_j[6];
     jac_phi_q_v_A_j[15] = A_i[2] * omega_j_cross_h_j_0 * g_star_0 + A_i[5] * omega_j_cross_h_j_0 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t168 + h_star_1 * t167 + h_star_2 * t166) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t166 - omega_i[2] * t167) + g_star_1 * (omega_i[2] * t168 - omega_i[0] * t166) +
-        g_star_2 * (omega_i[0] * t167 - omega_i[1] * t168)) - (t168 * f_star_0 + t167 * f_star_1 + t166 * f_star_2)
+        * omega_j_cross_h_j_0 * g_star_2 + ((h_star_0 * t135 + h_star_1 * t134 + h_star_2 * t133) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t133 - omega_i[2] * t134) + g_star_1 * (omega_i[2] * t135 - omega_i[0] * t133) +
+        g_star_2 * (omega_i[0] * t134 - omega_i[1] * t135)) - (t135 * f_star_0 + t134 * f_star_1 + t133 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t169 = A_i[8] * C_j[0];
-    const jg_real t170 = A_i[5] * C_j[0];
-    const jg_real t171 = A_i[2] * C_j[0];
+    const jg_real t136 = A_i[8] * C_j[0];
+    const jg_real t137 = A_i[5] * C_j[0];
+    const jg_real t138 = A_i[2] * C_j[0];
     jac_phi_q_v_A_j[16] = A_i[2] * omega_j_cross_f_j_0 * h_star_0 + A_i[5] * omega_j_cross_f_j_0 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t171 + f_star_1 * t170 + f_star_2 * t169) *
-        sine_1 - (h_star_0 * (omega_i[1] * t169 - omega_i[2] * t170) + h_star_1 * (omega_i[2] * t171 - omega_i[0] *
-        t169) + h_star_2 * (omega_i[0] * t170 - omega_i[1] * t171) + alphadot[1] * (g_star_0 * t171 + g_star_1 *
-        t170 + g_star_2 * t169)));
-    const jg_real t172 = A_i[2] * C_j[3];
-    const jg_real t173 = A_i[5] * C_j[3];
-    const jg_real t174 = A_i[8] * C_j[3];
-    jac_phi_q_v_A_j[17] = alphadot[0] * (t172 * t59 + t173 * t116 + t174 * t132) - (f_star_0 * (omega_i[1] * t174 -
-        omega_i[2] * t173) + f_star_1 * (omega_i[2] * t172 - omega_i[0] * t174) + f_star_2 * (omega_i[0] * t173 -
-        omega_i[1] * t172)) + (A_i[2] * omega_j_cross_g_j_0 * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 +
+        * omega_j_cross_f_j_0 * h_star_2 + (alphadot[0] * (f_star_0 * t138 + f_star_1 * t137 + f_star_2 * t136) *
+        sine_1 - (h_star_0 * (omega_i[1] * t136 - omega_i[2] * t137) + h_star_1 * (omega_i[2] * t138 - omega_i[0] *
+        t136) + h_star_2 * (omega_i[0] * t137 - omega_i[1] * t138) + alphadot[1] * (g_star_0 * t138 + g_star_1 *
+        t137 + g_star_2 * t136)));
+    const jg_real t139 = A_i[2] * C_j[3];
+    const jg_real t140 = A_i[5] * C_j[3];
+    const jg_real t141 = A_i[8] * C_j[3];
+    jac_phi_q_v_A_j[17] = alphadot[0] * (t139 * t53 + t140 * t96 + t141 * t105) - (f_star_0 * (omega_i[1] * t141 -
+        omega_i[2] * t140) + f_star_1 * (omega_i[2] * t139 - omega_i[0] * t141) + f_star_2 * (omega_i[0] * t140 -
+        omega_i[1] * t139)) + (A_i[2] * omega_j_cross_g_j_0 * f_star_0 + A_i[5] * omega_j_cross_g_j_0 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_0 * f_star_2);
-    const jg_real t175 = s_j[1] * A_i[6];
-    const jg_real t176 = s_j[1] * A_i[3];
-    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t175 * omega_i[1] - t176 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
-    const jg_real t177 = s_j[1] * A_i[0];
-    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t177 - t175 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t176 * omega_i[0] - omega_i[1] * t177) + A_i[6] * omega_j_cross_s_j_1;
-    const jg_real t178 = A_i[6] * C_j[7];
-    const jg_real t179 = A_i[3] * C_j[7];
-    const jg_real t180 = A_i[0] * C_j[7];
+    const jg_real t142 = s_j[1] * A_i[6];
+    const jg_real t143 = s_j[1] * A_i[3];
+    jac_phi_q_v_A_j[18] = A_i[0] * v_j[1] - (t142 * omega_i[1] - t143 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_1;
+    const jg_real t144 = A_i[0] * s_j[1];
+    jac_phi_q_v_A_j[19] = A_i[3] * v_j[1] - (omega_i[2] * t144 - t142 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[3];
+    jac_phi_q_v_A_j[20] = A_i[6] * v_j[1] - (t143 * omega_i[0] - omega_i[1] * t144) + omega_j_cross_s_j_1 * A_i[6];
+    const jg_real t145 = A_i[6] * C_j[7];
+    const jg_real t146 = A_i[3] * C_j[7];
+    const jg_real t147 = A_i[0] * C_j[7];
     jac_phi_q_v_A_j[21] = A_i[0] * omega_j_cross_h_j_1 * g_star_0 + A_i[3] * omega_j_cross_h_j_1 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t180 + h_star_1 * t179 + h_star_2 * t178) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t178 - omega_i[2] * t179) + g_star_1 * (omega_i[2] * t180 - omega_i[0] * t178) +
-        g_star_2 * (omega_i[0] * t179 - omega_i[1] * t180)) - (t180 * f_star_0 + t179 * f_star_1 + t178 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t147 + h_star_1 * t146 + h_star_2 * t145) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t145 - omega_i[2] * t146) + g_star_1 * (omega_i[2] * t147 - omega_i[0] * t145) +
+        g_star_2 * (omega_i[0] * t146 - omega_i[1] * t147)) - (t147 * f_star_0 + t146 * f_star_1 + t145 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t181 = A_i[6] * C_j[1];
-    const jg_real t182 = A_i[3] * C_j[1];
-    const jg_real t183 = A_i[0] * C_j[1];
+    const jg_real t148 = A_i[6] * C_j[1];
+    const jg_real t149 = A_i[3] * C_j[1];
+    const jg_real t150 = A_i[0] * C_j[1];
     jac_phi_q_v_A_j[22] = A_i[0] * omega_j_cross_f_j_1 * h_star_0 + A_i[3] * omega_j_cross_f_j_1 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t183 + f_star_1 * t182 + f_star_2 * t181) *
-        sine_1 - (h_star_0 * (omega_i[1] * t181 - omega_i[2] * t182) + h_star_1 * (omega_i[2] * t183 - omega_i[0] *
-        t181) + h_star_2 * (omega_i[0] * t182 - omega_i[1] * t183) + alphadot[1] * (g_star_0 * t183 + g_star_1 *
-        t182 + g_star_2 * t181)));
-    const jg_real t184 = A_i[0] * C_j[4];
-    const jg_real t185 = A_i[3] * C_j[4];
-    const jg_real t186 = A_i[6] * C_j[4];
-    jac_phi_q_v_A_j[23] = alphadot[0] * (t184 * t59 + t185 * t116 + t186 * t132) - (f_star_0 * (omega_i[1] * t186 -
-        omega_i[2] * t185) + f_star_1 * (omega_i[2] * t184 - omega_i[0] * t186) + f_star_2 * (omega_i[0] * t185 -
-        omega_i[1] * t184)) + (A_i[0] * omega_j_cross_g_j_1 * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t150 + f_star_1 * t149 + f_star_2 * t148) *
+        sine_1 - (h_star_0 * (omega_i[1] * t148 - omega_i[2] * t149) + h_star_1 * (omega_i[2] * t150 - omega_i[0] *
+        t148) + h_star_2 * (omega_i[0] * t149 - omega_i[1] * t150) + alphadot[1] * (g_star_0 * t150 + g_star_1 *
+        t149 + g_star_2 * t148)));
+    const jg_real t151 = A_i[0] * C_j[4];
+    const jg_real t152 = A_i[3] * C_j[4];
+    const jg_real t153 = A_i[6] * C_j[4];
+    jac_phi_q_v_A_j[23] = alphadot[0] * (t151 * t53 + t152 * t96 + t153 * t105) - (f_star_0 * (omega_i[1] * t153 -
+        omega_i[2] * t152) + f_star_1 * (omega_i[2] * t151 - omega_i[0] * t153) + f_star_2 * (omega_i[0] * t152 -
+        omega_i[1] * t151)) + (A_i[0] * omega_j_cross_g_j_1 * f_star_0 + A_i[3] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t187 = s_j[1] * A_i[7];
-    const jg_real t188 = s_j[1] * A_i[4];
-    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t187 * omega_i[1] - t188 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
-    const jg_real t189 = s_j[1] * A_i[1];
-    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t189 - t187 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t188 * omega_i[0] - omega_i[1] * t189) + A_i[7] * omega_j_cross_s_j_1;
-    const jg_real t190 = A_i[7] * C_j[7];
-    const jg_real t191 = A_i[4] * C_j[7];
-    const jg_real t192 = A_i[1] * C_j[7];
+    const jg_real t154 = s_j[1] * A_i[7];
+    const jg_real t155 = s_j[1] * A_i[4];
+    jac_phi_q_v_A_j[24] = A_i[1] * v_j[1] - (t154 * omega_i[1] - t155 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_1;
+    const jg_real t156 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[25] = A_i[4] * v_j[1] - (omega_i[2] * t156 - t154 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[4];
+    jac_phi_q_v_A_j[26] = A_i[7] * v_j[1] - (t155 * omega_i[0] - omega_i[1] * t156) + omega_j_cross_s_j_1 * A_i[7];
+    const jg_real t157 = A_i[7] * C_j[7];
+    const jg_real t158 = A_i[4] * C_j[7];
+    const jg_real t159 = A_i[1] * C_j[7];
     jac_phi_q_v_A_j[27] = A_i[1] * omega_j_cross_h_j_1 * g_star_0 + A_i[4] * omega_j_cross_h_j_1 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t192 + h_star_1 * t191 + h_star_2 * t190) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t190 - omega_i[2] * t191) + g_star_1 * (omega_i[2] * t192 - omega_i[0] * t190) +
-        g_star_2 * (omega_i[0] * t191 - omega_i[1] * t192)) - (t192 * f_star_0 + t191 * f_star_1 + t190 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t159 + h_star_1 * t158 + h_star_2 * t157) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t157 - omega_i[2] * t158) + g_star_1 * (omega_i[2] * t159 - omega_i[0] * t157) +
+        g_star_2 * (omega_i[0] * t158 - omega_i[1] * t159)) - (t159 * f_star_0 + t158 * f_star_1 + t157 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t193 = A_i[7] * C_j[1];
-    const jg_real t194 = A_i[4] * C_j[1];
-    const jg_real t195 = A_i[1] * C_j[1];
+    const jg_real t160 = A_i[7] * C_j[1];
+    const jg_real t161 = A_i[4] * C_j[1];
+    const jg_real t162 = A_i[1] * C_j[1];
     jac_phi_q_v_A_j[28] = A_i[1] * omega_j_cross_f_j_1 * h_star_0 + A_i[4] * omega_j_cross_f_j_1 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t195 + f_star_1 * t194 + f_star_2 * t193) *
-        sine_1 - (h_star_0 * (omega_i[1] * t193 - omega_i[2] * t194) + h_star_1 * (omega_i[2] * t195 - omega_i[0] *
-        t193) + h_star_2 * (omega_i[0] * t194 - omega_i[1] * t195) + alphadot[1] * (g_star_0 * t195 + g_star_1 *
-        t194 + g_star_2 * t193)));
-    const jg_real t196 = A_i[1] * C_j[4];
-    const jg_real t197 = A_i[4] * C_j[4];
-    const jg_real t198 = A_i[7] * C_j[4];
-    jac_phi_q_v_A_j[29] = alphadot[0] * (t196 * t59 + t197 * t116 + t198 * t132) - (f_star_0 * (omega_i[1] * t198 -
-        omega_i[2] * t197) + f_star_1 * (omega_i[2] * t196 - omega_i[0] * t198) + f_star_2 * (omega_i[0] * t197 -
-        omega_i[1] * t196)) + (A_i[1] * omega_j_cross_g_j_1 * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t162 + f_star_1 * t161 + f_star_2 * t160) *
+        sine_1 - (h_star_0 * (omega_i[1] * t160 - omega_i[2] * t161) + h_star_1 * (omega_i[2] * t162 - omega_i[0] *
+        t160) + h_star_2 * (omega_i[0] * t161 - omega_i[1] * t162) + alphadot[1] * (g_star_0 * t162 + g_star_1 *
+        t161 + g_star_2 * t160)));
+    const jg_real t163 = A_i[1] * C_j[4];
+    const jg_real t164 = A_i[4] * C_j[4];
+    const jg_real t165 = A_i[7] * C_j[4];
+    jac_phi_q_v_A_j[29] = alphadot[0] * (t163 * t53 + t164 * t96 + t165 * t105) - (f_star_0 * (omega_i[1] * t165 -
+        omega_i[2] * t164) + f_star_1 * (omega_i[2] * t163 - omega_i[0] * t165) + f_star_2 * (omega_i[0] * t164 -
+        omega_i[1] * t163)) + (A_i[1] * omega_j_cross_g_j_1 * f_star_0 + A_i[4] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t199 = s_j[1] * A_i[8];
-    const jg_real t200 = s_j[1] * A_i[5];
-    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t199 * omega_i[1] - t200 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
-    const jg_real t201 = s_j[1] * A_i[2];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t201 - t199 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_1;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t200 * omega_i[0] - omega_i[1] * t201) + A_i[8] * omega_j_cross_s_j_1;
-    const jg_real t202 = A_i[8] * C_j[7];
-    const jg_real t203 = A_i[5] * C_j[7];
-    const jg_real t204 = A_i[2] * C_j[7];
+    const jg_real t166 = s_j[1] * A_i[8];
+    const jg_real t167 = s_j[1] * A_i[5];
+    jac_phi_q_v_A_j[30] = A_i[2] * v_j[1] - (t166 * omega_i[1] - t167 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_1;
+    const jg_real t168 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_j[1] - (omega_i[2] * t168 - t166 * omega_i[0]) + omega_j_cross_s_j_1 * A_i[5];
+    jac_phi_q_v_A_j[32] = A_i[8] * v_j[1] - (t167 * omega_i[0] - omega_i[1] * t168) + omega_j_cross_s_j_1 * A_i[8];
+    const jg_real t169 = A_i[8] * C_j[7];
+    const jg_real t170 = A_i[5] * C_j[7];
+    const jg_real t171 = A_i[2] * C_j[7];
     jac_phi_q_v_A_j[33] = A_i[2] * omega_j_cross_h_j_1 * g_star_0 + A_i[5] * omega_j_cross_h_j_1 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t204 + h_star_1 * t203 + h_star_2 * t202) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t202 - omega_i[2] * t203) + g_star_1 * (omega_i[2] * t204 - omega_i[0] * t202) +
-        g_star_2 * (omega_i[0] * t203 - omega_i[1] * t204)) - (t204 * f_star_0 + t203 * f_star_1 + t202 * f_star_2)
+        * omega_j_cross_h_j_1 * g_star_2 + ((h_star_0 * t171 + h_star_1 * t170 + h_star_2 * t169) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t169 - omega_i[2] * t170) + g_star_1 * (omega_i[2] * t171 - omega_i[0] * t169) +
+        g_star_2 * (omega_i[0] * t170 - omega_i[1] * t171)) - (t171 * f_star_0 + t170 * f_star_1 + t169 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t205 = A_i[8] * C_j[1];
-    const jg_real t206 = A_i[5] * C_j[1];
-    const jg_real t207 = A_i[2] * C_j[1];
+    const jg_real t172 = A_i[8] * C_j[1];
+    const jg_real t173 = A_i[5] * C_j[1];
+    const jg_real t174 = A_i[2] * C_j[1];
     jac_phi_q_v_A_j[34] = A_i[2] * omega_j_cross_f_j_1 * h_star_0 + A_i[5] * omega_j_cross_f_j_1 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t207 + f_star_1 * t206 + f_star_2 * t205) *
-        sine_1 - (h_star_0 * (omega_i[1] * t205 - omega_i[2] * t206) + h_star_1 * (omega_i[2] * t207 - omega_i[0] *
-        t205) + h_star_2 * (omega_i[0] * t206 - omega_i[1] * t207) + alphadot[1] * (g_star_0 * t207 + g_star_1 *
-        t206 + g_star_2 * t205)));
-    const jg_real t208 = A_i[2] * C_j[4];
-    const jg_real t209 = A_i[5] * C_j[4];
-    const jg_real t210 = A_i[8] * C_j[4];
-    jac_phi_q_v_A_j[35] = alphadot[0] * (t208 * t59 + t209 * t116 + t210 * t132) - (f_star_0 * (omega_i[1] * t210 -
-        omega_i[2] * t209) + f_star_1 * (omega_i[2] * t208 - omega_i[0] * t210) + f_star_2 * (omega_i[0] * t209 -
-        omega_i[1] * t208)) + (A_i[2] * omega_j_cross_g_j_1 * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 +
+        * omega_j_cross_f_j_1 * h_star_2 + (alphadot[0] * (f_star_0 * t174 + f_star_1 * t173 + f_star_2 * t172) *
+        sine_1 - (h_star_0 * (omega_i[1] * t172 - omega_i[2] * t173) + h_star_1 * (omega_i[2] * t174 - omega_i[0] *
+        t172) + h_star_2 * (omega_i[0] * t173 - omega_i[1] * t174) + alphadot[1] * (g_star_0 * t174 + g_star_1 *
+        t173 + g_star_2 * t172)));
+    const jg_real t175 = A_i[2] * C_j[4];
+    const jg_real t176 = A_i[5] * C_j[4];
+    const jg_real t177 = A_i[8] * C_j[4];
+    jac_phi_q_v_A_j[35] = alphadot[0] * (t175 * t53 + t176 * t96 + t177 * t105) - (f_star_0 * (omega_i[1] * t177 -
+        omega_i[2] * t176) + f_star_1 * (omega_i[2] * t175 - omega_i[0] * t177) + f_star_2 * (omega_i[0] * t176 -
+        omega_i[1] * t175)) + (A_i[2] * omega_j_cross_g_j_1 * f_star_0 + A_i[5] * omega_j_cross_g_j_1 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_1 * f_star_2);
-    const jg_real t211 = s_j[2] * A_i[6];
-    const jg_real t212 = s_j[2] * A_i[3];
-    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t211 * omega_i[1] - t212 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
-    const jg_real t213 = s_j[2] * A_i[0];
-    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t213 - t211 * omega_i[0]) + A_i[3] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t212 * omega_i[0] - omega_i[1] * t213) + A_i[6] * omega_j_cross_s_j_2;
-    const jg_real t214 = A_i[6] * C_j[8];
-    const jg_real t215 = A_i[3] * C_j[8];
-    const jg_real t216 = A_i[0] * C_j[8];
+    const jg_real t178 = s_j[2] * A_i[6];
+    const jg_real t179 = s_j[2] * A_i[3];
+    jac_phi_q_v_A_j[36] = A_i[0] * v_j[2] - (t178 * omega_i[1] - t179 * omega_i[2]) + A_i[0] * omega_j_cross_s_j_2;
+    const jg_real t180 = A_i[0] * s_j[2];
+    jac_phi_q_v_A_j[37] = A_i[3] * v_j[2] - (omega_i[2] * t180 - t178 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[3];
+    jac_phi_q_v_A_j[38] = A_i[6] * v_j[2] - (t179 * omega_i[0] - omega_i[1] * t180) + omega_j_cross_s_j_2 * A_i[6];
+    const jg_real t181 = A_i[6] * C_j[8];
+    const jg_real t182 = A_i[3] * C_j[8];
+    const jg_real t183 = A_i[0] * C_j[8];
     jac_phi_q_v_A_j[39] = A_i[0] * omega_j_cross_h_j_2 * g_star_0 + A_i[3] * omega_j_cross_h_j_2 * g_star_1 + A_i[6]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t216 + h_star_1 * t215 + h_star_2 * t214) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t214 - omega_i[2] * t215) + g_star_1 * (omega_i[2] * t216 - omega_i[0] * t214) +
-        g_star_2 * (omega_i[0] * t215 - omega_i[1] * t216)) - (t216 * f_star_0 + t215 * f_star_1 + t214 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t183 + h_star_1 * t182 + h_star_2 * t181) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t181 - omega_i[2] * t182) + g_star_1 * (omega_i[2] * t183 - omega_i[0] * t181) +
+        g_star_2 * (omega_i[0] * t182 - omega_i[1] * t183)) - (t183 * f_star_0 + t182 * f_star_1 + t181 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t217 = A_i[6] * C_j[2];
-    const jg_real t218 = A_i[3] * C_j[2];
-    const jg_real t219 = A_i[0] * C_j[2];
+    const jg_real t184 = A_i[6] * C_j[2];
+    const jg_real t185 = A_i[3] * C_j[2];
+    const jg_real t186 = A_i[0] * C_j[2];
     jac_phi_q_v_A_j[40] = A_i[0] * omega_j_cross_f_j_2 * h_star_0 + A_i[3] * omega_j_cross_f_j_2 * h_star_1 + A_i[6]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t219 + f_star_1 * t218 + f_star_2 * t217) *
-        sine_1 - (h_star_0 * (omega_i[1] * t217 - omega_i[2] * t218) + h_star_1 * (omega_i[2] * t219 - omega_i[0] *
-        t217) + h_star_2 * (omega_i[0] * t218 - omega_i[1] * t219) + alphadot[1] * (g_star_0 * t219 + g_star_1 *
-        t218 + g_star_2 * t217)));
-    const jg_real t220 = A_i[0] * C_j[5];
-    const jg_real t221 = A_i[3] * C_j[5];
-    const jg_real t222 = A_i[6] * C_j[5];
-    jac_phi_q_v_A_j[41] = alphadot[0] * (t220 * t59 + t221 * t116 + t222 * t132) - (f_star_0 * (omega_i[1] * t222 -
-        omega_i[2] * t221) + f_star_1 * (omega_i[2] * t220 - omega_i[0] * t222) + f_star_2 * (omega_i[0] * t221 -
-        omega_i[1] * t220)) + (A_i[0] * omega_j_cross_g_j_2 * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t186 + f_star_1 * t185 + f_star_2 * t184) *
+        sine_1 - (h_star_0 * (omega_i[1] * t184 - omega_i[2] * t185) + h_star_1 * (omega_i[2] * t186 - omega_i[0] *
+        t184) + h_star_2 * (omega_i[0] * t185 - omega_i[1] * t186) + alphadot[1] * (g_star_0 * t186 + g_star_1 *
+        t185 + g_star_2 * t184)));
+    const jg_real t187 = A_i[0] * C_j[5];
+    const jg_real t188 = A_i[3] * C_j[5];
+    const jg_real t189 = A_i[6] * C_j[5];
+    jac_phi_q_v_A_j[41] = alphadot[0] * (t187 * t53 + t188 * t96 + t189 * t105) - (f_star_0 * (omega_i[1] * t189 -
+        omega_i[2] * t188) + f_star_1 * (omega_i[2] * t187 - omega_i[0] * t189) + f_star_2 * (omega_i[0] * t188 -
+        omega_i[1] * t187)) + (A_i[0] * omega_j_cross_g_j_2 * f_star_0 + A_i[3] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[6] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t223 = s_j[2] * A_i[7];
-    const jg_real t224 = s_j[2] * A_i[4];
-    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t223 * omega_i[1] - t224 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
-    const jg_real t225 = s_j[2] * A_i[1];
-    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t225 - t223 * omega_i[0]) + A_i[4] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t224 * omega_i[0] - omega_i[1] * t225) + A_i[7] * omega_j_cross_s_j_2;
-    const jg_real t226 = A_i[7] * C_j[8];
-    const jg_real t227 = A_i[4] * C_j[8];
-    const jg_real t228 = A_i[1] * C_j[8];
+    const jg_real t190 = s_j[2] * A_i[7];
+    const jg_real t191 = s_j[2] * A_i[4];
+    jac_phi_q_v_A_j[42] = A_i[1] * v_j[2] - (t190 * omega_i[1] - t191 * omega_i[2]) + A_i[1] * omega_j_cross_s_j_2;
+    const jg_real t192 = A_i[1] * s_j[2];
+    jac_phi_q_v_A_j[43] = A_i[4] * v_j[2] - (omega_i[2] * t192 - t190 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[4];
+    jac_phi_q_v_A_j[44] = A_i[7] * v_j[2] - (t191 * omega_i[0] - omega_i[1] * t192) + omega_j_cross_s_j_2 * A_i[7];
+    const jg_real t193 = A_i[7] * C_j[8];
+    const jg_real t194 = A_i[4] * C_j[8];
+    const jg_real t195 = A_i[1] * C_j[8];
     jac_phi_q_v_A_j[45] = A_i[1] * omega_j_cross_h_j_2 * g_star_0 + A_i[4] * omega_j_cross_h_j_2 * g_star_1 + A_i[7]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t228 + h_star_1 * t227 + h_star_2 * t226) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t226 - omega_i[2] * t227) + g_star_1 * (omega_i[2] * t228 - omega_i[0] * t226) +
-        g_star_2 * (omega_i[0] * t227 - omega_i[1] * t228)) - (t228 * f_star_0 + t227 * f_star_1 + t226 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t195 + h_star_1 * t194 + h_star_2 * t193) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t193 - omega_i[2] * t194) + g_star_1 * (omega_i[2] * t195 - omega_i[0] * t193) +
+        g_star_2 * (omega_i[0] * t194 - omega_i[1] * t195)) - (t195 * f_star_0 + t194 * f_star_1 + t193 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t229 = A_i[7] * C_j[2];
-    const jg_real t230 = A_i[4] * C_j[2];
-    const jg_real t231 = A_i[1] * C_j[2];
+    const jg_real t196 = A_i[7] * C_j[2];
+    const jg_real t197 = A_i[4] * C_j[2];
+    const jg_real t198 = A_i[1] * C_j[2];
     jac_phi_q_v_A_j[46] = A_i[1] * omega_j_cross_f_j_2 * h_star_0 + A_i[4] * omega_j_cross_f_j_2 * h_star_1 + A_i[7]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t231 + f_star_1 * t230 + f_star_2 * t229) *
-        sine_1 - (h_star_0 * (omega_i[1] * t229 - omega_i[2] * t230) + h_star_1 * (omega_i[2] * t231 - omega_i[0] *
-        t229) + h_star_2 * (omega_i[0] * t230 - omega_i[1] * t231) + alphadot[1] * (g_star_0 * t231 + g_star_1 *
-        t230 + g_star_2 * t229)));
-    const jg_real t232 = A_i[1] * C_j[5];
-    const jg_real t233 = A_i[4] * C_j[5];
-    const jg_real t234 = A_i[7] * C_j[5];
-    jac_phi_q_v_A_j[47] = alphadot[0] * (t232 * t59 + t233 * t116 + t234 * t132) - (f_star_0 * (omega_i[1] * t234 -
-        omega_i[2] * t233) + f_star_1 * (omega_i[2] * t232 - omega_i[0] * t234) + f_star_2 * (omega_i[0] * t233 -
-        omega_i[1] * t232)) + (A_i[1] * omega_j_cross_g_j_2 * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t198 + f_star_1 * t197 + f_star_2 * t196) *
+        sine_1 - (h_star_0 * (omega_i[1] * t196 - omega_i[2] * t197) + h_star_1 * (omega_i[2] * t198 - omega_i[0] *
+        t196) + h_star_2 * (omega_i[0] * t197 - omega_i[1] * t198) + alphadot[1] * (g_star_0 * t198 + g_star_1 *
+        t197 + g_star_2 * t196)));
+    const jg_real t199 = A_i[1] * C_j[5];
+    const jg_real t200 = A_i[4] * C_j[5];
+    const jg_real t201 = A_i[7] * C_j[5];
+    jac_phi_q_v_A_j[47] = alphadot[0] * (t199 * t53 + t200 * t96 + t201 * t105) - (f_star_0 * (omega_i[1] * t201 -
+        omega_i[2] * t200) + f_star_1 * (omega_i[2] * t199 - omega_i[0] * t201) + f_star_2 * (omega_i[0] * t200 -
+        omega_i[1] * t199)) + (A_i[1] * omega_j_cross_g_j_2 * f_star_0 + A_i[4] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[7] * omega_j_cross_g_j_2 * f_star_2);
-    const jg_real t235 = s_j[2] * A_i[8];
-    const jg_real t236 = s_j[2] * A_i[5];
-    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t235 * omega_i[1] - t236 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
-    const jg_real t237 = s_j[2] * A_i[2];
-    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t237 - t235 * omega_i[0]) + A_i[5] * omega_j_cross_s_j_2;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t236 * omega_i[0] - omega_i[1] * t237) + A_i[8] * omega_j_cross_s_j_2;
-    const jg_real t238 = A_i[8] * C_j[8];
-    const jg_real t239 = A_i[5] * C_j[8];
-    const jg_real t240 = A_i[2] * C_j[8];
+    const jg_real t202 = s_j[2] * A_i[8];
+    const jg_real t203 = s_j[2] * A_i[5];
+    jac_phi_q_v_A_j[48] = A_i[2] * v_j[2] - (t202 * omega_i[1] - t203 * omega_i[2]) + A_i[2] * omega_j_cross_s_j_2;
+    const jg_real t204 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_j[2] - (omega_i[2] * t204 - t202 * omega_i[0]) + omega_j_cross_s_j_2 * A_i[5];
+    jac_phi_q_v_A_j[50] = A_i[8] * v_j[2] - (t203 * omega_i[0] - omega_i[1] * t204) + omega_j_cross_s_j_2 * A_i[8];
+    const jg_real t205 = A_i[8] * C_j[8];
+    const jg_real t206 = A_i[5] * C_j[8];
+    const jg_real t207 = A_i[2] * C_j[8];
     jac_phi_q_v_A_j[51] = A_i[2] * omega_j_cross_h_j_2 * g_star_0 + A_i[5] * omega_j_cross_h_j_2 * g_star_1 + A_i[8]
-        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t240 + h_star_1 * t239 + h_star_2 * t238) * alphadot[1] -
-        (g_star_0 * (omega_i[1] * t238 - omega_i[2] * t239) + g_star_1 * (omega_i[2] * t240 - omega_i[0] * t238) +
-        g_star_2 * (omega_i[0] * t239 - omega_i[1] * t240)) - (t240 * f_star_0 + t239 * f_star_1 + t238 * f_star_2)
+        * omega_j_cross_h_j_2 * g_star_2 + ((h_star_0 * t207 + h_star_1 * t206 + h_star_2 * t205) * alphadot[1] -
+        (g_star_0 * (omega_i[1] * t205 - omega_i[2] * t206) + g_star_1 * (omega_i[2] * t207 - omega_i[0] * t205) +
+        g_star_2 * (omega_i[0] * t206 - omega_i[1] * t207)) - (t207 * f_star_0 + t206 * f_star_1 + t205 * f_star_2)
         * alphadot[0] * cosine_1);
-    const jg_real t241 = A_i[8] * C_j[2];
-    const jg_real t242 = A_i[5] * C_j[2];
-    const jg_real t243 = A_i[2] * C_j[2];
+    const jg_real t208 = A_i[8] * C_j[2];
+    const jg_real t209 = A_i[5] * C_j[2];
+    const jg_real t210 = A_i[2] * C_j[2];
     jac_phi_q_v_A_j[52] = A_i[2] * omega_j_cross_f_j_2 * h_star_0 + A_i[5] * omega_j_cross_f_j_2 * h_star_1 + A_i[8]
-        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t243 + f_star_1 * t242 + f_star_2 * t241) *
-        sine_1 - (h_star_0 * (omega_i[1] * t241 - omega_i[2] * t242) + h_star_1 * (omega_i[2] * t243 - omega_i[0] *
-        t241) + h_star_2 * (omega_i[0] * t242 - omega_i[1] * t243) + alphadot[1] * (g_star_0 * t243 + g_star_1 *
-        t242 + g_star_2 * t241)));
-    const jg_real t244 = A_i[2] * C_j[5];
-    const jg_real t245 = A_i[5] * C_j[5];
-    const jg_real t246 = A_i[8] * C_j[5];
-    jac_phi_q_v_A_j[53] = alphadot[0] * (t244 * t59 + t245 * t116 + t246 * t132) - (f_star_0 * (omega_i[1] * t246 -
-        omega_i[2] * t245) + f_star_1 * (omega_i[2] * t244 - omega_i[0] * t246) + f_star_2 * (omega_i[0] * t245 -
-        omega_i[1] * t244)) + (A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 +
+        * omega_j_cross_f_j_2 * h_star_2 + (alphadot[0] * (f_star_0 * t210 + f_star_1 * t209 + f_star_2 * t208) *
+        sine_1 - (h_star_0 * (omega_i[1] * t208 - omega_i[2] * t209) + h_star_1 * (omega_i[2] * t210 - omega_i[0] *
+        t208) + h_star_2 * (omega_i[0] * t209 - omega_i[1] * t210) + alphadot[1] * (g_star_0 * t210 + g_star_1 *
+        t209 + g_star_2 * t208)));
+    const jg_real t211 = A_i[2] * C_j[5];
+    const jg_real t212 = A_i[5] * C_j[5];
+    const jg_real t213 = A_i[8] * C_j[5];
+    jac_phi_q_v_A_j[53] = alphadot[0] * (t211 * t53 + t212 * t96 + t213 * t105) - (f_star_0 * (omega_i[1] * t213 -
+        omega_i[2] * t212) + f_star_1 * (omega_i[2] * t211 - omega_i[0] * t213) + f_star_2 * (omega_i[0] * t212 -
+        omega_i[1] * t211)) + (A_i[2] * omega_j_cross_g_j_2 * f_star_0 + A_i[5] * omega_j_cross_g_j_2 * f_star_1 +
         A_i[8] * omega_j_cross_g_j_2 * f_star_2);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
@@ -834,24 +807,24 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real t256 = t28 * C_i[3] + H_4 * C_i[0];
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t223 = t22 * C_i[3] + H_4 * C_i[0];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jac_phi_q_v_velocity[18] = A_ij_0;
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jac_phi_q_v_velocity[21] = A_ij_3;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ij_6;
     const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
-    const jg_real t262 = t28 * C_i[4] + H_4 * C_i[1];
+    const jg_real t229 = t22 * C_i[4] + H_4 * C_i[1];
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
-    const jg_real t264 = t28 * C_i[5] + H_4 * C_i[2];
-    const jg_real t265 = t35 * C_i[0] + C_i[3] * H_6;
-    const jg_real t266 = t35 * C_i[1] + H_6 * C_i[4];
-    const jg_real t267 = t35 * C_i[2] + H_6 * C_i[5];
-    const jg_real t268 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    const jg_real t269 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real t270 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t231 = t22 * C_i[5] + H_4 * C_i[2];
+    const jg_real t232 = t29 * C_i[0] + C_i[3] * H_6;
+    const jg_real t233 = t29 * C_i[1] + H_6 * C_i[4];
+    const jg_real t234 = t29 * C_i[2] + H_6 * C_i[5];
+    const jg_real t235 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t236 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real t237 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
     const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
         omega_j_cross_h_j_2;
@@ -859,10 +832,10 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_j_cross_h_j_2;
     const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
         omega_j_cross_h_j_2;
-    jac_phi_q_v_alpha[0] = t256 * omega_i_cross_A_ij_h_j_0 + t262 * omega_i_cross_A_ij_h_j_1 + t264 *
-        omega_i_cross_A_ij_h_j_2 + (A_ij_h_j_0 * t265 + A_ij_h_j_1 * t266 + A_ij_h_j_2 * t267) * alphadot[1] -
-        (A_ij_h_j_0 * t268 + A_ij_h_j_1 * t269 + A_ij_h_j_2 * t270) * alphadot[0] * cosine_1 -
-        (A_ij_omega_j_cross_h_j_0 * t256 + A_ij_omega_j_cross_h_j_1 * t262 + A_ij_omega_j_cross_h_j_2 * t264);
+    jac_phi_q_v_alpha[0] = t223 * omega_i_cross_A_ij_h_j_0 + t229 * omega_i_cross_A_ij_h_j_1 + t231 *
+        omega_i_cross_A_ij_h_j_2 + (A_ij_h_j_0 * t232 + A_ij_h_j_1 * t233 + A_ij_h_j_2 * t234) * alphadot[1] -
+        (A_ij_h_j_0 * t235 + A_ij_h_j_1 * t236 + A_ij_h_j_2 * t237) * alphadot[0] * cosine_1 -
+        (A_ij_omega_j_cross_h_j_0 * t223 + A_ij_omega_j_cross_h_j_1 * t229 + A_ij_omega_j_cross_h_j_2 * t231);
     /* A_ij_omega_j_cross_f_j = A_ij tilde(omega_j) f_j */
     const jg_real A_ij_omega_j_cross_f_j_0 = A_ij_0 * omega_j_cross_f_j_0 + A_ij_3 * omega_j_cross_f_j_1 + A_ij_6 *
         omega_j_cross_f_j_2;
@@ -878,10 +851,10 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real omega_i_cross_A_ij_f_j_1 = omega_i[2] * A_ij_f_j_0 - omega_i[0] * A_ij_f_j_2;
     const jg_real omega_i_cross_A_ij_f_j_2 = omega_i[0] * A_ij_f_j_1 - omega_i[1] * A_ij_f_j_0;
-    jac_phi_q_v_alpha[1] = t265 * A_ij_omega_j_cross_f_j_0 + t266 * A_ij_omega_j_cross_f_j_1 + t267 *
-        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (t268 * A_ij_f_j_0 + t269 * A_ij_f_j_1 + t270 * A_ij_f_j_2) *
-        sine_1 - (t265 * omega_i_cross_A_ij_f_j_0 + t266 * omega_i_cross_A_ij_f_j_1 + t267 *
-        omega_i_cross_A_ij_f_j_2 - alphadot[1] * (t256 * A_ij_f_j_0 + t262 * A_ij_f_j_1 + t264 * A_ij_f_j_2)));
+    jac_phi_q_v_alpha[1] = t232 * A_ij_omega_j_cross_f_j_0 + t233 * A_ij_omega_j_cross_f_j_1 + t234 *
+        A_ij_omega_j_cross_f_j_2 + (alphadot[0] * (t235 * A_ij_f_j_0 + t236 * A_ij_f_j_1 + t237 * A_ij_f_j_2) *
+        sine_1 - (t232 * omega_i_cross_A_ij_f_j_0 + t233 * omega_i_cross_A_ij_f_j_1 + t234 *
+        omega_i_cross_A_ij_f_j_2 - alphadot[1] * (t223 * A_ij_f_j_0 + t229 * A_ij_f_j_1 + t231 * A_ij_f_j_2)));
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
@@ -897,162 +870,144 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_j_cross_g_j_2;
     const jg_real A_ij_omega_j_cross_g_j_2 = A_ij_2 * omega_j_cross_g_j_0 + A_ij_5 * omega_j_cross_g_j_1 + A_ij_8 *
         omega_j_cross_g_j_2;
-    jac_phi_q_v_alpha[2] = t268 * A_ij_omega_j_cross_g_j_0 + t269 * A_ij_omega_j_cross_g_j_1 + t270 *
-        A_ij_omega_j_cross_g_j_2 - (t268 * omega_i_cross_A_ij_g_j_0 + t269 * omega_i_cross_A_ij_g_j_1 + t270 *
-        omega_i_cross_A_ij_g_j_2 + alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t58 + C_i[0] * t57) + A_ij_g_j_1 * (C_i[4]
-        * t58 + C_i[1] * t57) + A_ij_g_j_2 * (C_i[5] * t58 + C_i[2] * t57)));
-    const jg_real t292 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    jac_phi_q_v_alpha[2] = t235 * A_ij_omega_j_cross_g_j_0 + t236 * A_ij_omega_j_cross_g_j_1 + t237 *
+        A_ij_omega_j_cross_g_j_2 - (t235 * omega_i_cross_A_ij_g_j_0 + t236 * omega_i_cross_A_ij_g_j_1 + t237 *
+        omega_i_cross_A_ij_g_j_2 + alphadot[0] * (A_ij_g_j_0 * (C_i[3] * t52 + C_i[0] * t51) + A_ij_g_j_1 * (C_i[4]
+        * t52 + C_i[1] * t51) + A_ij_g_j_2 * (C_i[5] * t52 + C_i[2] * t51)));
+    const jg_real t259 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
     jac_phi_q_v_alpha[3] = A_ij_omega_j_cross_h_j_0 * h_star_0 + A_ij_omega_j_cross_h_j_1 * h_star_1 +
-        A_ij_omega_j_cross_h_j_2 * h_star_2 + (t292 * alphadot[0] * sine_1 - (h_star_0 * omega_i_cross_A_ij_h_j_0 +
+        A_ij_omega_j_cross_h_j_2 * h_star_2 + (t259 * alphadot[0] * sine_1 - (h_star_0 * omega_i_cross_A_ij_h_j_0 +
         h_star_1 * omega_i_cross_A_ij_h_j_1 + h_star_2 * omega_i_cross_A_ij_h_j_2 + (g_star_0 * A_ij_h_j_0 +
         g_star_1 * A_ij_h_j_1 + g_star_2 * A_ij_h_j_2) * alphadot[1]));
-    const jg_real t293 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
-    jac_phi_q_v_alpha[4] = alphadot[0] * t293 * cosine_1 - (alphadot[1] * (h_star_0 * A_ij_f_j_0 + h_star_1 *
+    const jg_real t260 = f_star_0 * A_ij_f_j_0 + f_star_1 * A_ij_f_j_1 + f_star_2 * A_ij_f_j_2;
+    jac_phi_q_v_alpha[4] = alphadot[0] * t260 * cosine_1 - (alphadot[1] * (h_star_0 * A_ij_f_j_0 + h_star_1 *
         A_ij_f_j_1 + h_star_2 * A_ij_f_j_2) - (g_star_0 * omega_i_cross_A_ij_f_j_0 + g_star_1 *
         omega_i_cross_A_ij_f_j_1 + g_star_2 * omega_i_cross_A_ij_f_j_2)) - (g_star_0 * A_ij_omega_j_cross_f_j_0 +
         g_star_1 * A_ij_omega_j_cross_f_j_1 + g_star_2 * A_ij_omega_j_cross_f_j_2);
-    const jg_real t294 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t295 = t294 * omega_i[1];
-    const jg_real t296 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t297 = t296 * omega_i[2];
-    jac_phi_q_v_geometry[0] = t295 - t297;
-    const jg_real t298 = A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2];
-    jac_phi_q_v_geometry[1] = -(t294 * omega_i[0] - omega_i[2] * t298 + omega_i[2]);
-    jac_phi_q_v_geometry[2] = omega_i[1] - (omega_i[1] * t298 - t296 * omega_i[0]);
-    const jg_real t299 = A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5];
-    const jg_real t300 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    jac_phi_q_v_geometry[3] = omega_i[2] - (t299 * omega_i[2] - t300 * omega_i[1]);
-    const jg_real t301 = t300 * omega_i[0];
-    jac_phi_q_v_geometry[4] = t297 - t301;
-    jac_phi_q_v_geometry[5] = -(omega_i[1] * t296 - t299 * omega_i[0] + omega_i[0]);
-    const jg_real t302 = A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8];
-    jac_phi_q_v_geometry[6] = -(t300 * omega_i[2] - t302 * omega_i[1] + omega_i[1]);
-    jac_phi_q_v_geometry[7] = omega_i[0] - (t302 * omega_i[0] - t294 * omega_i[2]);
-    jac_phi_q_v_geometry[8] = t301 - t295;
-    jac_phi_q_v_geometry[9] = t28 * omega_i_cross_A_ij_h_j_0 + H_6 * A_ij_h_j_0 * alphadot[1] - cosine_0 *
-        A_ij_h_j_0 * alphadot[0] * cosine_1 - A_ij_omega_j_cross_h_j_0 * t28;
-    jac_phi_q_v_geometry[10] = cosine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_0 - t28
-        * A_ij_f_j_0 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[11] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (A_ij_g_j_0 * t58 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[0] = t22 * omega_i_cross_A_ij_h_j_0 + H_6 * A_ij_h_j_0 * alphadot[1] - cosine_0 *
+        A_ij_h_j_0 * alphadot[0] * cosine_1 - A_ij_omega_j_cross_h_j_0 * t22;
+    jac_phi_q_v_geometry[1] = cosine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_0 - t22 *
+        A_ij_f_j_0 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_0;
+    jac_phi_q_v_geometry[2] = cosine_0 * A_ij_omega_j_cross_g_j_0 - (A_ij_g_j_0 * t52 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_0);
-    jac_phi_q_v_geometry[12] = t28 * omega_i_cross_A_ij_h_j_1 + H_6 * A_ij_h_j_1 * alphadot[1] - cosine_0 *
-        A_ij_h_j_1 * alphadot[0] * cosine_1 - t28 * A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[13] = cosine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_1 - t28
-        * A_ij_f_j_1 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[14] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (t58 * A_ij_g_j_1 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[3] = t22 * omega_i_cross_A_ij_h_j_1 + H_6 * A_ij_h_j_1 * alphadot[1] - cosine_0 *
+        A_ij_h_j_1 * alphadot[0] * cosine_1 - t22 * A_ij_omega_j_cross_h_j_1;
+    jac_phi_q_v_geometry[4] = cosine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_1 - t22 *
+        A_ij_f_j_1 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_1;
+    jac_phi_q_v_geometry[5] = cosine_0 * A_ij_omega_j_cross_g_j_1 - (t52 * A_ij_g_j_1 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_1);
-    jac_phi_q_v_geometry[15] = t28 * omega_i_cross_A_ij_h_j_2 + H_6 * A_ij_h_j_2 * alphadot[1] - cosine_0 *
-        A_ij_h_j_2 * alphadot[0] * cosine_1 - t28 * A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[16] = cosine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_2 - t28
-        * A_ij_f_j_2 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[17] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (t58 * A_ij_g_j_2 * alphadot[0] + cosine_0 *
+    jac_phi_q_v_geometry[6] = t22 * omega_i_cross_A_ij_h_j_2 + H_6 * A_ij_h_j_2 * alphadot[1] - cosine_0 *
+        A_ij_h_j_2 * alphadot[0] * cosine_1 - t22 * A_ij_omega_j_cross_h_j_2;
+    jac_phi_q_v_geometry[7] = cosine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_6 * omega_i_cross_A_ij_f_j_2 - t22 *
+        A_ij_f_j_2 * alphadot[1]) + H_6 * A_ij_omega_j_cross_f_j_2;
+    jac_phi_q_v_geometry[8] = cosine_0 * A_ij_omega_j_cross_g_j_2 - (t52 * A_ij_g_j_2 * alphadot[0] + cosine_0 *
         omega_i_cross_A_ij_g_j_2);
-    jac_phi_q_v_geometry[18] = A_ij_omega_j_cross_h_j_0 * H_4 - (H_4 * omega_i_cross_A_ij_h_j_0 + t35 * A_ij_h_j_0 *
+    jac_phi_q_v_geometry[9] = A_ij_omega_j_cross_h_j_0 * H_4 - (H_4 * omega_i_cross_A_ij_h_j_0 + t29 * A_ij_h_j_0 *
         alphadot[1] + sine_0 * A_ij_h_j_0 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[19] = sine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_0 * alphadot[1] - t35 *
-        omega_i_cross_A_ij_f_j_0) - t35 * A_ij_omega_j_cross_f_j_0;
-    jac_phi_q_v_geometry[20] = A_ij_g_j_0 * t57 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
+    jac_phi_q_v_geometry[10] = sine_0 * A_ij_f_j_0 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_0 * alphadot[1] - t29 *
+        omega_i_cross_A_ij_f_j_0) - t29 * A_ij_omega_j_cross_f_j_0;
+    jac_phi_q_v_geometry[11] = A_ij_g_j_0 * t51 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_0 + sine_0 *
         A_ij_omega_j_cross_g_j_0;
-    jac_phi_q_v_geometry[21] = H_4 * A_ij_omega_j_cross_h_j_1 - (H_4 * omega_i_cross_A_ij_h_j_1 + t35 * A_ij_h_j_1 *
+    jac_phi_q_v_geometry[12] = H_4 * A_ij_omega_j_cross_h_j_1 - (H_4 * omega_i_cross_A_ij_h_j_1 + t29 * A_ij_h_j_1 *
         alphadot[1] + sine_0 * A_ij_h_j_1 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[22] = sine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_1 * alphadot[1] - t35 *
-        omega_i_cross_A_ij_f_j_1) - t35 * A_ij_omega_j_cross_f_j_1;
-    jac_phi_q_v_geometry[23] = t57 * A_ij_g_j_1 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
+    jac_phi_q_v_geometry[13] = sine_0 * A_ij_f_j_1 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_1 * alphadot[1] - t29 *
+        omega_i_cross_A_ij_f_j_1) - t29 * A_ij_omega_j_cross_f_j_1;
+    jac_phi_q_v_geometry[14] = t51 * A_ij_g_j_1 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_1 + sine_0 *
         A_ij_omega_j_cross_g_j_1;
-    jac_phi_q_v_geometry[24] = H_4 * A_ij_omega_j_cross_h_j_2 - (H_4 * omega_i_cross_A_ij_h_j_2 + t35 * A_ij_h_j_2 *
+    jac_phi_q_v_geometry[15] = H_4 * A_ij_omega_j_cross_h_j_2 - (H_4 * omega_i_cross_A_ij_h_j_2 + t29 * A_ij_h_j_2 *
         alphadot[1] + sine_0 * A_ij_h_j_2 * alphadot[0] * cosine_1);
-    jac_phi_q_v_geometry[25] = sine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_2 * alphadot[1] - t35 *
-        omega_i_cross_A_ij_f_j_2) - t35 * A_ij_omega_j_cross_f_j_2;
-    jac_phi_q_v_geometry[26] = t57 * A_ij_g_j_2 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
+    jac_phi_q_v_geometry[16] = sine_0 * A_ij_f_j_2 * alphadot[0] * sine_1 - (H_4 * A_ij_f_j_2 * alphadot[1] - t29 *
+        omega_i_cross_A_ij_f_j_2) - t29 * A_ij_omega_j_cross_f_j_2;
+    jac_phi_q_v_geometry[17] = t51 * A_ij_g_j_2 * alphadot[0] - sine_0 * omega_i_cross_A_ij_g_j_2 + sine_0 *
         A_ij_omega_j_cross_g_j_2;
-    jac_phi_q_v_geometry[27] = cosine_1 * A_ij_h_j_0 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_0 +
+    jac_phi_q_v_geometry[18] = cosine_1 * A_ij_h_j_0 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_0 +
         A_ij_omega_j_cross_h_j_0 * sine_1;
-    jac_phi_q_v_geometry[28] = cosine_1 * A_ij_omega_j_cross_f_j_0 - (cosine_1 * omega_i_cross_A_ij_f_j_0 + sine_1 *
+    jac_phi_q_v_geometry[19] = cosine_1 * A_ij_omega_j_cross_f_j_0 - (cosine_1 * omega_i_cross_A_ij_f_j_0 + sine_1 *
         A_ij_f_j_0 * alphadot[1]);
-    jac_phi_q_v_geometry[29] = cosine_1 * A_ij_h_j_1 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_1 + sine_1 *
+    jac_phi_q_v_geometry[20] = cosine_1 * A_ij_h_j_1 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_1 + sine_1 *
         A_ij_omega_j_cross_h_j_1;
-    jac_phi_q_v_geometry[30] = cosine_1 * A_ij_omega_j_cross_f_j_1 - (cosine_1 * omega_i_cross_A_ij_f_j_1 + sine_1 *
+    jac_phi_q_v_geometry[21] = cosine_1 * A_ij_omega_j_cross_f_j_1 - (cosine_1 * omega_i_cross_A_ij_f_j_1 + sine_1 *
         A_ij_f_j_1 * alphadot[1]);
-    jac_phi_q_v_geometry[31] = cosine_1 * A_ij_h_j_2 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_2 + sine_1 *
+    jac_phi_q_v_geometry[22] = cosine_1 * A_ij_h_j_2 * alphadot[1] - sine_1 * omega_i_cross_A_ij_h_j_2 + sine_1 *
         A_ij_omega_j_cross_h_j_2;
-    jac_phi_q_v_geometry[32] = cosine_1 * A_ij_omega_j_cross_f_j_2 - (cosine_1 * omega_i_cross_A_ij_f_j_2 + sine_1 *
+    jac_phi_q_v_geometry[23] = cosine_1 * A_ij_omega_j_cross_f_j_2 - (cosine_1 * omega_i_cross_A_ij_f_j_2 + sine_1 *
         A_ij_f_j_2 * alphadot[1]);
-    const jg_real t303 = A_ij_3 * omega_j[2] - A_ij_6 * omega_j[1];
-    const jg_real t304 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
-    jac_phi_q_v_geometry[33] = t303 - t304;
-    const jg_real t305 = A_ij_4 * omega_j[2] - A_ij_7 * omega_j[1];
-    const jg_real t306 = omega_i[2] * A_ij_0 - A_ij_2 * omega_i[0];
-    jac_phi_q_v_geometry[34] = t305 - t306;
-    const jg_real t307 = A_ij_5 * omega_j[2] - A_ij_8 * omega_j[1];
-    const jg_real t308 = A_ij_1 * omega_i[0] - omega_i[1] * A_ij_0;
-    jac_phi_q_v_geometry[35] = t307 - t308;
-    const jg_real t309 = A_ij_6 * omega_j[0] - A_ij_0 * omega_j[2];
-    const jg_real t310 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
-    jac_phi_q_v_geometry[36] = t309 - t310;
-    const jg_real t311 = A_ij_7 * omega_j[0] - A_ij_1 * omega_j[2];
-    const jg_real t312 = omega_i[2] * A_ij_3 - A_ij_5 * omega_i[0];
-    jac_phi_q_v_geometry[37] = t311 - t312;
-    const jg_real t313 = A_ij_8 * omega_j[0] - A_ij_2 * omega_j[2];
-    const jg_real t314 = A_ij_4 * omega_i[0] - omega_i[1] * A_ij_3;
-    jac_phi_q_v_geometry[38] = t313 - t314;
-    const jg_real t315 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
-    const jg_real t316 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
-    jac_phi_q_v_geometry[39] = t315 - t316;
-    const jg_real t317 = A_ij_1 * omega_j[1] - A_ij_4 * omega_j[0];
-    const jg_real t318 = omega_i[2] * A_ij_6 - A_ij_8 * omega_i[0];
-    jac_phi_q_v_geometry[40] = t317 - t318;
-    const jg_real t319 = A_ij_2 * omega_j[1] - A_ij_5 * omega_j[0];
-    const jg_real t320 = A_ij_7 * omega_i[0] - omega_i[1] * A_ij_6;
-    jac_phi_q_v_geometry[41] = t319 - t320;
-    const jg_real t321 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[42] = t303 * h_star_0 + t305 * h_star_1 + t307 * h_star_2 + (sine_1 * t321 - (t304 *
-        h_star_0 + t306 * h_star_1 + t308 * h_star_2 + alphadot[1] * (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2
+    const jg_real t261 = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6;
+    const jg_real t262 = A_ij_2 * omega_i[1] - A_ij_1 * omega_i[2];
+    jac_phi_q_v_geometry[24] = t261 - t262;
+    const jg_real t263 = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7;
+    const jg_real t264 = A_ij_0 * omega_i[2] - A_ij_2 * omega_i[0];
+    jac_phi_q_v_geometry[25] = t263 - t264;
+    const jg_real t265 = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8;
+    const jg_real t266 = A_ij_1 * omega_i[0] - A_ij_0 * omega_i[1];
+    jac_phi_q_v_geometry[26] = t265 - t266;
+    const jg_real t267 = omega_j[0] * A_ij_6 - A_ij_0 * omega_j[2];
+    const jg_real t268 = A_ij_5 * omega_i[1] - A_ij_4 * omega_i[2];
+    jac_phi_q_v_geometry[27] = t267 - t268;
+    const jg_real t269 = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1;
+    const jg_real t270 = A_ij_3 * omega_i[2] - A_ij_5 * omega_i[0];
+    jac_phi_q_v_geometry[28] = t269 - t270;
+    const jg_real t271 = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2;
+    const jg_real t272 = A_ij_4 * omega_i[0] - A_ij_3 * omega_i[1];
+    jac_phi_q_v_geometry[29] = t271 - t272;
+    const jg_real t273 = A_ij_0 * omega_j[1] - A_ij_3 * omega_j[0];
+    const jg_real t274 = A_ij_8 * omega_i[1] - A_ij_7 * omega_i[2];
+    jac_phi_q_v_geometry[30] = t273 - t274;
+    const jg_real t275 = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4;
+    const jg_real t276 = A_ij_6 * omega_i[2] - A_ij_8 * omega_i[0];
+    jac_phi_q_v_geometry[31] = t275 - t276;
+    const jg_real t277 = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5;
+    const jg_real t278 = A_ij_7 * omega_i[0] - A_ij_6 * omega_i[1];
+    jac_phi_q_v_geometry[32] = t277 - t278;
+    const jg_real t279 = (A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[33] = t261 * h_star_0 + t263 * h_star_1 + t265 * h_star_2 + (sine_1 * t279 - (t262 *
+        h_star_0 + t264 * h_star_1 + t266 * h_star_2 + alphadot[1] * (A_ij_0 * g_star_0 + A_ij_1 * g_star_1 + A_ij_2
         * g_star_2)));
-    const jg_real t322 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[43] = t309 * h_star_0 + t311 * h_star_1 + t313 * h_star_2 + (sine_1 * t322 - (t310 *
-        h_star_0 + t312 * h_star_1 + t314 * h_star_2 + alphadot[1] * (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5
+    const jg_real t280 = (A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[34] = t267 * h_star_0 + t269 * h_star_1 + t271 * h_star_2 + (sine_1 * t280 - (t268 *
+        h_star_0 + t270 * h_star_1 + t272 * h_star_2 + alphadot[1] * (A_ij_3 * g_star_0 + A_ij_4 * g_star_1 + A_ij_5
         * g_star_2)));
-    const jg_real t323 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[0];
-    jac_phi_q_v_geometry[44] = t315 * h_star_0 + t317 * h_star_1 + t319 * h_star_2 + (sine_1 * t323 - (t316 *
-        h_star_0 + t318 * h_star_1 + t320 * h_star_2 + alphadot[1] * (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8
+    const jg_real t281 = (A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2) * alphadot[0];
+    jac_phi_q_v_geometry[35] = t273 * h_star_0 + t275 * h_star_1 + t277 * h_star_2 + (sine_1 * t281 - (t274 *
+        h_star_0 + t276 * h_star_1 + t278 * h_star_2 + alphadot[1] * (A_ij_6 * g_star_0 + A_ij_7 * g_star_1 + A_ij_8
         * g_star_2)));
-    jac_phi_q_v_geometry[45] = alphadot[0] * (A_ij_0 * t59 + A_ij_1 * t116 + A_ij_2 * t132) - (t304 * f_star_0 +
-        t306 * f_star_1 + t308 * f_star_2) + (t303 * f_star_0 + t305 * f_star_1 + t307 * f_star_2);
-    jac_phi_q_v_geometry[46] = alphadot[0] * (A_ij_3 * t59 + A_ij_4 * t116 + A_ij_5 * t132) - (t310 * f_star_0 +
-        t312 * f_star_1 + t314 * f_star_2) + (t309 * f_star_0 + t311 * f_star_1 + t313 * f_star_2);
-    jac_phi_q_v_geometry[47] = alphadot[0] * (A_ij_6 * t59 + A_ij_7 * t116 + A_ij_8 * t132) - (t316 * f_star_0 +
-        t318 * f_star_1 + t320 * f_star_2) + (t315 * f_star_0 + t317 * f_star_1 + t319 * f_star_2);
-    jac_phi_q_v_geometry[48] = t303 * g_star_0 + t305 * g_star_1 + t307 * g_star_2 + ((A_ij_0 * h_star_0 + A_ij_1 *
-        h_star_1 + A_ij_2 * h_star_2) * alphadot[1] - (t304 * g_star_0 + t306 * g_star_1 + t308 * g_star_2) -
-        cosine_1 * t321);
-    jac_phi_q_v_geometry[49] = t309 * g_star_0 + t311 * g_star_1 + t313 * g_star_2 + ((A_ij_3 * h_star_0 + A_ij_4 *
-        h_star_1 + A_ij_5 * h_star_2) * alphadot[1] - (t310 * g_star_0 + t312 * g_star_1 + t314 * g_star_2) -
-        cosine_1 * t322);
-    jac_phi_q_v_geometry[50] = t315 * g_star_0 + t317 * g_star_1 + t319 * g_star_2 + ((A_ij_6 * h_star_0 + A_ij_7 *
-        h_star_1 + A_ij_8 * h_star_2) * alphadot[1] - (t316 * g_star_0 + t318 * g_star_1 + t320 * g_star_2) -
-        cosine_1 * t323);
+    jac_phi_q_v_geometry[36] = alphadot[0] * (A_ij_0 * t53 + A_ij_1 * t96 + A_ij_2 * t105) - (t262 * f_star_0 + t264
+        * f_star_1 + t266 * f_star_2) + (t261 * f_star_0 + t263 * f_star_1 + t265 * f_star_2);
+    jac_phi_q_v_geometry[37] = alphadot[0] * (A_ij_3 * t53 + A_ij_4 * t96 + A_ij_5 * t105) - (t268 * f_star_0 + t270
+        * f_star_1 + t272 * f_star_2) + (t267 * f_star_0 + t269 * f_star_1 + t271 * f_star_2);
+    jac_phi_q_v_geometry[38] = alphadot[0] * (A_ij_6 * t53 + A_ij_7 * t96 + A_ij_8 * t105) - (t274 * f_star_0 + t276
+        * f_star_1 + t278 * f_star_2) + (t273 * f_star_0 + t275 * f_star_1 + t277 * f_star_2);
+    jac_phi_q_v_geometry[39] = t261 * g_star_0 + t263 * g_star_1 + t265 * g_star_2 + ((A_ij_0 * h_star_0 + A_ij_1 *
+        h_star_1 + A_ij_2 * h_star_2) * alphadot[1] - (t262 * g_star_0 + t264 * g_star_1 + t266 * g_star_2) -
+        cosine_1 * t279);
+    jac_phi_q_v_geometry[40] = t267 * g_star_0 + t269 * g_star_1 + t271 * g_star_2 + ((A_ij_3 * h_star_0 + A_ij_4 *
+        h_star_1 + A_ij_5 * h_star_2) * alphadot[1] - (t268 * g_star_0 + t270 * g_star_1 + t272 * g_star_2) -
+        cosine_1 * t280);
+    jac_phi_q_v_geometry[41] = t273 * g_star_0 + t275 * g_star_1 + t277 * g_star_2 + ((A_ij_6 * h_star_0 + A_ij_7 *
+        h_star_1 + A_ij_8 * h_star_2) * alphadot[1] - (t274 * g_star_0 + t276 * g_star_1 + t278 * g_star_2) -
+        cosine_1 * t281);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t325 = s_i[2] + dp_ij_2;
-    jac_phi_q_v_velocity[3] = t325;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t327 = s_i[1] + dp_ij_1;
-    jac_phi_q_v_velocity[13] = t327;
-    jac_phi_q_v_velocity[4] = -t327;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    const jg_real t283 = ep_ij_2 - s_i[2] + s_i[2];
+    jac_phi_q_v_velocity[3] = t283;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    const jg_real t285 = ep_ij_1 - s_i[1] + s_i[1];
+    jac_phi_q_v_velocity[13] = t285;
+    jac_phi_q_v_velocity[4] = -t285;
     jac_phi_q_v_velocity[5] = g_star_1 * A_ij_h_j_2 - g_star_2 * A_ij_h_j_1;
     jac_phi_q_v_velocity[6] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     jac_phi_q_v_velocity[7] = f_star_1 * A_ij_g_j_2 - f_star_2 * A_ij_g_j_1;
-    jac_phi_q_v_velocity[8] = -t325;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t329 = s_i[0] + dp_ij_0;
-    jac_phi_q_v_velocity[9] = t329;
+    jac_phi_q_v_velocity[8] = -t283;
+    const jg_real ep_ij_0 = A_i[0] * e_ij_0 + A_i[1] * e_ij_1 + A_i[2] * e_ij_2;
+    const jg_real t287 = ep_ij_0 - s_i[0] + s_i[0];
+    jac_phi_q_v_velocity[9] = t287;
     jac_phi_q_v_velocity[10] = g_star_2 * A_ij_h_j_0 - g_star_0 * A_ij_h_j_2;
     jac_phi_q_v_velocity[11] = h_star_2 * A_ij_f_j_0 - h_star_0 * A_ij_f_j_2;
     jac_phi_q_v_velocity[12] = f_star_2 * A_ij_g_j_0 - f_star_0 * A_ij_g_j_2;
-    jac_phi_q_v_velocity[14] = -t329;
+    jac_phi_q_v_velocity[14] = -t287;
     jac_phi_q_v_velocity[15] = g_star_0 * A_ij_h_j_1 - g_star_1 * A_ij_h_j_0;
     jac_phi_q_v_velocity[16] = h_star_0 * A_ij_f_j_1 - h_star_1 * A_ij_f_j_0;
     jac_phi_q_v_velocity[17] = f_star_0 * A_ij_g_j_1 - f_star_1 * A_ij_g_j_0;
@@ -1065,7 +1020,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         * C_j[2]) + h_star_2 * (A_ij_8 * C_j[1] - A_ij_5 * C_j[2]);
     jac_phi_q_v_velocity[32] = f_star_0 * (A_ij_6 * C_j[4] - A_ij_3 * C_j[5]) + f_star_1 * (A_ij_7 * C_j[4] - A_ij_4
         * C_j[5]) + f_star_2 * (A_ij_8 * C_j[4] - A_ij_5 * C_j[5]);
-    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[33] = A_ij_0 * s_j[2] - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[36] = (A_ij_0 * C_j[8] - A_ij_6 * C_j[6]) * g_star_0 + (A_ij_1 * C_j[8] - A_ij_7 * C_j[6])
@@ -1074,7 +1029,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         * C_j[0]) + h_star_2 * (A_ij_2 * C_j[2] - A_ij_8 * C_j[0]);
     jac_phi_q_v_velocity[38] = f_star_0 * (A_ij_0 * C_j[5] - A_ij_6 * C_j[3]) + f_star_1 * (A_ij_1 * C_j[5] - A_ij_7
         * C_j[3]) + f_star_2 * (A_ij_2 * C_j[5] - A_ij_8 * C_j[3]);
-    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[42] = (A_ij_3 * C_j[6] - A_ij_0 * C_j[7]) * g_star_0 + (A_ij_4 * C_j[6] - A_ij_1 * C_j[7])
@@ -1083,9 +1038,9 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         * C_j[1]) + h_star_2 * (A_ij_5 * C_j[0] - A_ij_2 * C_j[1]);
     jac_phi_q_v_velocity[44] = f_star_0 * (A_ij_3 * C_j[3] - A_ij_0 * C_j[4]) + f_star_1 * (A_ij_4 * C_j[3] - A_ij_1
         * C_j[4]) + f_star_2 * (A_ij_5 * C_j[3] - A_ij_2 * C_j[4]);
-    jac_phi_q_v_velocity[45] = -(cosine_1 * t292);
-    jac_phi_q_v_velocity[46] = sine_1 * t293;
-    jac_phi_q_v_velocity[47] = A_ij_g_j_0 * t59 + A_ij_g_j_1 * t116 + A_ij_g_j_2 * t132;
+    jac_phi_q_v_velocity[45] = -(cosine_1 * t259);
+    jac_phi_q_v_velocity[46] = sine_1 * t260;
+    jac_phi_q_v_velocity[47] = A_ij_g_j_0 * t53 + A_ij_g_j_1 * t96 + A_ij_g_j_2 * t105;
     jac_phi_q_v_velocity[48] = h_star_0 * A_ij_h_j_0 + h_star_1 * A_ij_h_j_1 + h_star_2 * A_ij_h_j_2;
     jac_phi_q_v_velocity[49] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
 }
@@ -1098,7 +1053,6 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -1129,10 +1083,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t8 = lambda[0] * A_i[5] - lambda[1] * A_i[2];
     jac_phi_q_t_lambda_r_j[8] = t8;
     jac_phi_q_t_lambda_r_i[8] = -t8;
-    const jg_real t9 = s_i[0] * A_i[3];
-    const jg_real t10 = s_i[0] * A_i[6];
-    jac_phi_q_t_lambda_A_i[0] = lambda[2] * t9 - lambda[1] * t10;
-    const jg_real t11 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t9 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -1142,631 +1093,576 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     /* H = [cos(alpha_0), -sin(alpha_0)*cos(alpha_1), sin(alpha_0)*sin(alpha_1); sin(alpha_0),
         cos(alpha_0)*cos(alpha_1), -sin(alpha_1)*cos(alpha_0); 0, sin(alpha_1), cos(alpha_1)] */
     const jg_real H_4 = cosine_0 * cosine_1;
-    const jg_real t17 = sine_0 * cosine_1;
+    const jg_real t15 = sine_0 * cosine_1;
     /* g_star = C_i H [0; 1; 0] */
-    const jg_real g_star_2 = H_4 * C_i[5] - t17 * C_i[2] + sine_1 * C_i[8];
-    const jg_real t19 = t11 * g_star_2 * lambda[3];
+    const jg_real g_star_2 = H_4 * C_i[5] - t15 * C_i[2] + sine_1 * C_i[8];
     /* A_j_s_j = A_j s_j */
     const jg_real A_j_s_j_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real t21 = A_i[0] * s_i[0];
-    const jg_real t22 = A_i[3] * s_i[1];
-    const jg_real t23 = A_i[6] * s_i[2];
-    /* A_i_s_i = A_i s_i */
-    const jg_real A_i_s_i_0 = t21 + t22 + t23;
-    /* d_ij = r_j + A_j s_j - r_i - A_i s_i */
-    const jg_real d_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0] - A_i_s_i_0;
-    const jg_real t26 = d_ij_0 - t21;
+    /* e_ij = r_j + A_j s_j - r_i */
+    const jg_real e_ij_0 = A_j_s_j_0 + r_j[0] - r_i[0];
     const jg_real H_6 = sine_0 * sine_1;
-    const jg_real t28 = cosine_0 * sine_1;
+    const jg_real t20 = cosine_0 * sine_1;
     /* h_star = C_i H [0; 0; 1] */
-    const jg_real h_star_2 = H_6 * C_i[2] - t28 * C_i[5] + cosine_1 * C_i[8];
-    const jg_real t30 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real t31 = h_star_2 * t30 * lambda[4];
-    const jg_real t32 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_star_2 = H_6 * C_i[2] - t20 * C_i[5] + cosine_1 * C_i[8];
+    const jg_real t22 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real t23 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* f_star = C_i H [1; 0; 0] */
     const jg_real f_star_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    const jg_real t34 = t32 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[1] = lambda[2] * t26 + lambda[0] * t10 + t19 + t31 + t34;
-    const jg_real g_star_1 = H_4 * C_i[4] - t17 * C_i[1] + sine_1 * C_i[7];
-    const jg_real t36 = t11 * g_star_1 * lambda[3];
-    const jg_real h_star_1 = H_6 * C_i[1] - t28 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real t38 = h_star_1 * t30 * lambda[4];
+    const jg_real t25 = lambda[2] * e_ij_0 + t9 * g_star_2 * lambda[3] + h_star_2 * t22 * lambda[4] + t23 * f_star_2
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[0] = t25;
+    const jg_real g_star_1 = H_4 * C_i[4] - t15 * C_i[1] + sine_1 * C_i[7];
+    const jg_real h_star_1 = H_6 * C_i[1] - t20 * C_i[4] + cosine_1 * C_i[7];
     const jg_real f_star_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    const jg_real t40 = t32 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[2] = -(lambda[0] * t9 + lambda[1] * t26 + t36 + t38 + t40);
-    const jg_real t41 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t41;
-    const jg_real t42 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t42;
-    const jg_real t43 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t43;
-    const jg_real g_star_0 = H_4 * C_i[3] - t17 * C_i[0] + sine_1 * C_i[6];
-    const jg_real t45 = A_j[6] * g_star_0;
-    const jg_real t46 = A_j[3] * g_star_0;
-    const jg_real h_star_0 = H_6 * C_i[0] - t28 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real t48 = A_j[6] * h_star_0;
-    const jg_real t49 = A_j[3] * h_star_0;
+    const jg_real t29 = lambda[1] * e_ij_0 + t9 * g_star_1 * lambda[3] + h_star_1 * t22 * lambda[4] + t23 * f_star_1
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[60] = t29;
+    jac_phi_q_t_lambda_A_i[1] = -t29;
+    const jg_real t30 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_A_i[2] = t30;
+    const jg_real t31 = lambda[0] * A_j[3];
+    jac_phi_q_t_lambda_A_i[3] = t31;
+    const jg_real t32 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_A_i[4] = t32;
+    const jg_real g_star_0 = H_4 * C_i[3] - t15 * C_i[0] + sine_1 * C_i[6];
+    const jg_real t34 = A_j[6] * g_star_0;
+    const jg_real t35 = A_j[3] * g_star_0;
+    const jg_real h_star_0 = H_6 * C_i[0] - t20 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real t37 = A_j[6] * h_star_0;
+    const jg_real t38 = A_j[3] * h_star_0;
     const jg_real f_star_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    const jg_real t51 = A_j[6] * f_star_0;
-    const jg_real t52 = A_j[3] * f_star_0;
-    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[7] * t45 - C_j[8] * t46) + lambda[4] * (C_j[1] * t48 - C_j[2] *
-        t49) + lambda[5] * (C_j[4] * t51 - C_j[5] * t52) + (s_j[1] * t43 - s_j[2] * t42);
-    const jg_real t53 = A_j[0] * g_star_0;
-    const jg_real t54 = A_j[0] * h_star_0;
-    const jg_real t55 = A_j[0] * f_star_0;
-    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[8] * t53 - C_j[6] * t45) + lambda[4] * (C_j[2] * t54 - C_j[0] *
-        t48) + lambda[5] * (C_j[5] * t55 - C_j[3] * t51) + (s_j[2] * t41 - s_j[0] * t43);
-    jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[6] * t46 - C_j[7] * t53) + lambda[4] * (C_j[0] * t49 - C_j[1] *
-        t54) + lambda[5] * (C_j[3] * t52 - C_j[4] * t55) + (s_j[0] * t42 - s_j[1] * t41);
-    const jg_real t56 = cosine_1 * H_4 + sine_1 * t28;
-    const jg_real t57 = cosine_1 * t17 + sine_1 * H_6;
-    const jg_real t58 = C_i[3] * t56 - C_i[0] * t57;
-    jac_phi_q_t_lambda_A_i[9] = t32 * t58 * lambda[5] + t30 * f_star_0 * lambda[4] * sine_1 - t11 * f_star_0 *
+    const jg_real t40 = A_j[6] * f_star_0;
+    const jg_real t41 = A_j[3] * f_star_0;
+    jac_phi_q_t_lambda_A_i[5] = lambda[3] * (C_j[7] * t34 - C_j[8] * t35) + lambda[4] * (C_j[1] * t37 - C_j[2] *
+        t38) + lambda[5] * (C_j[4] * t40 - C_j[5] * t41) + (s_j[1] * t32 - s_j[2] * t31);
+    const jg_real t42 = A_j[0] * g_star_0;
+    const jg_real t43 = A_j[0] * h_star_0;
+    const jg_real t44 = A_j[0] * f_star_0;
+    jac_phi_q_t_lambda_A_i[6] = lambda[3] * (C_j[8] * t42 - C_j[6] * t34) + lambda[4] * (C_j[2] * t43 - C_j[0] *
+        t37) + lambda[5] * (C_j[5] * t44 - C_j[3] * t40) + (s_j[2] * t30 - s_j[0] * t32);
+    jac_phi_q_t_lambda_A_i[7] = lambda[3] * (C_j[6] * t35 - C_j[7] * t42) + lambda[4] * (C_j[0] * t38 - C_j[1] *
+        t43) + lambda[5] * (C_j[3] * t41 - C_j[4] * t44) + (s_j[0] * t31 - s_j[1] * t30);
+    const jg_real t45 = cosine_1 * H_4 + sine_1 * t20;
+    const jg_real t46 = cosine_1 * t15 + sine_1 * H_6;
+    const jg_real t47 = C_i[3] * t45 - C_i[0] * t46;
+    jac_phi_q_t_lambda_A_i[8] = t23 * t47 * lambda[5] + t22 * f_star_0 * lambda[4] * sine_1 - t9 * f_star_0 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[10] = t11 * h_star_0 * lambda[3] - t30 * g_star_0 * lambda[4];
-    const jg_real t59 = s_i[0] * A_i[4];
-    const jg_real t60 = s_i[0] * A_i[7];
-    jac_phi_q_t_lambda_A_i[11] = lambda[2] * t59 - lambda[1] * t60;
-    const jg_real t61 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t62 = t61 * g_star_2 * lambda[3];
+    jac_phi_q_t_lambda_A_i[9] = t9 * h_star_0 * lambda[3] - t22 * g_star_0 * lambda[4];
+    const jg_real t48 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real A_j_s_j_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real t64 = s_i[0] * A_i[1];
-    const jg_real t65 = s_i[1] * A_i[4];
-    const jg_real t66 = s_i[2] * A_i[7];
-    const jg_real A_i_s_i_1 = t64 + t65 + t66;
-    const jg_real d_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1] - A_i_s_i_1;
-    const jg_real t69 = d_ij_1 - t64;
-    const jg_real t70 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real t71 = h_star_2 * t70 * lambda[4];
-    const jg_real t72 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t73 = t72 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[12] = lambda[2] * t69 + lambda[0] * t60 + t62 + t71 + t73;
-    const jg_real t74 = t61 * g_star_1 * lambda[3];
-    const jg_real t75 = h_star_1 * t70 * lambda[4];
-    const jg_real t76 = t72 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[13] = -(lambda[0] * t59 + lambda[1] * t69 + t74 + t75 + t76);
-    const jg_real t77 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[14] = t77;
-    const jg_real t78 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[15] = t78;
-    const jg_real t79 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[16] = t79;
-    const jg_real t80 = A_j[7] * g_star_0;
-    const jg_real t81 = A_j[4] * g_star_0;
-    const jg_real t82 = A_j[7] * h_star_0;
-    const jg_real t83 = A_j[4] * h_star_0;
-    const jg_real t84 = A_j[7] * f_star_0;
-    const jg_real t85 = A_j[4] * f_star_0;
-    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[7] * t80 - C_j[8] * t81) + lambda[4] * (C_j[1] * t82 - C_j[2] *
-        t83) + lambda[5] * (C_j[4] * t84 - C_j[5] * t85) + (s_j[1] * t79 - s_j[2] * t78);
-    const jg_real t86 = A_j[1] * g_star_0;
-    const jg_real t87 = A_j[1] * h_star_0;
-    const jg_real t88 = A_j[1] * f_star_0;
-    jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[8] * t86 - C_j[6] * t80) + lambda[4] * (C_j[2] * t87 - C_j[0] *
-        t82) + lambda[5] * (C_j[5] * t88 - C_j[3] * t84) + (s_j[2] * t77 - s_j[0] * t79);
-    jac_phi_q_t_lambda_A_i[19] = lambda[3] * (C_j[6] * t81 - C_j[7] * t86) + lambda[4] * (C_j[0] * t83 - C_j[1] *
-        t87) + lambda[5] * (C_j[3] * t85 - C_j[4] * t88) + (s_j[0] * t78 - s_j[1] * t77);
-    jac_phi_q_t_lambda_A_i[20] = t72 * t58 * lambda[5] + t70 * f_star_0 * lambda[4] * sine_1 - t61 * f_star_0 *
+    const jg_real e_ij_1 = A_j_s_j_1 + r_j[1] - r_i[1];
+    const jg_real t51 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t52 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t53 = lambda[2] * e_ij_1 + t48 * g_star_2 * lambda[3] + h_star_2 * t51 * lambda[4] + t52 *
+        f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[10] = t53;
+    const jg_real t54 = lambda[1] * e_ij_1 + t48 * g_star_1 * lambda[3] + h_star_1 * t51 * lambda[4] + t52 *
+        f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[70] = t54;
+    jac_phi_q_t_lambda_A_i[11] = -t54;
+    const jg_real t55 = lambda[0] * A_j[1];
+    jac_phi_q_t_lambda_A_i[12] = t55;
+    const jg_real t56 = lambda[0] * A_j[4];
+    jac_phi_q_t_lambda_A_i[13] = t56;
+    const jg_real t57 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[14] = t57;
+    const jg_real t58 = A_j[7] * g_star_0;
+    const jg_real t59 = A_j[4] * g_star_0;
+    const jg_real t60 = A_j[7] * h_star_0;
+    const jg_real t61 = A_j[4] * h_star_0;
+    const jg_real t62 = A_j[7] * f_star_0;
+    const jg_real t63 = A_j[4] * f_star_0;
+    jac_phi_q_t_lambda_A_i[15] = lambda[3] * (C_j[7] * t58 - C_j[8] * t59) + lambda[4] * (C_j[1] * t60 - C_j[2] *
+        t61) + lambda[5] * (C_j[4] * t62 - C_j[5] * t63) + (s_j[1] * t57 - s_j[2] * t56);
+    const jg_real t64 = A_j[1] * g_star_0;
+    const jg_real t65 = A_j[1] * h_star_0;
+    const jg_real t66 = A_j[1] * f_star_0;
+    jac_phi_q_t_lambda_A_i[16] = lambda[3] * (C_j[8] * t64 - C_j[6] * t58) + lambda[4] * (C_j[2] * t65 - C_j[0] *
+        t60) + lambda[5] * (C_j[5] * t66 - C_j[3] * t62) + (s_j[2] * t55 - s_j[0] * t57);
+    jac_phi_q_t_lambda_A_i[17] = lambda[3] * (C_j[6] * t59 - C_j[7] * t64) + lambda[4] * (C_j[0] * t61 - C_j[1] *
+        t65) + lambda[5] * (C_j[3] * t63 - C_j[4] * t66) + (s_j[0] * t56 - s_j[1] * t55);
+    jac_phi_q_t_lambda_A_i[18] = t52 * t47 * lambda[5] + t51 * f_star_0 * lambda[4] * sine_1 - t48 * f_star_0 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[21] = t61 * h_star_0 * lambda[3] - t70 * g_star_0 * lambda[4];
-    const jg_real t89 = s_i[0] * A_i[5];
-    const jg_real t90 = s_i[0] * A_i[8];
-    jac_phi_q_t_lambda_A_i[22] = lambda[2] * t89 - lambda[1] * t90;
-    const jg_real t91 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t92 = t91 * g_star_2 * lambda[3];
+    jac_phi_q_t_lambda_A_i[19] = t48 * h_star_0 * lambda[3] - t51 * g_star_0 * lambda[4];
+    const jg_real t67 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real A_j_s_j_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t94 = s_i[0] * A_i[2];
-    const jg_real t95 = s_i[1] * A_i[5];
-    const jg_real t96 = s_i[2] * A_i[8];
-    const jg_real A_i_s_i_2 = t94 + t95 + t96;
-    const jg_real d_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2] - A_i_s_i_2;
-    const jg_real t99 = d_ij_2 - t94;
-    const jg_real t100 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real t101 = h_star_2 * t100 * lambda[4];
-    const jg_real t102 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t103 = t102 * f_star_2 * lambda[5];
-    jac_phi_q_t_lambda_A_i[23] = lambda[2] * t99 + lambda[0] * t90 + t92 + t101 + t103;
-    const jg_real t104 = t91 * g_star_1 * lambda[3];
-    const jg_real t105 = h_star_1 * t100 * lambda[4];
-    const jg_real t106 = t102 * f_star_1 * lambda[5];
-    jac_phi_q_t_lambda_A_i[24] = -(lambda[0] * t89 + lambda[1] * t99 + t104 + t105 + t106);
-    const jg_real t107 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[25] = t107;
-    const jg_real t108 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[26] = t108;
-    const jg_real t109 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[27] = t109;
-    const jg_real t110 = A_j[8] * g_star_0;
-    const jg_real t111 = A_j[5] * g_star_0;
-    const jg_real t112 = A_j[8] * h_star_0;
-    const jg_real t113 = A_j[5] * h_star_0;
-    const jg_real t114 = A_j[8] * f_star_0;
-    const jg_real t115 = A_j[5] * f_star_0;
-    jac_phi_q_t_lambda_A_i[28] = lambda[3] * (C_j[7] * t110 - C_j[8] * t111) + lambda[4] * (C_j[1] * t112 - C_j[2] *
-        t113) + lambda[5] * (C_j[4] * t114 - C_j[5] * t115) + (s_j[1] * t109 - s_j[2] * t108);
-    const jg_real t116 = A_j[2] * g_star_0;
-    const jg_real t117 = A_j[2] * h_star_0;
-    const jg_real t118 = A_j[2] * f_star_0;
-    jac_phi_q_t_lambda_A_i[29] = lambda[3] * (C_j[8] * t116 - C_j[6] * t110) + lambda[4] * (C_j[2] * t117 - C_j[0] *
-        t112) + lambda[5] * (C_j[5] * t118 - C_j[3] * t114) + (s_j[2] * t107 - s_j[0] * t109);
-    jac_phi_q_t_lambda_A_i[30] = lambda[3] * (C_j[6] * t111 - C_j[7] * t116) + lambda[4] * (C_j[0] * t113 - C_j[1] *
-        t117) + lambda[5] * (C_j[3] * t115 - C_j[4] * t118) + (s_j[0] * t108 - s_j[1] * t107);
-    jac_phi_q_t_lambda_A_i[31] = t102 * t58 * lambda[5] + t100 * f_star_0 * lambda[4] * sine_1 - t91 * f_star_0 *
+    const jg_real e_ij_2 = A_j_s_j_2 + r_j[2] - r_i[2];
+    const jg_real t70 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t71 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t72 = lambda[2] * e_ij_2 + t67 * g_star_2 * lambda[3] + h_star_2 * t70 * lambda[4] + t71 *
+        f_star_2 * lambda[5];
+    jac_phi_q_t_lambda_A_i[20] = t72;
+    const jg_real t73 = lambda[1] * e_ij_2 + t67 * g_star_1 * lambda[3] + h_star_1 * t70 * lambda[4] + t71 *
+        f_star_1 * lambda[5];
+    jac_phi_q_t_lambda_A_i[80] = t73;
+    jac_phi_q_t_lambda_A_i[21] = -t73;
+    const jg_real t74 = lambda[0] * A_j[2];
+    jac_phi_q_t_lambda_A_i[22] = t74;
+    const jg_real t75 = lambda[0] * A_j[5];
+    jac_phi_q_t_lambda_A_i[23] = t75;
+    const jg_real t76 = lambda[0] * A_j[8];
+    jac_phi_q_t_lambda_A_i[24] = t76;
+    const jg_real t77 = A_j[8] * g_star_0;
+    const jg_real t78 = A_j[5] * g_star_0;
+    const jg_real t79 = A_j[8] * h_star_0;
+    const jg_real t80 = A_j[5] * h_star_0;
+    const jg_real t81 = A_j[8] * f_star_0;
+    const jg_real t82 = A_j[5] * f_star_0;
+    jac_phi_q_t_lambda_A_i[25] = lambda[3] * (C_j[7] * t77 - C_j[8] * t78) + lambda[4] * (C_j[1] * t79 - C_j[2] *
+        t80) + lambda[5] * (C_j[4] * t81 - C_j[5] * t82) + (s_j[1] * t76 - s_j[2] * t75);
+    const jg_real t83 = A_j[2] * g_star_0;
+    const jg_real t84 = A_j[2] * h_star_0;
+    const jg_real t85 = A_j[2] * f_star_0;
+    jac_phi_q_t_lambda_A_i[26] = lambda[3] * (C_j[8] * t83 - C_j[6] * t77) + lambda[4] * (C_j[2] * t84 - C_j[0] *
+        t79) + lambda[5] * (C_j[5] * t85 - C_j[3] * t81) + (s_j[2] * t74 - s_j[0] * t76);
+    jac_phi_q_t_lambda_A_i[27] = lambda[3] * (C_j[6] * t78 - C_j[7] * t83) + lambda[4] * (C_j[0] * t80 - C_j[1] *
+        t84) + lambda[5] * (C_j[3] * t82 - C_j[4] * t85) + (s_j[0] * t75 - s_j[1] * t74);
+    jac_phi_q_t_lambda_A_i[28] = t71 * t47 * lambda[5] + t70 * f_star_0 * lambda[4] * sine_1 - t67 * f_star_0 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[32] = t91 * h_star_0 * lambda[3] - t100 * g_star_0 * lambda[4];
-    const jg_real t119 = d_ij_0 - t22;
-    const jg_real t120 = s_i[1] * A_i[6];
-    jac_phi_q_t_lambda_A_i[33] = -(lambda[1] * t120 + lambda[2] * t119 + t19 + t31 + t34);
-    const jg_real t121 = A_i[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[34] = lambda[0] * t120 - lambda[2] * t121;
-    const jg_real t122 = t11 * g_star_0 * lambda[3];
-    const jg_real t123 = t30 * h_star_0 * lambda[4];
-    const jg_real t124 = t32 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[35] = lambda[0] * t119 + lambda[1] * t121 + t122 + t123 + t124;
-    const jg_real t125 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[36] = t125;
-    const jg_real t126 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[37] = t126;
-    const jg_real t127 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[38] = t127;
-    const jg_real t128 = A_j[6] * g_star_1;
-    const jg_real t129 = A_j[3] * g_star_1;
-    const jg_real t130 = A_j[6] * h_star_1;
-    const jg_real t131 = A_j[3] * h_star_1;
-    const jg_real t132 = A_j[6] * f_star_1;
-    const jg_real t133 = A_j[3] * f_star_1;
-    jac_phi_q_t_lambda_A_i[39] = lambda[3] * (C_j[7] * t128 - C_j[8] * t129) + lambda[4] * (C_j[1] * t130 - C_j[2] *
-        t131) + lambda[5] * (C_j[4] * t132 - C_j[5] * t133) + (s_j[1] * t127 - s_j[2] * t126);
-    const jg_real t134 = A_j[0] * g_star_1;
-    const jg_real t135 = A_j[0] * h_star_1;
-    const jg_real t136 = A_j[0] * f_star_1;
-    jac_phi_q_t_lambda_A_i[40] = lambda[3] * (C_j[8] * t134 - C_j[6] * t128) + lambda[4] * (C_j[2] * t135 - C_j[0] *
-        t130) + lambda[5] * (C_j[5] * t136 - C_j[3] * t132) + (s_j[2] * t125 - s_j[0] * t127);
-    jac_phi_q_t_lambda_A_i[41] = lambda[3] * (C_j[6] * t129 - C_j[7] * t134) + lambda[4] * (C_j[0] * t131 - C_j[1] *
-        t135) + lambda[5] * (C_j[3] * t133 - C_j[4] * t136) + (s_j[0] * t126 - s_j[1] * t125);
-    const jg_real t137 = C_i[4] * t56 - C_i[1] * t57;
-    jac_phi_q_t_lambda_A_i[42] = t32 * t137 * lambda[5] + t30 * f_star_1 * lambda[4] * sine_1 - t11 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[29] = t67 * h_star_0 * lambda[3] - t70 * g_star_0 * lambda[4];
+    jac_phi_q_t_lambda_A_i[30] = -t25;
+    const jg_real t86 = lambda[0] * e_ij_0 + t9 * g_star_0 * lambda[3] + t22 * h_star_0 * lambda[4] + t23 * f_star_0
+        * lambda[5];
+    jac_phi_q_t_lambda_A_i[31] = t86;
+    const jg_real t87 = lambda[1] * A_j[0];
+    jac_phi_q_t_lambda_A_i[32] = t87;
+    const jg_real t88 = lambda[1] * A_j[3];
+    jac_phi_q_t_lambda_A_i[33] = t88;
+    const jg_real t89 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[34] = t89;
+    const jg_real t90 = A_j[6] * g_star_1;
+    const jg_real t91 = A_j[3] * g_star_1;
+    const jg_real t92 = A_j[6] * h_star_1;
+    const jg_real t93 = A_j[3] * h_star_1;
+    const jg_real t94 = A_j[6] * f_star_1;
+    const jg_real t95 = A_j[3] * f_star_1;
+    jac_phi_q_t_lambda_A_i[35] = lambda[3] * (C_j[7] * t90 - C_j[8] * t91) + lambda[4] * (C_j[1] * t92 - C_j[2] *
+        t93) + lambda[5] * (C_j[4] * t94 - C_j[5] * t95) + (s_j[1] * t89 - s_j[2] * t88);
+    const jg_real t96 = A_j[0] * g_star_1;
+    const jg_real t97 = A_j[0] * h_star_1;
+    const jg_real t98 = A_j[0] * f_star_1;
+    jac_phi_q_t_lambda_A_i[36] = lambda[3] * (C_j[8] * t96 - C_j[6] * t90) + lambda[4] * (C_j[2] * t97 - C_j[0] *
+        t92) + lambda[5] * (C_j[5] * t98 - C_j[3] * t94) + (s_j[2] * t87 - s_j[0] * t89);
+    jac_phi_q_t_lambda_A_i[37] = lambda[3] * (C_j[6] * t91 - C_j[7] * t96) + lambda[4] * (C_j[0] * t93 - C_j[1] *
+        t97) + lambda[5] * (C_j[3] * t95 - C_j[4] * t98) + (s_j[0] * t88 - s_j[1] * t87);
+    const jg_real t99 = C_i[4] * t45 - C_i[1] * t46;
+    jac_phi_q_t_lambda_A_i[38] = t23 * t99 * lambda[5] + t22 * f_star_1 * lambda[4] * sine_1 - t9 * f_star_1 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[43] = t11 * h_star_1 * lambda[3] - g_star_1 * t30 * lambda[4];
-    const jg_real t138 = d_ij_1 - t65;
-    const jg_real t139 = s_i[1] * A_i[7];
-    jac_phi_q_t_lambda_A_i[44] = -(lambda[1] * t139 + lambda[2] * t138 + t62 + t71 + t73);
-    const jg_real t140 = s_i[1] * A_i[1];
-    jac_phi_q_t_lambda_A_i[45] = lambda[0] * t139 - lambda[2] * t140;
-    const jg_real t141 = t61 * g_star_0 * lambda[3];
-    const jg_real t142 = t70 * h_star_0 * lambda[4];
-    const jg_real t143 = t72 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[46] = lambda[0] * t138 + lambda[1] * t140 + t141 + t142 + t143;
-    const jg_real t144 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[47] = t144;
-    const jg_real t145 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[48] = t145;
-    const jg_real t146 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[49] = t146;
-    const jg_real t147 = A_j[7] * g_star_1;
-    const jg_real t148 = A_j[4] * g_star_1;
-    const jg_real t149 = A_j[7] * h_star_1;
-    const jg_real t150 = A_j[4] * h_star_1;
-    const jg_real t151 = A_j[7] * f_star_1;
-    const jg_real t152 = A_j[4] * f_star_1;
-    jac_phi_q_t_lambda_A_i[50] = lambda[3] * (C_j[7] * t147 - C_j[8] * t148) + lambda[4] * (C_j[1] * t149 - C_j[2] *
-        t150) + lambda[5] * (C_j[4] * t151 - C_j[5] * t152) + (s_j[1] * t146 - s_j[2] * t145);
-    const jg_real t153 = A_j[1] * g_star_1;
-    const jg_real t154 = A_j[1] * h_star_1;
-    const jg_real t155 = A_j[1] * f_star_1;
-    jac_phi_q_t_lambda_A_i[51] = lambda[3] * (C_j[8] * t153 - C_j[6] * t147) + lambda[4] * (C_j[2] * t154 - C_j[0] *
-        t149) + lambda[5] * (C_j[5] * t155 - C_j[3] * t151) + (s_j[2] * t144 - s_j[0] * t146);
-    jac_phi_q_t_lambda_A_i[52] = lambda[3] * (C_j[6] * t148 - C_j[7] * t153) + lambda[4] * (C_j[0] * t150 - C_j[1] *
-        t154) + lambda[5] * (C_j[3] * t152 - C_j[4] * t155) + (s_j[0] * t145 - s_j[1] * t144);
-    jac_phi_q_t_lambda_A_i[53] = t72 * t137 * lambda[5] + t70 * f_star_1 * lambda[4] * sine_1 - t61 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[39] = t9 * h_star_1 * lambda[3] - g_star_1 * t22 * lambda[4];
+    jac_phi_q_t_lambda_A_i[40] = -t53;
+    const jg_real t100 = lambda[0] * e_ij_1 + t48 * g_star_0 * lambda[3] + t51 * h_star_0 * lambda[4] + t52 *
+        f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[41] = t100;
+    const jg_real t101 = lambda[1] * A_j[1];
+    jac_phi_q_t_lambda_A_i[42] = t101;
+    const jg_real t102 = lambda[1] * A_j[4];
+    jac_phi_q_t_lambda_A_i[43] = t102;
+    const jg_real t103 = lambda[1] * A_j[7];
+    jac_phi_q_t_lambda_A_i[44] = t103;
+    const jg_real t104 = A_j[7] * g_star_1;
+    const jg_real t105 = A_j[4] * g_star_1;
+    const jg_real t106 = A_j[7] * h_star_1;
+    const jg_real t107 = A_j[4] * h_star_1;
+    const jg_real t108 = A_j[7] * f_star_1;
+    const jg_real t109 = A_j[4] * f_star_1;
+    jac_phi_q_t_lambda_A_i[45] = lambda[3] * (C_j[7] * t104 - C_j[8] * t105) + lambda[4] * (C_j[1] * t106 - C_j[2] *
+        t107) + lambda[5] * (C_j[4] * t108 - C_j[5] * t109) + (s_j[1] * t103 - s_j[2] * t102);
+    const jg_real t110 = A_j[1] * g_star_1;
+    const jg_real t111 = A_j[1] * h_star_1;
+    const jg_real t112 = A_j[1] * f_star_1;
+    jac_phi_q_t_lambda_A_i[46] = lambda[3] * (C_j[8] * t110 - C_j[6] * t104) + lambda[4] * (C_j[2] * t111 - C_j[0] *
+        t106) + lambda[5] * (C_j[5] * t112 - C_j[3] * t108) + (s_j[2] * t101 - s_j[0] * t103);
+    jac_phi_q_t_lambda_A_i[47] = lambda[3] * (C_j[6] * t105 - C_j[7] * t110) + lambda[4] * (C_j[0] * t107 - C_j[1] *
+        t111) + lambda[5] * (C_j[3] * t109 - C_j[4] * t112) + (s_j[0] * t102 - s_j[1] * t101);
+    jac_phi_q_t_lambda_A_i[48] = t52 * t99 * lambda[5] + t51 * f_star_1 * lambda[4] * sine_1 - t48 * f_star_1 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[54] = t61 * h_star_1 * lambda[3] - g_star_1 * t70 * lambda[4];
-    const jg_real t156 = d_ij_2 - t95;
-    const jg_real t157 = s_i[1] * A_i[8];
-    jac_phi_q_t_lambda_A_i[55] = -(lambda[1] * t157 + lambda[2] * t156 + t92 + t101 + t103);
-    const jg_real t158 = s_i[1] * A_i[2];
-    jac_phi_q_t_lambda_A_i[56] = lambda[0] * t157 - lambda[2] * t158;
-    const jg_real t159 = t91 * g_star_0 * lambda[3];
-    const jg_real t160 = t100 * h_star_0 * lambda[4];
-    const jg_real t161 = t102 * f_star_0 * lambda[5];
-    jac_phi_q_t_lambda_A_i[57] = lambda[0] * t156 + lambda[1] * t158 + t159 + t160 + t161;
-    const jg_real t162 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[58] = t162;
-    const jg_real t163 = lambda[1] * A_j[5];
-    jac_phi_q_t_lambda_A_i[59] = t163;
-    const jg_real t164 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[60] = t164;
-    const jg_real t165 = A_j[8] * g_star_1;
-    const jg_real t166 = A_j[5] * g_star_1;
-    const jg_real t167 = A_j[8] * h_star_1;
-    const jg_real t168 = A_j[5] * h_star_1;
-    const jg_real t169 = A_j[8] * f_star_1;
-    const jg_real t170 = A_j[5] * f_star_1;
-    jac_phi_q_t_lambda_A_i[61] = lambda[3] * (C_j[7] * t165 - C_j[8] * t166) + lambda[4] * (C_j[1] * t167 - C_j[2] *
-        t168) + lambda[5] * (C_j[4] * t169 - C_j[5] * t170) + (s_j[1] * t164 - s_j[2] * t163);
-    const jg_real t171 = A_j[2] * g_star_1;
-    const jg_real t172 = A_j[2] * h_star_1;
-    const jg_real t173 = A_j[2] * f_star_1;
-    jac_phi_q_t_lambda_A_i[62] = lambda[3] * (C_j[8] * t171 - C_j[6] * t165) + lambda[4] * (C_j[2] * t172 - C_j[0] *
-        t167) + lambda[5] * (C_j[5] * t173 - C_j[3] * t169) + (s_j[2] * t162 - s_j[0] * t164);
-    jac_phi_q_t_lambda_A_i[63] = lambda[3] * (C_j[6] * t166 - C_j[7] * t171) + lambda[4] * (C_j[0] * t168 - C_j[1] *
-        t172) + lambda[5] * (C_j[3] * t170 - C_j[4] * t173) + (s_j[0] * t163 - s_j[1] * t162);
-    jac_phi_q_t_lambda_A_i[64] = t102 * t137 * lambda[5] + t100 * f_star_1 * lambda[4] * sine_1 - t91 * f_star_1 *
+    jac_phi_q_t_lambda_A_i[49] = t48 * h_star_1 * lambda[3] - g_star_1 * t51 * lambda[4];
+    jac_phi_q_t_lambda_A_i[50] = -t72;
+    const jg_real t113 = lambda[0] * e_ij_2 + t67 * g_star_0 * lambda[3] + t70 * h_star_0 * lambda[4] + t71 *
+        f_star_0 * lambda[5];
+    jac_phi_q_t_lambda_A_i[51] = t113;
+    const jg_real t114 = lambda[1] * A_j[2];
+    jac_phi_q_t_lambda_A_i[52] = t114;
+    const jg_real t115 = lambda[1] * A_j[5];
+    jac_phi_q_t_lambda_A_i[53] = t115;
+    const jg_real t116 = lambda[1] * A_j[8];
+    jac_phi_q_t_lambda_A_i[54] = t116;
+    const jg_real t117 = A_j[8] * g_star_1;
+    const jg_real t118 = A_j[5] * g_star_1;
+    const jg_real t119 = A_j[8] * h_star_1;
+    const jg_real t120 = A_j[5] * h_star_1;
+    const jg_real t121 = A_j[8] * f_star_1;
+    const jg_real t122 = A_j[5] * f_star_1;
+    jac_phi_q_t_lambda_A_i[55] = lambda[3] * (C_j[7] * t117 - C_j[8] * t118) + lambda[4] * (C_j[1] * t119 - C_j[2] *
+        t120) + lambda[5] * (C_j[4] * t121 - C_j[5] * t122) + (s_j[1] * t116 - s_j[2] * t115);
+    const jg_real t123 = A_j[2] * g_star_1;
+    const jg_real t124 = A_j[2] * h_star_1;
+    const jg_real t125 = A_j[2] * f_star_1;
+    jac_phi_q_t_lambda_A_i[56] = lambda[3] * (C_j[8] * t123 - C_j[6] * t117) + lambda[4] * (C_j[2] * t124 - C_j[0] *
+        t119) + lambda[5] * (C_j[5] * t125 - C_j[3] * t121) + (s_j[2] * t114 - s_j[0] * t116);
+    jac_phi_q_t_lambda_A_i[57] = lambda[3] * (C_j[6] * t118 - C_j[7] * t123) + lambda[4] * (C_j[0] * t120 - C_j[1] *
+        t124) + lambda[5] * (C_j[3] * t122 - C_j[4] * t125) + (s_j[0] * t115 - s_j[1] * t114);
+    jac_phi_q_t_lambda_A_i[58] = t71 * t99 * lambda[5] + t70 * f_star_1 * lambda[4] * sine_1 - t67 * f_star_1 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[65] = t91 * h_star_1 * lambda[3] - g_star_1 * t100 * lambda[4];
-    const jg_real t174 = d_ij_0 - t23;
-    const jg_real t175 = A_i[3] * s_i[2];
-    jac_phi_q_t_lambda_A_i[66] = lambda[1] * t174 + lambda[2] * t175 + t36 + t38 + t40;
-    const jg_real t176 = A_i[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[67] = -(lambda[2] * t176 + lambda[0] * t174 + t122 + t123 + t124);
-    jac_phi_q_t_lambda_A_i[68] = lambda[1] * t176 - lambda[0] * t175;
-    const jg_real t177 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[69] = t177;
-    const jg_real t178 = lambda[2] * A_j[3];
-    jac_phi_q_t_lambda_A_i[70] = t178;
-    const jg_real t179 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[71] = t179;
-    const jg_real t180 = A_j[6] * g_star_2;
-    const jg_real t181 = A_j[3] * g_star_2;
-    const jg_real t182 = A_j[6] * h_star_2;
-    const jg_real t183 = A_j[3] * h_star_2;
-    const jg_real t184 = A_j[6] * f_star_2;
-    const jg_real t185 = A_j[3] * f_star_2;
-    jac_phi_q_t_lambda_A_i[72] = lambda[3] * (C_j[7] * t180 - C_j[8] * t181) + lambda[4] * (C_j[1] * t182 - C_j[2] *
-        t183) + lambda[5] * (C_j[4] * t184 - C_j[5] * t185) + (s_j[1] * t179 - s_j[2] * t178);
-    const jg_real t186 = A_j[0] * g_star_2;
-    const jg_real t187 = A_j[0] * h_star_2;
-    const jg_real t188 = A_j[0] * f_star_2;
-    jac_phi_q_t_lambda_A_i[73] = lambda[3] * (C_j[8] * t186 - C_j[6] * t180) + lambda[4] * (C_j[2] * t187 - C_j[0] *
-        t182) + lambda[5] * (C_j[5] * t188 - C_j[3] * t184) + (s_j[2] * t177 - s_j[0] * t179);
-    jac_phi_q_t_lambda_A_i[74] = lambda[3] * (C_j[6] * t181 - C_j[7] * t186) + lambda[4] * (C_j[0] * t183 - C_j[1] *
-        t187) + lambda[5] * (C_j[3] * t185 - C_j[4] * t188) + (s_j[0] * t178 - s_j[1] * t177);
-    const jg_real t189 = C_i[5] * t56 - C_i[2] * t57;
-    jac_phi_q_t_lambda_A_i[75] = t32 * t189 * lambda[5] + t30 * f_star_2 * lambda[4] * sine_1 - t11 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[59] = t67 * h_star_1 * lambda[3] - g_star_1 * t70 * lambda[4];
+    jac_phi_q_t_lambda_A_i[61] = -t86;
+    const jg_real t126 = lambda[2] * A_j[0];
+    jac_phi_q_t_lambda_A_i[62] = t126;
+    const jg_real t127 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[63] = t127;
+    const jg_real t128 = lambda[2] * A_j[6];
+    jac_phi_q_t_lambda_A_i[64] = t128;
+    const jg_real t129 = A_j[6] * g_star_2;
+    const jg_real t130 = A_j[3] * g_star_2;
+    const jg_real t131 = A_j[6] * h_star_2;
+    const jg_real t132 = A_j[3] * h_star_2;
+    const jg_real t133 = A_j[6] * f_star_2;
+    const jg_real t134 = A_j[3] * f_star_2;
+    jac_phi_q_t_lambda_A_i[65] = lambda[3] * (C_j[7] * t129 - C_j[8] * t130) + lambda[4] * (C_j[1] * t131 - C_j[2] *
+        t132) + lambda[5] * (C_j[4] * t133 - C_j[5] * t134) + (s_j[1] * t128 - s_j[2] * t127);
+    const jg_real t135 = A_j[0] * g_star_2;
+    const jg_real t136 = A_j[0] * h_star_2;
+    const jg_real t137 = A_j[0] * f_star_2;
+    jac_phi_q_t_lambda_A_i[66] = lambda[3] * (C_j[8] * t135 - C_j[6] * t129) + lambda[4] * (C_j[2] * t136 - C_j[0] *
+        t131) + lambda[5] * (C_j[5] * t137 - C_j[3] * t133) + (s_j[2] * t126 - s_j[0] * t128);
+    jac_phi_q_t_lambda_A_i[67] = lambda[3] * (C_j[6] * t130 - C_j[7] * t135) + lambda[4] * (C_j[0] * t132 - C_j[1] *
+        t136) + lambda[5] * (C_j[3] * t134 - C_j[4] * t137) + (s_j[0] * t127 - s_j[1] * t126);
+    const jg_real t138 = C_i[5] * t45 - C_i[2] * t46;
+    jac_phi_q_t_lambda_A_i[68] = t23 * t138 * lambda[5] + t22 * f_star_2 * lambda[4] * sine_1 - t9 * f_star_2 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[76] = t11 * h_star_2 * lambda[3] - g_star_2 * t30 * lambda[4];
-    const jg_real t190 = d_ij_1 - t66;
-    const jg_real t191 = s_i[2] * A_i[4];
-    jac_phi_q_t_lambda_A_i[77] = lambda[1] * t190 + lambda[2] * t191 + t74 + t75 + t76;
-    const jg_real t192 = s_i[2] * A_i[1];
-    jac_phi_q_t_lambda_A_i[78] = -(lambda[2] * t192 + lambda[0] * t190 + t141 + t142 + t143);
-    jac_phi_q_t_lambda_A_i[79] = lambda[1] * t192 - lambda[0] * t191;
-    const jg_real t193 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[80] = t193;
-    const jg_real t194 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[81] = t194;
-    const jg_real t195 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[82] = t195;
-    const jg_real t196 = A_j[7] * g_star_2;
-    const jg_real t197 = A_j[4] * g_star_2;
-    const jg_real t198 = A_j[7] * h_star_2;
-    const jg_real t199 = A_j[4] * h_star_2;
-    const jg_real t200 = A_j[7] * f_star_2;
-    const jg_real t201 = A_j[4] * f_star_2;
-    jac_phi_q_t_lambda_A_i[83] = lambda[3] * (C_j[7] * t196 - C_j[8] * t197) + lambda[4] * (C_j[1] * t198 - C_j[2] *
-        t199) + lambda[5] * (C_j[4] * t200 - C_j[5] * t201) + (s_j[1] * t195 - s_j[2] * t194);
-    const jg_real t202 = A_j[1] * g_star_2;
-    const jg_real t203 = A_j[1] * h_star_2;
-    const jg_real t204 = A_j[1] * f_star_2;
-    jac_phi_q_t_lambda_A_i[84] = lambda[3] * (C_j[8] * t202 - C_j[6] * t196) + lambda[4] * (C_j[2] * t203 - C_j[0] *
-        t198) + lambda[5] * (C_j[5] * t204 - C_j[3] * t200) + (s_j[2] * t193 - s_j[0] * t195);
-    jac_phi_q_t_lambda_A_i[85] = lambda[3] * (C_j[6] * t197 - C_j[7] * t202) + lambda[4] * (C_j[0] * t199 - C_j[1] *
-        t203) + lambda[5] * (C_j[3] * t201 - C_j[4] * t204) + (s_j[0] * t194 - s_j[1] * t193);
-    jac_phi_q_t_lambda_A_i[86] = t72 * t189 * lambda[5] + t70 * f_star_2 * lambda[4] * sine_1 - t61 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[69] = t9 * h_star_2 * lambda[3] - g_star_2 * t22 * lambda[4];
+    jac_phi_q_t_lambda_A_i[71] = -t100;
+    const jg_real t139 = lambda[2] * A_j[1];
+    jac_phi_q_t_lambda_A_i[72] = t139;
+    const jg_real t140 = lambda[2] * A_j[4];
+    jac_phi_q_t_lambda_A_i[73] = t140;
+    const jg_real t141 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[74] = t141;
+    const jg_real t142 = A_j[7] * g_star_2;
+    const jg_real t143 = A_j[4] * g_star_2;
+    const jg_real t144 = A_j[7] * h_star_2;
+    const jg_real t145 = A_j[4] * h_star_2;
+    const jg_real t146 = A_j[7] * f_star_2;
+    const jg_real t147 = A_j[4] * f_star_2;
+    jac_phi_q_t_lambda_A_i[75] = lambda[3] * (C_j[7] * t142 - C_j[8] * t143) + lambda[4] * (C_j[1] * t144 - C_j[2] *
+        t145) + lambda[5] * (C_j[4] * t146 - C_j[5] * t147) + (s_j[1] * t141 - s_j[2] * t140);
+    const jg_real t148 = A_j[1] * g_star_2;
+    const jg_real t149 = A_j[1] * h_star_2;
+    const jg_real t150 = A_j[1] * f_star_2;
+    jac_phi_q_t_lambda_A_i[76] = lambda[3] * (C_j[8] * t148 - C_j[6] * t142) + lambda[4] * (C_j[2] * t149 - C_j[0] *
+        t144) + lambda[5] * (C_j[5] * t150 - C_j[3] * t146) + (s_j[2] * t139 - s_j[0] * t141);
+    jac_phi_q_t_lambda_A_i[77] = lambda[3] * (C_j[6] * t143 - C_j[7] * t148) + lambda[4] * (C_j[0] * t145 - C_j[1] *
+        t149) + lambda[5] * (C_j[3] * t147 - C_j[4] * t150) + (s_j[0] * t140 - s_j[1] * t139);
+    jac_phi_q_t_lambda_A_i[78] = t52 * t138 * lambda[5] + t51 * f_star_2 * lambda[4] * sine_1 - t48 * f_star_2 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[87] = t61 * h_star_2 * lambda[3] - g_star_2 * t70 * lambda[4];
-    const jg_real t205 = d_ij_2 - t96;
-    const jg_real t206 = s_i[2] * A_i[5];
-    jac_phi_q_t_lambda_A_i[88] = lambda[1] * t205 + lambda[2] * t206 + t104 + t105 + t106;
-    const jg_real t207 = s_i[2] * A_i[2];
-    jac_phi_q_t_lambda_A_i[89] = -(lambda[2] * t207 + lambda[0] * t205 + t159 + t160 + t161);
-    jac_phi_q_t_lambda_A_i[90] = lambda[1] * t207 - lambda[0] * t206;
-    const jg_real t208 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[91] = t208;
-    const jg_real t209 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[92] = t209;
-    const jg_real t210 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[93] = t210;
-    const jg_real t211 = A_j[8] * g_star_2;
-    const jg_real t212 = A_j[5] * g_star_2;
-    const jg_real t213 = A_j[8] * h_star_2;
-    const jg_real t214 = A_j[5] * h_star_2;
-    const jg_real t215 = A_j[8] * f_star_2;
-    const jg_real t216 = A_j[5] * f_star_2;
-    jac_phi_q_t_lambda_A_i[94] = lambda[3] * (C_j[7] * t211 - C_j[8] * t212) + lambda[4] * (C_j[1] * t213 - C_j[2] *
-        t214) + lambda[5] * (C_j[4] * t215 - C_j[5] * t216) + (s_j[1] * t210 - s_j[2] * t209);
-    const jg_real t217 = A_j[2] * g_star_2;
-    const jg_real t218 = A_j[2] * h_star_2;
-    const jg_real t219 = A_j[2] * f_star_2;
-    jac_phi_q_t_lambda_A_i[95] = lambda[3] * (C_j[8] * t217 - C_j[6] * t211) + lambda[4] * (C_j[2] * t218 - C_j[0] *
-        t213) + lambda[5] * (C_j[5] * t219 - C_j[3] * t215) + (s_j[2] * t208 - s_j[0] * t210);
-    jac_phi_q_t_lambda_A_i[96] = lambda[3] * (C_j[6] * t212 - C_j[7] * t217) + lambda[4] * (C_j[0] * t214 - C_j[1] *
-        t218) + lambda[5] * (C_j[3] * t216 - C_j[4] * t219) + (s_j[0] * t209 - s_j[1] * t208);
-    jac_phi_q_t_lambda_A_i[97] = t102 * t189 * lambda[5] + t100 * f_star_2 * lambda[4] * sine_1 - t91 * f_star_2 *
+    jac_phi_q_t_lambda_A_i[79] = t48 * h_star_2 * lambda[3] - g_star_2 * t51 * lambda[4];
+    jac_phi_q_t_lambda_A_i[81] = -t113;
+    const jg_real t151 = lambda[2] * A_j[2];
+    jac_phi_q_t_lambda_A_i[82] = t151;
+    const jg_real t152 = lambda[2] * A_j[5];
+    jac_phi_q_t_lambda_A_i[83] = t152;
+    const jg_real t153 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[84] = t153;
+    const jg_real t154 = A_j[8] * g_star_2;
+    const jg_real t155 = A_j[5] * g_star_2;
+    const jg_real t156 = A_j[8] * h_star_2;
+    const jg_real t157 = A_j[5] * h_star_2;
+    const jg_real t158 = A_j[8] * f_star_2;
+    const jg_real t159 = A_j[5] * f_star_2;
+    jac_phi_q_t_lambda_A_i[85] = lambda[3] * (C_j[7] * t154 - C_j[8] * t155) + lambda[4] * (C_j[1] * t156 - C_j[2] *
+        t157) + lambda[5] * (C_j[4] * t158 - C_j[5] * t159) + (s_j[1] * t153 - s_j[2] * t152);
+    const jg_real t160 = A_j[2] * g_star_2;
+    const jg_real t161 = A_j[2] * h_star_2;
+    const jg_real t162 = A_j[2] * f_star_2;
+    jac_phi_q_t_lambda_A_i[86] = lambda[3] * (C_j[8] * t160 - C_j[6] * t154) + lambda[4] * (C_j[2] * t161 - C_j[0] *
+        t156) + lambda[5] * (C_j[5] * t162 - C_j[3] * t158) + (s_j[2] * t151 - s_j[0] * t153);
+    jac_phi_q_t_lambda_A_i[87] = lambda[3] * (C_j[6] * t155 - C_j[7] * t160) + lambda[4] * (C_j[0] * t157 - C_j[1] *
+        t161) + lambda[5] * (C_j[3] * t159 - C_j[4] * t162) + (s_j[0] * t152 - s_j[1] * t151);
+    jac_phi_q_t_lambda_A_i[88] = t71 * t138 * lambda[5] + t70 * f_star_2 * lambda[4] * sine_1 - t67 * f_star_2 *
         lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_A_i[98] = t91 * h_star_2 * lambda[3] - g_star_2 * t100 * lambda[4];
-    const jg_real t220 = A_i[3] * C_j[6];
-    const jg_real t221 = A_i[6] * C_j[6];
-    const jg_real t222 = s_j[0] * A_i[6];
-    const jg_real t223 = s_j[0] * A_i[3];
-    const jg_real t224 = A_i[3] * C_j[0];
-    const jg_real t225 = A_i[6] * C_j[0];
-    const jg_real t226 = A_i[3] * C_j[3];
-    const jg_real t227 = A_i[6] * C_j[3];
-    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t222 - lambda[2] * t223 - (t220 * g_star_2 - t221 * g_star_1) *
-        lambda[3] - (h_star_2 * t224 - h_star_1 * t225) * lambda[4] - (t226 * f_star_2 - t227 * f_star_1) *
+    jac_phi_q_t_lambda_A_i[89] = t67 * h_star_2 * lambda[3] - g_star_2 * t70 * lambda[4];
+    const jg_real t163 = A_i[3] * C_j[6];
+    const jg_real t164 = A_i[6] * C_j[6];
+    const jg_real t165 = s_j[0] * A_i[6];
+    const jg_real t166 = s_j[0] * A_i[3];
+    const jg_real t167 = A_i[3] * C_j[0];
+    const jg_real t168 = A_i[6] * C_j[0];
+    const jg_real t169 = A_i[3] * C_j[3];
+    const jg_real t170 = A_i[6] * C_j[3];
+    jac_phi_q_t_lambda_A_j[0] = lambda[1] * t165 - lambda[2] * t166 - (t163 * g_star_2 - t164 * g_star_1) *
+        lambda[3] - (h_star_2 * t167 - h_star_1 * t168) * lambda[4] - (t169 * f_star_2 - t170 * f_star_1) *
         lambda[5];
-    const jg_real t228 = A_i[0] * C_j[6];
-    const jg_real t229 = s_j[0] * A_i[0];
-    const jg_real t230 = A_i[0] * C_j[0];
-    const jg_real t231 = A_i[0] * C_j[3];
-    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t229 - lambda[0] * t222 - lambda[3] * (t221 * g_star_0 - g_star_2 *
-        t228) - lambda[4] * (t225 * h_star_0 - h_star_2 * t230) - lambda[5] * (t227 * f_star_0 - f_star_2 * t231);
-    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t223 - lambda[1] * t229 - lambda[3] * (g_star_1 * t228 - t220 *
-        g_star_0) - lambda[4] * (h_star_1 * t230 - t224 * h_star_0) - lambda[5] * (f_star_1 * t231 - t226 *
+    const jg_real t171 = C_j[6] * A_i[0];
+    const jg_real t172 = s_j[0] * A_i[0];
+    const jg_real t173 = C_j[0] * A_i[0];
+    const jg_real t174 = C_j[3] * A_i[0];
+    jac_phi_q_t_lambda_A_j[1] = lambda[2] * t172 - lambda[0] * t165 - lambda[3] * (t164 * g_star_0 - g_star_2 *
+        t171) - lambda[4] * (t168 * h_star_0 - h_star_2 * t173) - lambda[5] * (t170 * f_star_0 - f_star_2 * t174);
+    jac_phi_q_t_lambda_A_j[2] = lambda[0] * t166 - lambda[1] * t172 - lambda[3] * (g_star_1 * t171 - t163 *
+        g_star_0) - lambda[4] * (h_star_1 * t173 - t167 * h_star_0) - lambda[5] * (f_star_1 * t174 - t169 *
         f_star_0);
-    const jg_real t232 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t232;
-    jac_phi_q_t_lambda_A_j[27] = t232;
-    jac_phi_q_t_lambda_A_j[51] = t232;
-    const jg_real t233 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
-    const jg_real t234 = A_i[0] * h_star_0 + A_i[3] * h_star_1 + A_i[6] * h_star_2;
-    const jg_real t235 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
-    const jg_real t236 = C_j[8] * t233 * lambda[3] + C_j[2] * t234 * lambda[4] + C_j[5] * t235 * lambda[5] + s_j[2]
-        * t232;
-    jac_phi_q_t_lambda_A_j[4] = t236;
-    const jg_real t237 = C_j[7] * t233 * lambda[3] + C_j[1] * t234 * lambda[4] + C_j[4] * t235 * lambda[5] + s_j[1]
-        * t232;
-    jac_phi_q_t_lambda_A_j[52] = t237;
-    jac_phi_q_t_lambda_A_j[5] = -t237;
-    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (t231 * t58 + t226 * t137 + t227 * t189) + lambda[4] * (t230 * f_star_0
-        + t224 * f_star_1 + t225 * f_star_2) * sine_1 - lambda[3] * (t228 * f_star_0 + t220 * f_star_1 + t221 *
+    const jg_real t175 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_A_j[3] = t175;
+    jac_phi_q_t_lambda_A_j[27] = t175;
+    jac_phi_q_t_lambda_A_j[51] = t175;
+    const jg_real t176 = A_i[0] * g_star_0 + A_i[3] * g_star_1 + A_i[6] * g_star_2;
+    const jg_real t177 = A_i[0] * h_star_0 + A_i[3] * h_star_1 + A_i[6] * h_star_2;
+    const jg_real t178 = A_i[0] * f_star_0 + A_i[3] * f_star_1 + A_i[6] * f_star_2;
+    const jg_real t179 = C_j[8] * t176 * lambda[3] + C_j[2] * t177 * lambda[4] + C_j[5] * t178 * lambda[5] + s_j[2]
+        * t175;
+    jac_phi_q_t_lambda_A_j[4] = t179;
+    const jg_real t180 = C_j[7] * t176 * lambda[3] + C_j[1] * t177 * lambda[4] + C_j[4] * t178 * lambda[5] + s_j[1]
+        * t175;
+    jac_phi_q_t_lambda_A_j[52] = t180;
+    jac_phi_q_t_lambda_A_j[5] = -t180;
+    jac_phi_q_t_lambda_A_j[6] = lambda[5] * (t174 * t47 + t169 * t99 + t170 * t138) + lambda[4] * (t173 * f_star_0 +
+        t167 * f_star_1 + t168 * f_star_2) * sine_1 - lambda[3] * (t171 * f_star_0 + t163 * f_star_1 + t164 *
         f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[7] = lambda[3] * (h_star_0 * t228 + t220 * h_star_1 + h_star_2 * t221) - lambda[4] *
-        (g_star_0 * t230 + g_star_1 * t224 + g_star_2 * t225);
-    const jg_real t238 = A_i[4] * C_j[6];
-    const jg_real t239 = A_i[7] * C_j[6];
-    const jg_real t240 = s_j[0] * A_i[7];
-    const jg_real t241 = s_j[0] * A_i[4];
-    const jg_real t242 = A_i[4] * C_j[0];
-    const jg_real t243 = A_i[7] * C_j[0];
-    const jg_real t244 = A_i[4] * C_j[3];
-    const jg_real t245 = A_i[7] * C_j[3];
-    jac_phi_q_t_lambda_A_j[8] = lambda[1] * t240 - lambda[2] * t241 - (t238 * g_star_2 - t239 * g_star_1) *
-        lambda[3] - (h_star_2 * t242 - h_star_1 * t243) * lambda[4] - (t244 * f_star_2 - t245 * f_star_1) *
+    jac_phi_q_t_lambda_A_j[7] = lambda[3] * (h_star_0 * t171 + t163 * h_star_1 + h_star_2 * t164) - lambda[4] *
+        (g_star_0 * t173 + g_star_1 * t167 + g_star_2 * t168);
+    const jg_real t181 = A_i[4] * C_j[6];
+    const jg_real t182 = A_i[7] * C_j[6];
+    const jg_real t183 = s_j[0] * A_i[7];
+    const jg_real t184 = s_j[0] * A_i[4];
+    const jg_real t185 = A_i[4] * C_j[0];
+    const jg_real t186 = A_i[7] * C_j[0];
+    const jg_real t187 = A_i[4] * C_j[3];
+    const jg_real t188 = A_i[7] * C_j[3];
+    jac_phi_q_t_lambda_A_j[8] = lambda[1] * t183 - lambda[2] * t184 - (t181 * g_star_2 - t182 * g_star_1) *
+        lambda[3] - (h_star_2 * t185 - h_star_1 * t186) * lambda[4] - (t187 * f_star_2 - t188 * f_star_1) *
         lambda[5];
-    const jg_real t246 = A_i[1] * C_j[6];
-    const jg_real t247 = s_j[0] * A_i[1];
-    const jg_real t248 = A_i[1] * C_j[0];
-    const jg_real t249 = A_i[1] * C_j[3];
-    jac_phi_q_t_lambda_A_j[9] = lambda[2] * t247 - lambda[0] * t240 - lambda[3] * (t239 * g_star_0 - g_star_2 *
-        t246) - lambda[4] * (t243 * h_star_0 - h_star_2 * t248) - lambda[5] * (t245 * f_star_0 - f_star_2 * t249);
-    jac_phi_q_t_lambda_A_j[10] = lambda[0] * t241 - lambda[1] * t247 - lambda[3] * (g_star_1 * t246 - t238 *
-        g_star_0) - lambda[4] * (h_star_1 * t248 - t242 * h_star_0) - lambda[5] * (f_star_1 * t249 - t244 *
+    const jg_real t189 = C_j[6] * A_i[1];
+    const jg_real t190 = s_j[0] * A_i[1];
+    const jg_real t191 = C_j[0] * A_i[1];
+    const jg_real t192 = C_j[3] * A_i[1];
+    jac_phi_q_t_lambda_A_j[9] = lambda[2] * t190 - lambda[0] * t183 - lambda[3] * (t182 * g_star_0 - g_star_2 *
+        t189) - lambda[4] * (t186 * h_star_0 - h_star_2 * t191) - lambda[5] * (t188 * f_star_0 - f_star_2 * t192);
+    jac_phi_q_t_lambda_A_j[10] = lambda[0] * t184 - lambda[1] * t190 - lambda[3] * (g_star_1 * t189 - t181 *
+        g_star_0) - lambda[4] * (h_star_1 * t191 - t185 * h_star_0) - lambda[5] * (f_star_1 * t192 - t187 *
         f_star_0);
-    const jg_real t250 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[11] = t250;
-    jac_phi_q_t_lambda_A_j[35] = t250;
-    jac_phi_q_t_lambda_A_j[59] = t250;
-    const jg_real t251 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
-    const jg_real t252 = A_i[1] * h_star_0 + A_i[4] * h_star_1 + A_i[7] * h_star_2;
-    const jg_real t253 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
-    const jg_real t254 = C_j[8] * t251 * lambda[3] + C_j[2] * t252 * lambda[4] + C_j[5] * t253 * lambda[5] + s_j[2]
-        * t250;
-    jac_phi_q_t_lambda_A_j[12] = t254;
-    const jg_real t255 = C_j[7] * t251 * lambda[3] + C_j[1] * t252 * lambda[4] + C_j[4] * t253 * lambda[5] + s_j[1]
-        * t250;
-    jac_phi_q_t_lambda_A_j[60] = t255;
-    jac_phi_q_t_lambda_A_j[13] = -t255;
-    jac_phi_q_t_lambda_A_j[14] = lambda[5] * (t249 * t58 + t244 * t137 + t245 * t189) + lambda[4] * (t248 * f_star_0
-        + t242 * f_star_1 + t243 * f_star_2) * sine_1 - lambda[3] * (t246 * f_star_0 + t238 * f_star_1 + t239 *
+    const jg_real t193 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[11] = t193;
+    jac_phi_q_t_lambda_A_j[35] = t193;
+    jac_phi_q_t_lambda_A_j[59] = t193;
+    const jg_real t194 = A_i[1] * g_star_0 + A_i[4] * g_star_1 + A_i[7] * g_star_2;
+    const jg_real t195 = A_i[1] * h_star_0 + A_i[4] * h_star_1 + A_i[7] * h_star_2;
+    const jg_real t196 = A_i[1] * f_star_0 + A_i[4] * f_star_1 + A_i[7] * f_star_2;
+    const jg_real t197 = C_j[8] * t194 * lambda[3] + C_j[2] * t195 * lambda[4] + C_j[5] * t196 * lambda[5] + s_j[2]
+        * t193;
+    jac_phi_q_t_lambda_A_j[12] = t197;
+    const jg_real t198 = C_j[7] * t194 * lambda[3] + C_j[1] * t195 * lambda[4] + C_j[4] * t196 * lambda[5] + s_j[1]
+        * t193;
+    jac_phi_q_t_lambda_A_j[60] = t198;
+    jac_phi_q_t_lambda_A_j[13] = -t198;
+    jac_phi_q_t_lambda_A_j[14] = lambda[5] * (t192 * t47 + t187 * t99 + t188 * t138) + lambda[4] * (t191 * f_star_0
+        + t185 * f_star_1 + t186 * f_star_2) * sine_1 - lambda[3] * (t189 * f_star_0 + t181 * f_star_1 + t182 *
         f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[15] = lambda[3] * (h_star_0 * t246 + t238 * h_star_1 + h_star_2 * t239) - lambda[4] *
-        (g_star_0 * t248 + g_star_1 * t242 + g_star_2 * t243);
-    const jg_real t256 = A_i[5] * C_j[6];
-    const jg_real t257 = A_i[8] * C_j[6];
-    const jg_real t258 = s_j[0] * A_i[8];
-    const jg_real t259 = s_j[0] * A_i[5];
-    const jg_real t260 = A_i[5] * C_j[0];
-    const jg_real t261 = A_i[8] * C_j[0];
-    const jg_real t262 = A_i[5] * C_j[3];
-    const jg_real t263 = A_i[8] * C_j[3];
-    jac_phi_q_t_lambda_A_j[16] = lambda[1] * t258 - lambda[2] * t259 - (t256 * g_star_2 - t257 * g_star_1) *
+    jac_phi_q_t_lambda_A_j[15] = lambda[3] * (h_star_0 * t189 + t181 * h_star_1 + h_star_2 * t182) - lambda[4] *
+        (g_star_0 * t191 + g_star_1 * t185 + g_star_2 * t186);
+    const jg_real t199 = A_i[5] * C_j[6];
+    const jg_real t200 = A_i[8] * C_j[6];
+    const jg_real t201 = s_j[0] * A_i[8];
+    const jg_real t202 = s_j[0] * A_i[5];
+    const jg_real t203 = A_i[5] * C_j[0];
+    const jg_real t204 = A_i[8] * C_j[0];
+    const jg_real t205 = A_i[5] * C_j[3];
+    const jg_real t206 = A_i[8] * C_j[3];
+    jac_phi_q_t_lambda_A_j[16] = lambda[1] * t201 - lambda[2] * t202 - (t199 * g_star_2 - t200 * g_star_1) *
+        lambda[3] - (h_star_2 * t203 - h_star_1 * t204) * lambda[4] - (t205 * f_star_2 - t206 * f_star_1) *
+        lambda[5];
+    const jg_real t207 = C_j[6] * A_i[2];
+    const jg_real t208 = s_j[0] * A_i[2];
+    const jg_real t209 = C_j[0] * A_i[2];
+    const jg_real t210 = C_j[3] * A_i[2];
+    jac_phi_q_t_lambda_A_j[17] = lambda[2] * t208 - lambda[0] * t201 - lambda[3] * (t200 * g_star_0 - g_star_2 *
+        t207) - lambda[4] * (t204 * h_star_0 - h_star_2 * t209) - lambda[5] * (t206 * f_star_0 - f_star_2 * t210);
+    jac_phi_q_t_lambda_A_j[18] = lambda[0] * t202 - lambda[1] * t208 - lambda[3] * (g_star_1 * t207 - t199 *
+        g_star_0) - lambda[4] * (h_star_1 * t209 - t203 * h_star_0) - lambda[5] * (f_star_1 * t210 - t205 *
+        f_star_0);
+    const jg_real t211 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[19] = t211;
+    jac_phi_q_t_lambda_A_j[43] = t211;
+    jac_phi_q_t_lambda_A_j[67] = t211;
+    const jg_real t212 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
+    const jg_real t213 = A_i[2] * h_star_0 + A_i[5] * h_star_1 + A_i[8] * h_star_2;
+    const jg_real t214 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
+    const jg_real t215 = C_j[8] * t212 * lambda[3] + C_j[2] * t213 * lambda[4] + C_j[5] * t214 * lambda[5] + s_j[2]
+        * t211;
+    jac_phi_q_t_lambda_A_j[20] = t215;
+    const jg_real t216 = C_j[7] * t212 * lambda[3] + C_j[1] * t213 * lambda[4] + C_j[4] * t214 * lambda[5] + s_j[1]
+        * t211;
+    jac_phi_q_t_lambda_A_j[68] = t216;
+    jac_phi_q_t_lambda_A_j[21] = -t216;
+    jac_phi_q_t_lambda_A_j[22] = lambda[5] * (t210 * t47 + t205 * t99 + t206 * t138) + lambda[4] * (t209 * f_star_0
+        + t203 * f_star_1 + t204 * f_star_2) * sine_1 - lambda[3] * (t207 * f_star_0 + t199 * f_star_1 + t200 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[23] = lambda[3] * (h_star_0 * t207 + t199 * h_star_1 + h_star_2 * t200) - lambda[4] *
+        (g_star_0 * t209 + g_star_1 * t203 + g_star_2 * t204);
+    const jg_real t217 = A_i[3] * C_j[7];
+    const jg_real t218 = A_i[6] * C_j[7];
+    const jg_real t219 = s_j[1] * A_i[6];
+    const jg_real t220 = s_j[1] * A_i[3];
+    const jg_real t221 = A_i[3] * C_j[1];
+    const jg_real t222 = A_i[6] * C_j[1];
+    const jg_real t223 = A_i[3] * C_j[4];
+    const jg_real t224 = A_i[6] * C_j[4];
+    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t219 - lambda[2] * t220 - (t217 * g_star_2 - t218 * g_star_1) *
+        lambda[3] - (h_star_2 * t221 - h_star_1 * t222) * lambda[4] - (t223 * f_star_2 - t224 * f_star_1) *
+        lambda[5];
+    const jg_real t225 = C_j[7] * A_i[0];
+    const jg_real t226 = s_j[1] * A_i[0];
+    const jg_real t227 = C_j[1] * A_i[0];
+    const jg_real t228 = C_j[4] * A_i[0];
+    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t226 - lambda[0] * t219 - lambda[3] * (t218 * g_star_0 - g_star_2 *
+        t225) - lambda[4] * (t222 * h_star_0 - h_star_2 * t227) - lambda[5] * (t224 * f_star_0 - f_star_2 * t228);
+    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t220 - lambda[1] * t226 - lambda[3] * (g_star_1 * t225 - t217 *
+        g_star_0) - lambda[4] * (h_star_1 * t227 - t221 * h_star_0) - lambda[5] * (f_star_1 * t228 - t223 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[28] = -t179;
+    const jg_real t229 = C_j[6] * t176 * lambda[3] + C_j[0] * t177 * lambda[4] + C_j[3] * t178 * lambda[5] + s_j[0]
+        * t175;
+    jac_phi_q_t_lambda_A_j[29] = t229;
+    jac_phi_q_t_lambda_A_j[30] = lambda[5] * (t228 * t47 + t223 * t99 + t224 * t138) + lambda[4] * (t227 * f_star_0
+        + t221 * f_star_1 + t222 * f_star_2) * sine_1 - lambda[3] * (t225 * f_star_0 + t217 * f_star_1 + t218 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[31] = lambda[3] * (h_star_0 * t225 + t217 * h_star_1 + h_star_2 * t218) - lambda[4] *
+        (g_star_0 * t227 + g_star_1 * t221 + g_star_2 * t222);
+    const jg_real t230 = A_i[4] * C_j[7];
+    const jg_real t231 = A_i[7] * C_j[7];
+    const jg_real t232 = s_j[1] * A_i[7];
+    const jg_real t233 = s_j[1] * A_i[4];
+    const jg_real t234 = A_i[4] * C_j[1];
+    const jg_real t235 = A_i[7] * C_j[1];
+    const jg_real t236 = A_i[4] * C_j[4];
+    const jg_real t237 = A_i[7] * C_j[4];
+    jac_phi_q_t_lambda_A_j[32] = lambda[1] * t232 - lambda[2] * t233 - (t230 * g_star_2 - t231 * g_star_1) *
+        lambda[3] - (h_star_2 * t234 - h_star_1 * t235) * lambda[4] - (t236 * f_star_2 - t237 * f_star_1) *
+        lambda[5];
+    const jg_real t238 = C_j[7] * A_i[1];
+    const jg_real t239 = s_j[1] * A_i[1];
+    const jg_real t240 = C_j[1] * A_i[1];
+    const jg_real t241 = C_j[4] * A_i[1];
+    jac_phi_q_t_lambda_A_j[33] = lambda[2] * t239 - lambda[0] * t232 - lambda[3] * (t231 * g_star_0 - g_star_2 *
+        t238) - lambda[4] * (t235 * h_star_0 - h_star_2 * t240) - lambda[5] * (t237 * f_star_0 - f_star_2 * t241);
+    jac_phi_q_t_lambda_A_j[34] = lambda[0] * t233 - lambda[1] * t239 - lambda[3] * (g_star_1 * t238 - t230 *
+        g_star_0) - lambda[4] * (h_star_1 * t240 - t234 * h_star_0) - lambda[5] * (f_star_1 * t241 - t236 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[36] = -t197;
+    const jg_real t242 = C_j[6] * t194 * lambda[3] + C_j[0] * t195 * lambda[4] + C_j[3] * t196 * lambda[5] + s_j[0]
+        * t193;
+    jac_phi_q_t_lambda_A_j[37] = t242;
+    jac_phi_q_t_lambda_A_j[38] = lambda[5] * (t241 * t47 + t236 * t99 + t237 * t138) + lambda[4] * (t240 * f_star_0
+        + t234 * f_star_1 + t235 * f_star_2) * sine_1 - lambda[3] * (t238 * f_star_0 + t230 * f_star_1 + t231 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[39] = lambda[3] * (h_star_0 * t238 + t230 * h_star_1 + h_star_2 * t231) - lambda[4] *
+        (g_star_0 * t240 + g_star_1 * t234 + g_star_2 * t235);
+    const jg_real t243 = A_i[5] * C_j[7];
+    const jg_real t244 = A_i[8] * C_j[7];
+    const jg_real t245 = s_j[1] * A_i[8];
+    const jg_real t246 = s_j[1] * A_i[5];
+    const jg_real t247 = A_i[5] * C_j[1];
+    const jg_real t248 = A_i[8] * C_j[1];
+    const jg_real t249 = A_i[5] * C_j[4];
+    const jg_real t250 = A_i[8] * C_j[4];
+    jac_phi_q_t_lambda_A_j[40] = lambda[1] * t245 - lambda[2] * t246 - (t243 * g_star_2 - t244 * g_star_1) *
+        lambda[3] - (h_star_2 * t247 - h_star_1 * t248) * lambda[4] - (t249 * f_star_2 - t250 * f_star_1) *
+        lambda[5];
+    const jg_real t251 = C_j[7] * A_i[2];
+    const jg_real t252 = s_j[1] * A_i[2];
+    const jg_real t253 = C_j[1] * A_i[2];
+    const jg_real t254 = C_j[4] * A_i[2];
+    jac_phi_q_t_lambda_A_j[41] = lambda[2] * t252 - lambda[0] * t245 - lambda[3] * (t244 * g_star_0 - g_star_2 *
+        t251) - lambda[4] * (t248 * h_star_0 - h_star_2 * t253) - lambda[5] * (t250 * f_star_0 - f_star_2 * t254);
+    jac_phi_q_t_lambda_A_j[42] = lambda[0] * t246 - lambda[1] * t252 - lambda[3] * (g_star_1 * t251 - t243 *
+        g_star_0) - lambda[4] * (h_star_1 * t253 - t247 * h_star_0) - lambda[5] * (f_star_1 * t254 - t249 *
+        f_star_0);
+    jac_phi_q_t_lambda_A_j[44] = -t215;
+    const jg_real t255 = C_j[6] * t212 * lambda[3] + C_j[0] * t213 * lambda[4] + C_j[3] * t214 * lambda[5] + s_j[0]
+        * t211;
+    jac_phi_q_t_lambda_A_j[45] = t255;
+    jac_phi_q_t_lambda_A_j[46] = lambda[5] * (t254 * t47 + t249 * t99 + t250 * t138) + lambda[4] * (t253 * f_star_0
+        + t247 * f_star_1 + t248 * f_star_2) * sine_1 - lambda[3] * (t251 * f_star_0 + t243 * f_star_1 + t244 *
+        f_star_2) * cosine_1;
+    jac_phi_q_t_lambda_A_j[47] = lambda[3] * (h_star_0 * t251 + t243 * h_star_1 + h_star_2 * t244) - lambda[4] *
+        (g_star_0 * t253 + g_star_1 * t247 + g_star_2 * t248);
+    const jg_real t256 = A_i[3] * C_j[8];
+    const jg_real t257 = A_i[6] * C_j[8];
+    const jg_real t258 = s_j[2] * A_i[6];
+    const jg_real t259 = s_j[2] * A_i[3];
+    const jg_real t260 = A_i[3] * C_j[2];
+    const jg_real t261 = A_i[6] * C_j[2];
+    const jg_real t262 = A_i[3] * C_j[5];
+    const jg_real t263 = A_i[6] * C_j[5];
+    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t258 - lambda[2] * t259 - (t256 * g_star_2 - t257 * g_star_1) *
         lambda[3] - (h_star_2 * t260 - h_star_1 * t261) * lambda[4] - (t262 * f_star_2 - t263 * f_star_1) *
         lambda[5];
-    const jg_real t264 = A_i[2] * C_j[6];
-    const jg_real t265 = s_j[0] * A_i[2];
-    const jg_real t266 = A_i[2] * C_j[0];
-    const jg_real t267 = A_i[2] * C_j[3];
-    jac_phi_q_t_lambda_A_j[17] = lambda[2] * t265 - lambda[0] * t258 - lambda[3] * (t257 * g_star_0 - g_star_2 *
+    const jg_real t264 = C_j[8] * A_i[0];
+    const jg_real t265 = s_j[2] * A_i[0];
+    const jg_real t266 = C_j[2] * A_i[0];
+    const jg_real t267 = C_j[5] * A_i[0];
+    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t265 - lambda[0] * t258 - lambda[3] * (t257 * g_star_0 - g_star_2 *
         t264) - lambda[4] * (t261 * h_star_0 - h_star_2 * t266) - lambda[5] * (t263 * f_star_0 - f_star_2 * t267);
-    jac_phi_q_t_lambda_A_j[18] = lambda[0] * t259 - lambda[1] * t265 - lambda[3] * (g_star_1 * t264 - t256 *
+    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t259 - lambda[1] * t265 - lambda[3] * (g_star_1 * t264 - t256 *
         g_star_0) - lambda[4] * (h_star_1 * t266 - t260 * h_star_0) - lambda[5] * (f_star_1 * t267 - t262 *
         f_star_0);
-    const jg_real t268 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[19] = t268;
-    jac_phi_q_t_lambda_A_j[43] = t268;
-    jac_phi_q_t_lambda_A_j[67] = t268;
-    const jg_real t269 = A_i[2] * g_star_0 + A_i[5] * g_star_1 + A_i[8] * g_star_2;
-    const jg_real t270 = A_i[2] * h_star_0 + A_i[5] * h_star_1 + A_i[8] * h_star_2;
-    const jg_real t271 = A_i[2] * f_star_0 + A_i[5] * f_star_1 + A_i[8] * f_star_2;
-    const jg_real t272 = C_j[8] * t269 * lambda[3] + C_j[2] * t270 * lambda[4] + C_j[5] * t271 * lambda[5] + s_j[2]
-        * t268;
-    jac_phi_q_t_lambda_A_j[20] = t272;
-    const jg_real t273 = C_j[7] * t269 * lambda[3] + C_j[1] * t270 * lambda[4] + C_j[4] * t271 * lambda[5] + s_j[1]
-        * t268;
-    jac_phi_q_t_lambda_A_j[68] = t273;
-    jac_phi_q_t_lambda_A_j[21] = -t273;
-    jac_phi_q_t_lambda_A_j[22] = lambda[5] * (t267 * t58 + t262 * t137 + t263 * t189) + lambda[4] * (t266 * f_star_0
+    jac_phi_q_t_lambda_A_j[53] = -t229;
+    jac_phi_q_t_lambda_A_j[54] = lambda[5] * (t267 * t47 + t262 * t99 + t263 * t138) + lambda[4] * (t266 * f_star_0
         + t260 * f_star_1 + t261 * f_star_2) * sine_1 - lambda[3] * (t264 * f_star_0 + t256 * f_star_1 + t257 *
         f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[23] = lambda[3] * (h_star_0 * t264 + t256 * h_star_1 + h_star_2 * t257) - lambda[4] *
+    jac_phi_q_t_lambda_A_j[55] = lambda[3] * (h_star_0 * t264 + t256 * h_star_1 + h_star_2 * t257) - lambda[4] *
         (g_star_0 * t266 + g_star_1 * t260 + g_star_2 * t261);
-    const jg_real t274 = A_i[3] * C_j[7];
-    const jg_real t275 = A_i[6] * C_j[7];
-    const jg_real t276 = s_j[1] * A_i[6];
-    const jg_real t277 = s_j[1] * A_i[3];
-    const jg_real t278 = A_i[3] * C_j[1];
-    const jg_real t279 = A_i[6] * C_j[1];
-    const jg_real t280 = A_i[3] * C_j[4];
-    const jg_real t281 = A_i[6] * C_j[4];
-    jac_phi_q_t_lambda_A_j[24] = lambda[1] * t276 - lambda[2] * t277 - (t274 * g_star_2 - t275 * g_star_1) *
-        lambda[3] - (h_star_2 * t278 - h_star_1 * t279) * lambda[4] - (t280 * f_star_2 - t281 * f_star_1) *
+    const jg_real t268 = A_i[4] * C_j[8];
+    const jg_real t269 = A_i[7] * C_j[8];
+    const jg_real t270 = s_j[2] * A_i[7];
+    const jg_real t271 = s_j[2] * A_i[4];
+    const jg_real t272 = A_i[4] * C_j[2];
+    const jg_real t273 = A_i[7] * C_j[2];
+    const jg_real t274 = A_i[4] * C_j[5];
+    const jg_real t275 = A_i[7] * C_j[5];
+    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t270 - lambda[2] * t271 - (t268 * g_star_2 - t269 * g_star_1) *
+        lambda[3] - (h_star_2 * t272 - h_star_1 * t273) * lambda[4] - (t274 * f_star_2 - t275 * f_star_1) *
         lambda[5];
-    const jg_real t282 = A_i[0] * C_j[7];
-    const jg_real t283 = s_j[1] * A_i[0];
-    const jg_real t284 = A_i[0] * C_j[1];
-    const jg_real t285 = A_i[0] * C_j[4];
-    jac_phi_q_t_lambda_A_j[25] = lambda[2] * t283 - lambda[0] * t276 - lambda[3] * (t275 * g_star_0 - g_star_2 *
-        t282) - lambda[4] * (t279 * h_star_0 - h_star_2 * t284) - lambda[5] * (t281 * f_star_0 - f_star_2 * t285);
-    jac_phi_q_t_lambda_A_j[26] = lambda[0] * t277 - lambda[1] * t283 - lambda[3] * (g_star_1 * t282 - t274 *
-        g_star_0) - lambda[4] * (h_star_1 * t284 - t278 * h_star_0) - lambda[5] * (f_star_1 * t285 - t280 *
+    const jg_real t276 = C_j[8] * A_i[1];
+    const jg_real t277 = s_j[2] * A_i[1];
+    const jg_real t278 = C_j[2] * A_i[1];
+    const jg_real t279 = C_j[5] * A_i[1];
+    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t277 - lambda[0] * t270 - lambda[3] * (t269 * g_star_0 - g_star_2 *
+        t276) - lambda[4] * (t273 * h_star_0 - h_star_2 * t278) - lambda[5] * (t275 * f_star_0 - f_star_2 * t279);
+    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t271 - lambda[1] * t277 - lambda[3] * (g_star_1 * t276 - t268 *
+        g_star_0) - lambda[4] * (h_star_1 * t278 - t272 * h_star_0) - lambda[5] * (f_star_1 * t279 - t274 *
         f_star_0);
-    jac_phi_q_t_lambda_A_j[28] = -t236;
-    const jg_real t286 = C_j[6] * t233 * lambda[3] + C_j[0] * t234 * lambda[4] + C_j[3] * t235 * lambda[5] + s_j[0]
-        * t232;
-    jac_phi_q_t_lambda_A_j[29] = t286;
-    jac_phi_q_t_lambda_A_j[30] = lambda[5] * (t285 * t58 + t280 * t137 + t281 * t189) + lambda[4] * (t284 * f_star_0
-        + t278 * f_star_1 + t279 * f_star_2) * sine_1 - lambda[3] * (t282 * f_star_0 + t274 * f_star_1 + t275 *
+    jac_phi_q_t_lambda_A_j[61] = -t242;
+    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (t279 * t47 + t274 * t99 + t275 * t138) + lambda[4] * (t278 * f_star_0
+        + t272 * f_star_1 + t273 * f_star_2) * sine_1 - lambda[3] * (t276 * f_star_0 + t268 * f_star_1 + t269 *
         f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[31] = lambda[3] * (h_star_0 * t282 + t274 * h_star_1 + h_star_2 * t275) - lambda[4] *
-        (g_star_0 * t284 + g_star_1 * t278 + g_star_2 * t279);
-    const jg_real t287 = A_i[4] * C_j[7];
-    const jg_real t288 = A_i[7] * C_j[7];
-    const jg_real t289 = s_j[1] * A_i[7];
-    const jg_real t290 = s_j[1] * A_i[4];
-    const jg_real t291 = A_i[4] * C_j[1];
-    const jg_real t292 = A_i[7] * C_j[1];
-    const jg_real t293 = A_i[4] * C_j[4];
-    const jg_real t294 = A_i[7] * C_j[4];
-    jac_phi_q_t_lambda_A_j[32] = lambda[1] * t289 - lambda[2] * t290 - (t287 * g_star_2 - t288 * g_star_1) *
-        lambda[3] - (h_star_2 * t291 - h_star_1 * t292) * lambda[4] - (t293 * f_star_2 - t294 * f_star_1) *
+    jac_phi_q_t_lambda_A_j[63] = lambda[3] * (h_star_0 * t276 + t268 * h_star_1 + h_star_2 * t269) - lambda[4] *
+        (g_star_0 * t278 + g_star_1 * t272 + g_star_2 * t273);
+    const jg_real t280 = A_i[5] * C_j[8];
+    const jg_real t281 = A_i[8] * C_j[8];
+    const jg_real t282 = s_j[2] * A_i[8];
+    const jg_real t283 = s_j[2] * A_i[5];
+    const jg_real t284 = A_i[5] * C_j[2];
+    const jg_real t285 = A_i[8] * C_j[2];
+    const jg_real t286 = A_i[5] * C_j[5];
+    const jg_real t287 = A_i[8] * C_j[5];
+    jac_phi_q_t_lambda_A_j[64] = lambda[1] * t282 - lambda[2] * t283 - (t280 * g_star_2 - t281 * g_star_1) *
+        lambda[3] - (h_star_2 * t284 - h_star_1 * t285) * lambda[4] - (t286 * f_star_2 - t287 * f_star_1) *
         lambda[5];
-    const jg_real t295 = A_i[1] * C_j[7];
-    const jg_real t296 = s_j[1] * A_i[1];
-    const jg_real t297 = A_i[1] * C_j[1];
-    const jg_real t298 = A_i[1] * C_j[4];
-    jac_phi_q_t_lambda_A_j[33] = lambda[2] * t296 - lambda[0] * t289 - lambda[3] * (t288 * g_star_0 - g_star_2 *
-        t295) - lambda[4] * (t292 * h_star_0 - h_star_2 * t297) - lambda[5] * (t294 * f_star_0 - f_star_2 * t298);
-    jac_phi_q_t_lambda_A_j[34] = lambda[0] * t290 - lambda[1] * t296 - lambda[3] * (g_star_1 * t295 - t287 *
-        g_star_0) - lambda[4] * (h_star_1 * t297 - t291 * h_star_0) - lambda[5] * (f_star_1 * t298 - t293 *
+    const jg_real t288 = C_j[8] * A_i[2];
+    const jg_real t289 = s_j[2] * A_i[2];
+    const jg_real t290 = C_j[2] * A_i[2];
+    const jg_real t291 = C_j[5] * A_i[2];
+    jac_phi_q_t_lambda_A_j[65] = lambda[2] * t289 - lambda[0] * t282 - lambda[3] * (t281 * g_star_0 - g_star_2 *
+        t288) - lambda[4] * (t285 * h_star_0 - h_star_2 * t290) - lambda[5] * (t287 * f_star_0 - f_star_2 * t291);
+    jac_phi_q_t_lambda_A_j[66] = lambda[0] * t283 - lambda[1] * t289 - lambda[3] * (g_star_1 * t288 - t280 *
+        g_star_0) - lambda[4] * (h_star_1 * t290 - t284 * h_star_0) - lambda[5] * (f_star_1 * t291 - t286 *
         f_star_0);
-    jac_phi_q_t_lambda_A_j[36] = -t254;
-    const jg_real t299 = C_j[6] * t251 * lambda[3] + C_j[0] * t252 * lambda[4] + C_j[3] * t253 * lambda[5] + s_j[0]
-        * t250;
-    jac_phi_q_t_lambda_A_j[37] = t299;
-    jac_phi_q_t_lambda_A_j[38] = lambda[5] * (t298 * t58 + t293 * t137 + t294 * t189) + lambda[4] * (t297 * f_star_0
-        + t291 * f_star_1 + t292 * f_star_2) * sine_1 - lambda[3] * (t295 * f_star_0 + t287 * f_star_1 + t288 *
+    jac_phi_q_t_lambda_A_j[69] = -t255;
+    jac_phi_q_t_lambda_A_j[70] = lambda[5] * (t291 * t47 + t286 * t99 + t287 * t138) + lambda[4] * (t290 * f_star_0
+        + t284 * f_star_1 + t285 * f_star_2) * sine_1 - lambda[3] * (t288 * f_star_0 + t280 * f_star_1 + t281 *
         f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[39] = lambda[3] * (h_star_0 * t295 + t287 * h_star_1 + h_star_2 * t288) - lambda[4] *
-        (g_star_0 * t297 + g_star_1 * t291 + g_star_2 * t292);
-    const jg_real t300 = A_i[5] * C_j[7];
-    const jg_real t301 = A_i[8] * C_j[7];
-    const jg_real t302 = s_j[1] * A_i[8];
-    const jg_real t303 = s_j[1] * A_i[5];
-    const jg_real t304 = A_i[5] * C_j[1];
-    const jg_real t305 = A_i[8] * C_j[1];
-    const jg_real t306 = A_i[5] * C_j[4];
-    const jg_real t307 = A_i[8] * C_j[4];
-    jac_phi_q_t_lambda_A_j[40] = lambda[1] * t302 - lambda[2] * t303 - (t300 * g_star_2 - t301 * g_star_1) *
-        lambda[3] - (h_star_2 * t304 - h_star_1 * t305) * lambda[4] - (t306 * f_star_2 - t307 * f_star_1) *
-        lambda[5];
-    const jg_real t308 = A_i[2] * C_j[7];
-    const jg_real t309 = s_j[1] * A_i[2];
-    const jg_real t310 = A_i[2] * C_j[1];
-    const jg_real t311 = A_i[2] * C_j[4];
-    jac_phi_q_t_lambda_A_j[41] = lambda[2] * t309 - lambda[0] * t302 - lambda[3] * (t301 * g_star_0 - g_star_2 *
-        t308) - lambda[4] * (t305 * h_star_0 - h_star_2 * t310) - lambda[5] * (t307 * f_star_0 - f_star_2 * t311);
-    jac_phi_q_t_lambda_A_j[42] = lambda[0] * t303 - lambda[1] * t309 - lambda[3] * (g_star_1 * t308 - t300 *
-        g_star_0) - lambda[4] * (h_star_1 * t310 - t304 * h_star_0) - lambda[5] * (f_star_1 * t311 - t306 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[44] = -t272;
-    const jg_real t312 = C_j[6] * t269 * lambda[3] + C_j[0] * t270 * lambda[4] + C_j[3] * t271 * lambda[5] + s_j[0]
-        * t268;
-    jac_phi_q_t_lambda_A_j[45] = t312;
-    jac_phi_q_t_lambda_A_j[46] = lambda[5] * (t311 * t58 + t306 * t137 + t307 * t189) + lambda[4] * (t310 * f_star_0
-        + t304 * f_star_1 + t305 * f_star_2) * sine_1 - lambda[3] * (t308 * f_star_0 + t300 * f_star_1 + t301 *
-        f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[47] = lambda[3] * (h_star_0 * t308 + t300 * h_star_1 + h_star_2 * t301) - lambda[4] *
-        (g_star_0 * t310 + g_star_1 * t304 + g_star_2 * t305);
-    const jg_real t313 = A_i[3] * C_j[8];
-    const jg_real t314 = A_i[6] * C_j[8];
-    const jg_real t315 = s_j[2] * A_i[6];
-    const jg_real t316 = s_j[2] * A_i[3];
-    const jg_real t317 = A_i[3] * C_j[2];
-    const jg_real t318 = A_i[6] * C_j[2];
-    const jg_real t319 = A_i[3] * C_j[5];
-    const jg_real t320 = A_i[6] * C_j[5];
-    jac_phi_q_t_lambda_A_j[48] = lambda[1] * t315 - lambda[2] * t316 - (t313 * g_star_2 - t314 * g_star_1) *
-        lambda[3] - (h_star_2 * t317 - h_star_1 * t318) * lambda[4] - (t319 * f_star_2 - t320 * f_star_1) *
-        lambda[5];
-    const jg_real t321 = A_i[0] * C_j[8];
-    const jg_real t322 = s_j[2] * A_i[0];
-    const jg_real t323 = A_i[0] * C_j[2];
-    const jg_real t324 = A_i[0] * C_j[5];
-    jac_phi_q_t_lambda_A_j[49] = lambda[2] * t322 - lambda[0] * t315 - lambda[3] * (t314 * g_star_0 - g_star_2 *
-        t321) - lambda[4] * (t318 * h_star_0 - h_star_2 * t323) - lambda[5] * (t320 * f_star_0 - f_star_2 * t324);
-    jac_phi_q_t_lambda_A_j[50] = lambda[0] * t316 - lambda[1] * t322 - lambda[3] * (g_star_1 * t321 - t313 *
-        g_star_0) - lambda[4] * (h_star_1 * t323 - t317 * h_star_0) - lambda[5] * (f_star_1 * t324 - t319 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[53] = -t286;
-    jac_phi_q_t_lambda_A_j[54] = lambda[5] * (t324 * t58 + t319 * t137 + t320 * t189) + lambda[4] * (t323 * f_star_0
-        + t317 * f_star_1 + t318 * f_star_2) * sine_1 - lambda[3] * (t321 * f_star_0 + t313 * f_star_1 + t314 *
-        f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[55] = lambda[3] * (h_star_0 * t321 + t313 * h_star_1 + h_star_2 * t314) - lambda[4] *
-        (g_star_0 * t323 + g_star_1 * t317 + g_star_2 * t318);
-    const jg_real t325 = A_i[4] * C_j[8];
-    const jg_real t326 = A_i[7] * C_j[8];
-    const jg_real t327 = s_j[2] * A_i[7];
-    const jg_real t328 = s_j[2] * A_i[4];
-    const jg_real t329 = A_i[4] * C_j[2];
-    const jg_real t330 = A_i[7] * C_j[2];
-    const jg_real t331 = A_i[4] * C_j[5];
-    const jg_real t332 = A_i[7] * C_j[5];
-    jac_phi_q_t_lambda_A_j[56] = lambda[1] * t327 - lambda[2] * t328 - (t325 * g_star_2 - t326 * g_star_1) *
-        lambda[3] - (h_star_2 * t329 - h_star_1 * t330) * lambda[4] - (t331 * f_star_2 - t332 * f_star_1) *
-        lambda[5];
-    const jg_real t333 = A_i[1] * C_j[8];
-    const jg_real t334 = s_j[2] * A_i[1];
-    const jg_real t335 = A_i[1] * C_j[2];
-    const jg_real t336 = A_i[1] * C_j[5];
-    jac_phi_q_t_lambda_A_j[57] = lambda[2] * t334 - lambda[0] * t327 - lambda[3] * (t326 * g_star_0 - g_star_2 *
-        t333) - lambda[4] * (t330 * h_star_0 - h_star_2 * t335) - lambda[5] * (t332 * f_star_0 - f_star_2 * t336);
-    jac_phi_q_t_lambda_A_j[58] = lambda[0] * t328 - lambda[1] * t334 - lambda[3] * (g_star_1 * t333 - t325 *
-        g_star_0) - lambda[4] * (h_star_1 * t335 - t329 * h_star_0) - lambda[5] * (f_star_1 * t336 - t331 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[61] = -t299;
-    jac_phi_q_t_lambda_A_j[62] = lambda[5] * (t336 * t58 + t331 * t137 + t332 * t189) + lambda[4] * (t335 * f_star_0
-        + t329 * f_star_1 + t330 * f_star_2) * sine_1 - lambda[3] * (t333 * f_star_0 + t325 * f_star_1 + t326 *
-        f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[63] = lambda[3] * (h_star_0 * t333 + t325 * h_star_1 + h_star_2 * t326) - lambda[4] *
-        (g_star_0 * t335 + g_star_1 * t329 + g_star_2 * t330);
-    const jg_real t337 = A_i[5] * C_j[8];
-    const jg_real t338 = A_i[8] * C_j[8];
-    const jg_real t339 = s_j[2] * A_i[8];
-    const jg_real t340 = s_j[2] * A_i[5];
-    const jg_real t341 = A_i[5] * C_j[2];
-    const jg_real t342 = A_i[8] * C_j[2];
-    const jg_real t343 = A_i[5] * C_j[5];
-    const jg_real t344 = A_i[8] * C_j[5];
-    jac_phi_q_t_lambda_A_j[64] = lambda[1] * t339 - lambda[2] * t340 - (t337 * g_star_2 - t338 * g_star_1) *
-        lambda[3] - (h_star_2 * t341 - h_star_1 * t342) * lambda[4] - (t343 * f_star_2 - t344 * f_star_1) *
-        lambda[5];
-    const jg_real t345 = A_i[2] * C_j[8];
-    const jg_real t346 = s_j[2] * A_i[2];
-    const jg_real t347 = A_i[2] * C_j[2];
-    const jg_real t348 = A_i[2] * C_j[5];
-    jac_phi_q_t_lambda_A_j[65] = lambda[2] * t346 - lambda[0] * t339 - lambda[3] * (t338 * g_star_0 - g_star_2 *
-        t345) - lambda[4] * (t342 * h_star_0 - h_star_2 * t347) - lambda[5] * (t344 * f_star_0 - f_star_2 * t348);
-    jac_phi_q_t_lambda_A_j[66] = lambda[0] * t340 - lambda[1] * t346 - lambda[3] * (g_star_1 * t345 - t337 *
-        g_star_0) - lambda[4] * (h_star_1 * t347 - t341 * h_star_0) - lambda[5] * (f_star_1 * t348 - t343 *
-        f_star_0);
-    jac_phi_q_t_lambda_A_j[69] = -t312;
-    jac_phi_q_t_lambda_A_j[70] = lambda[5] * (t348 * t58 + t343 * t137 + t344 * t189) + lambda[4] * (t347 * f_star_0
-        + t341 * f_star_1 + t342 * f_star_2) * sine_1 - lambda[3] * (t345 * f_star_0 + t337 * f_star_1 + t338 *
-        f_star_2) * cosine_1;
-    jac_phi_q_t_lambda_A_j[71] = lambda[3] * (h_star_0 * t345 + t337 * h_star_1 + h_star_2 * t338) - lambda[4] *
-        (g_star_0 * t347 + g_star_1 * t341 + g_star_2 * t342);
+    jac_phi_q_t_lambda_A_j[71] = lambda[3] * (h_star_0 * t288 + t280 * h_star_1 + h_star_2 * t281) - lambda[4] *
+        (g_star_0 * t290 + g_star_1 * t284 + g_star_2 * t285);
     /* A_ij = A_i^T A_j */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_q_t_lambda_lambda[21] = A_ij_2;
@@ -1776,7 +1672,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_lambda[23] = A_ij_8;
     /* A_ij_h_j = A_ij h_j */
     const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t353 = t17 * C_i[4] + H_4 * C_i[1];
+    const jg_real t296 = t15 * C_i[4] + H_4 * C_i[1];
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_q_t_lambda_lambda[12] = A_ij_1;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
@@ -1784,19 +1680,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_q_t_lambda_lambda[14] = A_ij_7;
     const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t358 = t17 * C_i[5] + H_4 * C_i[2];
+    const jg_real t301 = t15 * C_i[5] + H_4 * C_i[2];
     /* A_ij_f_j = A_ij f_j */
     const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real t360 = t28 * C_i[2] + C_i[5] * H_6;
+    const jg_real t303 = t20 * C_i[2] + C_i[5] * H_6;
     const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real t362 = t28 * C_i[1] + H_6 * C_i[4];
+    const jg_real t305 = t20 * C_i[1] + H_6 * C_i[4];
     /* A_ij_g_j = A_ij g_j */
     const jg_real A_ij_g_j_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real t364 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t307 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     const jg_real A_ij_g_j_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real t366 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    jac_phi_q_t_lambda_alpha[0] = -((A_ij_h_j_2 * t353 - A_ij_h_j_1 * t358) * lambda[3] + (A_ij_f_j_1 * t360 -
-        A_ij_f_j_2 * t362) * lambda[4] + (A_ij_g_j_1 * t364 - A_ij_g_j_2 * t366) * lambda[5]);
+    const jg_real t309 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    jac_phi_q_t_lambda_alpha[0] = -((A_ij_h_j_2 * t296 - A_ij_h_j_1 * t301) * lambda[3] + (A_ij_f_j_1 * t303 -
+        A_ij_f_j_2 * t305) * lambda[4] + (A_ij_g_j_1 * t307 - A_ij_g_j_2 * t309) * lambda[5]);
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_ij_0;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
@@ -1804,36 +1700,36 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_q_t_lambda_lambda[5] = A_ij_6;
     const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    const jg_real t371 = t17 * C_i[3] + H_4 * C_i[0];
-    const jg_real t372 = t28 * C_i[0] + H_6 * C_i[3];
+    const jg_real t314 = t15 * C_i[3] + H_4 * C_i[0];
+    const jg_real t315 = t20 * C_i[0] + H_6 * C_i[3];
     const jg_real A_ij_f_j_0 = C_j[0] * A_ij_0 + C_j[1] * A_ij_3 + C_j[2] * A_ij_6;
-    const jg_real t374 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t317 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real A_ij_g_j_0 = C_j[3] * A_ij_0 + C_j[4] * A_ij_3 + C_j[5] * A_ij_6;
-    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * (t358 * A_ij_h_j_0 - A_ij_h_j_2 * t371) + lambda[4] * (A_ij_f_j_2 *
-        t372 - t360 * A_ij_f_j_0) + lambda[5] * (A_ij_g_j_2 * t374 - t364 * A_ij_g_j_0));
-    jac_phi_q_t_lambda_alpha[2] = -(lambda[3] * (A_ij_h_j_1 * t371 - t353 * A_ij_h_j_0) + lambda[4] * (t362 *
-        A_ij_f_j_0 - A_ij_f_j_1 * t372) + lambda[5] * (t366 * A_ij_g_j_0 - A_ij_g_j_1 * t374));
-    const jg_real t376 = A_ij_3 * t371 + A_ij_4 * t353 + A_ij_5 * t358;
-    const jg_real t377 = A_ij_6 * t371 + A_ij_7 * t353 + A_ij_8 * t358;
-    const jg_real t378 = A_ij_6 * t372 + A_ij_7 * t362 + A_ij_8 * t360;
-    const jg_real t379 = A_ij_3 * t372 + A_ij_4 * t362 + A_ij_5 * t360;
-    const jg_real t380 = A_ij_6 * t374 + A_ij_7 * t366 + A_ij_8 * t364;
-    const jg_real t381 = A_ij_3 * t374 + A_ij_4 * t366 + A_ij_5 * t364;
-    jac_phi_q_t_lambda_alpha[3] = lambda[3] * (C_j[8] * t376 - C_j[7] * t377) + lambda[4] * (C_j[1] * t378 - C_j[2]
-        * t379) + lambda[5] * (C_j[4] * t380 - C_j[5] * t381);
-    const jg_real t382 = A_ij_0 * t371 + A_ij_1 * t353 + A_ij_2 * t358;
-    const jg_real t383 = A_ij_0 * t372 + A_ij_1 * t362 + A_ij_2 * t360;
-    const jg_real t384 = A_ij_0 * t374 + A_ij_1 * t366 + A_ij_2 * t364;
-    jac_phi_q_t_lambda_alpha[4] = lambda[3] * (C_j[6] * t377 - C_j[8] * t382) + lambda[4] * (C_j[2] * t383 - C_j[0]
-        * t378) + lambda[5] * (C_j[5] * t384 - C_j[3] * t380);
-    jac_phi_q_t_lambda_alpha[5] = lambda[3] * (C_j[7] * t382 - C_j[6] * t376) + lambda[4] * (C_j[0] * t379 - C_j[1]
-        * t383) + lambda[5] * (C_j[3] * t381 - C_j[4] * t384);
-    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * t374 + A_ij_f_j_1 * t366 + A_ij_f_j_2 * t364) * sine_1 -
-        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t57 + C_i[0] * t56) + A_ij_g_j_1 * (C_i[4] * t57 + C_i[1] * t56) +
-        A_ij_g_j_2 * (C_i[5] * t57 + C_i[2] * t56)) - lambda[3] * (A_ij_h_j_0 * t374 + A_ij_h_j_1 * t366 +
-        A_ij_h_j_2 * t364) * cosine_1;
-    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * t372 + A_ij_h_j_1 * t362 + A_ij_h_j_2 * t360) +
-        lambda[4] * (t371 * A_ij_f_j_0 + t353 * A_ij_f_j_1 + t358 * A_ij_f_j_2);
+    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * (t301 * A_ij_h_j_0 - A_ij_h_j_2 * t314) + lambda[4] * (A_ij_f_j_2 *
+        t315 - t303 * A_ij_f_j_0) + lambda[5] * (A_ij_g_j_2 * t317 - t307 * A_ij_g_j_0));
+    jac_phi_q_t_lambda_alpha[2] = -(lambda[3] * (A_ij_h_j_1 * t314 - t296 * A_ij_h_j_0) + lambda[4] * (t305 *
+        A_ij_f_j_0 - A_ij_f_j_1 * t315) + lambda[5] * (t309 * A_ij_g_j_0 - A_ij_g_j_1 * t317));
+    const jg_real t319 = A_ij_3 * t314 + A_ij_4 * t296 + A_ij_5 * t301;
+    const jg_real t320 = A_ij_6 * t314 + A_ij_7 * t296 + A_ij_8 * t301;
+    const jg_real t321 = A_ij_6 * t315 + A_ij_7 * t305 + A_ij_8 * t303;
+    const jg_real t322 = A_ij_3 * t315 + A_ij_4 * t305 + A_ij_5 * t303;
+    const jg_real t323 = A_ij_6 * t317 + A_ij_7 * t309 + A_ij_8 * t307;
+    const jg_real t324 = A_ij_3 * t317 + A_ij_4 * t309 + A_ij_5 * t307;
+    jac_phi_q_t_lambda_alpha[3] = lambda[3] * (C_j[8] * t319 - C_j[7] * t320) + lambda[4] * (C_j[1] * t321 - C_j[2]
+        * t322) + lambda[5] * (C_j[4] * t323 - C_j[5] * t324);
+    const jg_real t325 = A_ij_0 * t314 + A_ij_1 * t296 + A_ij_2 * t301;
+    const jg_real t326 = A_ij_0 * t315 + A_ij_1 * t305 + A_ij_2 * t303;
+    const jg_real t327 = A_ij_0 * t317 + A_ij_1 * t309 + A_ij_2 * t307;
+    jac_phi_q_t_lambda_alpha[4] = lambda[3] * (C_j[6] * t320 - C_j[8] * t325) + lambda[4] * (C_j[2] * t326 - C_j[0]
+        * t321) + lambda[5] * (C_j[5] * t327 - C_j[3] * t323);
+    jac_phi_q_t_lambda_alpha[5] = lambda[3] * (C_j[7] * t325 - C_j[6] * t319) + lambda[4] * (C_j[0] * t322 - C_j[1]
+        * t326) + lambda[5] * (C_j[3] * t324 - C_j[4] * t327);
+    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (A_ij_f_j_0 * t317 + A_ij_f_j_1 * t309 + A_ij_f_j_2 * t307) * sine_1 -
+        lambda[5] * (A_ij_g_j_0 * (C_i[3] * t46 + C_i[0] * t45) + A_ij_g_j_1 * (C_i[4] * t46 + C_i[1] * t45) +
+        A_ij_g_j_2 * (C_i[5] * t46 + C_i[2] * t45)) - lambda[3] * (A_ij_h_j_0 * t317 + A_ij_h_j_1 * t309 +
+        A_ij_h_j_2 * t307) * cosine_1;
+    jac_phi_q_t_lambda_alpha[7] = lambda[3] * (A_ij_h_j_0 * t315 + A_ij_h_j_1 * t305 + A_ij_h_j_2 * t303) +
+        lambda[4] * (t314 * A_ij_f_j_0 + t296 * A_ij_f_j_1 + t301 * A_ij_f_j_2);
     jac_phi_q_t_lambda_alpha[8] = -((A_ij_h_j_1 * h_star_2 - A_ij_h_j_2 * h_star_1) * lambda[3] + (g_star_1 *
         A_ij_f_j_2 - g_star_2 * A_ij_f_j_1) * lambda[4]);
     jac_phi_q_t_lambda_alpha[9] = -(lambda[3] * (A_ij_h_j_2 * h_star_0 - h_star_2 * A_ij_h_j_0) + lambda[4] *
@@ -1854,322 +1750,301 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
         (C_j[0] * A_ijt_g_star_2 - C_j[2] * A_ijt_g_star_0);
     jac_phi_q_t_lambda_alpha[13] = lambda[3] * (C_j[6] * A_ijt_h_star_1 - C_j[7] * A_ijt_h_star_0) + lambda[4] *
         (C_j[1] * A_ijt_g_star_0 - C_j[0] * A_ijt_g_star_1);
-    const jg_real t391 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
-    const jg_real t392 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
-    jac_phi_q_t_lambda_alpha[14] = lambda[4] * t391 * cosine_1 + lambda[3] * t392 * sine_1;
+    const jg_real t334 = A_ij_f_j_0 * f_star_0 + A_ij_f_j_1 * f_star_1 + A_ij_f_j_2 * f_star_2;
+    const jg_real t335 = A_ij_h_j_0 * f_star_0 + A_ij_h_j_1 * f_star_1 + A_ij_h_j_2 * f_star_2;
+    jac_phi_q_t_lambda_alpha[14] = lambda[4] * t334 * cosine_1 + lambda[3] * t335 * sine_1;
     jac_phi_q_t_lambda_alpha[15] = -(lambda[3] * (g_star_0 * A_ij_h_j_0 + A_ij_h_j_1 * g_star_1 + g_star_2 *
         A_ij_h_j_2) + lambda[4] * (h_star_0 * A_ij_f_j_0 + h_star_1 * A_ij_f_j_1 + h_star_2 * A_ij_f_j_2));
-    const jg_real t393 = A_i[0] * A_i[3] + A_i[1] * A_i[4] + A_i[2] * A_i[5];
-    const jg_real t394 = lambda[2] * t393;
-    const jg_real t395 = A_i[0] * A_i[6] + A_i[1] * A_i[7] + A_i[2] * A_i[8];
-    const jg_real t396 = lambda[1] * t395;
-    jac_phi_q_t_lambda_geometry[0] = t394 - t396;
-    const jg_real t397 = JG_REAL(1.0) - (A_i[0] * A_i[0] + A_i[1] * A_i[1] + A_i[2] * A_i[2]);
-    jac_phi_q_t_lambda_geometry[1] = lambda[2] * t397 + lambda[0] * t395;
-    jac_phi_q_t_lambda_geometry[2] = -(lambda[0] * t393 + lambda[1] * t397);
-    const jg_real t398 = A_i[3] * A_i[6] + A_i[4] * A_i[7] + A_i[5] * A_i[8];
-    const jg_real t399 = JG_REAL(1.0) - (A_i[3] * A_i[3] + A_i[4] * A_i[4] + A_i[5] * A_i[5]);
-    jac_phi_q_t_lambda_geometry[3] = -(lambda[1] * t398 + lambda[2] * t399);
-    const jg_real t400 = lambda[0] * t398;
-    jac_phi_q_t_lambda_geometry[4] = t400 - t394;
-    jac_phi_q_t_lambda_geometry[5] = lambda[0] * t399 + lambda[1] * t393;
-    const jg_real t401 = JG_REAL(1.0) - (A_i[6] * A_i[6] + A_i[7] * A_i[7] + A_i[8] * A_i[8]);
-    jac_phi_q_t_lambda_geometry[6] = lambda[1] * t401 + lambda[2] * t398;
-    jac_phi_q_t_lambda_geometry[7] = -(lambda[2] * t395 + lambda[0] * t401);
-    jac_phi_q_t_lambda_geometry[8] = t396 - t400;
-    const jg_real t402 = H_6 * A_ij_f_j_2 * lambda[4] - t17 * A_ij_h_j_2 * lambda[3] + cosine_0 * A_ij_g_j_2 *
+    const jg_real t336 = H_6 * A_ij_f_j_2 * lambda[4] - t15 * A_ij_h_j_2 * lambda[3] + cosine_0 * A_ij_g_j_2 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[16] = t402;
-    jac_phi_q_t_lambda_geometry[9] = -t402;
-    const jg_real t403 = A_ij_h_j_1 * t17 * lambda[3] - H_6 * A_ij_f_j_1 * lambda[4] - cosine_0 * A_ij_g_j_1 *
+    jac_phi_q_t_lambda_geometry[7] = t336;
+    jac_phi_q_t_lambda_geometry[0] = -t336;
+    const jg_real t337 = A_ij_h_j_1 * t15 * lambda[3] - H_6 * A_ij_f_j_1 * lambda[4] - cosine_0 * A_ij_g_j_1 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[23] = t403;
-    jac_phi_q_t_lambda_geometry[10] = -t403;
-    const jg_real t404 = t17 * A_ij_3;
-    const jg_real t405 = t17 * A_ij_6;
-    const jg_real t406 = H_6 * A_ij_6;
-    const jg_real t407 = H_6 * A_ij_3;
-    const jg_real t408 = cosine_0 * A_ij_6;
-    const jg_real t409 = cosine_0 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[11] = lambda[3] * (C_j[8] * t404 - C_j[7] * t405) + lambda[4] * (C_j[1] * t406 -
-        C_j[2] * t407) + lambda[5] * (C_j[4] * t408 - C_j[5] * t409);
-    const jg_real t410 = t17 * A_ij_0;
-    const jg_real t411 = H_6 * A_ij_0;
-    const jg_real t412 = cosine_0 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[12] = lambda[3] * (C_j[6] * t405 - C_j[8] * t410) + lambda[4] * (C_j[2] * t411 -
-        C_j[0] * t406) + lambda[5] * (C_j[5] * t412 - C_j[3] * t408);
-    jac_phi_q_t_lambda_geometry[13] = lambda[3] * (C_j[7] * t410 - C_j[6] * t404) + lambda[4] * (C_j[0] * t407 -
-        C_j[1] * t411) + lambda[5] * (C_j[3] * t409 - C_j[4] * t412);
-    jac_phi_q_t_lambda_geometry[14] = cosine_0 * A_ij_f_j_0 * lambda[4] * sine_1 - A_ij_g_j_0 * t57 * lambda[5] -
+    jac_phi_q_t_lambda_geometry[14] = t337;
+    jac_phi_q_t_lambda_geometry[1] = -t337;
+    const jg_real t338 = t15 * A_ij_3;
+    const jg_real t339 = t15 * A_ij_6;
+    const jg_real t340 = H_6 * A_ij_6;
+    const jg_real t341 = H_6 * A_ij_3;
+    const jg_real t342 = cosine_0 * A_ij_6;
+    const jg_real t343 = cosine_0 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[2] = lambda[3] * (C_j[8] * t338 - C_j[7] * t339) + lambda[4] * (C_j[1] * t340 -
+        C_j[2] * t341) + lambda[5] * (C_j[4] * t342 - C_j[5] * t343);
+    const jg_real t344 = t15 * A_ij_0;
+    const jg_real t345 = H_6 * A_ij_0;
+    const jg_real t346 = cosine_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[3] = lambda[3] * (C_j[6] * t339 - C_j[8] * t344) + lambda[4] * (C_j[2] * t345 -
+        C_j[0] * t340) + lambda[5] * (C_j[5] * t346 - C_j[3] * t342);
+    jac_phi_q_t_lambda_geometry[4] = lambda[3] * (C_j[7] * t344 - C_j[6] * t338) + lambda[4] * (C_j[0] * t341 -
+        C_j[1] * t345) + lambda[5] * (C_j[3] * t343 - C_j[4] * t346);
+    jac_phi_q_t_lambda_geometry[5] = cosine_0 * A_ij_f_j_0 * lambda[4] * sine_1 - A_ij_g_j_0 * t46 * lambda[5] -
         cosine_0 * A_ij_h_j_0 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[15] = H_6 * A_ij_h_j_0 * lambda[3] + t17 * A_ij_f_j_0 * lambda[4];
-    const jg_real t413 = H_6 * A_ij_f_j_0 * lambda[4] - t17 * A_ij_h_j_0 * lambda[3] + cosine_0 * A_ij_g_j_0 *
+    jac_phi_q_t_lambda_geometry[6] = H_6 * A_ij_h_j_0 * lambda[3] + t15 * A_ij_f_j_0 * lambda[4];
+    const jg_real t347 = H_6 * A_ij_f_j_0 * lambda[4] - t15 * A_ij_h_j_0 * lambda[3] + cosine_0 * A_ij_g_j_0 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[24] = t413;
-    jac_phi_q_t_lambda_geometry[17] = -t413;
-    const jg_real t414 = A_ij_4 * t17;
-    const jg_real t415 = A_ij_7 * t17;
-    const jg_real t416 = A_ij_7 * H_6;
-    const jg_real t417 = A_ij_4 * H_6;
-    const jg_real t418 = A_ij_7 * cosine_0;
-    const jg_real t419 = A_ij_4 * cosine_0;
-    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[8] * t414 - C_j[7] * t415) + lambda[4] * (C_j[1] * t416 -
-        C_j[2] * t417) + lambda[5] * (C_j[4] * t418 - C_j[5] * t419);
-    const jg_real t420 = A_ij_1 * t17;
-    const jg_real t421 = A_ij_1 * H_6;
-    const jg_real t422 = A_ij_1 * cosine_0;
-    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[6] * t415 - C_j[8] * t420) + lambda[4] * (C_j[2] * t421 -
-        C_j[0] * t416) + lambda[5] * (C_j[5] * t422 - C_j[3] * t418);
-    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[7] * t420 - C_j[6] * t414) + lambda[4] * (C_j[0] * t417 -
-        C_j[1] * t421) + lambda[5] * (C_j[3] * t419 - C_j[4] * t422);
-    jac_phi_q_t_lambda_geometry[21] = cosine_0 * A_ij_f_j_1 * lambda[4] * sine_1 - A_ij_g_j_1 * t57 * lambda[5] -
+    jac_phi_q_t_lambda_geometry[15] = t347;
+    jac_phi_q_t_lambda_geometry[8] = -t347;
+    const jg_real t348 = A_ij_4 * t15;
+    const jg_real t349 = A_ij_7 * t15;
+    const jg_real t350 = A_ij_7 * H_6;
+    const jg_real t351 = A_ij_4 * H_6;
+    const jg_real t352 = A_ij_7 * cosine_0;
+    const jg_real t353 = A_ij_4 * cosine_0;
+    jac_phi_q_t_lambda_geometry[9] = lambda[3] * (C_j[8] * t348 - C_j[7] * t349) + lambda[4] * (C_j[1] * t350 -
+        C_j[2] * t351) + lambda[5] * (C_j[4] * t352 - C_j[5] * t353);
+    const jg_real t354 = A_ij_1 * t15;
+    const jg_real t355 = A_ij_1 * H_6;
+    const jg_real t356 = A_ij_1 * cosine_0;
+    jac_phi_q_t_lambda_geometry[10] = lambda[3] * (C_j[6] * t349 - C_j[8] * t354) + lambda[4] * (C_j[2] * t355 -
+        C_j[0] * t350) + lambda[5] * (C_j[5] * t356 - C_j[3] * t352);
+    jac_phi_q_t_lambda_geometry[11] = lambda[3] * (C_j[7] * t354 - C_j[6] * t348) + lambda[4] * (C_j[0] * t351 -
+        C_j[1] * t355) + lambda[5] * (C_j[3] * t353 - C_j[4] * t356);
+    jac_phi_q_t_lambda_geometry[12] = cosine_0 * A_ij_f_j_1 * lambda[4] * sine_1 - A_ij_g_j_1 * t46 * lambda[5] -
         A_ij_h_j_1 * cosine_0 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[22] = A_ij_h_j_1 * H_6 * lambda[3] + t17 * A_ij_f_j_1 * lambda[4];
-    const jg_real t423 = A_ij_5 * t17;
-    const jg_real t424 = A_ij_8 * t17;
-    const jg_real t425 = A_ij_8 * H_6;
-    const jg_real t426 = A_ij_5 * H_6;
-    const jg_real t427 = A_ij_8 * cosine_0;
-    const jg_real t428 = A_ij_5 * cosine_0;
-    jac_phi_q_t_lambda_geometry[25] = lambda[3] * (C_j[8] * t423 - C_j[7] * t424) + lambda[4] * (C_j[1] * t425 -
-        C_j[2] * t426) + lambda[5] * (C_j[4] * t427 - C_j[5] * t428);
-    const jg_real t429 = A_ij_2 * t17;
-    const jg_real t430 = A_ij_2 * H_6;
-    const jg_real t431 = A_ij_2 * cosine_0;
-    jac_phi_q_t_lambda_geometry[26] = lambda[3] * (C_j[6] * t424 - C_j[8] * t429) + lambda[4] * (C_j[2] * t430 -
-        C_j[0] * t425) + lambda[5] * (C_j[5] * t431 - C_j[3] * t427);
-    jac_phi_q_t_lambda_geometry[27] = lambda[3] * (C_j[7] * t429 - C_j[6] * t423) + lambda[4] * (C_j[0] * t426 -
-        C_j[1] * t430) + lambda[5] * (C_j[3] * t428 - C_j[4] * t431);
-    jac_phi_q_t_lambda_geometry[28] = cosine_0 * A_ij_f_j_2 * lambda[4] * sine_1 - A_ij_g_j_2 * t57 * lambda[5] -
+    jac_phi_q_t_lambda_geometry[13] = A_ij_h_j_1 * H_6 * lambda[3] + t15 * A_ij_f_j_1 * lambda[4];
+    const jg_real t357 = A_ij_5 * t15;
+    const jg_real t358 = A_ij_8 * t15;
+    const jg_real t359 = A_ij_8 * H_6;
+    const jg_real t360 = A_ij_5 * H_6;
+    const jg_real t361 = A_ij_8 * cosine_0;
+    const jg_real t362 = A_ij_5 * cosine_0;
+    jac_phi_q_t_lambda_geometry[16] = lambda[3] * (C_j[8] * t357 - C_j[7] * t358) + lambda[4] * (C_j[1] * t359 -
+        C_j[2] * t360) + lambda[5] * (C_j[4] * t361 - C_j[5] * t362);
+    const jg_real t363 = A_ij_2 * t15;
+    const jg_real t364 = A_ij_2 * H_6;
+    const jg_real t365 = A_ij_2 * cosine_0;
+    jac_phi_q_t_lambda_geometry[17] = lambda[3] * (C_j[6] * t358 - C_j[8] * t363) + lambda[4] * (C_j[2] * t364 -
+        C_j[0] * t359) + lambda[5] * (C_j[5] * t365 - C_j[3] * t361);
+    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[7] * t363 - C_j[6] * t357) + lambda[4] * (C_j[0] * t360 -
+        C_j[1] * t364) + lambda[5] * (C_j[3] * t362 - C_j[4] * t365);
+    jac_phi_q_t_lambda_geometry[19] = cosine_0 * A_ij_f_j_2 * lambda[4] * sine_1 - A_ij_g_j_2 * t46 * lambda[5] -
         cosine_0 * A_ij_h_j_2 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[29] = H_6 * A_ij_h_j_2 * lambda[3] + t17 * A_ij_f_j_2 * lambda[4];
-    const jg_real t432 = H_4 * A_ij_h_j_2 * lambda[3] - t28 * A_ij_f_j_2 * lambda[4] + sine_0 * A_ij_g_j_2 *
+    jac_phi_q_t_lambda_geometry[20] = H_6 * A_ij_h_j_2 * lambda[3] + t15 * A_ij_f_j_2 * lambda[4];
+    const jg_real t366 = H_4 * A_ij_h_j_2 * lambda[3] - t20 * A_ij_f_j_2 * lambda[4] + sine_0 * A_ij_g_j_2 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[37] = t432;
-    jac_phi_q_t_lambda_geometry[30] = -t432;
-    const jg_real t433 = t28 * A_ij_f_j_1 * lambda[4] - A_ij_h_j_1 * H_4 * lambda[3] - sine_0 * A_ij_g_j_1 *
+    jac_phi_q_t_lambda_geometry[28] = t366;
+    jac_phi_q_t_lambda_geometry[21] = -t366;
+    const jg_real t367 = t20 * A_ij_f_j_1 * lambda[4] - A_ij_h_j_1 * H_4 * lambda[3] - sine_0 * A_ij_g_j_1 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[44] = t433;
-    jac_phi_q_t_lambda_geometry[31] = -t433;
-    const jg_real t434 = H_4 * A_ij_6;
-    const jg_real t435 = H_4 * A_ij_3;
-    const jg_real t436 = t28 * A_ij_3;
-    const jg_real t437 = t28 * A_ij_6;
-    const jg_real t438 = sine_0 * A_ij_6;
-    const jg_real t439 = sine_0 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[32] = lambda[3] * (C_j[7] * t434 - C_j[8] * t435) + lambda[4] * (C_j[2] * t436 -
-        C_j[1] * t437) + lambda[5] * (C_j[4] * t438 - C_j[5] * t439);
-    const jg_real t440 = H_4 * A_ij_0;
-    const jg_real t441 = t28 * A_ij_0;
-    const jg_real t442 = sine_0 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[33] = lambda[3] * (C_j[8] * t440 - C_j[6] * t434) + lambda[4] * (C_j[0] * t437 -
-        C_j[2] * t441) + lambda[5] * (C_j[5] * t442 - C_j[3] * t438);
-    jac_phi_q_t_lambda_geometry[34] = lambda[3] * (C_j[6] * t435 - C_j[7] * t440) + lambda[4] * (C_j[1] * t441 -
-        C_j[0] * t436) + lambda[5] * (C_j[3] * t439 - C_j[4] * t442);
-    jac_phi_q_t_lambda_geometry[35] = A_ij_g_j_0 * t56 * lambda[5] + sine_0 * A_ij_f_j_0 * lambda[4] * sine_1 -
+    jac_phi_q_t_lambda_geometry[35] = t367;
+    jac_phi_q_t_lambda_geometry[22] = -t367;
+    const jg_real t368 = H_4 * A_ij_6;
+    const jg_real t369 = H_4 * A_ij_3;
+    const jg_real t370 = t20 * A_ij_3;
+    const jg_real t371 = t20 * A_ij_6;
+    const jg_real t372 = sine_0 * A_ij_6;
+    const jg_real t373 = sine_0 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[23] = lambda[3] * (C_j[7] * t368 - C_j[8] * t369) + lambda[4] * (C_j[2] * t370 -
+        C_j[1] * t371) + lambda[5] * (C_j[4] * t372 - C_j[5] * t373);
+    const jg_real t374 = H_4 * A_ij_0;
+    const jg_real t375 = t20 * A_ij_0;
+    const jg_real t376 = sine_0 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[24] = lambda[3] * (C_j[8] * t374 - C_j[6] * t368) + lambda[4] * (C_j[0] * t371 -
+        C_j[2] * t375) + lambda[5] * (C_j[5] * t376 - C_j[3] * t372);
+    jac_phi_q_t_lambda_geometry[25] = lambda[3] * (C_j[6] * t369 - C_j[7] * t374) + lambda[4] * (C_j[1] * t375 -
+        C_j[0] * t370) + lambda[5] * (C_j[3] * t373 - C_j[4] * t376);
+    jac_phi_q_t_lambda_geometry[26] = A_ij_g_j_0 * t45 * lambda[5] + sine_0 * A_ij_f_j_0 * lambda[4] * sine_1 -
         sine_0 * A_ij_h_j_0 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[36] = -(t28 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
-    const jg_real t443 = H_4 * A_ij_h_j_0 * lambda[3] - t28 * A_ij_f_j_0 * lambda[4] + sine_0 * A_ij_g_j_0 *
+    jac_phi_q_t_lambda_geometry[27] = -(t20 * A_ij_h_j_0 * lambda[3] + H_4 * A_ij_f_j_0 * lambda[4]);
+    const jg_real t377 = H_4 * A_ij_h_j_0 * lambda[3] - t20 * A_ij_f_j_0 * lambda[4] + sine_0 * A_ij_g_j_0 *
         lambda[5];
-    jac_phi_q_t_lambda_geometry[45] = t443;
-    jac_phi_q_t_lambda_geometry[38] = -t443;
-    const jg_real t444 = A_ij_7 * H_4;
-    const jg_real t445 = A_ij_4 * H_4;
-    const jg_real t446 = A_ij_4 * t28;
-    const jg_real t447 = A_ij_7 * t28;
-    const jg_real t448 = A_ij_7 * sine_0;
-    const jg_real t449 = A_ij_4 * sine_0;
-    jac_phi_q_t_lambda_geometry[39] = lambda[3] * (C_j[7] * t444 - C_j[8] * t445) + lambda[4] * (C_j[2] * t446 -
-        C_j[1] * t447) + lambda[5] * (C_j[4] * t448 - C_j[5] * t449);
-    const jg_real t450 = A_ij_1 * H_4;
-    const jg_real t451 = A_ij_1 * t28;
-    const jg_real t452 = A_ij_1 * sine_0;
-    jac_phi_q_t_lambda_geometry[40] = lambda[3] * (C_j[8] * t450 - C_j[6] * t444) + lambda[4] * (C_j[0] * t447 -
-        C_j[2] * t451) + lambda[5] * (C_j[5] * t452 - C_j[3] * t448);
-    jac_phi_q_t_lambda_geometry[41] = lambda[3] * (C_j[6] * t445 - C_j[7] * t450) + lambda[4] * (C_j[1] * t451 -
-        C_j[0] * t446) + lambda[5] * (C_j[3] * t449 - C_j[4] * t452);
-    jac_phi_q_t_lambda_geometry[42] = A_ij_g_j_1 * t56 * lambda[5] + sine_0 * A_ij_f_j_1 * lambda[4] * sine_1 -
+    jac_phi_q_t_lambda_geometry[36] = t377;
+    jac_phi_q_t_lambda_geometry[29] = -t377;
+    const jg_real t378 = A_ij_7 * H_4;
+    const jg_real t379 = A_ij_4 * H_4;
+    const jg_real t380 = A_ij_4 * t20;
+    const jg_real t381 = A_ij_7 * t20;
+    const jg_real t382 = A_ij_7 * sine_0;
+    const jg_real t383 = A_ij_4 * sine_0;
+    jac_phi_q_t_lambda_geometry[30] = lambda[3] * (C_j[7] * t378 - C_j[8] * t379) + lambda[4] * (C_j[2] * t380 -
+        C_j[1] * t381) + lambda[5] * (C_j[4] * t382 - C_j[5] * t383);
+    const jg_real t384 = A_ij_1 * H_4;
+    const jg_real t385 = A_ij_1 * t20;
+    const jg_real t386 = A_ij_1 * sine_0;
+    jac_phi_q_t_lambda_geometry[31] = lambda[3] * (C_j[8] * t384 - C_j[6] * t378) + lambda[4] * (C_j[0] * t381 -
+        C_j[2] * t385) + lambda[5] * (C_j[5] * t386 - C_j[3] * t382);
+    jac_phi_q_t_lambda_geometry[32] = lambda[3] * (C_j[6] * t379 - C_j[7] * t384) + lambda[4] * (C_j[1] * t385 -
+        C_j[0] * t380) + lambda[5] * (C_j[3] * t383 - C_j[4] * t386);
+    jac_phi_q_t_lambda_geometry[33] = A_ij_g_j_1 * t45 * lambda[5] + sine_0 * A_ij_f_j_1 * lambda[4] * sine_1 -
         A_ij_h_j_1 * sine_0 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[43] = -(A_ij_h_j_1 * t28 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
-    const jg_real t453 = A_ij_8 * H_4;
-    const jg_real t454 = A_ij_5 * H_4;
-    const jg_real t455 = A_ij_5 * t28;
-    const jg_real t456 = A_ij_8 * t28;
-    const jg_real t457 = A_ij_8 * sine_0;
-    const jg_real t458 = A_ij_5 * sine_0;
-    jac_phi_q_t_lambda_geometry[46] = lambda[3] * (C_j[7] * t453 - C_j[8] * t454) + lambda[4] * (C_j[2] * t455 -
-        C_j[1] * t456) + lambda[5] * (C_j[4] * t457 - C_j[5] * t458);
-    const jg_real t459 = A_ij_2 * H_4;
-    const jg_real t460 = A_ij_2 * t28;
-    const jg_real t461 = A_ij_2 * sine_0;
-    jac_phi_q_t_lambda_geometry[47] = lambda[3] * (C_j[8] * t459 - C_j[6] * t453) + lambda[4] * (C_j[0] * t456 -
-        C_j[2] * t460) + lambda[5] * (C_j[5] * t461 - C_j[3] * t457);
-    jac_phi_q_t_lambda_geometry[48] = lambda[3] * (C_j[6] * t454 - C_j[7] * t459) + lambda[4] * (C_j[1] * t460 -
-        C_j[0] * t455) + lambda[5] * (C_j[3] * t458 - C_j[4] * t461);
-    jac_phi_q_t_lambda_geometry[49] = A_ij_g_j_2 * t56 * lambda[5] + sine_0 * A_ij_f_j_2 * lambda[4] * sine_1 -
+    jac_phi_q_t_lambda_geometry[34] = -(A_ij_h_j_1 * t20 * lambda[3] + H_4 * A_ij_f_j_1 * lambda[4]);
+    const jg_real t387 = A_ij_8 * H_4;
+    const jg_real t388 = A_ij_5 * H_4;
+    const jg_real t389 = A_ij_5 * t20;
+    const jg_real t390 = A_ij_8 * t20;
+    const jg_real t391 = A_ij_8 * sine_0;
+    const jg_real t392 = A_ij_5 * sine_0;
+    jac_phi_q_t_lambda_geometry[37] = lambda[3] * (C_j[7] * t387 - C_j[8] * t388) + lambda[4] * (C_j[2] * t389 -
+        C_j[1] * t390) + lambda[5] * (C_j[4] * t391 - C_j[5] * t392);
+    const jg_real t393 = A_ij_2 * H_4;
+    const jg_real t394 = A_ij_2 * t20;
+    const jg_real t395 = A_ij_2 * sine_0;
+    jac_phi_q_t_lambda_geometry[38] = lambda[3] * (C_j[8] * t393 - C_j[6] * t387) + lambda[4] * (C_j[0] * t390 -
+        C_j[2] * t394) + lambda[5] * (C_j[5] * t395 - C_j[3] * t391);
+    jac_phi_q_t_lambda_geometry[39] = lambda[3] * (C_j[6] * t388 - C_j[7] * t393) + lambda[4] * (C_j[1] * t394 -
+        C_j[0] * t389) + lambda[5] * (C_j[3] * t392 - C_j[4] * t395);
+    jac_phi_q_t_lambda_geometry[40] = A_ij_g_j_2 * t45 * lambda[5] + sine_0 * A_ij_f_j_2 * lambda[4] * sine_1 -
         sine_0 * A_ij_h_j_2 * lambda[3] * cosine_1;
-    jac_phi_q_t_lambda_geometry[50] = -(t28 * A_ij_h_j_2 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
-    const jg_real t462 = sine_1 * A_ij_h_j_2 * lambda[3] + cosine_1 * A_ij_f_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[57] = t462;
-    jac_phi_q_t_lambda_geometry[51] = -t462;
-    const jg_real t463 = A_ij_h_j_1 * sine_1 * lambda[3] + cosine_1 * A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[52] = t463;
-    const jg_real t464 = sine_1 * A_ij_6;
-    const jg_real t465 = sine_1 * A_ij_3;
-    const jg_real t466 = cosine_1 * A_ij_6;
-    const jg_real t467 = cosine_1 * A_ij_3;
-    jac_phi_q_t_lambda_geometry[53] = lambda[3] * (C_j[7] * t464 - C_j[8] * t465) + lambda[4] * (C_j[1] * t466 -
-        C_j[2] * t467);
-    const jg_real t468 = sine_1 * A_ij_0;
-    const jg_real t469 = cosine_1 * A_ij_0;
-    jac_phi_q_t_lambda_geometry[54] = lambda[3] * (C_j[8] * t468 - C_j[6] * t464) + lambda[4] * (C_j[2] * t469 -
-        C_j[0] * t466);
-    jac_phi_q_t_lambda_geometry[55] = lambda[3] * (C_j[6] * t465 - C_j[7] * t468) + lambda[4] * (C_j[0] * t467 -
-        C_j[1] * t469);
-    jac_phi_q_t_lambda_geometry[56] = cosine_1 * A_ij_h_j_0 * lambda[3] - sine_1 * A_ij_f_j_0 * lambda[4];
-    const jg_real t470 = sine_1 * A_ij_h_j_0 * lambda[3] + cosine_1 * A_ij_f_j_0 * lambda[4];
-    jac_phi_q_t_lambda_geometry[64] = t470;
-    jac_phi_q_t_lambda_geometry[58] = -t470;
-    const jg_real t471 = A_ij_7 * sine_1;
-    const jg_real t472 = A_ij_4 * sine_1;
-    const jg_real t473 = A_ij_7 * cosine_1;
-    const jg_real t474 = A_ij_4 * cosine_1;
-    jac_phi_q_t_lambda_geometry[59] = lambda[3] * (C_j[7] * t471 - C_j[8] * t472) + lambda[4] * (C_j[1] * t473 -
-        C_j[2] * t474);
-    const jg_real t475 = A_ij_1 * sine_1;
-    const jg_real t476 = A_ij_1 * cosine_1;
-    jac_phi_q_t_lambda_geometry[60] = lambda[3] * (C_j[8] * t475 - C_j[6] * t471) + lambda[4] * (C_j[2] * t476 -
-        C_j[0] * t473);
-    jac_phi_q_t_lambda_geometry[61] = lambda[3] * (C_j[6] * t472 - C_j[7] * t475) + lambda[4] * (C_j[0] * t474 -
-        C_j[1] * t476);
-    jac_phi_q_t_lambda_geometry[62] = A_ij_h_j_1 * cosine_1 * lambda[3] - sine_1 * A_ij_f_j_1 * lambda[4];
-    jac_phi_q_t_lambda_geometry[63] = -t463;
-    const jg_real t477 = A_ij_8 * sine_1;
-    const jg_real t478 = A_ij_5 * sine_1;
-    const jg_real t479 = A_ij_8 * cosine_1;
-    const jg_real t480 = A_ij_5 * cosine_1;
-    jac_phi_q_t_lambda_geometry[65] = lambda[3] * (C_j[7] * t477 - C_j[8] * t478) + lambda[4] * (C_j[1] * t479 -
-        C_j[2] * t480);
-    const jg_real t481 = A_ij_2 * sine_1;
-    const jg_real t482 = A_ij_2 * cosine_1;
-    jac_phi_q_t_lambda_geometry[66] = lambda[3] * (C_j[8] * t481 - C_j[6] * t477) + lambda[4] * (C_j[2] * t482 -
-        C_j[0] * t479);
-    jac_phi_q_t_lambda_geometry[67] = lambda[3] * (C_j[6] * t478 - C_j[7] * t481) + lambda[4] * (C_j[0] * t480 -
-        C_j[1] * t482);
-    jac_phi_q_t_lambda_geometry[68] = cosine_1 * A_ij_h_j_2 * lambda[3] - sine_1 * A_ij_f_j_2 * lambda[4];
-    jac_phi_q_t_lambda_geometry[69] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    jac_phi_q_t_lambda_geometry[70] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[71] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    const jg_real t483 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[77] = t483;
-    jac_phi_q_t_lambda_geometry[72] = -t483;
-    const jg_real t484 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[73] = t484;
-    jac_phi_q_t_lambda_geometry[74] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    jac_phi_q_t_lambda_geometry[75] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[76] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    const jg_real t485 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[83] = t485;
-    jac_phi_q_t_lambda_geometry[78] = -t485;
-    jac_phi_q_t_lambda_geometry[79] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    jac_phi_q_t_lambda_geometry[80] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[81] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    jac_phi_q_t_lambda_geometry[82] = -t484;
-    jac_phi_q_t_lambda_geometry[84] = -((A_ij_1 * h_star_2 - A_ij_2 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[85] = -(lambda[4] * (A_ij_2 * h_star_0 - h_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[86] = -(lambda[4] * (h_star_1 * A_ij_0 - A_ij_1 * h_star_0));
-    const jg_real t486 = lambda[4] * A_ijt_h_star_2;
-    jac_phi_q_t_lambda_geometry[94] = t486;
-    jac_phi_q_t_lambda_geometry[87] = -t486;
-    const jg_real t487 = lambda[4] * A_ijt_h_star_1;
-    jac_phi_q_t_lambda_geometry[88] = t487;
+    jac_phi_q_t_lambda_geometry[41] = -(t20 * A_ij_h_j_2 * lambda[3] + H_4 * A_ij_f_j_2 * lambda[4]);
+    const jg_real t396 = sine_1 * A_ij_h_j_2 * lambda[3] + cosine_1 * A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[48] = t396;
+    jac_phi_q_t_lambda_geometry[42] = -t396;
+    const jg_real t397 = A_ij_h_j_1 * sine_1 * lambda[3] + cosine_1 * A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[43] = t397;
+    const jg_real t398 = sine_1 * A_ij_6;
+    const jg_real t399 = sine_1 * A_ij_3;
+    const jg_real t400 = cosine_1 * A_ij_6;
+    const jg_real t401 = cosine_1 * A_ij_3;
+    jac_phi_q_t_lambda_geometry[44] = lambda[3] * (C_j[7] * t398 - C_j[8] * t399) + lambda[4] * (C_j[1] * t400 -
+        C_j[2] * t401);
+    const jg_real t402 = sine_1 * A_ij_0;
+    const jg_real t403 = cosine_1 * A_ij_0;
+    jac_phi_q_t_lambda_geometry[45] = lambda[3] * (C_j[8] * t402 - C_j[6] * t398) + lambda[4] * (C_j[2] * t403 -
+        C_j[0] * t400);
+    jac_phi_q_t_lambda_geometry[46] = lambda[3] * (C_j[6] * t399 - C_j[7] * t402) + lambda[4] * (C_j[0] * t401 -
+        C_j[1] * t403);
+    jac_phi_q_t_lambda_geometry[47] = cosine_1 * A_ij_h_j_0 * lambda[3] - sine_1 * A_ij_f_j_0 * lambda[4];
+    const jg_real t404 = sine_1 * A_ij_h_j_0 * lambda[3] + cosine_1 * A_ij_f_j_0 * lambda[4];
+    jac_phi_q_t_lambda_geometry[55] = t404;
+    jac_phi_q_t_lambda_geometry[49] = -t404;
+    const jg_real t405 = A_ij_7 * sine_1;
+    const jg_real t406 = A_ij_4 * sine_1;
+    const jg_real t407 = A_ij_7 * cosine_1;
+    const jg_real t408 = A_ij_4 * cosine_1;
+    jac_phi_q_t_lambda_geometry[50] = lambda[3] * (C_j[7] * t405 - C_j[8] * t406) + lambda[4] * (C_j[1] * t407 -
+        C_j[2] * t408);
+    const jg_real t409 = A_ij_1 * sine_1;
+    const jg_real t410 = A_ij_1 * cosine_1;
+    jac_phi_q_t_lambda_geometry[51] = lambda[3] * (C_j[8] * t409 - C_j[6] * t405) + lambda[4] * (C_j[2] * t410 -
+        C_j[0] * t407);
+    jac_phi_q_t_lambda_geometry[52] = lambda[3] * (C_j[6] * t406 - C_j[7] * t409) + lambda[4] * (C_j[0] * t408 -
+        C_j[1] * t410);
+    jac_phi_q_t_lambda_geometry[53] = A_ij_h_j_1 * cosine_1 * lambda[3] - sine_1 * A_ij_f_j_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[54] = -t397;
+    const jg_real t411 = A_ij_8 * sine_1;
+    const jg_real t412 = A_ij_5 * sine_1;
+    const jg_real t413 = A_ij_8 * cosine_1;
+    const jg_real t414 = A_ij_5 * cosine_1;
+    jac_phi_q_t_lambda_geometry[56] = lambda[3] * (C_j[7] * t411 - C_j[8] * t412) + lambda[4] * (C_j[1] * t413 -
+        C_j[2] * t414);
+    const jg_real t415 = A_ij_2 * sine_1;
+    const jg_real t416 = A_ij_2 * cosine_1;
+    jac_phi_q_t_lambda_geometry[57] = lambda[3] * (C_j[8] * t415 - C_j[6] * t411) + lambda[4] * (C_j[2] * t416 -
+        C_j[0] * t413);
+    jac_phi_q_t_lambda_geometry[58] = lambda[3] * (C_j[6] * t412 - C_j[7] * t415) + lambda[4] * (C_j[0] * t414 -
+        C_j[1] * t416);
+    jac_phi_q_t_lambda_geometry[59] = cosine_1 * A_ij_h_j_2 * lambda[3] - sine_1 * A_ij_f_j_2 * lambda[4];
+    jac_phi_q_t_lambda_geometry[60] = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    jac_phi_q_t_lambda_geometry[61] = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[62] = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t417 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[68] = t417;
+    jac_phi_q_t_lambda_geometry[63] = -t417;
+    const jg_real t418 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[64] = t418;
+    jac_phi_q_t_lambda_geometry[65] = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    jac_phi_q_t_lambda_geometry[66] = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    jac_phi_q_t_lambda_geometry[67] = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real t419 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    jac_phi_q_t_lambda_geometry[74] = t419;
+    jac_phi_q_t_lambda_geometry[69] = -t419;
+    jac_phi_q_t_lambda_geometry[70] = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    jac_phi_q_t_lambda_geometry[71] = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    jac_phi_q_t_lambda_geometry[72] = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
+    jac_phi_q_t_lambda_geometry[73] = -t418;
+    jac_phi_q_t_lambda_geometry[75] = -((A_ij_1 * h_star_2 - A_ij_2 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[76] = -(lambda[4] * (A_ij_2 * h_star_0 - h_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[77] = -(lambda[4] * (h_star_1 * A_ij_0 - A_ij_1 * h_star_0));
+    const jg_real t420 = lambda[4] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[85] = t420;
+    jac_phi_q_t_lambda_geometry[78] = -t420;
+    const jg_real t421 = lambda[4] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[79] = t421;
     /* A_ijt_f_star = A_ij^T f_star */
     const jg_real A_ijt_f_star_0 = A_ij_0 * f_star_0 + A_ij_1 * f_star_1 + A_ij_2 * f_star_2;
-    jac_phi_q_t_lambda_geometry[89] = lambda[4] * A_ijt_f_star_0 * sine_1;
-    jac_phi_q_t_lambda_geometry[90] = -(lambda[4] * A_ijt_g_star_0);
-    jac_phi_q_t_lambda_geometry[91] = -((A_ij_4 * h_star_2 - A_ij_5 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[92] = -(lambda[4] * (A_ij_5 * h_star_0 - h_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[93] = -(lambda[4] * (h_star_1 * A_ij_3 - A_ij_4 * h_star_0));
-    const jg_real t489 = lambda[4] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_geometry[102] = t489;
-    jac_phi_q_t_lambda_geometry[95] = -t489;
+    jac_phi_q_t_lambda_geometry[80] = lambda[4] * A_ijt_f_star_0 * sine_1;
+    jac_phi_q_t_lambda_geometry[81] = -(lambda[4] * A_ijt_g_star_0);
+    jac_phi_q_t_lambda_geometry[82] = -((A_ij_4 * h_star_2 - A_ij_5 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[83] = -(lambda[4] * (A_ij_5 * h_star_0 - h_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[84] = -(lambda[4] * (h_star_1 * A_ij_3 - A_ij_4 * h_star_0));
+    const jg_real t423 = lambda[4] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[93] = t423;
+    jac_phi_q_t_lambda_geometry[86] = -t423;
     const jg_real A_ijt_f_star_1 = A_ij_3 * f_star_0 + A_ij_4 * f_star_1 + A_ij_5 * f_star_2;
-    jac_phi_q_t_lambda_geometry[96] = lambda[4] * A_ijt_f_star_1 * sine_1;
-    jac_phi_q_t_lambda_geometry[97] = -(lambda[4] * A_ijt_g_star_1);
-    jac_phi_q_t_lambda_geometry[98] = -((A_ij_7 * h_star_2 - A_ij_8 * h_star_1) * lambda[4]);
-    jac_phi_q_t_lambda_geometry[99] = -(lambda[4] * (A_ij_8 * h_star_0 - h_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[100] = -(lambda[4] * (h_star_1 * A_ij_6 - A_ij_7 * h_star_0));
-    jac_phi_q_t_lambda_geometry[101] = -t487;
+    jac_phi_q_t_lambda_geometry[87] = lambda[4] * A_ijt_f_star_1 * sine_1;
+    jac_phi_q_t_lambda_geometry[88] = -(lambda[4] * A_ijt_g_star_1);
+    jac_phi_q_t_lambda_geometry[89] = -((A_ij_7 * h_star_2 - A_ij_8 * h_star_1) * lambda[4]);
+    jac_phi_q_t_lambda_geometry[90] = -(lambda[4] * (A_ij_8 * h_star_0 - h_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[91] = -(lambda[4] * (h_star_1 * A_ij_6 - A_ij_7 * h_star_0));
+    jac_phi_q_t_lambda_geometry[92] = -t421;
     const jg_real A_ijt_f_star_2 = A_ij_6 * f_star_0 + A_ij_7 * f_star_1 + A_ij_8 * f_star_2;
-    jac_phi_q_t_lambda_geometry[103] = lambda[4] * A_ijt_f_star_2 * sine_1;
-    jac_phi_q_t_lambda_geometry[104] = -(lambda[4] * A_ijt_g_star_2);
-    jac_phi_q_t_lambda_geometry[105] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[106] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[107] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
-    const jg_real t492 = lambda[5] * A_ijt_f_star_2;
-    jac_phi_q_t_lambda_geometry[114] = t492;
-    jac_phi_q_t_lambda_geometry[108] = -t492;
-    const jg_real t493 = lambda[5] * A_ijt_f_star_1;
-    jac_phi_q_t_lambda_geometry[109] = t493;
-    jac_phi_q_t_lambda_geometry[110] = lambda[5] * (A_ij_0 * t58 + A_ij_1 * t137 + A_ij_2 * t189);
-    jac_phi_q_t_lambda_geometry[111] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[112] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[113] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
-    const jg_real t494 = lambda[5] * A_ijt_f_star_0;
-    jac_phi_q_t_lambda_geometry[121] = t494;
-    jac_phi_q_t_lambda_geometry[115] = -t494;
-    jac_phi_q_t_lambda_geometry[116] = lambda[5] * (A_ij_3 * t58 + A_ij_4 * t137 + A_ij_5 * t189);
-    jac_phi_q_t_lambda_geometry[117] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
-    jac_phi_q_t_lambda_geometry[118] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[119] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
-    jac_phi_q_t_lambda_geometry[120] = -t493;
-    jac_phi_q_t_lambda_geometry[122] = lambda[5] * (A_ij_6 * t58 + A_ij_7 * t137 + A_ij_8 * t189);
-    jac_phi_q_t_lambda_geometry[123] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[124] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
-    jac_phi_q_t_lambda_geometry[125] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
-    const jg_real t495 = lambda[3] * A_ijt_g_star_2;
-    jac_phi_q_t_lambda_geometry[133] = t495;
-    jac_phi_q_t_lambda_geometry[126] = -t495;
-    const jg_real t496 = lambda[3] * A_ijt_g_star_1;
-    jac_phi_q_t_lambda_geometry[127] = t496;
-    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * A_ijt_f_star_0 * cosine_1);
-    jac_phi_q_t_lambda_geometry[129] = lambda[3] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_geometry[130] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[131] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
-    jac_phi_q_t_lambda_geometry[132] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
-    const jg_real t497 = lambda[3] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_geometry[141] = t497;
-    jac_phi_q_t_lambda_geometry[134] = -t497;
-    jac_phi_q_t_lambda_geometry[135] = -(lambda[3] * A_ijt_f_star_1 * cosine_1);
-    jac_phi_q_t_lambda_geometry[136] = lambda[3] * A_ijt_h_star_1;
-    jac_phi_q_t_lambda_geometry[137] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[138] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
-    jac_phi_q_t_lambda_geometry[139] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
-    jac_phi_q_t_lambda_geometry[140] = -t496;
-    jac_phi_q_t_lambda_geometry[142] = -(lambda[3] * A_ijt_f_star_2 * cosine_1);
-    jac_phi_q_t_lambda_geometry[143] = lambda[3] * A_ijt_h_star_2;
+    jac_phi_q_t_lambda_geometry[94] = lambda[4] * A_ijt_f_star_2 * sine_1;
+    jac_phi_q_t_lambda_geometry[95] = -(lambda[4] * A_ijt_g_star_2);
+    jac_phi_q_t_lambda_geometry[96] = -((A_ij_1 * f_star_2 - A_ij_2 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[97] = -(lambda[5] * (A_ij_2 * f_star_0 - f_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[98] = -(lambda[5] * (f_star_1 * A_ij_0 - A_ij_1 * f_star_0));
+    const jg_real t426 = lambda[5] * A_ijt_f_star_2;
+    jac_phi_q_t_lambda_geometry[105] = t426;
+    jac_phi_q_t_lambda_geometry[99] = -t426;
+    const jg_real t427 = lambda[5] * A_ijt_f_star_1;
+    jac_phi_q_t_lambda_geometry[100] = t427;
+    jac_phi_q_t_lambda_geometry[101] = lambda[5] * (A_ij_0 * t47 + A_ij_1 * t99 + A_ij_2 * t138);
+    jac_phi_q_t_lambda_geometry[102] = -((A_ij_4 * f_star_2 - A_ij_5 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[103] = -(lambda[5] * (A_ij_5 * f_star_0 - f_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[104] = -(lambda[5] * (f_star_1 * A_ij_3 - A_ij_4 * f_star_0));
+    const jg_real t428 = lambda[5] * A_ijt_f_star_0;
+    jac_phi_q_t_lambda_geometry[112] = t428;
+    jac_phi_q_t_lambda_geometry[106] = -t428;
+    jac_phi_q_t_lambda_geometry[107] = lambda[5] * (A_ij_3 * t47 + A_ij_4 * t99 + A_ij_5 * t138);
+    jac_phi_q_t_lambda_geometry[108] = -((A_ij_7 * f_star_2 - A_ij_8 * f_star_1) * lambda[5]);
+    jac_phi_q_t_lambda_geometry[109] = -(lambda[5] * (A_ij_8 * f_star_0 - f_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[110] = -(lambda[5] * (f_star_1 * A_ij_6 - A_ij_7 * f_star_0));
+    jac_phi_q_t_lambda_geometry[111] = -t427;
+    jac_phi_q_t_lambda_geometry[113] = lambda[5] * (A_ij_6 * t47 + A_ij_7 * t99 + A_ij_8 * t138);
+    jac_phi_q_t_lambda_geometry[114] = -((A_ij_1 * g_star_2 - A_ij_2 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[115] = -(lambda[3] * (A_ij_2 * g_star_0 - g_star_2 * A_ij_0));
+    jac_phi_q_t_lambda_geometry[116] = -(lambda[3] * (g_star_1 * A_ij_0 - A_ij_1 * g_star_0));
+    const jg_real t429 = lambda[3] * A_ijt_g_star_2;
+    jac_phi_q_t_lambda_geometry[124] = t429;
+    jac_phi_q_t_lambda_geometry[117] = -t429;
+    const jg_real t430 = lambda[3] * A_ijt_g_star_1;
+    jac_phi_q_t_lambda_geometry[118] = t430;
+    jac_phi_q_t_lambda_geometry[119] = -(lambda[3] * A_ijt_f_star_0 * cosine_1);
+    jac_phi_q_t_lambda_geometry[120] = lambda[3] * A_ijt_h_star_0;
+    jac_phi_q_t_lambda_geometry[121] = -((A_ij_4 * g_star_2 - A_ij_5 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[122] = -(lambda[3] * (A_ij_5 * g_star_0 - g_star_2 * A_ij_3));
+    jac_phi_q_t_lambda_geometry[123] = -(lambda[3] * (g_star_1 * A_ij_3 - A_ij_4 * g_star_0));
+    const jg_real t431 = lambda[3] * A_ijt_g_star_0;
+    jac_phi_q_t_lambda_geometry[132] = t431;
+    jac_phi_q_t_lambda_geometry[125] = -t431;
+    jac_phi_q_t_lambda_geometry[126] = -(lambda[3] * A_ijt_f_star_1 * cosine_1);
+    jac_phi_q_t_lambda_geometry[127] = lambda[3] * A_ijt_h_star_1;
+    jac_phi_q_t_lambda_geometry[128] = -((A_ij_7 * g_star_2 - A_ij_8 * g_star_1) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[129] = -(lambda[3] * (A_ij_8 * g_star_0 - g_star_2 * A_ij_6));
+    jac_phi_q_t_lambda_geometry[130] = -(lambda[3] * (g_star_1 * A_ij_6 - A_ij_7 * g_star_0));
+    jac_phi_q_t_lambda_geometry[131] = -t430;
+    jac_phi_q_t_lambda_geometry[133] = -(lambda[3] * A_ijt_f_star_2 * cosine_1);
+    jac_phi_q_t_lambda_geometry[134] = lambda[3] * A_ijt_h_star_2;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
-    /* dp_ij = A_i^T d_ij */
-    const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
-    const jg_real t499 = s_i[2] + dp_ij_2;
-    jac_phi_q_t_lambda_lambda[10] = t499;
-    jac_phi_q_t_lambda_lambda[1] = -t499;
-    const jg_real dp_ij_1 = A_i[3] * d_ij_0 + A_i[4] * d_ij_1 + A_i[5] * d_ij_2;
-    const jg_real t501 = s_i[1] + dp_ij_1;
-    jac_phi_q_t_lambda_lambda[2] = t501;
+    /* ep_ij = A_i^T e_ij */
+    const jg_real ep_ij_2 = e_ij_0 * A_i[6] + e_ij_1 * A_i[7] + e_ij_2 * A_i[8];
+    jac_phi_q_t_lambda_lambda[10] = ep_ij_2;
+    jac_phi_q_t_lambda_lambda[1] = -ep_ij_2;
+    const jg_real ep_ij_1 = e_ij_0 * A_i[3] + e_ij_1 * A_i[4] + e_ij_2 * A_i[5];
+    jac_phi_q_t_lambda_lambda[2] = ep_ij_1;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    const jg_real dp_ij_0 = A_i[0] * d_ij_0 + A_i[1] * d_ij_1 + A_i[2] * d_ij_2;
-    const jg_real t503 = s_i[0] + dp_ij_0;
-    jac_phi_q_t_lambda_lambda[20] = t503;
-    jac_phi_q_t_lambda_lambda[11] = -t503;
+    const jg_real ep_ij_0 = e_ij_0 * A_i[0] + e_ij_1 * A_i[1] + e_ij_2 * A_i[2];
+    jac_phi_q_t_lambda_lambda[20] = ep_ij_0;
+    jac_phi_q_t_lambda_lambda[11] = -ep_ij_0;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_t_lambda_lambda[19] = -t501;
+    jac_phi_q_t_lambda_lambda[19] = -ep_ij_1;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[26] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
@@ -2179,7 +2054,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_lambda[30] = C_j[7] * A_ijt_g_star_2 - C_j[8] * A_ijt_g_star_1;
     jac_phi_q_t_lambda_lambda[31] = C_j[8] * A_ijt_g_star_0 - C_j[6] * A_ijt_g_star_2;
     jac_phi_q_t_lambda_lambda[32] = C_j[6] * A_ijt_g_star_1 - C_j[7] * A_ijt_g_star_0;
-    jac_phi_q_t_lambda_lambda[33] = -(cosine_1 * t392);
+    jac_phi_q_t_lambda_lambda[33] = -(cosine_1 * t335);
     jac_phi_q_t_lambda_lambda[34] = h_star_0 * A_ij_h_j_0 + A_ij_h_j_1 * h_star_1 + h_star_2 * A_ij_h_j_2;
     jac_phi_q_t_lambda_lambda[35] = h_star_1 * A_ij_f_j_2 - h_star_2 * A_ij_f_j_1;
     jac_phi_q_t_lambda_lambda[36] = h_star_2 * A_ij_f_j_0 - A_ij_f_j_2 * h_star_0;
@@ -2187,7 +2062,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_lambda[38] = C_j[1] * A_ijt_h_star_2 - C_j[2] * A_ijt_h_star_1;
     jac_phi_q_t_lambda_lambda[39] = C_j[2] * A_ijt_h_star_0 - C_j[0] * A_ijt_h_star_2;
     jac_phi_q_t_lambda_lambda[40] = C_j[0] * A_ijt_h_star_1 - C_j[1] * A_ijt_h_star_0;
-    jac_phi_q_t_lambda_lambda[41] = sine_1 * t391;
+    jac_phi_q_t_lambda_lambda[41] = sine_1 * t334;
     jac_phi_q_t_lambda_lambda[42] = -(g_star_0 * A_ij_f_j_0 + g_star_1 * A_ij_f_j_1 + g_star_2 * A_ij_f_j_2);
     jac_phi_q_t_lambda_lambda[43] = A_ij_g_j_2 * f_star_1 - A_ij_g_j_1 * f_star_2;
     jac_phi_q_t_lambda_lambda[44] = f_star_2 * A_ij_g_j_0 - A_ij_g_j_2 * f_star_0;
@@ -2195,7 +2070,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_lambda[46] = C_j[4] * A_ijt_f_star_2 - C_j[5] * A_ijt_f_star_1;
     jac_phi_q_t_lambda_lambda[47] = C_j[5] * A_ijt_f_star_0 - C_j[3] * A_ijt_f_star_2;
     jac_phi_q_t_lambda_lambda[48] = C_j[3] * A_ijt_f_star_1 - C_j[4] * A_ijt_f_star_0;
-    jac_phi_q_t_lambda_lambda[49] = A_ij_g_j_0 * t58 + A_ij_g_j_1 * t137 + A_ij_g_j_2 * t189;
+    jac_phi_q_t_lambda_lambda[49] = A_ij_g_j_0 * t47 + A_ij_g_j_1 * t99 + A_ij_g_j_2 * t138;
 }
 
 JG_EXPORT int jg_universal_parametric_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);
@@ -2527,7 +2402,7 @@ int jac_jg_universal_parametric_phi_q_v_external(const double **arg, double **re
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[5];
-    double unwanted_5[51];
+    double unwanted_5[42];
     double unwanted_6[50];
     (void)iw;
     (void)w;
@@ -2631,9 +2506,9 @@ const casadi_int *jac_jg_universal_parametric_phi_q_v_external_sparsity_out(casa
         6, 2, 0, 3, 5, 3, 4, 5, 3, 4
     };
     static const casadi_int pattern_5[] = {
-        6, 24, 0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 29, 31, 33, 36, 39, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 0, 1,
-        2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 3, 4, 3, 4, 0, 1, 2, 0, 1,
-        2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
+        6, 24, 0, 0, 0, 0, 3, 6, 9, 12, 15, 18, 20, 22, 24, 27, 30, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 3, 4, 5,
+        3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 3, 4, 3, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5,
+        3, 3, 3
     };
     static const casadi_int pattern_6[] = {
         6, 14, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 48, 50, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0, 1,
@@ -2758,11 +2633,11 @@ int jac_jg_universal_parametric_phi_q_t_lambda_external(const double **arg, doub
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[99];
+    double unwanted_1[90];
     double unwanted_2[9];
     double unwanted_3[72];
     double unwanted_4[16];
-    double unwanted_5[144];
+    double unwanted_5[135];
     double unwanted_6[50];
     (void)iw;
     (void)w;
@@ -2852,10 +2727,10 @@ const casadi_int *jac_jg_universal_parametric_phi_q_t_lambda_external_sparsity_o
         14, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        14, 9, 0, 11, 22, 33, 44, 55, 66, 77, 88, 99, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10,
-        11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9,
-        10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8,
-        9, 10, 11, 12, 13, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13
+        14, 9, 0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 4, 5, 6, 7, 8, 9, 10, 11,
+        12, 13, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 5, 6, 7, 8, 9, 10, 11, 12,
+        13, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 3, 4, 6, 7, 8, 9, 10, 11, 12, 13, 3,
+        4, 6, 7, 8, 9, 10, 11, 12, 13
     };
     static const casadi_int pattern_2[] = {
         14, 3, 0, 3, 6, 9, 3, 4, 5, 3, 4, 5, 3, 4, 5
@@ -2869,12 +2744,12 @@ const casadi_int *jac_jg_universal_parametric_phi_q_t_lambda_external_sparsity_o
         14, 2, 0, 8, 16, 3, 4, 5, 9, 10, 11, 12, 13, 3, 4, 5, 9, 10, 11, 12, 13
     };
     static const casadi_int pattern_5[] = {
-        14, 24, 0, 3, 6, 9, 16, 23, 30, 37, 44, 51, 57, 63, 69, 74, 79, 84, 91, 98, 105, 111, 117, 123, 130, 137,
-        144, 3, 4, 5, 3, 4, 5, 3, 4, 5, 4, 5, 9, 10, 11, 12, 13, 3, 5, 9, 10, 11, 12, 13, 3, 4, 9, 10, 11, 12, 13,
-        4, 5, 9, 10, 11, 12, 13, 3, 5, 9, 10, 11, 12, 13, 3, 4, 9, 10, 11, 12, 13, 4, 5, 9, 10, 11, 13, 3, 5, 9, 10,
-        11, 13, 3, 4, 9, 10, 11, 13, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 12, 13, 3, 4,
-        5, 9, 11, 12, 13, 3, 4, 5, 9, 10, 12, 13, 3, 4, 5, 10, 11, 12, 3, 4, 5, 9, 11, 12, 3, 4, 5, 9, 10, 12, 3, 4,
-        5, 10, 11, 12, 13, 3, 4, 5, 9, 11, 12, 13, 3, 4, 5, 9, 10, 12, 13
+        14, 24, 0, 0, 0, 0, 7, 14, 21, 28, 35, 42, 48, 54, 60, 65, 70, 75, 82, 89, 96, 102, 108, 114, 121, 128, 135,
+        4, 5, 9, 10, 11, 12, 13, 3, 5, 9, 10, 11, 12, 13, 3, 4, 9, 10, 11, 12, 13, 4, 5, 9, 10, 11, 12, 13, 3, 5, 9,
+        10, 11, 12, 13, 3, 4, 9, 10, 11, 12, 13, 4, 5, 9, 10, 11, 13, 3, 5, 9, 10, 11, 13, 3, 4, 9, 10, 11, 13, 3,
+        4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 10, 11, 12, 13, 3, 4, 5, 9, 11, 12, 13, 3, 4, 5, 9,
+        10, 12, 13, 3, 4, 5, 10, 11, 12, 3, 4, 5, 9, 11, 12, 3, 4, 5, 9, 10, 12, 3, 4, 5, 10, 11, 12, 13, 3, 4, 5,
+        9, 11, 12, 13, 3, 4, 5, 9, 10, 12, 13
     };
     static const casadi_int pattern_6[] = {
         14, 6, 0, 9, 18, 27, 35, 43, 50, 0, 4, 5, 6, 7, 8, 9, 10, 11, 1, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 4, 6, 7, 8,

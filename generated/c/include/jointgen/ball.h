@@ -41,7 +41,7 @@ const int *jg_ball_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 39 (21 add, 18 mul); temporaries: 9.
+ * @note Operations: 39 (21 add, 18 mul); temporaries: 12.
  * @see S1 Eq. (4), Table 1
  */
 void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -219,7 +219,7 @@ void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 42.
+ * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 45.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -285,7 +285,7 @@ const int *jg_ball_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 39 (21 add, 18 mul); temporaries: 9.
+ * @note Operations: 39 (21 add, 18 mul); temporaries: 12.
  * @see S1 Eq. (4), Table 1
  */
 void jg_ball_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -464,7 +464,7 @@ void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, c
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 102 (42 add, 60 mul, 15 neg); temporaries: 27.
+ * @note Operations: 102 (42 add, 60 mul, 15 neg); temporaries: 30.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -532,7 +532,7 @@ const int *jg_ball_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 55.
+ * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 58.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -556,7 +556,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 53 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 450 (173 add, 274 mul, 3 sincos, 6 neg); temporaries: 76.
+ * @note Operations: 429 (161 add, 265 mul, 3 sincos, 6 neg); temporaries: 70.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -580,7 +580,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 450 (173 add, 274 mul, 3 sincos, 6 neg); temporaries: 53.
+ * @note Operations: 429 (161 add, 265 mul, 3 sincos, 6 neg); temporaries: 53.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -605,7 +605,7 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1455 (585 add, 867 mul, 3 sincos, 14 neg); temporaries: 299.
+ * @note Operations: 1434 (573 add, 858 mul, 3 sincos, 14 neg); temporaries: 293.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -630,7 +630,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 1455 (585 add, 867 mul, 3 sincos, 14 neg); temporaries: 111.
+ * @note Operations: 1434 (573 add, 858 mul, 3 sincos, 14 neg); temporaries: 111.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -660,7 +660,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, c
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1290 (500 add, 787 mul, 3 sincos, 3 neg); temporaries: 211.
+ * @note Operations: 1251 (482 add, 766 mul, 3 sincos, 3 neg); temporaries: 202.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -689,7 +689,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 538 (217 add, 318 mul, 3 sincos); temporaries: 106.
+ * @note Operations: 523 (211 add, 309 mul, 3 sincos); temporaries: 103.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -714,7 +714,7 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 505 (199 add, 303 mul, 3 sincos, 3 neg); temporaries: 79.
+ * @note Operations: 484 (187 add, 294 mul, 3 sincos, 3 neg); temporaries: 73.
  * @see S1 Eqs. (1), (13); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -750,7 +750,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 2249 (887 add, 1359 mul, 3 sincos, 23 neg); temporaries: 406.
+ * @note Operations: 2240 (881 add, 1356 mul, 3 sincos, 23 neg); temporaries: 403.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -788,7 +788,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 2249 (887 add, 1359 mul, 3 sincos, 23 neg); temporaries: 164.
+ * @note Operations: 2240 (881 add, 1356 mul, 3 sincos, 23 neg); temporaries: 164.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -823,7 +823,7 @@ const int *jg_ball_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 55.
+ * @note Operations: 225 (91 add, 131 mul, 3 sincos); temporaries: 58.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1008,7 +1008,7 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 30 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 789 (303 add, 483 mul, 3 sincos, 17 neg); temporaries: 128.
+ * @note Operations: 789 (303 add, 483 mul, 3 sincos, 17 neg); temporaries: 131.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1082,7 +1082,7 @@ const int *jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 29.
+ * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 32.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1106,7 +1106,7 @@ void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 250 (99 add, 148 mul, 3 sincos, 3 neg); temporaries: 42.
+ * @note Operations: 229 (87 add, 139 mul, 3 sincos, 3 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1130,7 +1130,7 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 250 (99 add, 148 mul, 3 sincos, 3 neg); temporaries: 50.
+ * @note Operations: 229 (87 add, 139 mul, 3 sincos, 3 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1155,7 +1155,7 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 472 (213 add, 256 mul, 3 sincos, 14 neg); temporaries: 120.
+ * @note Operations: 451 (201 add, 247 mul, 3 sincos, 14 neg); temporaries: 114.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1180,7 +1180,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 472 (213 add, 256 mul, 3 sincos, 14 neg); temporaries: 73.
+ * @note Operations: 451 (201 add, 247 mul, 3 sincos, 14 neg); temporaries: 73.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1211,7 +1211,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 513 (202 add, 308 mul, 3 sincos, 3 neg); temporaries: 97.
+ * @note Operations: 474 (184 add, 287 mul, 3 sincos, 3 neg); temporaries: 88.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3
  */
 void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1240,7 +1240,7 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 314 (134 add, 177 mul, 3 sincos); temporaries: 66.
+ * @note Operations: 299 (128 add, 168 mul, 3 sincos); temporaries: 63.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1265,7 +1265,7 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 272 (113 add, 156 mul, 3 sincos, 3 neg); temporaries: 48.
+ * @note Operations: 251 (101 add, 147 mul, 3 sincos, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (13); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1301,7 +1301,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 968 (398 add, 567 mul, 3 sincos, 20 neg); temporaries: 188.
+ * @note Operations: 959 (392 add, 564 mul, 3 sincos, 20 neg); temporaries: 185.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1339,7 +1339,7 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 968 (398 add, 567 mul, 3 sincos, 20 neg); temporaries: 123.
+ * @note Operations: 959 (392 add, 564 mul, 3 sincos, 20 neg); temporaries: 123.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1374,7 +1374,7 @@ const int *jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void)
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 29.
+ * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 32.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1559,7 +1559,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1051 (396 add, 652 mul, 3 sincos, 11 neg); temporaries: 160.
+ * @note Operations: 1051 (396 add, 652 mul, 3 sincos, 11 neg); temporaries: 163.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

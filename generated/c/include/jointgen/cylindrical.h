@@ -41,7 +41,7 @@ const int *jg_cylindrical_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 134 (59 add, 75 mul); temporaries: 24.
+ * @note Operations: 134 (59 add, 75 mul); temporaries: 27.
  * @see S1 Eq. (4), Table 1
  */
 void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 249 (102 add, 147 mul, 6 neg); temporaries: 45.
+ * @note Operations: 234 (96 add, 138 mul, 6 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 249 (102 add, 147 mul, 6 neg); temporaries: 36.
+ * @note Operations: 234 (96 add, 138 mul, 6 neg); temporaries: 36.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -108,7 +108,7 @@ void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 325 (139 add, 186 mul, 15 neg); temporaries: 83.
+ * @note Operations: 304 (127 add, 177 mul, 15 neg); temporaries: 77.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -131,7 +131,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 325 (139 add, 186 mul, 15 neg); temporaries: 72.
+ * @note Operations: 304 (127 add, 177 mul, 15 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -158,7 +158,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 442 (179 add, 263 mul); temporaries: 84.
+ * @note Operations: 394 (158 add, 236 mul); temporaries: 75.
  * @see second time derivative of S1 Table 1
  */
 void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -184,7 +184,7 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 299 (128 add, 171 mul); temporaries: 51.
+ * @note Operations: 284 (122 add, 162 mul); temporaries: 51.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 222 (96 add, 126 mul, 3 neg); temporaries: 42.
+ * @note Operations: 201 (84 add, 117 mul, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (5)
  */
 void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -240,7 +240,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 805 (323 add, 482 mul, 21 neg); temporaries: 161.
+ * @note Operations: 793 (320 add, 473 mul, 21 neg); temporaries: 161.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -274,7 +274,7 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 805 (323 add, 482 mul, 21 neg); temporaries: 108.
+ * @note Operations: 793 (320 add, 473 mul, 21 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -306,7 +306,7 @@ const int *jg_cylindrical_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 104 (47 add, 57 mul); temporaries: 18.
+ * @note Operations: 104 (47 add, 57 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -328,7 +328,7 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 162 (69 add, 93 mul, 12 neg); temporaries: 42.
+ * @note Operations: 162 (69 add, 93 mul, 12 neg); temporaries: 39.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -373,7 +373,7 @@ void jg_cylindrical_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 210 (96 add, 114 mul, 21 neg); temporaries: 69.
+ * @note Operations: 189 (84 add, 105 mul, 21 neg); temporaries: 63.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -396,7 +396,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 210 (96 add, 114 mul, 21 neg); temporaries: 60.
+ * @note Operations: 189 (84 add, 105 mul, 21 neg); temporaries: 60.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -423,7 +423,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 300 (125 add, 175 mul, 2 neg); temporaries: 48.
+ * @note Operations: 300 (125 add, 175 mul, 2 neg); temporaries: 51.
  * @see second time derivative of S1 Table 1
  */
 void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -449,7 +449,7 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 209 (92 add, 117 mul); temporaries: 33.
+ * @note Operations: 209 (92 add, 117 mul); temporaries: 36.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -472,7 +472,7 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 192 (81 add, 111 mul, 3 neg); temporaries: 36.
+ * @note Operations: 192 (81 add, 111 mul, 3 neg); temporaries: 39.
  * @see S1 Eqs. (1), (5)
  */
 void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
@@ -505,7 +505,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 524 (220 add, 304 mul, 35 neg); temporaries: 123.
+ * @note Operations: 521 (217 add, 304 mul, 35 neg); temporaries: 117.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -539,7 +539,7 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 524 (220 add, 304 mul, 35 neg); temporaries: 96.
+ * @note Operations: 521 (217 add, 304 mul, 35 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -573,7 +573,7 @@ const int *jg_cylindrical_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,7 +597,7 @@ void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 7 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -621,7 +621,7 @@ void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 7 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -646,7 +646,7 @@ void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 143.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -671,7 +671,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -702,7 +702,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
+ * @note Operations: 597 (234 add, 362 mul, 1 sincos, 3 neg); temporaries: 97.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -731,7 +731,7 @@ void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 384 (162 add, 221 mul, 1 sincos); temporaries: 80.
+ * @note Operations: 369 (156 add, 212 mul, 1 sincos); temporaries: 77.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -756,7 +756,7 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 352 (145 add, 206 mul, 1 sincos, 4 neg); temporaries: 53.
+ * @note Operations: 331 (133 add, 197 mul, 1 sincos, 4 neg); temporaries: 47.
  * @see S1 Eqs. (1), (13); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -792,7 +792,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1236 (504 add, 731 mul, 1 sincos, 23 neg); temporaries: 220.
+ * @note Operations: 1227 (498 add, 728 mul, 1 sincos, 23 neg); temporaries: 217.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -830,7 +830,7 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1236 (504 add, 731 mul, 1 sincos, 23 neg); temporaries: 129.
+ * @note Operations: 1227 (498 add, 728 mul, 1 sincos, 23 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -865,7 +865,7 @@ const int *jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_sparsity(void)
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 184 (78 add, 105 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1050,7 +1050,7 @@ void jg_cylindrical_parametric_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 12 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 433 (174 add, 258 mul, 1 sincos, 16 neg); temporaries: 76.
+ * @note Operations: 433 (174 add, 258 mul, 1 sincos, 16 neg); temporaries: 79.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1124,7 +1124,7 @@ const int *jg_cylindrical_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 27.
+ * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1148,7 +1148,7 @@ void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 6 neg); temporaries: 36.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 6 neg); temporaries: 30.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1172,7 +1172,7 @@ void jg_cylindrical_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, c
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 6 neg); temporaries: 49.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 6 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1197,7 +1197,7 @@ void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 104.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1223,7 +1223,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_REST
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1254,7 +1254,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_R
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
+ * @note Operations: 448 (178 add, 269 mul, 1 cos, 3 neg); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1283,7 +1283,7 @@ void jg_cylindrical_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, cons
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 306 (133 add, 172 mul, 1 sin); temporaries: 60.
+ * @note Operations: 291 (127 add, 163 mul, 1 sin); temporaries: 57.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1308,7 +1308,7 @@ void jg_cylindrical_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, co
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 265 (113 add, 151 mul, 1 sin, 4 neg); temporaries: 42.
+ * @note Operations: 244 (101 add, 142 mul, 1 sin, 4 neg); temporaries: 36.
  * @see S1 Eqs. (1), (13); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1344,7 +1344,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT 
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (391 add, 538 mul, 1 sincos, 21 neg); temporaries: 179.
+ * @note Operations: 921 (385 add, 535 mul, 1 sincos, 21 neg); temporaries: 176.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1382,7 +1382,7 @@ void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (391 add, 538 mul, 1 sincos, 21 neg); temporaries: 116.
+ * @note Operations: 921 (385 add, 535 mul, 1 sincos, 21 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1417,7 +1417,7 @@ const int *jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsit
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 27.
+ * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,
@@ -1602,7 +1602,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 13 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 486 (190 add, 295 mul, 1 sincos, 13 neg); temporaries: 85.
+ * @note Operations: 486 (190 add, 295 mul, 1 sincos, 13 neg); temporaries: 88.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,

@@ -41,7 +41,7 @@ const int *jg_planar_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 129 (57 add, 72 mul); temporaries: 24.
+ * @note Operations: 129 (57 add, 72 mul); temporaries: 27.
  * @see S1 Eq. (4), Table 1
  */
 void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [3 x 12] compressed-columns, 24 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 231 (96 add, 135 mul, 3 neg); temporaries: 42.
+ * @note Operations: 216 (90 add, 126 mul, 3 neg); temporaries: 39.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [3 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 231 (96 add, 135 mul, 3 neg); temporaries: 24.
+ * @note Operations: 216 (90 add, 126 mul, 3 neg); temporaries: 24.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -108,7 +108,7 @@ void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 362 (154 add, 208 mul, 15 neg); temporaries: 101.
+ * @note Operations: 335 (142 add, 193 mul, 15 neg); temporaries: 95.
  * @see S1 Eq. (9), corrected
  */
 void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -131,7 +131,7 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 362 (154 add, 208 mul, 15 neg); temporaries: 72.
+ * @note Operations: 335 (142 add, 193 mul, 15 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -158,7 +158,7 @@ void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 404 (162 add, 242 mul); temporaries: 78.
+ * @note Operations: 362 (144 add, 218 mul); temporaries: 69.
  * @see second time derivative of S1 Table 1
  */
 void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -184,7 +184,7 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [3]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 270 (114 add, 156 mul); temporaries: 51.
+ * @note Operations: 255 (108 add, 147 mul); temporaries: 48.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 225 (93 add, 132 mul, 3 neg); temporaries: 45.
+ * @note Operations: 210 (87 add, 123 mul, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (5)
  */
 void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -240,7 +240,7 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 769 (310 add, 459 mul, 18 neg); temporaries: 170.
+ * @note Operations: 754 (307 add, 447 mul, 18 neg); temporaries: 167.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -274,7 +274,7 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 769 (310 add, 459 mul, 18 neg); temporaries: 96.
+ * @note Operations: 754 (307 add, 447 mul, 18 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -306,7 +306,7 @@ const int *jg_planar_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 114 (51 add, 63 mul); temporaries: 21.
+ * @note Operations: 114 (51 add, 63 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -573,7 +573,7 @@ const int *jg_planar_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 190 (81 add, 108 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 190 (81 add, 108 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,7 +597,7 @@ void jg_planar_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 53 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 10 neg); temporaries: 50.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 10 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -621,7 +621,7 @@ void jg_planar_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 10 neg); temporaries: 53.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 10 neg); temporaries: 53.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -646,7 +646,7 @@ void jg_planar_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_r
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 143.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -671,7 +671,7 @@ void jg_planar_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, co
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -701,7 +701,7 @@ void jg_planar_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
+ * @note Operations: 597 (234 add, 362 mul, 1 sincos, 3 neg); temporaries: 97.
  * @see second time derivative of S1 Eq. (12); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -730,7 +730,7 @@ void jg_planar_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 390 (165 add, 224 mul, 1 sincos); temporaries: 80.
+ * @note Operations: 375 (159 add, 215 mul, 1 sincos); temporaries: 77.
  * @see S1 Eqs. (19), (27) along the velocity; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -755,7 +755,7 @@ void jg_planar_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 357 (147 add, 209 mul, 1 sincos, 5 neg); temporaries: 53.
+ * @note Operations: 336 (135 add, 200 mul, 1 sincos, 5 neg); temporaries: 47.
  * @see S1 Eqs. (1), (13); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -791,7 +791,7 @@ void jg_planar_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1242 (507 add, 734 mul, 1 sincos, 26 neg); temporaries: 220.
+ * @note Operations: 1233 (501 add, 731 mul, 1 sincos, 26 neg); temporaries: 217.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -829,7 +829,7 @@ void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1242 (507 add, 734 mul, 1 sincos, 26 neg); temporaries: 132.
+ * @note Operations: 1233 (501 add, 731 mul, 1 sincos, 26 neg); temporaries: 132.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -864,7 +864,7 @@ const int *jg_planar_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 190 (81 add, 108 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 190 (81 add, 108 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1049,7 +1049,7 @@ void jg_planar_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT 
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 15 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 463 (186 add, 276 mul, 1 sincos, 19 neg); temporaries: 76.
+ * @note Operations: 463 (186 add, 276 mul, 1 sincos, 19 neg); temporaries: 79.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1123,7 +1123,7 @@ const int *jg_planar_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 27.
+ * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1147,7 +1147,7 @@ void jg_planar_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 52 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 9 neg); temporaries: 36.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 9 neg); temporaries: 30.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1171,7 +1171,7 @@ void jg_planar_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 9 neg); temporaries: 52.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 9 neg); temporaries: 52.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1196,7 +1196,7 @@ void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 104.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1221,7 +1221,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1252,7 +1252,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
+ * @note Operations: 448 (178 add, 269 mul, 1 cos, 3 neg); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn2 + rot1
  */
 void jg_planar_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1281,7 +1281,7 @@ void jg_planar_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 312 (136 add, 175 mul, 1 sin); temporaries: 60.
+ * @note Operations: 297 (130 add, 166 mul, 1 sin); temporaries: 57.
  * @see S1 Eqs. (19), (27) along the velocity; trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1306,7 +1306,7 @@ void jg_planar_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 270 (115 add, 154 mul, 1 sin, 5 neg); temporaries: 42.
+ * @note Operations: 249 (103 add, 145 mul, 1 sin, 5 neg); temporaries: 36.
  * @see S1 Eqs. (1), (13); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1342,7 +1342,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 936 (394 add, 541 mul, 1 sincos, 24 neg); temporaries: 179.
+ * @note Operations: 927 (388 add, 538 mul, 1 sincos, 24 neg); temporaries: 176.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1380,7 +1380,7 @@ void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 936 (394 add, 541 mul, 1 sincos, 24 neg); temporaries: 119.
+ * @note Operations: 927 (388 add, 538 mul, 1 sincos, 24 neg); temporaries: 119.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1415,7 +1415,7 @@ const int *jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(voi
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 27.
+ * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1600,7 +1600,7 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 16 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 516 (202 add, 313 mul, 1 sincos, 13 neg); temporaries: 88.
+ * @note Operations: 516 (202 add, 313 mul, 1 sincos, 13 neg); temporaries: 91.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

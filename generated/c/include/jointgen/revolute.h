@@ -41,7 +41,7 @@ const int *jg_revolute_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 109 (49 add, 60 mul); temporaries: 21.
+ * @note Operations: 109 (49 add, 60 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -219,7 +219,7 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 104.
+ * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 107.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -285,7 +285,7 @@ const int *jg_revolute_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 94 (43 add, 51 mul); temporaries: 18.
+ * @note Operations: 94 (43 add, 51 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_revolute_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -465,7 +465,7 @@ void jg_revolute_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 304 (128 add, 176 mul, 23 neg); temporaries: 81.
+ * @note Operations: 304 (128 add, 176 mul, 23 neg); temporaries: 84.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -533,7 +533,7 @@ const int *jg_revolute_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -557,7 +557,7 @@ void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 4 neg); temporaries: 50.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 4 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -581,7 +581,7 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 302 (121 add, 180 mul, 1 sincos, 4 neg); temporaries: 47.
+ * @note Operations: 281 (109 add, 171 mul, 1 sincos, 4 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -606,7 +606,7 @@ void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 143.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -631,7 +631,7 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -661,7 +661,7 @@ void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
+ * @note Operations: 597 (234 add, 362 mul, 1 sincos, 3 neg); temporaries: 97.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -690,7 +690,7 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 378 (159 add, 218 mul, 1 sincos); temporaries: 80.
+ * @note Operations: 363 (153 add, 209 mul, 1 sincos); temporaries: 77.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -715,7 +715,7 @@ void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 347 (143 add, 203 mul, 1 sincos, 3 neg); temporaries: 53.
+ * @note Operations: 326 (131 add, 194 mul, 1 sincos, 3 neg); temporaries: 47.
  * @see S1 Eqs. (1), (13); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -751,7 +751,7 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1230 (501 add, 728 mul, 1 sincos, 20 neg); temporaries: 220.
+ * @note Operations: 1221 (495 add, 725 mul, 1 sincos, 20 neg); temporaries: 217.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -789,7 +789,7 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1230 (501 add, 728 mul, 1 sincos, 20 neg); temporaries: 126.
+ * @note Operations: 1221 (495 add, 725 mul, 1 sincos, 20 neg); temporaries: 126.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -824,7 +824,7 @@ const int *jg_revolute_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 38.
+ * @note Operations: 178 (75 add, 102 mul, 1 sincos); temporaries: 41.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1009,7 +1009,7 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRIC
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 9 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 400 (159 add, 240 mul, 1 sincos, 13 neg); temporaries: 70.
+ * @note Operations: 400 (159 add, 240 mul, 1 sincos, 13 neg); temporaries: 73.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1083,7 +1083,7 @@ const int *jg_revolute_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 27.
+ * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1107,7 +1107,7 @@ void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 46 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 3 neg); temporaries: 36.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 3 neg); temporaries: 30.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1131,7 +1131,7 @@ void jg_revolute_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 244 (99 add, 144 mul, 1 sin, 3 neg); temporaries: 46.
+ * @note Operations: 223 (87 add, 135 mul, 1 sin, 3 neg); temporaries: 46.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1156,7 +1156,7 @@ void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 104.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1182,7 +1182,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1213,7 +1213,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_REST
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
+ * @note Operations: 448 (178 add, 269 mul, 1 cos, 3 neg); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1242,7 +1242,7 @@ void jg_revolute_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 300 (130 add, 169 mul, 1 sin); temporaries: 60.
+ * @note Operations: 285 (124 add, 160 mul, 1 sin); temporaries: 57.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1267,7 +1267,7 @@ void jg_revolute_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 260 (111 add, 148 mul, 1 sin, 3 neg); temporaries: 42.
+ * @note Operations: 239 (99 add, 139 mul, 1 sin, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (13); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1303,7 +1303,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 924 (388 add, 535 mul, 1 sincos, 18 neg); temporaries: 179.
+ * @note Operations: 915 (382 add, 532 mul, 1 sincos, 18 neg); temporaries: 176.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1341,7 +1341,7 @@ void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 924 (388 add, 535 mul, 1 sincos, 18 neg); temporaries: 113.
+ * @note Operations: 915 (382 add, 532 mul, 1 sincos, 18 neg); temporaries: 113.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1376,7 +1376,7 @@ const int *jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(v
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 27.
+ * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1561,7 +1561,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 451 (174 add, 276 mul, 1 sincos, 10 neg); temporaries: 81.
+ * @note Operations: 451 (174 add, 276 mul, 1 sincos, 10 neg); temporaries: 84.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_rigid_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 129 (57 add, 72 mul); temporaries: 24.
+ * @note Operations: 129 (57 add, 72 mul); temporaries: 27.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -219,7 +219,7 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 789 (323 add, 466 mul, 3 neg); temporaries: 147.
+ * @note Operations: 789 (323 add, 466 mul, 3 neg); temporaries: 150.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -285,7 +285,7 @@ const int *jg_rigid_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 114 (51 add, 63 mul); temporaries: 21.
+ * @note Operations: 114 (51 add, 63 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -464,7 +464,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 480 (207 add, 273 mul, 33 neg); temporaries: 126.
+ * @note Operations: 480 (207 add, 273 mul, 33 neg); temporaries: 129.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -531,7 +531,7 @@ const int *jg_rigid_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 159 (69 add, 90 mul); temporaries: 30.
+ * @note Operations: 159 (69 add, 90 mul); temporaries: 33.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -554,7 +554,7 @@ void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] compressed-columns, 45 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 273 (111 add, 162 mul, 3 neg); temporaries: 42.
+ * @note Operations: 252 (99 add, 153 mul, 3 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -577,7 +577,7 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 273 (111 add, 162 mul, 3 neg); temporaries: 45.
+ * @note Operations: 252 (99 add, 153 mul, 3 neg); temporaries: 45.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -601,7 +601,7 @@ void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 133.
+ * @note Operations: 581 (254 add, 327 mul, 12 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -625,7 +625,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 66.
+ * @note Operations: 581 (254 add, 327 mul, 12 neg); temporaries: 66.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -653,7 +653,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, 
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 573 (228 add, 345 mul, 3 neg); temporaries: 96.
+ * @note Operations: 534 (210 add, 324 mul, 3 neg); temporaries: 87.
  * @see second time derivative of S1 Eq. (12); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -680,7 +680,7 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 345 (147 add, 198 mul); temporaries: 72.
+ * @note Operations: 330 (141 add, 189 mul); temporaries: 69.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -704,7 +704,7 @@ void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 315 (132 add, 183 mul, 3 neg); temporaries: 45.
+ * @note Operations: 294 (120 add, 174 mul, 3 neg); temporaries: 39.
  * @see S1 Eqs. (1), (13); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -738,7 +738,7 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1112 (458 add, 654 mul, 18 neg); temporaries: 202.
+ * @note Operations: 1103 (452 add, 651 mul, 18 neg); temporaries: 199.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -773,7 +773,7 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1112 (458 add, 654 mul, 18 neg); temporaries: 111.
+ * @note Operations: 1103 (452 add, 651 mul, 18 neg); temporaries: 111.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -806,7 +806,7 @@ const int *jg_rigid_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 159 (69 add, 90 mul); temporaries: 30.
+ * @note Operations: 159 (69 add, 90 mul); temporaries: 33.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -963,7 +963,7 @@ void jg_rigid_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT g
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 0 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 267 (111 add, 156 mul, 12 neg); temporaries: 45.
+ * @note Operations: 267 (111 add, 156 mul, 12 neg); temporaries: 48.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -44,7 +44,7 @@ const int *jg_screw_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 170 (74 add, 95 mul, 1 atan2); temporaries: 30.
+ * @note Operations: 170 (74 add, 95 mul, 1 atan2); temporaries: 33.
  * @see S1 Eq. (4), Table 1
  */
 void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -69,7 +69,7 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [26] revolutions [1] 1
  * @param[out] phi_q [5 x 12] compressed-columns, 48 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 378 (152 add, 225 mul, 1 div, 9 neg); temporaries: 69.
+ * @note Operations: 363 (146 add, 216 mul, 1 div, 9 neg); temporaries: 66.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -94,7 +94,7 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
  *   [26] revolutions [1] 1
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 378 (152 add, 225 mul, 1 div, 9 neg); temporaries: 48.
+ * @note Operations: 363 (146 add, 216 mul, 1 div, 9 neg); temporaries: 48.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -120,7 +120,7 @@ void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 933 (417 add, 515 mul, 1 div, 9 neg); temporaries: 202.
+ * @note Operations: 912 (405 add, 506 mul, 1 div, 9 neg); temporaries: 196.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -146,7 +146,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 933 (417 add, 515 mul, 1 div, 9 neg); temporaries: 72.
+ * @note Operations: 912 (405 add, 506 mul, 1 div, 9 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -176,7 +176,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 699 (274 add, 424 mul, 1 div); temporaries: 129.
+ * @note Operations: 645 (250 add, 394 mul, 1 div); temporaries: 120.
  * @see second time derivative of S1 Table 1
  */
 void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -205,7 +205,7 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 422 (177 add, 244 mul, 1 div); temporaries: 69.
+ * @note Operations: 407 (171 add, 235 mul, 1 div); temporaries: 69.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -231,7 +231,7 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 310 (131 add, 178 mul, 1 div, 3 neg); temporaries: 58.
+ * @note Operations: 289 (119 add, 169 mul, 1 div, 3 neg); temporaries: 52.
  * @see S1 Eqs. (1), (5)
  */
 void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -267,7 +267,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1714 (717 add, 995 mul, 1 div, 1 atan2, 18 neg); temporaries: 329.
+ * @note Operations: 1696 (711 add, 983 mul, 1 div, 1 atan2, 18 neg); temporaries: 329.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -304,7 +304,7 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1714 (717 add, 995 mul, 1 div, 1 atan2, 18 neg); temporaries: 120.
+ * @note Operations: 1696 (711 add, 983 mul, 1 div, 1 atan2, 18 neg); temporaries: 120.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -339,7 +339,7 @@ const int *jg_screw_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 155 (68 add, 86 mul, 1 atan2); temporaries: 27.
+ * @note Operations: 155 (68 add, 86 mul, 1 atan2); temporaries: 30.
  * @see S1 Eq. (4), Table 1
  */
 void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -364,7 +364,7 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [26] revolutions [1] 1
  * @param[out] phi_q [5 x 12] compressed-columns, 48 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 291 (119 add, 171 mul, 1 div, 15 neg); temporaries: 72.
+ * @note Operations: 291 (119 add, 171 mul, 1 div, 15 neg); temporaries: 66.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -415,7 +415,7 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 589 (288 add, 300 mul, 1 div, 15 neg); temporaries: 169.
+ * @note Operations: 568 (276 add, 291 mul, 1 div, 15 neg); temporaries: 163.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -441,7 +441,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 589 (288 add, 300 mul, 1 div, 15 neg); temporaries: 60.
+ * @note Operations: 568 (276 add, 291 mul, 1 div, 15 neg); temporaries: 60.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -471,7 +471,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 542 (214 add, 327 mul, 1 div, 2 neg); temporaries: 85.
+ * @note Operations: 542 (214 add, 327 mul, 1 div, 2 neg); temporaries: 88.
  * @see second time derivative of S1 Table 1
  */
 void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -500,7 +500,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 332 (141 add, 190 mul, 1 div); temporaries: 51.
+ * @note Operations: 332 (141 add, 190 mul, 1 div); temporaries: 54.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -526,7 +526,7 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 310 (128 add, 181 mul, 1 div, 3 neg); temporaries: 58.
+ * @note Operations: 310 (128 add, 181 mul, 1 div, 3 neg); temporaries: 61.
  * @see S1 Eqs. (1), (5)
  */
 void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -562,7 +562,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 1171 (516 add, 653 mul, 1 div, 1 atan2, 23 neg); temporaries: 264.
+ * @note Operations: 1168 (513 add, 653 mul, 1 div, 1 atan2, 23 neg); temporaries: 255.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -599,7 +599,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 1171 (516 add, 653 mul, 1 div, 1 atan2, 23 neg); temporaries: 108.
+ * @note Operations: 1168 (513 add, 653 mul, 1 div, 1 atan2, 23 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -636,7 +636,7 @@ const int *jg_screw_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 188 (80 add, 107 mul, 1 sincos); temporaries: 39.
+ * @note Operations: 188 (80 add, 107 mul, 1 sincos); temporaries: 42.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -663,7 +663,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 305 (121 add, 183 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 284 (109 add, 174 mul, 1 sincos, 7 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -690,7 +690,7 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 305 (121 add, 183 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 284 (109 add, 174 mul, 1 sincos, 7 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -718,7 +718,7 @@ void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 149.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 143.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -746,7 +746,7 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 676 (291 add, 384 mul, 1 sincos, 13 neg); temporaries: 79.
+ * @note Operations: 655 (279 add, 375 mul, 1 sincos, 13 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -779,7 +779,7 @@ void jg_screw_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (252 add, 383 mul, 1 sincos, 3 neg); temporaries: 106.
+ * @note Operations: 597 (234 add, 362 mul, 1 sincos, 3 neg); temporaries: 97.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -811,7 +811,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 385 (162 add, 222 mul, 1 sincos); temporaries: 81.
+ * @note Operations: 370 (156 add, 213 mul, 1 sincos); temporaries: 78.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -839,7 +839,7 @@ void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 354 (146 add, 207 mul, 1 sincos, 3 neg); temporaries: 53.
+ * @note Operations: 333 (134 add, 198 mul, 1 sincos, 3 neg); temporaries: 47.
  * @see S1 Eqs. (1), (13); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -878,7 +878,7 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1243 (506 add, 736 mul, 1 sincos, 23 neg); temporaries: 221.
+ * @note Operations: 1234 (500 add, 733 mul, 1 sincos, 23 neg); temporaries: 218.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -919,7 +919,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1243 (506 add, 736 mul, 1 sincos, 23 neg); temporaries: 129.
+ * @note Operations: 1234 (500 add, 733 mul, 1 sincos, 23 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -957,7 +957,7 @@ const int *jg_screw_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 188 (80 add, 107 mul, 1 sincos); temporaries: 39.
+ * @note Operations: 188 (80 add, 107 mul, 1 sincos); temporaries: 42.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1166,7 +1166,7 @@ void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT a
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 9 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 447 (179 add, 267 mul, 1 sincos, 16 neg); temporaries: 81.
+ * @note Operations: 447 (179 add, 267 mul, 1 sincos, 16 neg); temporaries: 84.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1246,7 +1246,7 @@ const int *jg_screw_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 28.
+ * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 31.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1273,7 +1273,7 @@ void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_rea
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 247 (99 add, 147 mul, 1 sin, 6 neg); temporaries: 36.
+ * @note Operations: 226 (87 add, 138 mul, 1 sin, 6 neg); temporaries: 30.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1300,7 +1300,7 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 247 (99 add, 147 mul, 1 sin, 6 neg); temporaries: 49.
+ * @note Operations: 226 (87 add, 138 mul, 1 sin, 6 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1328,7 +1328,7 @@ void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 110.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 104.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1356,7 +1356,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 460 (211 add, 248 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 439 (199 add, 239 mul, 1 cos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1390,7 +1390,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRIC
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 487 (196 add, 290 mul, 1 cos, 3 neg); temporaries: 90.
+ * @note Operations: 448 (178 add, 269 mul, 1 cos, 3 neg); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1422,7 +1422,7 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 307 (133 add, 173 mul, 1 sin); temporaries: 61.
+ * @note Operations: 292 (127 add, 164 mul, 1 sin); temporaries: 58.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1450,7 +1450,7 @@ void jg_screw_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 267 (114 add, 152 mul, 1 sin, 3 neg); temporaries: 42.
+ * @note Operations: 246 (102 add, 143 mul, 1 sin, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (13); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1489,7 +1489,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 937 (393 add, 543 mul, 1 sincos, 21 neg); temporaries: 180.
+ * @note Operations: 928 (387 add, 540 mul, 1 sincos, 21 neg); temporaries: 177.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1530,7 +1530,7 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 937 (393 add, 543 mul, 1 sincos, 21 neg); temporaries: 116.
+ * @note Operations: 928 (387 add, 540 mul, 1 sincos, 21 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1568,7 +1568,7 @@ const int *jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 28.
+ * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 31.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1777,7 +1777,7 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 500 (195 add, 304 mul, 1 sincos, 13 neg); temporaries: 90.
+ * @note Operations: 500 (195 add, 304 mul, 1 sincos, 13 neg); temporaries: 93.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_translational_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 154 (67 add, 87 mul); temporaries: 27.
+ * @note Operations: 154 (67 add, 87 mul); temporaries: 30.
  * @see S1 Eq. (4), Table 1
  */
 void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 282 (114 add, 168 mul, 6 neg); temporaries: 48.
+ * @note Operations: 267 (108 add, 159 mul, 6 neg); temporaries: 45.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 282 (114 add, 168 mul, 6 neg); temporaries: 42.
+ * @note Operations: 267 (108 add, 159 mul, 6 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -108,7 +108,7 @@ void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 481 (216 add, 265 mul, 15 neg); temporaries: 120.
+ * @note Operations: 460 (204 add, 256 mul, 15 neg); temporaries: 114.
  * @see S1 Eq. (9), corrected
  */
 void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -131,7 +131,7 @@ void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 481 (216 add, 265 mul, 15 neg); temporaries: 72.
+ * @note Operations: 460 (204 add, 256 mul, 15 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_translational_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -158,7 +158,7 @@ void jg_translational_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_REST
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 550 (220 add, 330 mul); temporaries: 99.
+ * @note Operations: 502 (199 add, 303 mul); temporaries: 90.
  * @see second time derivative of S1 Table 1
  */
 void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -184,7 +184,7 @@ void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const j
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 358 (151 add, 207 mul); temporaries: 63.
+ * @note Operations: 343 (145 add, 198 mul); temporaries: 63.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 282 (120 add, 162 mul, 3 neg); temporaries: 48.
+ * @note Operations: 261 (108 add, 153 mul, 3 neg); temporaries: 42.
  * @see S1 Eqs. (1), (5)
  */
 void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -240,7 +240,7 @@ void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1057 (435 add, 622 mul, 21 neg); temporaries: 208.
+ * @note Operations: 1045 (432 add, 613 mul, 21 neg); temporaries: 208.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -274,7 +274,7 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1057 (435 add, 622 mul, 21 neg); temporaries: 114.
+ * @note Operations: 1045 (432 add, 613 mul, 21 neg); temporaries: 114.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -306,7 +306,7 @@ const int *jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 124 (55 add, 69 mul); temporaries: 21.
+ * @note Operations: 124 (55 add, 69 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -328,7 +328,7 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 186 (78 add, 108 mul, 15 neg); temporaries: 48.
+ * @note Operations: 186 (78 add, 108 mul, 15 neg); temporaries: 45.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -373,7 +373,7 @@ void jg_translational_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT 
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 291 (132 add, 159 mul, 21 neg); temporaries: 84.
+ * @note Operations: 291 (132 add, 159 mul, 21 neg); temporaries: 87.
  * @see S1 Eq. (9), corrected
  */
 void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -423,7 +423,7 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_dense(const jg_real *J
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 351 (145 add, 206 mul, 3 neg); temporaries: 57.
+ * @note Operations: 351 (145 add, 206 mul, 3 neg); temporaries: 60.
  * @see second time derivative of S1 Table 1
  */
 void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -449,7 +449,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 244 (106 add, 138 mul); temporaries: 39.
+ * @note Operations: 244 (106 add, 138 mul); temporaries: 42.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -472,7 +472,7 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 228 (96 add, 132 mul, 3 neg); temporaries: 42.
+ * @note Operations: 228 (96 add, 132 mul, 3 neg); temporaries: 45.
  * @see S1 Eqs. (1), (5)
  */
 void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
@@ -505,7 +505,7 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 655 (275 add, 380 mul, 39 neg); temporaries: 147.
+ * @note Operations: 655 (275 add, 380 mul, 39 neg); temporaries: 144.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -573,7 +573,7 @@ const int *jg_translational_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 165 (72 add, 93 mul); temporaries: 30.
+ * @note Operations: 165 (72 add, 93 mul); temporaries: 33.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -596,7 +596,7 @@ void jg_translational_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 48 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 273 (111 add, 162 mul, 6 neg); temporaries: 42.
+ * @note Operations: 252 (99 add, 153 mul, 6 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -619,7 +619,7 @@ void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 273 (111 add, 162 mul, 6 neg); temporaries: 48.
+ * @note Operations: 252 (99 add, 153 mul, 6 neg); temporaries: 48.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -643,7 +643,7 @@ void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 133.
+ * @note Operations: 581 (254 add, 327 mul, 12 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -667,7 +667,7 @@ void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 602 (266 add, 336 mul, 12 neg); temporaries: 66.
+ * @note Operations: 581 (254 add, 327 mul, 12 neg); temporaries: 66.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -696,7 +696,7 @@ void jg_translational_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 573 (228 add, 345 mul, 3 neg); temporaries: 96.
+ * @note Operations: 534 (210 add, 324 mul, 3 neg); temporaries: 87.
  * @see second time derivative of S1 Eq. (12); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -724,7 +724,7 @@ void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 351 (150 add, 201 mul); temporaries: 72.
+ * @note Operations: 336 (144 add, 192 mul); temporaries: 69.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -748,7 +748,7 @@ void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [13]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 320 (134 add, 186 mul, 4 neg); temporaries: 45.
+ * @note Operations: 299 (122 add, 177 mul, 4 neg); temporaries: 39.
  * @see S1 Eqs. (1), (13); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -784,7 +784,7 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1118 (461 add, 657 mul, 21 neg); temporaries: 202.
+ * @note Operations: 1109 (455 add, 654 mul, 21 neg); temporaries: 199.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -822,7 +822,7 @@ void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1118 (461 add, 657 mul, 21 neg); temporaries: 114.
+ * @note Operations: 1109 (455 add, 654 mul, 21 neg); temporaries: 114.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -857,7 +857,7 @@ const int *jg_translational_parametric_substituted_phi_q_t_lambda_q_sparsity(voi
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 165 (72 add, 93 mul); temporaries: 30.
+ * @note Operations: 165 (72 add, 93 mul); temporaries: 33.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1039,7 +1039,7 @@ void jg_translational_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 3 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 300 (126 add, 174 mul, 15 neg); temporaries: 51.
+ * @note Operations: 300 (126 add, 174 mul, 15 neg); temporaries: 54.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

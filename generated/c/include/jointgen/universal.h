@@ -41,7 +41,7 @@ const int *jg_universal_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 104 (47 add, 57 mul); temporaries: 21.
+ * @note Operations: 104 (47 add, 57 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -220,7 +220,7 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 507 (199 add, 308 mul, 3 neg); temporaries: 98.
+ * @note Operations: 507 (199 add, 308 mul, 3 neg); temporaries: 101.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -286,7 +286,7 @@ const int *jg_universal_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 74 (35 add, 39 mul); temporaries: 15.
+ * @note Operations: 74 (35 add, 39 mul); temporaries: 18.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -466,7 +466,7 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 248 (103 add, 145 mul, 25 neg); temporaries: 78.
+ * @note Operations: 248 (103 add, 145 mul, 25 neg); temporaries: 81.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -534,7 +534,7 @@ const int *jg_universal_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 47.
+ * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 50.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -558,7 +558,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 360 (141 add, 217 mul, 2 sincos, 5 neg); temporaries: 61.
+ * @note Operations: 339 (129 add, 208 mul, 2 sincos, 5 neg); temporaries: 55.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -582,7 +582,7 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 360 (141 add, 217 mul, 2 sincos, 5 neg); temporaries: 50.
+ * @note Operations: 339 (129 add, 208 mul, 2 sincos, 5 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -607,7 +607,7 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 863 (358 add, 503 mul, 2 sincos, 13 neg); temporaries: 189.
+ * @note Operations: 842 (346 add, 494 mul, 2 sincos, 13 neg); temporaries: 183.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -632,7 +632,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 863 (358 add, 503 mul, 2 sincos, 13 neg); temporaries: 94.
+ * @note Operations: 842 (346 add, 494 mul, 2 sincos, 13 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -662,7 +662,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 802 (313 add, 487 mul, 2 sincos, 3 neg); temporaries: 130.
+ * @note Operations: 763 (295 add, 466 mul, 2 sincos, 3 neg); temporaries: 121.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -691,7 +691,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 442 (182 add, 258 mul, 2 sincos); temporaries: 91.
+ * @note Operations: 427 (176 add, 249 mul, 2 sincos); temporaries: 88.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -716,7 +716,7 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 410 (165 add, 243 mul, 2 sincos, 3 neg); temporaries: 64.
+ * @note Operations: 389 (153 add, 234 mul, 2 sincos, 3 neg); temporaries: 58.
  * @see S1 Eqs. (1), (13); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -752,7 +752,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1522 (607 add, 913 mul, 2 sincos, 21 neg); temporaries: 272.
+ * @note Operations: 1513 (601 add, 910 mul, 2 sincos, 21 neg); temporaries: 269.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -790,7 +790,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1522 (607 add, 913 mul, 2 sincos, 21 neg); temporaries: 144.
+ * @note Operations: 1513 (601 add, 910 mul, 2 sincos, 21 neg); temporaries: 144.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -825,7 +825,7 @@ const int *jg_universal_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 47.
+ * @note Operations: 204 (84 add, 118 mul, 2 sincos); temporaries: 50.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1010,7 +1010,7 @@ void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRI
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 19 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 579 (225 add, 352 mul, 2 sincos, 14 neg); temporaries: 100.
+ * @note Operations: 579 (225 add, 352 mul, 2 sincos, 14 neg); temporaries: 103.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1084,7 +1084,7 @@ const int *jg_universal_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 27.
+ * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1108,7 +1108,7 @@ void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 245 (99 add, 144 mul, 2 sin, 3 neg); temporaries: 36.
+ * @note Operations: 224 (87 add, 135 mul, 2 sin, 3 neg); temporaries: 30.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1132,7 +1132,7 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 245 (99 add, 144 mul, 2 sin, 3 neg); temporaries: 47.
+ * @note Operations: 224 (87 add, 135 mul, 2 sin, 3 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1157,7 +1157,7 @@ void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 462 (211 add, 249 mul, 2 cos, 12 neg); temporaries: 110.
+ * @note Operations: 441 (199 add, 240 mul, 2 cos, 12 neg); temporaries: 104.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1183,7 +1183,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 462 (211 add, 249 mul, 2 cos, 12 neg); temporaries: 68.
+ * @note Operations: 441 (199 add, 240 mul, 2 cos, 12 neg); temporaries: 68.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1214,7 +1214,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RES
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 491 (197 add, 292 mul, 2 cos, 3 neg); temporaries: 90.
+ * @note Operations: 452 (179 add, 271 mul, 2 cos, 3 neg); temporaries: 81.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2
  */
 void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1243,7 +1243,7 @@ void jg_universal_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 303 (131 add, 170 mul, 2 sin); temporaries: 60.
+ * @note Operations: 288 (125 add, 161 mul, 2 sin); temporaries: 57.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1268,7 +1268,7 @@ void jg_universal_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [14]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 262 (111 add, 149 mul, 2 sin, 3 neg); temporaries: 42.
+ * @note Operations: 241 (99 add, 140 mul, 2 sin, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (13); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1304,7 +1304,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (390 add, 538 mul, 2 sincos, 18 neg); temporaries: 181.
+ * @note Operations: 921 (384 add, 535 mul, 2 sincos, 18 neg); temporaries: 178.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1342,7 +1342,7 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (390 add, 538 mul, 2 sincos, 18 neg); temporaries: 115.
+ * @note Operations: 921 (384 add, 535 mul, 2 sincos, 18 neg); temporaries: 115.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1377,7 +1377,7 @@ const int *jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 27.
+ * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 30.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1562,7 +1562,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 722 (274 add, 446 mul, 2 sincos, 12 neg); temporaries: 111.
+ * @note Operations: 722 (274 add, 446 mul, 2 sincos, 12 neg); temporaries: 114.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

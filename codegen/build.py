@@ -25,6 +25,7 @@ from codegen.ir import text
 from codegen.ir.lower import SymbolicOutput, definition_notation, lower, notation
 from codegen.ir.program import Program
 from codegen.mechanics import frames
+from codegen.mechanics.alternatives import alternatives
 from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.equations import equations
 from codegen.mechanics.formulation import Formulation, formulation
@@ -79,11 +80,15 @@ class Model:
         return self.lowered(self.outputs(names))
 
     def lowered(self, outputs: tuple[SymbolicOutput, ...]) -> Program:
-        """Lower any outputs in the stages of this model to one simplified program."""
+        """Lower any outputs in the stages of this model to one simplified program, in the cheapest of their forms."""
         form = self.form
         arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
         places = frames.inputs(form.coordinates, form.row_count)
-        return simplify(lower(arguments, places, form.stages, outputs, form.aliases))
+        programs = [
+            simplify(lower(arguments, places, form.stages, alternative, form.aliases))
+            for alternative in alternatives(outputs, form.algebra)
+        ]
+        return min(programs, key=lambda program: count(program).total)
 
 
 def joint_type(name: str) -> JointType:

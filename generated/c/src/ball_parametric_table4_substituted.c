@@ -55,29 +55,27 @@ void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, c
     phi[1] = dp_ij_1;
     const jg_real dp_ij_2 = A_i[6] * d_ij_0 + A_i[7] * d_ij_1 + A_i[8] * d_ij_2;
     phi[2] = dp_ij_2;
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    /* A_j_f_j = A_j f_j */
+    const jg_real A_j_f_j_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real A_j_f_j_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real A_j_f_j_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* A_ij_f_j = A_ij f_j */
-    const jg_real A_ij_f_j_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_f_j_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_f_j_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real A_ij_f_j_0 = A_i[0] * A_j_f_j_0 + A_i[1] * A_j_f_j_1 + A_i[2] * A_j_f_j_2;
+    const jg_real A_ij_f_j_1 = A_i[3] * A_j_f_j_0 + A_i[4] * A_j_f_j_1 + A_i[5] * A_j_f_j_2;
+    const jg_real A_ij_f_j_2 = A_i[6] * A_j_f_j_0 + A_i[7] * A_j_f_j_1 + A_i[8] * A_j_f_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     phi[3] = C_i[0] * A_ij_f_j_0 + C_i[1] * A_ij_f_j_1 + C_i[2] * A_ij_f_j_2 - jg_cos(alpha[0]) * cosine_0;
     phi[4] = C_i[6] * A_ij_f_j_0 + C_i[7] * A_ij_f_j_1 + C_i[8] * A_ij_f_j_2 + sine_0;
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
     phi[5] = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2 - cosine_0 * jg_cos(alpha[2]);
 }
 

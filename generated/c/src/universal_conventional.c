@@ -51,20 +51,14 @@ void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real A_i_s_i_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real d_ij_2 = e_ij_2 - A_i_s_i_2;
     phi[2] = d_ij_2;
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
     phi[3] = C_i[6] * A_ij_h_j_0 + C_i[7] * A_ij_h_j_1 + C_i[8] * A_ij_h_j_2;
 }
 
@@ -85,54 +79,50 @@ void jg_universal_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg
     phi_q[4] = A_i_s_i_cross_1;
     const jg_real A_i_s_i_cross_2 = A_i[5] * s_i[2] - A_i[8] * s_i[1];
     phi_q[5] = A_i_s_i_cross_2;
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    phi_q[6] = A_ij_h_j_2 * C_i[7] - A_ij_h_j_1 * C_i[8];
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
+    const jg_real t8 = A_ij_h_j_1 * C_i[8] - A_ij_h_j_2 * C_i[7];
+    phi_q[6] = -t8;
     const jg_real A_i_s_i_cross_3 = A_i[6] * s_i[0] - A_i[0] * s_i[2];
     phi_q[7] = A_i_s_i_cross_3;
     const jg_real A_i_s_i_cross_4 = A_i[7] * s_i[0] - A_i[1] * s_i[2];
     phi_q[8] = A_i_s_i_cross_4;
     const jg_real A_i_s_i_cross_5 = A_i[8] * s_i[0] - A_i[2] * s_i[2];
     phi_q[9] = A_i_s_i_cross_5;
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q[10] = A_ij_h_j_0 * C_i[8] - A_ij_h_j_2 * C_i[6];
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
+    const jg_real t13 = A_ij_h_j_2 * C_i[6] - A_ij_h_j_0 * C_i[8];
+    phi_q[10] = -t13;
     const jg_real A_i_s_i_cross_6 = A_i[0] * s_i[1] - A_i[3] * s_i[0];
     phi_q[11] = A_i_s_i_cross_6;
     const jg_real A_i_s_i_cross_7 = A_i[1] * s_i[1] - A_i[4] * s_i[0];
     phi_q[12] = A_i_s_i_cross_7;
     const jg_real A_i_s_i_cross_8 = A_i[2] * s_i[1] - A_i[5] * s_i[0];
     phi_q[13] = A_i_s_i_cross_8;
-    phi_q[14] = A_ij_h_j_1 * C_i[6] - A_ij_h_j_0 * C_i[7];
+    const jg_real t17 = A_ij_h_j_0 * C_i[7] - A_ij_h_j_1 * C_i[6];
+    phi_q[14] = -t17;
     phi_q[15] = JG_REAL(1.0);
     phi_q[16] = JG_REAL(1.0);
     phi_q[17] = JG_REAL(1.0);
     phi_q[18] = A_j[6] * s_j[1] - A_j[3] * s_j[2];
     phi_q[19] = A_j[7] * s_j[1] - A_j[4] * s_j[2];
     phi_q[20] = A_j[8] * s_j[1] - A_j[5] * s_j[2];
-    /* A_ijt_h_i = A_ij^T h_i */
-    const jg_real A_ijt_h_i_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real A_ijt_h_i_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    phi_q[21] = C_j[7] * A_ijt_h_i_2 - C_j[8] * A_ijt_h_i_1;
+    const jg_real t18 = A_i[0] * t8 + A_i[3] * t13 + A_i[6] * t17;
+    const jg_real t19 = A_i[1] * t8 + A_i[4] * t13 + A_i[7] * t17;
+    const jg_real t20 = A_i[2] * t8 + A_i[5] * t13 + A_i[8] * t17;
+    phi_q[21] = A_j[0] * t18 + A_j[1] * t19 + A_j[2] * t20;
     phi_q[22] = A_j[0] * s_j[2] - A_j[6] * s_j[0];
     phi_q[23] = A_j[1] * s_j[2] - A_j[7] * s_j[0];
     phi_q[24] = A_j[2] * s_j[2] - A_j[8] * s_j[0];
-    const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    phi_q[25] = C_j[8] * A_ijt_h_i_0 - C_j[6] * A_ijt_h_i_2;
+    phi_q[25] = A_j[3] * t18 + A_j[4] * t19 + A_j[5] * t20;
     phi_q[26] = A_j[3] * s_j[0] - A_j[0] * s_j[1];
     phi_q[27] = A_j[4] * s_j[0] - A_j[1] * s_j[1];
     phi_q[28] = A_j[5] * s_j[0] - A_j[2] * s_j[1];
-    phi_q[29] = C_j[6] * A_ijt_h_i_1 - C_j[7] * A_ijt_h_i_0;
+    phi_q[29] = A_j[6] * t18 + A_j[7] * t19 + A_j[8] * t20;
 }
 
 void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -380,33 +370,34 @@ void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real A_i_omega_i_cross_s_i_2 = A_i[2] * omega_i_cross_s_i_0 + A_i[5] * omega_i_cross_s_i_1 + A_i[8] *
         omega_i_cross_s_i_2;
     phi_q_v[2] = v_j[2] - v_i[2] + A_j_omega_j_cross_s_j_2 - A_i_omega_i_cross_s_i_2;
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     /* omega_j_cross_h_j = tilde(omega_j) h_j */
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    /* A_j_omega_j_cross_h_j = A_j tilde(omega_j) h_j */
+    const jg_real A_j_omega_j_cross_h_j_0 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] *
+        omega_j_cross_h_j_2;
+    const jg_real A_j_omega_j_cross_h_j_1 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] *
+        omega_j_cross_h_j_2;
+    const jg_real A_j_omega_j_cross_h_j_2 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] *
+        omega_j_cross_h_j_2;
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
-    const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
-        omega_j_cross_h_j_2;
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ij_omega_j_cross_h_j_1 = A_ij_1 * omega_j_cross_h_j_0 + A_ij_4 * omega_j_cross_h_j_1 + A_ij_7 *
-        omega_j_cross_h_j_2;
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real A_ij_omega_j_cross_h_j_2 = A_ij_2 * omega_j_cross_h_j_0 + A_ij_5 * omega_j_cross_h_j_1 + A_ij_8 *
-        omega_j_cross_h_j_2;
+    const jg_real A_ij_omega_j_cross_h_j_0 = A_i[0] * A_j_omega_j_cross_h_j_0 + A_i[1] * A_j_omega_j_cross_h_j_1 +
+        A_i[2] * A_j_omega_j_cross_h_j_2;
+    const jg_real A_ij_omega_j_cross_h_j_1 = A_i[3] * A_j_omega_j_cross_h_j_0 + A_i[4] * A_j_omega_j_cross_h_j_1 +
+        A_i[5] * A_j_omega_j_cross_h_j_2;
+    const jg_real A_ij_omega_j_cross_h_j_2 = A_i[6] * A_j_omega_j_cross_h_j_0 + A_i[7] * A_j_omega_j_cross_h_j_1 +
+        A_i[8] * A_j_omega_j_cross_h_j_2;
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     phi_q_v[3] = C_i[6] * A_ij_omega_j_cross_h_j_0 + C_i[7] * A_ij_omega_j_cross_h_j_1 + C_i[8] *
@@ -427,36 +418,37 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[8] = lambda[2];
     phi_q_t_lambda[2] = -lambda[2];
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_h_j_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real t8 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    const jg_real t9 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
-    phi_q_t_lambda[3] = s_i[2] * t8 - s_i[1] * t9 - lambda[3] * (A_ij_h_j_1 * C_i[8] - A_ij_h_j_2 * C_i[7]);
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t14 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    phi_q_t_lambda[4] = s_i[0] * t9 - s_i[2] * t14 - lambda[3] * (A_ij_h_j_2 * C_i[6] - A_ij_h_j_0 * C_i[8]);
-    phi_q_t_lambda[5] = s_i[1] * t14 - s_i[0] * t8 - lambda[3] * (A_ij_h_j_0 * C_i[7] - A_ij_h_j_1 * C_i[6]);
-    /* A_ijt_h_i = A_ij^T h_i */
-    const jg_real A_ijt_h_i_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real A_ijt_h_i_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real t17 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real t18 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    phi_q_t_lambda[9] = s_j[1] * t17 - s_j[2] * t18 + lambda[3] * (C_j[7] * A_ijt_h_i_2 - C_j[8] * A_ijt_h_i_1);
-    const jg_real A_ijt_h_i_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real t20 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    phi_q_t_lambda[10] = s_j[2] * t20 - s_j[0] * t17 + lambda[3] * (C_j[8] * A_ijt_h_i_0 - C_j[6] * A_ijt_h_i_2);
-    phi_q_t_lambda[11] = s_j[0] * t18 - s_j[1] * t20 + lambda[3] * (C_j[6] * A_ijt_h_i_1 - C_j[7] * A_ijt_h_i_0);
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
+    const jg_real t5 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
+    const jg_real t6 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
+    phi_q_t_lambda[3] = s_i[2] * t5 - s_i[1] * t6 - lambda[3] * (A_ij_h_j_1 * C_i[8] - A_ij_h_j_2 * C_i[7]);
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
+    const jg_real t8 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    phi_q_t_lambda[4] = s_i[0] * t6 - s_i[2] * t8 - lambda[3] * (A_ij_h_j_2 * C_i[6] - A_ij_h_j_0 * C_i[8]);
+    phi_q_t_lambda[5] = s_i[1] * t8 - s_i[0] * t5 - lambda[3] * (A_ij_h_j_0 * C_i[7] - A_ij_h_j_1 * C_i[6]);
+    /* A_i_h_i = A_i h_i */
+    const jg_real A_i_h_i_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real A_i_h_i_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real A_i_h_i_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    /* A_jt_A_i_h_i = A_j^T A_i h_i */
+    const jg_real A_jt_A_i_h_i_2 = A_j[6] * A_i_h_i_0 + A_j[7] * A_i_h_i_1 + A_j[8] * A_i_h_i_2;
+    const jg_real A_jt_A_i_h_i_1 = A_j[3] * A_i_h_i_0 + A_j[4] * A_i_h_i_1 + A_j[5] * A_i_h_i_2;
+    const jg_real t14 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
+    const jg_real t15 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    phi_q_t_lambda[9] = s_j[1] * t14 - s_j[2] * t15 + lambda[3] * (C_j[7] * A_jt_A_i_h_i_2 - C_j[8] *
+        A_jt_A_i_h_i_1);
+    const jg_real A_jt_A_i_h_i_0 = A_j[0] * A_i_h_i_0 + A_j[1] * A_i_h_i_1 + A_j[2] * A_i_h_i_2;
+    const jg_real t17 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
+    phi_q_t_lambda[10] = s_j[2] * t17 - s_j[0] * t14 + lambda[3] * (C_j[8] * A_jt_A_i_h_i_0 - C_j[6] *
+        A_jt_A_i_h_i_2);
+    phi_q_t_lambda[11] = s_j[0] * t15 - s_j[1] * t17 + lambda[3] * (C_j[6] * A_jt_A_i_h_i_1 - C_j[7] *
+        A_jt_A_i_h_i_0);
 }
 
 void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -39,32 +39,33 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[12] = A_j[0];
     jac_phi_geometry[15] = A_j[3];
     jac_phi_geometry[18] = A_j[6];
-    const jg_real t1 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[1] = t1 * C_i[6];
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[1] = A_j_h_j_0 * C_i[6];
     jac_phi_geometry[13] = A_j[1];
     jac_phi_geometry[16] = A_j[4];
     jac_phi_geometry[19] = A_j[7];
-    const jg_real t2 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[3] = t2 * C_i[6];
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_A_i[3] = A_j_h_j_1 * C_i[6];
     jac_phi_geometry[14] = A_j[2];
     jac_phi_geometry[17] = A_j[5];
     jac_phi_geometry[20] = A_j[8];
-    const jg_real t3 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_A_i[5] = t3 * C_i[6];
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[5] = A_j_h_j_2 * C_i[6];
     const jg_real t4 = -s_i[1];
     jac_phi_A_i[6] = t4;
     jac_phi_A_i[8] = t4;
     jac_phi_A_i[10] = t4;
-    jac_phi_A_i[7] = t1 * C_i[7];
-    jac_phi_A_i[9] = t2 * C_i[7];
-    jac_phi_A_i[11] = t3 * C_i[7];
+    jac_phi_A_i[7] = A_j_h_j_0 * C_i[7];
+    jac_phi_A_i[9] = A_j_h_j_1 * C_i[7];
+    jac_phi_A_i[11] = A_j_h_j_2 * C_i[7];
     const jg_real t5 = -s_i[2];
     jac_phi_A_i[12] = t5;
     jac_phi_A_i[14] = t5;
     jac_phi_A_i[16] = t5;
-    jac_phi_A_i[13] = t1 * C_i[8];
-    jac_phi_A_i[15] = t2 * C_i[8];
-    jac_phi_A_i[17] = t3 * C_i[8];
+    jac_phi_A_i[13] = A_j_h_j_0 * C_i[8];
+    jac_phi_A_i[15] = A_j_h_j_1 * C_i[8];
+    jac_phi_A_i[17] = A_j_h_j_2 * C_i[8];
     jac_phi_r_j[0] = JG_REAL(1.0);
     jac_phi_r_j[1] = JG_REAL(1.0);
     jac_phi_r_j[2] = JG_REAL(1.0);
@@ -95,26 +96,22 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[6] = -A_i[6];
     jac_phi_geometry[7] = -A_i[7];
     jac_phi_geometry[8] = -A_i[8];
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
     jac_phi_geometry[9] = A_ij_h_j_0;
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ij_h_j_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
     jac_phi_geometry[10] = A_ij_h_j_1;
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real A_ij_h_j_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
     jac_phi_geometry[11] = A_ij_h_j_2;
-    jac_phi_geometry[21] = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    jac_phi_geometry[22] = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    jac_phi_geometry[23] = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    jac_phi_geometry[21] = (A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2]) * C_i[6] + (A_j[0] * A_i[3] +
+        A_j[1] * A_i[4] + A_j[2] * A_i[5]) * C_i[7] + (A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8]) *
+        C_i[8];
+    jac_phi_geometry[22] = (A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2]) * C_i[6] + (A_j[3] * A_i[3] +
+        A_j[4] * A_i[4] + A_j[5] * A_i[5]) * C_i[7] + (A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8]) *
+        C_i[8];
+    jac_phi_geometry[23] = (A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2]) * C_i[6] + (A_j[6] * A_i[3] +
+        A_j[7] * A_i[4] + A_j[8] * A_i[5]) * C_i[7] + (A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8]) *
+        C_i[8];
 }
 
 static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -136,38 +133,43 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real omega_j_cross_h_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t4 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] * omega_j_cross_h_j_2;
-    const jg_real t5 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t6 = omega_i[2] * t5;
-    const jg_real t7 = omega_i[1] * t5;
-    jac_phi_q_v_A_i[1] = t4 * C_i[6] - (C_i[7] * t6 - C_i[8] * t7);
-    const jg_real t8 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] * omega_j_cross_h_j_2;
-    const jg_real t9 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t10 = omega_i[2] * t9;
-    const jg_real t11 = omega_i[1] * t9;
-    jac_phi_q_v_A_i[3] = t8 * C_i[6] - (C_i[7] * t10 - C_i[8] * t11);
-    const jg_real t12 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] * omega_j_cross_h_j_2;
-    const jg_real t13 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t14 = omega_i[2] * t13;
-    const jg_real t15 = omega_i[1] * t13;
-    jac_phi_q_v_A_i[5] = t12 * C_i[6] - (C_i[7] * t14 - C_i[8] * t15);
+    /* A_j_omega_j_cross_h_j = A_j tilde(omega_j) h_j */
+    const jg_real A_j_omega_j_cross_h_j_0 = A_j[0] * omega_j_cross_h_j_0 + A_j[3] * omega_j_cross_h_j_1 + A_j[6] *
+        omega_j_cross_h_j_2;
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t6 = omega_i[2] * A_j_h_j_0;
+    const jg_real t7 = omega_i[1] * A_j_h_j_0;
+    jac_phi_q_v_A_i[1] = A_j_omega_j_cross_h_j_0 * C_i[6] - (C_i[7] * t6 - C_i[8] * t7);
+    const jg_real A_j_omega_j_cross_h_j_1 = A_j[1] * omega_j_cross_h_j_0 + A_j[4] * omega_j_cross_h_j_1 + A_j[7] *
+        omega_j_cross_h_j_2;
+    const jg_real A_j_h_j_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t10 = omega_i[2] * A_j_h_j_1;
+    const jg_real t11 = omega_i[1] * A_j_h_j_1;
+    jac_phi_q_v_A_i[3] = A_j_omega_j_cross_h_j_1 * C_i[6] - (C_i[7] * t10 - C_i[8] * t11);
+    const jg_real A_j_omega_j_cross_h_j_2 = A_j[2] * omega_j_cross_h_j_0 + A_j[5] * omega_j_cross_h_j_1 + A_j[8] *
+        omega_j_cross_h_j_2;
+    const jg_real A_j_h_j_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t14 = omega_i[2] * A_j_h_j_2;
+    const jg_real t15 = omega_i[1] * A_j_h_j_2;
+    jac_phi_q_v_A_i[5] = A_j_omega_j_cross_h_j_2 * C_i[6] - (C_i[7] * t14 - C_i[8] * t15);
     const jg_real t16 = s_i[2] * omega_i[0] - omega_i[2] * s_i[0];
     jac_phi_q_v_A_i[6] = t16;
     jac_phi_q_v_A_i[8] = t16;
     jac_phi_q_v_A_i[10] = t16;
-    const jg_real t17 = omega_i[0] * t5;
-    jac_phi_q_v_A_i[7] = t4 * C_i[7] - (C_i[8] * t17 - C_i[6] * t6);
-    const jg_real t18 = omega_i[0] * t9;
-    jac_phi_q_v_A_i[9] = t8 * C_i[7] - (C_i[8] * t18 - C_i[6] * t10);
-    const jg_real t19 = omega_i[0] * t13;
-    jac_phi_q_v_A_i[11] = t12 * C_i[7] - (C_i[8] * t19 - C_i[6] * t14);
+    const jg_real t17 = omega_i[0] * A_j_h_j_0;
+    jac_phi_q_v_A_i[7] = A_j_omega_j_cross_h_j_0 * C_i[7] - (C_i[8] * t17 - C_i[6] * t6);
+    const jg_real t18 = omega_i[0] * A_j_h_j_1;
+    jac_phi_q_v_A_i[9] = A_j_omega_j_cross_h_j_1 * C_i[7] - (C_i[8] * t18 - C_i[6] * t10);
+    const jg_real t19 = omega_i[0] * A_j_h_j_2;
+    jac_phi_q_v_A_i[11] = A_j_omega_j_cross_h_j_2 * C_i[7] - (C_i[8] * t19 - C_i[6] * t14);
     const jg_real t20 = omega_i[1] * s_i[0] - s_i[1] * omega_i[0];
     jac_phi_q_v_A_i[12] = t20;
     jac_phi_q_v_A_i[14] = t20;
     jac_phi_q_v_A_i[16] = t20;
-    jac_phi_q_v_A_i[13] = t4 * C_i[8] - (C_i[6] * t7 - C_i[7] * t17);
-    jac_phi_q_v_A_i[15] = t8 * C_i[8] - (C_i[6] * t11 - C_i[7] * t18);
-    jac_phi_q_v_A_i[17] = t12 * C_i[8] - (C_i[6] * t15 - C_i[7] * t19);
+    jac_phi_q_v_A_i[13] = A_j_omega_j_cross_h_j_0 * C_i[8] - (C_i[6] * t7 - C_i[7] * t17);
+    jac_phi_q_v_A_i[15] = A_j_omega_j_cross_h_j_1 * C_i[8] - (C_i[6] * t11 - C_i[7] * t18);
+    jac_phi_q_v_A_i[17] = A_j_omega_j_cross_h_j_2 * C_i[8] - (C_i[6] * t15 - C_i[7] * t19);
     /* omega_j_cross_s_j = tilde(omega_j) s_j */
     const jg_real omega_j_cross_s_j_0 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
     jac_phi_q_v_A_j[0] = omega_j_cross_s_j_0;
@@ -244,55 +246,63 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_geometry[6] = omega_i[0] * A_i[3] - omega_i[1] * A_i[0];
     jac_phi_q_v_geometry[7] = omega_i[0] * A_i[4] - omega_i[1] * A_i[1];
     jac_phi_q_v_geometry[8] = omega_i[0] * A_i[5] - omega_i[1] * A_i[2];
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     /* A_ij_omega_j_cross_h_j = A_ij tilde(omega_j) h_j */
-    const jg_real A_ij_omega_j_cross_h_j_0 = A_ij_0 * omega_j_cross_h_j_0 + A_ij_3 * omega_j_cross_h_j_1 + A_ij_6 *
-        omega_j_cross_h_j_2;
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real A_ij_omega_j_cross_h_j_0 = A_i[0] * A_j_omega_j_cross_h_j_0 + A_i[1] * A_j_omega_j_cross_h_j_1 +
+        A_i[2] * A_j_omega_j_cross_h_j_2;
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ij_h_j_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
+    const jg_real A_ij_h_j_2 = A_i[6] * A_j_h_j_0 + A_i[7] * A_j_h_j_1 + A_i[8] * A_j_h_j_2;
+    const jg_real A_ij_h_j_1 = A_i[3] * A_j_h_j_0 + A_i[4] * A_j_h_j_1 + A_i[5] * A_j_h_j_2;
     /* omega_i_cross_A_ij_h_j = tilde(omega_i) A_ij h_j */
     const jg_real omega_i_cross_A_ij_h_j_0 = omega_i[1] * A_ij_h_j_2 - omega_i[2] * A_ij_h_j_1;
     jac_phi_q_v_geometry[9] = A_ij_omega_j_cross_h_j_0 - omega_i_cross_A_ij_h_j_0;
-    const jg_real A_ij_omega_j_cross_h_j_1 = omega_j_cross_h_j_0 * A_ij_1 + omega_j_cross_h_j_1 * A_ij_4 +
-        omega_j_cross_h_j_2 * A_ij_7;
-    const jg_real A_ij_h_j_0 = A_ij_0 * C_j[6] + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
+    const jg_real A_ij_omega_j_cross_h_j_1 = A_i[3] * A_j_omega_j_cross_h_j_0 + A_i[4] * A_j_omega_j_cross_h_j_1 +
+        A_i[5] * A_j_omega_j_cross_h_j_2;
+    const jg_real A_ij_h_j_0 = A_i[0] * A_j_h_j_0 + A_i[1] * A_j_h_j_1 + A_i[2] * A_j_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_1 = omega_i[2] * A_ij_h_j_0 - omega_i[0] * A_ij_h_j_2;
     jac_phi_q_v_geometry[10] = A_ij_omega_j_cross_h_j_1 - omega_i_cross_A_ij_h_j_1;
-    const jg_real A_ij_omega_j_cross_h_j_2 = omega_j_cross_h_j_0 * A_ij_2 + omega_j_cross_h_j_1 * A_ij_5 +
-        omega_j_cross_h_j_2 * A_ij_8;
+    const jg_real A_ij_omega_j_cross_h_j_2 = A_i[6] * A_j_omega_j_cross_h_j_0 + A_i[7] * A_j_omega_j_cross_h_j_1 +
+        A_i[8] * A_j_omega_j_cross_h_j_2;
     const jg_real omega_i_cross_A_ij_h_j_2 = omega_i[0] * A_ij_h_j_1 - omega_i[1] * A_ij_h_j_0;
     jac_phi_q_v_geometry[11] = A_ij_omega_j_cross_h_j_2 - omega_i_cross_A_ij_h_j_2;
-    jac_phi_q_v_geometry[12] = omega_j[2] * A_j[3] - omega_j[1] * A_j[6];
-    jac_phi_q_v_geometry[13] = omega_j[2] * A_j[4] - omega_j[1] * A_j[7];
-    jac_phi_q_v_geometry[14] = omega_j[2] * A_j[5] - omega_j[1] * A_j[8];
-    jac_phi_q_v_geometry[15] = omega_j[0] * A_j[6] - omega_j[2] * A_j[0];
-    jac_phi_q_v_geometry[16] = omega_j[0] * A_j[7] - omega_j[2] * A_j[1];
-    jac_phi_q_v_geometry[17] = omega_j[0] * A_j[8] - omega_j[2] * A_j[2];
-    jac_phi_q_v_geometry[18] = omega_j[1] * A_j[0] - omega_j[0] * A_j[3];
-    jac_phi_q_v_geometry[19] = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
-    jac_phi_q_v_geometry[20] = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
-    jac_phi_q_v_geometry[21] = (omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6) * C_i[6] + (omega_j[2] * A_ij_4 -
-        omega_j[1] * A_ij_7) * C_i[7] + (omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8) * C_i[8] - (C_i[6] * (omega_i[1]
-        * A_ij_2 - omega_i[2] * A_ij_1) + C_i[7] * (omega_i[2] * A_ij_0 - omega_i[0] * A_ij_2) + C_i[8] *
-        (omega_i[0] * A_ij_1 - omega_i[1] * A_ij_0));
-    jac_phi_q_v_geometry[22] = (omega_j[0] * A_ij_6 - omega_j[2] * A_ij_0) * C_i[6] + (omega_j[0] * A_ij_7 -
-        omega_j[2] * A_ij_1) * C_i[7] + (omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2) * C_i[8] - (C_i[6] * (omega_i[1]
-        * A_ij_5 - omega_i[2] * A_ij_4) + C_i[7] * (omega_i[2] * A_ij_3 - omega_i[0] * A_ij_5) + C_i[8] *
-        (omega_i[0] * A_ij_4 - omega_i[1] * A_ij_3));
-    jac_phi_q_v_geometry[23] = (omega_j[1] * A_ij_0 - omega_j[0] * A_ij_3) * C_i[6] + (omega_j[1] * A_ij_1 -
-        omega_j[0] * A_ij_4) * C_i[7] + (omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5) * C_i[8] - (C_i[6] * (omega_i[1]
-        * A_ij_8 - omega_i[2] * A_ij_7) + C_i[7] * (omega_i[2] * A_ij_6 - omega_i[0] * A_ij_8) + C_i[8] *
-        (omega_i[0] * A_ij_7 - omega_i[1] * A_ij_6));
+    const jg_real t60 = omega_j[2] * A_j[3] - omega_j[1] * A_j[6];
+    jac_phi_q_v_geometry[12] = t60;
+    const jg_real t61 = omega_j[2] * A_j[4] - omega_j[1] * A_j[7];
+    jac_phi_q_v_geometry[13] = t61;
+    const jg_real t62 = omega_j[2] * A_j[5] - omega_j[1] * A_j[8];
+    jac_phi_q_v_geometry[14] = t62;
+    const jg_real t63 = omega_j[0] * A_j[6] - omega_j[2] * A_j[0];
+    jac_phi_q_v_geometry[15] = t63;
+    const jg_real t64 = omega_j[0] * A_j[7] - omega_j[2] * A_j[1];
+    jac_phi_q_v_geometry[16] = t64;
+    const jg_real t65 = omega_j[0] * A_j[8] - omega_j[2] * A_j[2];
+    jac_phi_q_v_geometry[17] = t65;
+    const jg_real t66 = omega_j[1] * A_j[0] - omega_j[0] * A_j[3];
+    jac_phi_q_v_geometry[18] = t66;
+    const jg_real t67 = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
+    jac_phi_q_v_geometry[19] = t67;
+    const jg_real t68 = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
+    jac_phi_q_v_geometry[20] = t68;
+    const jg_real t69 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real t70 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real t71 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    jac_phi_q_v_geometry[21] = (t60 * A_i[0] + t61 * A_i[1] + t62 * A_i[2]) * C_i[6] + (t60 * A_i[3] + t61 * A_i[4]
+        + t62 * A_i[5]) * C_i[7] + (t60 * A_i[6] + t61 * A_i[7] + t62 * A_i[8]) * C_i[8] - (C_i[6] * (omega_i[1] *
+        t69 - omega_i[2] * t70) + C_i[7] * (omega_i[2] * t71 - omega_i[0] * t69) + C_i[8] * (omega_i[0] * t70 -
+        omega_i[1] * t71));
+    const jg_real t72 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real t73 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real t74 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    jac_phi_q_v_geometry[22] = (t63 * A_i[0] + t64 * A_i[1] + t65 * A_i[2]) * C_i[6] + (t63 * A_i[3] + t64 * A_i[4]
+        + t65 * A_i[5]) * C_i[7] + (t63 * A_i[6] + t64 * A_i[7] + t65 * A_i[8]) * C_i[8] - (C_i[6] * (omega_i[1] *
+        t72 - omega_i[2] * t73) + C_i[7] * (omega_i[2] * t74 - omega_i[0] * t72) + C_i[8] * (omega_i[0] * t73 -
+        omega_i[1] * t74));
+    const jg_real t75 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real t76 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real t77 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_v_geometry[23] = (t66 * A_i[0] + t67 * A_i[1] + t68 * A_i[2]) * C_i[6] + (t66 * A_i[3] + t67 * A_i[4]
+        + t68 * A_i[5]) * C_i[7] + (t66 * A_i[6] + t67 * A_i[7] + t68 * A_i[8]) * C_i[8] - (C_i[6] * (omega_i[1] *
+        t75 - omega_i[2] * t76) + C_i[7] * (omega_i[2] * t77 - omega_i[0] * t75) + C_i[8] * (omega_i[0] * t76 -
+        omega_i[1] * t77));
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
@@ -314,18 +324,27 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_velocity[18] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
     jac_phi_q_v_velocity[19] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
     jac_phi_q_v_velocity[20] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
-    jac_phi_q_v_velocity[21] = (C_j[7] * A_ij_6 - C_j[8] * A_ij_3) * C_i[6] + (C_j[7] * A_ij_7 - C_j[8] * A_ij_4) *
-        C_i[7] + (C_j[7] * A_ij_8 - C_j[8] * A_ij_5) * C_i[8];
+    const jg_real t78 = A_j[6] * C_j[7] - A_j[3] * C_j[8];
+    const jg_real t79 = A_j[7] * C_j[7] - A_j[4] * C_j[8];
+    const jg_real t80 = A_j[8] * C_j[7] - A_j[5] * C_j[8];
+    jac_phi_q_v_velocity[21] = (A_i[0] * t78 + A_i[1] * t79 + A_i[2] * t80) * C_i[6] + (A_i[3] * t78 + A_i[4] * t79
+        + A_i[5] * t80) * C_i[7] + (A_i[6] * t78 + A_i[7] * t79 + A_i[8] * t80) * C_i[8];
     jac_phi_q_v_velocity[22] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
     jac_phi_q_v_velocity[23] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
     jac_phi_q_v_velocity[24] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
-    jac_phi_q_v_velocity[25] = (A_ij_0 * C_j[8] - C_j[6] * A_ij_6) * C_i[6] + (C_j[8] * A_ij_1 - C_j[6] * A_ij_7) *
-        C_i[7] + (C_j[8] * A_ij_2 - C_j[6] * A_ij_8) * C_i[8];
+    const jg_real t81 = A_j[0] * C_j[8] - A_j[6] * C_j[6];
+    const jg_real t82 = A_j[1] * C_j[8] - A_j[7] * C_j[6];
+    const jg_real t83 = A_j[2] * C_j[8] - A_j[8] * C_j[6];
+    jac_phi_q_v_velocity[25] = (A_i[0] * t81 + A_i[1] * t82 + A_i[2] * t83) * C_i[6] + (A_i[3] * t81 + A_i[4] * t82
+        + A_i[5] * t83) * C_i[7] + (A_i[6] * t81 + A_i[7] * t82 + A_i[8] * t83) * C_i[8];
     jac_phi_q_v_velocity[26] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
     jac_phi_q_v_velocity[27] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     jac_phi_q_v_velocity[28] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
-    jac_phi_q_v_velocity[29] = (A_ij_3 * C_j[6] - A_ij_0 * C_j[7]) * C_i[6] + (C_j[6] * A_ij_4 - C_j[7] * A_ij_1) *
-        C_i[7] + (C_j[6] * A_ij_5 - C_j[7] * A_ij_2) * C_i[8];
+    const jg_real t84 = A_j[3] * C_j[6] - A_j[0] * C_j[7];
+    const jg_real t85 = A_j[4] * C_j[6] - A_j[1] * C_j[7];
+    const jg_real t86 = A_j[5] * C_j[6] - A_j[2] * C_j[7];
+    jac_phi_q_v_velocity[29] = (A_i[0] * t84 + A_i[1] * t85 + A_i[2] * t86) * C_i[6] + (A_i[3] * t84 + A_i[4] * t85
+        + A_i[5] * t86) * C_i[7] + (A_i[6] * t84 + A_i[7] * t85 + A_i[8] * t86) * C_i[8];
 }
 
 static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i,
@@ -337,11 +356,12 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real t0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t1 = lambda[0] * s_i[2] - t0 * C_i[8] * lambda[3];
+    /* A_j_h_j = A_j h_j */
+    const jg_real A_j_h_j_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t1 = lambda[0] * s_i[2] - A_j_h_j_0 * C_i[8] * lambda[3];
     jac_phi_q_t_lambda_A_i[15] = t1;
     jac_phi_q_t_lambda_A_i[0] = -t1;
-    const jg_real t2 = t0 * C_i[7] * lambda[3] - lambda[0] * s_i[1];
+    const jg_real t2 = A_j_h_j_0 * C_i[7] * lambda[3] - lambda[0] * s_i[1];
     jac_phi_q_t_lambda_A_i[30] = t2;
     jac_phi_q_t_lambda_A_i[1] = -t2;
     const jg_real t3 = A_j[6] * C_i[6];
@@ -350,11 +370,11 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t5 = A_j[0] * C_i[6];
     jac_phi_q_t_lambda_A_i[3] = lambda[3] * (C_j[8] * t5 - C_j[6] * t3);
     jac_phi_q_t_lambda_A_i[4] = lambda[3] * (C_j[6] * t4 - C_j[7] * t5);
-    const jg_real t6 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t7 = lambda[1] * s_i[2] - t6 * C_i[8] * lambda[3];
+    const jg_real A_j_h_j_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    const jg_real t7 = lambda[1] * s_i[2] - A_j_h_j_1 * C_i[8] * lambda[3];
     jac_phi_q_t_lambda_A_i[20] = t7;
     jac_phi_q_t_lambda_A_i[5] = -t7;
-    const jg_real t8 = t6 * C_i[7] * lambda[3] - lambda[1] * s_i[1];
+    const jg_real t8 = A_j_h_j_1 * C_i[7] * lambda[3] - lambda[1] * s_i[1];
     jac_phi_q_t_lambda_A_i[35] = t8;
     jac_phi_q_t_lambda_A_i[6] = -t8;
     const jg_real t9 = A_j[7] * C_i[6];
@@ -363,11 +383,11 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t11 = A_j[1] * C_i[6];
     jac_phi_q_t_lambda_A_i[8] = lambda[3] * (C_j[8] * t11 - C_j[6] * t9);
     jac_phi_q_t_lambda_A_i[9] = lambda[3] * (C_j[6] * t10 - C_j[7] * t11);
-    const jg_real t12 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t13 = lambda[2] * s_i[2] - t12 * C_i[8] * lambda[3];
+    const jg_real A_j_h_j_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
+    const jg_real t13 = lambda[2] * s_i[2] - A_j_h_j_2 * C_i[8] * lambda[3];
     jac_phi_q_t_lambda_A_i[25] = t13;
     jac_phi_q_t_lambda_A_i[10] = -t13;
-    const jg_real t14 = t12 * C_i[7] * lambda[3] - lambda[2] * s_i[1];
+    const jg_real t14 = A_j_h_j_2 * C_i[7] * lambda[3] - lambda[2] * s_i[1];
     jac_phi_q_t_lambda_A_i[40] = t14;
     jac_phi_q_t_lambda_A_i[11] = -t14;
     const jg_real t15 = A_j[8] * C_i[6];
@@ -376,7 +396,7 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t17 = A_j[2] * C_i[6];
     jac_phi_q_t_lambda_A_i[13] = lambda[3] * (C_j[8] * t17 - C_j[6] * t15);
     jac_phi_q_t_lambda_A_i[14] = lambda[3] * (C_j[6] * t16 - C_j[7] * t17);
-    const jg_real t18 = lambda[0] * s_i[0] - t0 * C_i[6] * lambda[3];
+    const jg_real t18 = lambda[0] * s_i[0] - A_j_h_j_0 * C_i[6] * lambda[3];
     jac_phi_q_t_lambda_A_i[31] = t18;
     jac_phi_q_t_lambda_A_i[16] = -t18;
     const jg_real t19 = A_j[6] * C_i[7];
@@ -385,7 +405,7 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t21 = A_j[0] * C_i[7];
     jac_phi_q_t_lambda_A_i[18] = lambda[3] * (C_j[8] * t21 - C_j[6] * t19);
     jac_phi_q_t_lambda_A_i[19] = lambda[3] * (C_j[6] * t20 - C_j[7] * t21);
-    const jg_real t22 = lambda[1] * s_i[0] - t6 * C_i[6] * lambda[3];
+    const jg_real t22 = lambda[1] * s_i[0] - A_j_h_j_1 * C_i[6] * lambda[3];
     jac_phi_q_t_lambda_A_i[36] = t22;
     jac_phi_q_t_lambda_A_i[21] = -t22;
     const jg_real t23 = A_j[7] * C_i[7];
@@ -394,7 +414,7 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t25 = A_j[1] * C_i[7];
     jac_phi_q_t_lambda_A_i[23] = lambda[3] * (C_j[8] * t25 - C_j[6] * t23);
     jac_phi_q_t_lambda_A_i[24] = lambda[3] * (C_j[6] * t24 - C_j[7] * t25);
-    const jg_real t26 = lambda[2] * s_i[0] - t12 * C_i[6] * lambda[3];
+    const jg_real t26 = lambda[2] * s_i[0] - A_j_h_j_2 * C_i[6] * lambda[3];
     jac_phi_q_t_lambda_A_i[41] = t26;
     jac_phi_q_t_lambda_A_i[26] = -t26;
     const jg_real t27 = A_j[8] * C_i[7];
@@ -421,84 +441,85 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t38 = A_j[2] * C_i[8];
     jac_phi_q_t_lambda_A_i[43] = lambda[3] * (C_j[8] * t38 - C_j[6] * t36);
     jac_phi_q_t_lambda_A_i[44] = lambda[3] * (C_j[6] * t37 - C_j[7] * t38);
-    const jg_real t39 = A_i[3] * C_j[6];
+    const jg_real t39 = C_j[6] * A_i[3];
     const jg_real t40 = C_j[6] * A_i[6];
     jac_phi_q_t_lambda_A_j[0] = -((t39 * C_i[8] - t40 * C_i[7]) * lambda[3]);
     const jg_real t41 = C_j[6] * A_i[0];
     jac_phi_q_t_lambda_A_j[1] = -(lambda[3] * (t40 * C_i[6] - C_i[8] * t41));
     jac_phi_q_t_lambda_A_j[2] = -(lambda[3] * (C_i[7] * t41 - t39 * C_i[6]));
-    const jg_real t42 = C_i[6] * A_i[0] + A_i[3] * C_i[7] + C_i[8] * A_i[6];
-    const jg_real t43 = C_j[8] * t42 * lambda[3] + lambda[0] * s_j[2];
+    /* A_i_h_i = A_i h_i */
+    const jg_real A_i_h_i_0 = C_i[6] * A_i[0] + A_i[3] * C_i[7] + C_i[8] * A_i[6];
+    const jg_real t43 = C_j[8] * A_i_h_i_0 * lambda[3] + lambda[0] * s_j[2];
     jac_phi_q_t_lambda_A_j[3] = t43;
-    const jg_real t44 = C_j[7] * t42 * lambda[3] + lambda[0] * s_j[1];
+    const jg_real t44 = C_j[7] * A_i_h_i_0 * lambda[3] + lambda[0] * s_j[1];
     jac_phi_q_t_lambda_A_j[33] = t44;
     jac_phi_q_t_lambda_A_j[4] = -t44;
-    const jg_real t45 = A_i[4] * C_j[6];
+    const jg_real t45 = C_j[6] * A_i[4];
     const jg_real t46 = C_j[6] * A_i[7];
     jac_phi_q_t_lambda_A_j[5] = -((t45 * C_i[8] - t46 * C_i[7]) * lambda[3]);
     const jg_real t47 = C_j[6] * A_i[1];
     jac_phi_q_t_lambda_A_j[6] = -(lambda[3] * (t46 * C_i[6] - C_i[8] * t47));
     jac_phi_q_t_lambda_A_j[7] = -(lambda[3] * (C_i[7] * t47 - t45 * C_i[6]));
-    const jg_real t48 = C_i[6] * A_i[1] + A_i[4] * C_i[7] + C_i[8] * A_i[7];
-    const jg_real t49 = C_j[8] * t48 * lambda[3] + lambda[1] * s_j[2];
+    const jg_real A_i_h_i_1 = C_i[6] * A_i[1] + A_i[4] * C_i[7] + C_i[8] * A_i[7];
+    const jg_real t49 = C_j[8] * A_i_h_i_1 * lambda[3] + lambda[1] * s_j[2];
     jac_phi_q_t_lambda_A_j[8] = t49;
-    const jg_real t50 = C_j[7] * t48 * lambda[3] + lambda[1] * s_j[1];
+    const jg_real t50 = C_j[7] * A_i_h_i_1 * lambda[3] + lambda[1] * s_j[1];
     jac_phi_q_t_lambda_A_j[38] = t50;
     jac_phi_q_t_lambda_A_j[9] = -t50;
-    const jg_real t51 = A_i[5] * C_j[6];
+    const jg_real t51 = C_j[6] * A_i[5];
     const jg_real t52 = C_j[6] * A_i[8];
     jac_phi_q_t_lambda_A_j[10] = -((t51 * C_i[8] - t52 * C_i[7]) * lambda[3]);
     const jg_real t53 = C_j[6] * A_i[2];
     jac_phi_q_t_lambda_A_j[11] = -(lambda[3] * (t52 * C_i[6] - C_i[8] * t53));
     jac_phi_q_t_lambda_A_j[12] = -(lambda[3] * (C_i[7] * t53 - t51 * C_i[6]));
-    const jg_real t54 = C_i[6] * A_i[2] + A_i[5] * C_i[7] + C_i[8] * A_i[8];
-    const jg_real t55 = C_j[8] * t54 * lambda[3] + lambda[2] * s_j[2];
+    const jg_real A_i_h_i_2 = C_i[6] * A_i[2] + A_i[5] * C_i[7] + C_i[8] * A_i[8];
+    const jg_real t55 = C_j[8] * A_i_h_i_2 * lambda[3] + lambda[2] * s_j[2];
     jac_phi_q_t_lambda_A_j[13] = t55;
-    const jg_real t56 = C_j[7] * t54 * lambda[3] + lambda[2] * s_j[1];
+    const jg_real t56 = C_j[7] * A_i_h_i_2 * lambda[3] + lambda[2] * s_j[1];
     jac_phi_q_t_lambda_A_j[43] = t56;
     jac_phi_q_t_lambda_A_j[14] = -t56;
-    const jg_real t57 = A_i[3] * C_j[7];
+    const jg_real t57 = C_j[7] * A_i[3];
     const jg_real t58 = C_j[7] * A_i[6];
     jac_phi_q_t_lambda_A_j[15] = -((t57 * C_i[8] - t58 * C_i[7]) * lambda[3]);
     const jg_real t59 = C_j[7] * A_i[0];
     jac_phi_q_t_lambda_A_j[16] = -(lambda[3] * (t58 * C_i[6] - C_i[8] * t59));
     jac_phi_q_t_lambda_A_j[17] = -(lambda[3] * (C_i[7] * t59 - t57 * C_i[6]));
     jac_phi_q_t_lambda_A_j[18] = -t43;
-    const jg_real t60 = C_j[6] * t42 * lambda[3] + lambda[0] * s_j[0];
+    const jg_real t60 = C_j[6] * A_i_h_i_0 * lambda[3] + lambda[0] * s_j[0];
     jac_phi_q_t_lambda_A_j[19] = t60;
-    const jg_real t61 = A_i[4] * C_j[7];
+    const jg_real t61 = C_j[7] * A_i[4];
     const jg_real t62 = C_j[7] * A_i[7];
     jac_phi_q_t_lambda_A_j[20] = -((t61 * C_i[8] - t62 * C_i[7]) * lambda[3]);
     const jg_real t63 = C_j[7] * A_i[1];
     jac_phi_q_t_lambda_A_j[21] = -(lambda[3] * (t62 * C_i[6] - C_i[8] * t63));
     jac_phi_q_t_lambda_A_j[22] = -(lambda[3] * (C_i[7] * t63 - t61 * C_i[6]));
     jac_phi_q_t_lambda_A_j[23] = -t49;
-    const jg_real t64 = C_j[6] * t48 * lambda[3] + lambda[1] * s_j[0];
+    const jg_real t64 = C_j[6] * A_i_h_i_1 * lambda[3] + lambda[1] * s_j[0];
     jac_phi_q_t_lambda_A_j[24] = t64;
-    const jg_real t65 = A_i[5] * C_j[7];
+    const jg_real t65 = C_j[7] * A_i[5];
     const jg_real t66 = C_j[7] * A_i[8];
     jac_phi_q_t_lambda_A_j[25] = -((t65 * C_i[8] - t66 * C_i[7]) * lambda[3]);
     const jg_real t67 = C_j[7] * A_i[2];
     jac_phi_q_t_lambda_A_j[26] = -(lambda[3] * (t66 * C_i[6] - C_i[8] * t67));
     jac_phi_q_t_lambda_A_j[27] = -(lambda[3] * (C_i[7] * t67 - t65 * C_i[6]));
     jac_phi_q_t_lambda_A_j[28] = -t55;
-    const jg_real t68 = C_j[6] * t54 * lambda[3] + lambda[2] * s_j[0];
+    const jg_real t68 = C_j[6] * A_i_h_i_2 * lambda[3] + lambda[2] * s_j[0];
     jac_phi_q_t_lambda_A_j[29] = t68;
-    const jg_real t69 = A_i[3] * C_j[8];
+    const jg_real t69 = C_j[8] * A_i[3];
     const jg_real t70 = C_j[8] * A_i[6];
     jac_phi_q_t_lambda_A_j[30] = -((t69 * C_i[8] - t70 * C_i[7]) * lambda[3]);
     const jg_real t71 = C_j[8] * A_i[0];
     jac_phi_q_t_lambda_A_j[31] = -(lambda[3] * (t70 * C_i[6] - C_i[8] * t71));
     jac_phi_q_t_lambda_A_j[32] = -(lambda[3] * (C_i[7] * t71 - t69 * C_i[6]));
     jac_phi_q_t_lambda_A_j[34] = -t60;
-    const jg_real t72 = A_i[4] * C_j[8];
+    const jg_real t72 = C_j[8] * A_i[4];
     const jg_real t73 = C_j[8] * A_i[7];
     jac_phi_q_t_lambda_A_j[35] = -((t72 * C_i[8] - t73 * C_i[7]) * lambda[3]);
     const jg_real t74 = C_j[8] * A_i[1];
     jac_phi_q_t_lambda_A_j[36] = -(lambda[3] * (t73 * C_i[6] - C_i[8] * t74));
     jac_phi_q_t_lambda_A_j[37] = -(lambda[3] * (C_i[7] * t74 - t72 * C_i[6]));
     jac_phi_q_t_lambda_A_j[39] = -t64;
-    const jg_real t75 = A_i[5] * C_j[8];
+    const jg_real t75 = C_j[8] * A_i[5];
     const jg_real t76 = C_j[8] * A_i[8];
     jac_phi_q_t_lambda_A_j[40] = -((t75 * C_i[8] - t76 * C_i[7]) * lambda[3]);
     const jg_real t77 = C_j[8] * A_i[2];
@@ -514,38 +535,37 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t80 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     jac_phi_q_t_lambda_geometry[3] = t80;
     jac_phi_q_t_lambda_geometry[5] = -t80;
-    /* A_ij = A_i^T A_j */
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* A_ij_h_j = A_ij h_j */
-    const jg_real A_ij_h_j_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
-    const jg_real t85 = A_ij_h_j_2 * lambda[3];
-    jac_phi_q_t_lambda_geometry[11] = t85;
-    jac_phi_q_t_lambda_geometry[6] = -t85;
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_h_j_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real t90 = A_ij_h_j_1 * lambda[3];
-    jac_phi_q_t_lambda_geometry[7] = t90;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_q_t_lambda_geometry[8] = lambda[3] * (C_j[7] * A_ij_6 - C_j[8] * A_ij_3);
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    jac_phi_q_t_lambda_geometry[9] = lambda[3] * (C_j[8] * A_ij_0 - C_j[6] * A_ij_6);
-    jac_phi_q_t_lambda_geometry[10] = lambda[3] * (C_j[6] * A_ij_3 - C_j[7] * A_ij_0);
-    const jg_real A_ij_h_j_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    const jg_real t95 = lambda[3] * A_ij_h_j_0;
-    jac_phi_q_t_lambda_geometry[17] = t95;
-    jac_phi_q_t_lambda_geometry[12] = -t95;
-    jac_phi_q_t_lambda_geometry[13] = lambda[3] * (C_j[7] * A_ij_7 - A_ij_4 * C_j[8]);
-    jac_phi_q_t_lambda_geometry[14] = lambda[3] * (A_ij_1 * C_j[8] - C_j[6] * A_ij_7);
-    jac_phi_q_t_lambda_geometry[15] = lambda[3] * (C_j[6] * A_ij_4 - A_ij_1 * C_j[7]);
-    jac_phi_q_t_lambda_geometry[16] = -t90;
-    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[7] * A_ij_8 - C_j[8] * A_ij_5);
-    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[8] * A_ij_2 - C_j[6] * A_ij_8);
-    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[6] * A_ij_5 - C_j[7] * A_ij_2);
+    const jg_real A_ij_h_j_2 = A_j_h_j_0 * A_i[6] + A_j_h_j_1 * A_i[7] + A_j_h_j_2 * A_i[8];
+    const jg_real t82 = A_ij_h_j_2 * lambda[3];
+    jac_phi_q_t_lambda_geometry[11] = t82;
+    jac_phi_q_t_lambda_geometry[6] = -t82;
+    const jg_real A_ij_h_j_1 = A_j_h_j_0 * A_i[3] + A_j_h_j_1 * A_i[4] + A_j_h_j_2 * A_i[5];
+    const jg_real t84 = A_ij_h_j_1 * lambda[3];
+    jac_phi_q_t_lambda_geometry[7] = t84;
+    const jg_real t85 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real t86 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    jac_phi_q_t_lambda_geometry[8] = lambda[3] * (C_j[7] * t85 - C_j[8] * t86);
+    const jg_real t87 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    jac_phi_q_t_lambda_geometry[9] = lambda[3] * (C_j[8] * t87 - C_j[6] * t85);
+    jac_phi_q_t_lambda_geometry[10] = lambda[3] * (C_j[6] * t86 - C_j[7] * t87);
+    const jg_real A_ij_h_j_0 = A_j_h_j_0 * A_i[0] + A_j_h_j_1 * A_i[1] + A_j_h_j_2 * A_i[2];
+    const jg_real t89 = lambda[3] * A_ij_h_j_0;
+    jac_phi_q_t_lambda_geometry[17] = t89;
+    jac_phi_q_t_lambda_geometry[12] = -t89;
+    const jg_real t90 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real t91 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    jac_phi_q_t_lambda_geometry[13] = lambda[3] * (C_j[7] * t90 - C_j[8] * t91);
+    const jg_real t92 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    jac_phi_q_t_lambda_geometry[14] = lambda[3] * (C_j[8] * t92 - C_j[6] * t90);
+    jac_phi_q_t_lambda_geometry[15] = lambda[3] * (C_j[6] * t91 - C_j[7] * t92);
+    jac_phi_q_t_lambda_geometry[16] = -t84;
+    const jg_real t93 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real t94 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    jac_phi_q_t_lambda_geometry[18] = lambda[3] * (C_j[7] * t93 - C_j[8] * t94);
+    const jg_real t95 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    jac_phi_q_t_lambda_geometry[19] = lambda[3] * (C_j[8] * t95 - C_j[6] * t93);
+    jac_phi_q_t_lambda_geometry[20] = lambda[3] * (C_j[6] * t94 - C_j[7] * t95);
     const jg_real t96 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     jac_phi_q_t_lambda_geometry[23] = t96;
     jac_phi_q_t_lambda_geometry[21] = -t96;
@@ -555,27 +575,27 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[26] = t98;
     jac_phi_q_t_lambda_geometry[24] = -t98;
     jac_phi_q_t_lambda_geometry[25] = -t97;
-    jac_phi_q_t_lambda_geometry[27] = -((A_ij_1 * C_i[8] - A_ij_2 * C_i[7]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[28] = -(lambda[3] * (A_ij_2 * C_i[6] - C_i[8] * A_ij_0));
-    jac_phi_q_t_lambda_geometry[29] = -(lambda[3] * (C_i[7] * A_ij_0 - A_ij_1 * C_i[6]));
-    /* A_ijt_h_i = A_ij^T h_i */
-    const jg_real A_ijt_h_i_2 = C_i[6] * A_ij_6 + A_ij_7 * C_i[7] + C_i[8] * A_ij_8;
-    const jg_real t100 = lambda[3] * A_ijt_h_i_2;
+    jac_phi_q_t_lambda_geometry[27] = -((t92 * C_i[8] - t95 * C_i[7]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[28] = -(lambda[3] * (t95 * C_i[6] - C_i[8] * t87));
+    jac_phi_q_t_lambda_geometry[29] = -(lambda[3] * (C_i[7] * t87 - t92 * C_i[6]));
+    /* A_jt_A_i_h_i = A_j^T A_i h_i */
+    const jg_real A_jt_A_i_h_i_2 = A_j[6] * A_i_h_i_0 + A_j[7] * A_i_h_i_1 + A_j[8] * A_i_h_i_2;
+    const jg_real t100 = lambda[3] * A_jt_A_i_h_i_2;
     jac_phi_q_t_lambda_geometry[35] = t100;
     jac_phi_q_t_lambda_geometry[30] = -t100;
-    const jg_real A_ijt_h_i_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + C_i[8] * A_ij_5;
-    const jg_real t102 = lambda[3] * A_ijt_h_i_1;
+    const jg_real A_jt_A_i_h_i_1 = A_j[3] * A_i_h_i_0 + A_j[4] * A_i_h_i_1 + A_j[5] * A_i_h_i_2;
+    const jg_real t102 = lambda[3] * A_jt_A_i_h_i_1;
     jac_phi_q_t_lambda_geometry[31] = t102;
-    jac_phi_q_t_lambda_geometry[32] = -((A_ij_4 * C_i[8] - A_ij_5 * C_i[7]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[33] = -(lambda[3] * (A_ij_5 * C_i[6] - C_i[8] * A_ij_3));
-    jac_phi_q_t_lambda_geometry[34] = -(lambda[3] * (C_i[7] * A_ij_3 - A_ij_4 * C_i[6]));
-    const jg_real A_ijt_h_i_0 = C_i[6] * A_ij_0 + A_ij_1 * C_i[7] + C_i[8] * A_ij_2;
-    const jg_real t104 = lambda[3] * A_ijt_h_i_0;
+    jac_phi_q_t_lambda_geometry[32] = -((t91 * C_i[8] - t94 * C_i[7]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[33] = -(lambda[3] * (t94 * C_i[6] - C_i[8] * t86));
+    jac_phi_q_t_lambda_geometry[34] = -(lambda[3] * (C_i[7] * t86 - t91 * C_i[6]));
+    const jg_real A_jt_A_i_h_i_0 = A_j[0] * A_i_h_i_0 + A_j[1] * A_i_h_i_1 + A_j[2] * A_i_h_i_2;
+    const jg_real t104 = lambda[3] * A_jt_A_i_h_i_0;
     jac_phi_q_t_lambda_geometry[41] = t104;
     jac_phi_q_t_lambda_geometry[36] = -t104;
-    jac_phi_q_t_lambda_geometry[37] = -((A_ij_7 * C_i[8] - A_ij_8 * C_i[7]) * lambda[3]);
-    jac_phi_q_t_lambda_geometry[38] = -(lambda[3] * (A_ij_8 * C_i[6] - C_i[8] * A_ij_6));
-    jac_phi_q_t_lambda_geometry[39] = -(lambda[3] * (C_i[7] * A_ij_6 - A_ij_7 * C_i[6]));
+    jac_phi_q_t_lambda_geometry[37] = -((t90 * C_i[8] - t93 * C_i[7]) * lambda[3]);
+    jac_phi_q_t_lambda_geometry[38] = -(lambda[3] * (t93 * C_i[6] - C_i[8] * t85));
+    jac_phi_q_t_lambda_geometry[39] = -(lambda[3] * (C_i[7] * t85 - t90 * C_i[6]));
     jac_phi_q_t_lambda_geometry[40] = -t102;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[8] = JG_REAL(-1.0);
@@ -604,9 +624,9 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_lambda[24] = A_ij_h_j_2 * C_i[7] - A_ij_h_j_1 * C_i[8];
     jac_phi_q_t_lambda_lambda[25] = C_i[8] * A_ij_h_j_0 - A_ij_h_j_2 * C_i[6];
     jac_phi_q_t_lambda_lambda[26] = A_ij_h_j_1 * C_i[6] - C_i[7] * A_ij_h_j_0;
-    jac_phi_q_t_lambda_lambda[27] = C_j[7] * A_ijt_h_i_2 - C_j[8] * A_ijt_h_i_1;
-    jac_phi_q_t_lambda_lambda[28] = C_j[8] * A_ijt_h_i_0 - C_j[6] * A_ijt_h_i_2;
-    jac_phi_q_t_lambda_lambda[29] = C_j[6] * A_ijt_h_i_1 - C_j[7] * A_ijt_h_i_0;
+    jac_phi_q_t_lambda_lambda[27] = C_j[7] * A_jt_A_i_h_i_2 - C_j[8] * A_jt_A_i_h_i_1;
+    jac_phi_q_t_lambda_lambda[28] = C_j[8] * A_jt_A_i_h_i_0 - C_j[6] * A_jt_A_i_h_i_2;
+    jac_phi_q_t_lambda_lambda[29] = C_j[6] * A_jt_A_i_h_i_1 - C_j[7] * A_jt_A_i_h_i_0;
 }
 
 JG_EXPORT int jg_universal_conventional_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

@@ -556,7 +556,7 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 53 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 429 (161 add, 265 mul, 3 sincos, 6 neg); temporaries: 70.
+ * @note Operations: 402 (152 add, 247 mul, 3 sincos, 15 neg); temporaries: 70.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -580,7 +580,7 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 429 (161 add, 265 mul, 3 sincos, 6 neg); temporaries: 53.
+ * @note Operations: 402 (152 add, 247 mul, 3 sincos, 15 neg); temporaries: 53.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1082,7 +1082,7 @@ const int *jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 32.
+ * @note Operations: 137 (60 add, 74 mul, 1 sincos, 2 cos); temporaries: 29.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1106,7 +1106,7 @@ void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 229 (87 add, 139 mul, 3 sincos, 3 neg); temporaries: 36.
+ * @note Operations: 217 (84 add, 130 mul, 3 sincos, 12 neg); temporaries: 39.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1130,7 +1130,7 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 229 (87 add, 139 mul, 3 sincos, 3 neg); temporaries: 50.
+ * @note Operations: 217 (84 add, 130 mul, 3 sincos, 12 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1374,7 +1374,7 @@ const int *jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void)
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (66 add, 83 mul, 1 sincos, 2 cos); temporaries: 32.
+ * @note Operations: 137 (60 add, 74 mul, 1 sincos, 2 cos); temporaries: 29.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

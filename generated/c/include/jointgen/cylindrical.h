@@ -41,7 +41,7 @@ const int *jg_cylindrical_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 134 (59 add, 75 mul); temporaries: 27.
+ * @note Operations: 104 (47 add, 57 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 234 (96 add, 138 mul, 6 neg); temporaries: 42.
+ * @note Operations: 204 (84 add, 120 mul, 6 neg); temporaries: 30.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 234 (96 add, 138 mul, 6 neg); temporaries: 36.
+ * @note Operations: 204 (84 add, 120 mul, 6 neg); temporaries: 36.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 201 (84 add, 117 mul, 3 neg); temporaries: 36.
+ * @note Operations: 186 (78 add, 108 mul, 3 neg); temporaries: 33.
  * @see S1 Eqs. (1), (5)
  */
 void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,7 +597,7 @@ void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 7 neg); temporaries: 44.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 16 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -621,7 +621,7 @@ void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 16 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1124,7 +1124,7 @@ const int *jg_cylindrical_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 30.
+ * @note Operations: 137 (61 add, 75 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1148,7 +1148,7 @@ void jg_cylindrical_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 6 neg); temporaries: 30.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 15 neg); temporaries: 33.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1172,7 +1172,7 @@ void jg_cylindrical_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, c
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 6 neg); temporaries: 49.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 15 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1417,7 +1417,7 @@ const int *jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsit
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 152 (67 add, 84 mul, 1 cos); temporaries: 30.
+ * @note Operations: 137 (61 add, 75 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,

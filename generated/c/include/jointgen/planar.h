@@ -41,7 +41,7 @@ const int *jg_planar_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 129 (57 add, 72 mul); temporaries: 27.
+ * @note Operations: 99 (45 add, 54 mul); temporaries: 21.
  * @see S1 Eq. (4), Table 1
  */
 void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [3 x 12] compressed-columns, 24 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 216 (90 add, 126 mul, 3 neg); temporaries: 39.
+ * @note Operations: 213 (90 add, 123 mul, 12 neg); temporaries: 39.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [3 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 216 (90 add, 126 mul, 3 neg); temporaries: 24.
+ * @note Operations: 213 (90 add, 123 mul, 12 neg); temporaries: 24.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -207,7 +207,7 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 210 (87 add, 123 mul, 3 neg); temporaries: 42.
+ * @note Operations: 195 (81 add, 114 mul, 3 neg); temporaries: 36.
  * @see S1 Eqs. (1), (5)
  */
 void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -240,7 +240,7 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 754 (307 add, 447 mul, 18 neg); temporaries: 167.
+ * @note Operations: 751 (307 add, 444 mul, 27 neg); temporaries: 167.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -274,7 +274,7 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 754 (307 add, 447 mul, 18 neg); temporaries: 96.
+ * @note Operations: 751 (307 add, 444 mul, 27 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,7 +597,7 @@ void jg_planar_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 53 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 10 neg); temporaries: 44.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 19 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -621,7 +621,7 @@ void jg_planar_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 10 neg); temporaries: 53.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 19 neg); temporaries: 53.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1123,7 +1123,7 @@ const int *jg_planar_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 30.
+ * @note Operations: 143 (64 add, 78 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1147,7 +1147,7 @@ void jg_planar_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] compressed-columns, 52 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 9 neg); temporaries: 30.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 18 neg); temporaries: 33.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1171,7 +1171,7 @@ void jg_planar_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 15] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 9 neg); temporaries: 52.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 18 neg); temporaries: 52.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1415,7 +1415,7 @@ const int *jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(voi
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 158 (70 add, 87 mul, 1 cos); temporaries: 30.
+ * @note Operations: 143 (64 add, 78 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_revolute_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 109 (49 add, 60 mul); temporaries: 24.
+ * @note Operations: 79 (37 add, 42 mul); temporaries: 18.
  * @see S1 Eq. (4), Table 1
  */
 void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -61,7 +61,7 @@ void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 180 (66 add, 114 mul); temporaries: 27.
+ * @note Operations: 162 (60 add, 102 mul, 6 neg); temporaries: 27.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_revolute_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -80,7 +80,7 @@ void jg_revolute_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 180 (66 add, 114 mul); temporaries: 36.
+ * @note Operations: 162 (60 add, 102 mul, 6 neg); temporaries: 36.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_revolute_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -167,7 +167,7 @@ void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_rea
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 172 (73 add, 99 mul); temporaries: 33.
+ * @note Operations: 157 (67 add, 90 mul); temporaries: 30.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -187,7 +187,7 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 156 (63 add, 93 mul, 3 neg); temporaries: 24.
+ * @note Operations: 141 (57 add, 84 mul, 3 neg); temporaries: 21.
  * @see S1 Eqs. (1), (5)
  */
 void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -219,7 +219,7 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 107.
+ * @note Operations: 539 (216 add, 323 mul, 9 neg); temporaries: 107.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -253,7 +253,7 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 557 (222 add, 335 mul, 3 neg); temporaries: 72.
+ * @note Operations: 539 (216 add, 323 mul, 9 neg); temporaries: 72.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -557,7 +557,7 @@ void jg_revolute_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 4 neg); temporaries: 44.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 13 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -581,7 +581,7 @@ void jg_revolute_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 281 (109 add, 171 mul, 1 sincos, 4 neg); temporaries: 47.
+ * @note Operations: 254 (100 add, 153 mul, 1 sincos, 13 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1083,7 +1083,7 @@ const int *jg_revolute_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 30.
+ * @note Operations: 131 (58 add, 72 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1107,7 +1107,7 @@ void jg_revolute_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 46 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 3 neg); temporaries: 30.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 12 neg); temporaries: 33.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1131,7 +1131,7 @@ void jg_revolute_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 223 (87 add, 135 mul, 1 sin, 3 neg); temporaries: 46.
+ * @note Operations: 211 (84 add, 126 mul, 1 sin, 12 neg); temporaries: 46.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1376,7 +1376,7 @@ const int *jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(v
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 146 (64 add, 81 mul, 1 cos); temporaries: 30.
+ * @note Operations: 131 (58 add, 72 mul, 1 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

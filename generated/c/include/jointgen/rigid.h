@@ -41,7 +41,7 @@ const int *jg_rigid_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 129 (57 add, 72 mul); temporaries: 27.
+ * @note Operations: 114 (51 add, 63 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -61,7 +61,7 @@ void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 213 (78 add, 135 mul); temporaries: 30.
+ * @note Operations: 201 (75 add, 126 mul, 9 neg); temporaries: 33.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_rigid_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -80,7 +80,7 @@ void jg_rigid_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_rea
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 213 (78 add, 135 mul); temporaries: 42.
+ * @note Operations: 201 (75 add, 126 mul, 9 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_rigid_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -554,7 +554,7 @@ void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] compressed-columns, 45 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 252 (99 add, 153 mul, 3 neg); temporaries: 36.
+ * @note Operations: 225 (90 add, 135 mul, 12 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -577,7 +577,7 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 12] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 252 (99 add, 153 mul, 3 neg); temporaries: 45.
+ * @note Operations: 225 (90 add, 135 mul, 12 neg); temporaries: 45.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -663,7 +663,7 @@ void jg_screw_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 284 (109 add, 174 mul, 1 sincos, 7 neg); temporaries: 44.
+ * @note Operations: 257 (100 add, 156 mul, 1 sincos, 16 neg); temporaries: 44.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -690,7 +690,7 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 284 (109 add, 174 mul, 1 sincos, 7 neg); temporaries: 50.
+ * @note Operations: 257 (100 add, 156 mul, 1 sincos, 16 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1246,7 +1246,7 @@ const int *jg_screw_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 31.
+ * @note Operations: 141 (63 add, 77 mul, 1 cos); temporaries: 28.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1273,7 +1273,7 @@ void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_rea
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 226 (87 add, 138 mul, 1 sin, 6 neg); temporaries: 30.
+ * @note Operations: 214 (84 add, 129 mul, 1 sin, 15 neg); temporaries: 33.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1300,7 +1300,7 @@ void jg_screw_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const j
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 226 (87 add, 138 mul, 1 sin, 6 neg); temporaries: 49.
+ * @note Operations: 214 (84 add, 129 mul, 1 sin, 15 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1568,7 +1568,7 @@ const int *jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 156 (69 add, 86 mul, 1 cos); temporaries: 31.
+ * @note Operations: 141 (63 add, 77 mul, 1 cos); temporaries: 28.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_translational_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 154 (67 add, 87 mul); temporaries: 30.
+ * @note Operations: 139 (61 add, 78 mul); temporaries: 27.
  * @see S1 Eq. (4), Table 1
  */
 void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -63,7 +63,7 @@ void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 267 (108 add, 159 mul, 6 neg); temporaries: 45.
+ * @note Operations: 252 (102 add, 150 mul, 6 neg); temporaries: 36.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -85,7 +85,7 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 267 (108 add, 159 mul, 6 neg); temporaries: 42.
+ * @note Operations: 252 (102 add, 150 mul, 6 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -596,7 +596,7 @@ void jg_translational_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] compressed-columns, 48 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 252 (99 add, 153 mul, 6 neg); temporaries: 36.
+ * @note Operations: 225 (90 add, 135 mul, 15 neg); temporaries: 36.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -619,7 +619,7 @@ void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 252 (99 add, 153 mul, 6 neg); temporaries: 48.
+ * @note Operations: 225 (90 add, 135 mul, 15 neg); temporaries: 48.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -41,7 +41,7 @@ const int *jg_universal_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 104 (47 add, 57 mul); temporaries: 24.
+ * @note Operations: 74 (35 add, 39 mul); temporaries: 18.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -61,7 +61,7 @@ void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 30 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 147 (54 add, 93 mul); temporaries: 24.
+ * @note Operations: 123 (45 add, 78 mul, 3 neg); temporaries: 21.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_universal_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -80,7 +80,7 @@ void jg_universal_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 147 (54 add, 93 mul); temporaries: 30.
+ * @note Operations: 123 (45 add, 78 mul, 3 neg); temporaries: 30.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -168,7 +168,7 @@ void jg_universal_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_re
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 161 (68 add, 93 mul); temporaries: 33.
+ * @note Operations: 146 (62 add, 84 mul); temporaries: 30.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -188,7 +188,7 @@ void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 153 (60 add, 93 mul, 3 neg); temporaries: 21.
+ * @note Operations: 138 (54 add, 84 mul, 3 neg); temporaries: 18.
  * @see S1 Eqs. (1), (5)
  */
 void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -558,7 +558,7 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 50 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 339 (129 add, 208 mul, 2 sincos, 5 neg); temporaries: 55.
+ * @note Operations: 312 (120 add, 190 mul, 2 sincos, 14 neg); temporaries: 55.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -582,7 +582,7 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 339 (129 add, 208 mul, 2 sincos, 5 neg); temporaries: 50.
+ * @note Operations: 312 (120 add, 190 mul, 2 sincos, 14 neg); temporaries: 50.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1084,7 +1084,7 @@ const int *jg_universal_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 30.
+ * @note Operations: 133 (59 add, 72 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1108,7 +1108,7 @@ void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 224 (87 add, 135 mul, 2 sin, 3 neg); temporaries: 30.
+ * @note Operations: 212 (84 add, 126 mul, 2 sin, 12 neg); temporaries: 33.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1132,7 +1132,7 @@ void jg_universal_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, con
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 224 (87 add, 135 mul, 2 sin, 3 neg); temporaries: 47.
+ * @note Operations: 212 (84 add, 126 mul, 2 sin, 12 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1377,7 +1377,7 @@ const int *jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 148 (65 add, 81 mul, 2 cos); temporaries: 30.
+ * @note Operations: 133 (59 add, 72 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

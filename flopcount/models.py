@@ -79,13 +79,7 @@ def measured(costs: Mapping[str, float]) -> Model:
 
 def contractions(program: Program) -> int:
     """Count the additions and subtractions that can absorb a product: each product at most once, used nowhere else."""
-    uses = [0] * len(program.instructions)
-    for instruction in program.instructions:
-        for operand in instruction.operands:
-            uses[operand] += 1
-    for output in program.outputs:
-        for value in output.values:
-            uses[value] += 1
+    uses = program.uses()
     return sum(
         instruction.op in (Op.ADD, Op.SUBTRACT)
         and any(program.instructions[o].op is Op.MULTIPLY and uses[o] == 1 for o in instruction.operands)

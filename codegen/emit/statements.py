@@ -43,7 +43,7 @@ class Statements:
         self._program = program
         self._views = views
         self._legend = dict(program.legend)
-        self._uses = _uses(program)
+        self._uses = program.uses()
         self._names: dict[int, str] = {}
         self._taken: set[str] = set()
         self._indices = Counter(label[0] for label in {i.label for i in program.instructions if i.label is not None})
@@ -140,14 +140,3 @@ class Statements:
 def _enclosed(expression: _Expression, rank: int) -> str:
     text, own = expression
     return text if own >= rank else f"({text})"
-
-
-def _uses(program: Program) -> list[int]:
-    uses = [0] * len(program.instructions)
-    for instruction in program.instructions:
-        for operand in instruction.operands:
-            uses[operand] += 1
-    for output in program.outputs:
-        for value in output.values:
-            uses[value] += 1
-    return uses

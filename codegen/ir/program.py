@@ -152,6 +152,17 @@ class Program:
                     marks[operand] = True
         return marks
 
+    def uses(self) -> list[int]:
+        """Count for each instruction how often operations and outputs take its value."""
+        counts = [0] * len(self.instructions)
+        for instruction in self.instructions:
+            for operand in instruction.operands:
+                counts[operand] += 1
+        for output in self.outputs:
+            for value in output.values:
+                counts[value] += 1
+        return counts
+
     def used_arguments(self) -> tuple[Argument, ...]:
         """Give the arguments that an output depends on, in order."""
         live = self.live()

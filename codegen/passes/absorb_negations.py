@@ -1,49 +1,24 @@
-"""Turn ``-(a - b)`` into ``b - a`` where the difference has no other use."""
+"""Turn ``-(a - b)`` into ``b - a`` where the difference has no other use; the bits of the results stay the same."""
 
 from __future__ import annotations
 
-from codegen.ir.builder import Builder
+from dataclasses import replace
+
 from codegen.ir.ops import Op
 from codegen.ir.program import Instruction, Program
 from codegen.passes.drop_unused import drop_unused
-from codegen.passes.rewrite import rebuild
 
 
 def absorb_negations(program: Program) -> Program:
-    """Remove negations that cost nothing to remove; the bits of the results stay the same."""
-    uses = [0] * len(program.instructions)
-    for instruction in program.instructions:
-        for operand in instruction.operands:
-            uses[operand] += 1
-    for output in program.outputs:
-        for value in output.values:
-            uses[value] += 1
-    absorbed = {
-        instruction.operands[0]
-        for instruction in program.instructions
-        if instruction.op is Op.NEGATE
-        and program.instructions[instruction.operands[0]].op is Op.SUBTRACT
-        and uses[instruction.operands[0]] == 1
-    }
-    flipped = {program.instructions[position].operands for position in absorbed}
+    """Remove the negations that cost nothing to remove."""
+    uses = program.uses()
 
-    def place(builder: Builder, instruction: Instruction) -> int:
-        if instruction.op is Op.NEGATE:
-            inner = builder.instructions[instruction.operands[0]]
-            if inner.op is Op.SUBTRACT and inner.operands in moved_pairs:
-                return builder.emit(Op.SUBTRACT, *reversed(inner.operands))
-        position = builder.append(instruction)
-        if instruction.op is Op.SUBTRACT and counter[0] in absorbed:
-            moved_pairs.add(builder.instructions[position].operands)
-        return position
+    def absorbed(instruction: Instruction) -> Instruction:
+        if instruction.op is not Op.NEGATE:
+            return instruction
+        inner = program.instructions[instruction.operands[0]]
+        if inner.op is not Op.SUBTRACT or uses[instruction.operands[0]] > 1:
+            return instruction
+        return replace(inner, operands=inner.operands[::-1], label=instruction.label)
 
-    if not flipped:
-        return program
-    moved_pairs: set[tuple[int, ...]] = set()
-    counter = [-1]
-
-    def counted(builder: Builder, instruction: Instruction) -> int:
-        counter[0] += 1
-        return place(builder, instruction)
-
-    return drop_unused(rebuild(program, counted))
+    return drop_unused(replace(program, instructions=tuple(absorbed(i) for i in program.instructions)))

@@ -9,17 +9,17 @@ from flopcount.rules import RULES, Form, UnknownNameError, explain
 
 
 def explanation(name: str, table: str, assume: Collection[str]) -> Iterator[str]:
-    """Write the derivation of both derivatives of a joint (Table 7) or a basic constraint (Table 2).
+    """Write the derivation of both derivatives of a joint or a basic constraint.
 
     Args:
         name: joint or basic constraint.
-        table: ``2``, ``7``, or ``all``; it decides what "screw" means.
+        table: ``2`` for basic constraints only; otherwise "screw" is the joint.
         assume: switches to set.
 
     Raises:
         UnknownNameError: no such joint, basic constraint or switch.
     """
-    known = {"2": BASIC_CONSTRAINTS, "7": JOINTS}.get(table, tuple(dict.fromkeys((*JOINTS, *BASIC_CONSTRAINTS))))
+    known = BASIC_CONSTRAINTS if table == "2" else tuple(dict.fromkeys((*JOINTS, *BASIC_CONSTRAINTS)))
     if name not in known:
         raise UnknownNameError("joint or basic constraint", name, known)
     forms: tuple[Form, ...] = ("conventional", "parametric") if name in JOINTS and table != "2" else ("basic",)

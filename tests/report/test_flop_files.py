@@ -114,3 +114,10 @@ def test_the_page_holds_every_chart_and_loads_nothing():
 
 def test_the_left_out_operations_are_those_of_a_program():
     assert comparison.left_out_operations("ball")["A_ij(alpha)"].counts.sincos == 3
+
+
+def test_the_readme_tells_the_rates_of_the_translational_joint_as_they_are(table_7):
+    row = next(cells for cells in glance(table_7).rows if cells[:2] == ("translational", "phi_q"))
+    readme = " ".join((FLOPS.parents[1] / "README.md").read_text().split())
+    assert f"costs {row[2]} of the conventional one" in readme
+    assert f"from the vector it is {row[4]}; with everything counted on both sides it is {row[5]}." in readme

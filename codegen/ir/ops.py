@@ -59,6 +59,10 @@ class Constant:
     rational: Fraction
     pi_power: int = 0
 
+    def __post_init__(self) -> None:
+        if self.rational == 0:
+            object.__setattr__(self, "pi_power", 0)
+
     def __neg__(self) -> Constant:
         return Constant(-self.rational, self.pi_power)
 

@@ -16,7 +16,7 @@ def simplify(program: Program) -> Program:
     """Bring a freshly lowered program into the form that is emitted and counted."""
     while True:
         smaller = drop_unused(share_subexpressions(eliminate_zeros(fold_constants(program))))
-        if len(smaller.instructions) == len(program.instructions):
+        if smaller == program:
             break
         program = smaller
     return schedule(absorb_negations(pair_sincos(compress(smaller))))

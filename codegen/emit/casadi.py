@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tempfile
+from pathlib import Path
 from typing import Any
 
 import casadi
@@ -46,9 +48,11 @@ def casadi_function(name: str, program: Program) -> Any:
 
 
 def serialised(function: Any) -> bytes:
-    """Give what ``Function.save`` writes: text that ``casadi.Function.load`` reads."""
-    text: str = function.serialize()
-    return text.encode("ascii")
+    """Give what ``Function.save`` writes and ``casadi.Function.load`` reads; ``serialize`` has another framing."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "function.casadi"
+        function.save(str(path))
+        return path.read_bytes()
 
 
 def _entries(symbol: Any, argument: Argument) -> list[Any]:

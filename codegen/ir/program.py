@@ -7,7 +7,7 @@ Every stage after the symbolic model takes a program and gives one (``passes``),
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from codegen.errors import InternalError
 from codegen.ir.ops import ARITY, Constant, Op
@@ -85,7 +85,7 @@ class Instruction:
 
     def with_operands(self, operands: tuple[int, ...]) -> Instruction:
         """Give the same instruction on other operands."""
-        return replace(self, operands=operands)
+        return Instruction(self.op, operands, self.constant, self.source, self.label)
 
 
 @dataclass(frozen=True, slots=True)

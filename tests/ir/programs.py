@@ -12,17 +12,26 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
 from codegen.ir.evaluate import Domain, evaluate
-from codegen.ir.ops import ARITY, Constant, Op
+from codegen.ir.ops import ARITY, COMMUTATIVE, Constant, Op
 from codegen.ir.program import Argument, Instruction, Output, Program, Sparsity
 
 ARGUMENTS = (Argument("a", (3, 1)), Argument("B", (2, 2)))
 RATIONALS = [Fraction(n) for n in (0, 0, 1, 1, -1, -1, 2, -2, 3)] + [Fraction(1, 2), Fraction(-3, 4), Fraction(1, 3)]
 RATIONAL_OPS = (Op.NEGATE, Op.ADD, Op.SUBTRACT, Op.MULTIPLY)
 OPS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.DIVIDE, Op.SQRT, Op.SIN, Op.COS, Op.ATAN2)
-LABELS = ("A_ij", "d_ij", "v")
+LABELS = (None, None, ("A_ij", 0), ("A_ij", 1), ("d_ij", 0), ("v", 0))
+
+RANDOM = settings(
+    deadline=None,
+    derandomize=True,
+    max_examples=200,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
+)
+"""How random tests run: the same examples every time, however loaded the machine is."""
 
 
 @st.composite
@@ -30,19 +39,19 @@ def programs(
     draw: st.DrawFn, *, ops: Sequence[Op] = (*RATIONAL_OPS, Op.DIVIDE), pi: bool = False, size: int = 14
 ) -> Program:
     """A random program; `pi`: constants may hold powers of pi."""
-    instructions: list[Instruction] = []
     sources = [(argument.name, k) for argument in ARGUMENTS for k in range(argument.length)]
-    for _ in range(draw(st.integers(1, 4))):
-        instructions.append(Instruction(Op.INPUT, source=draw(st.sampled_from(sources))))
-    for _ in range(draw(st.integers(0, 3))):
-        power = draw(st.sampled_from((0, 0, 1, 2, -1))) if pi else 0
-        constant = Constant(draw(st.sampled_from(RATIONALS)), power)
-        instructions.append(Instruction(Op.CONSTANT, constant=constant))
-    for _ in range(draw(st.integers(0, size))):
-        op = draw(st.sampled_from(list(ops)))
-        position = st.integers(0, len(instructions) - 1)
-        operands = tuple(draw(position) for _ in range(ARITY[op]))
-        label = draw(st.one_of(st.none(), st.tuples(st.sampled_from(LABELS), st.integers(0, 3))))
+    powers = (0, 0, 1, 2, -1) if pi else (0,)
+    constants = st.builds(Constant, st.sampled_from(RATIONALS), st.sampled_from(powers))
+    instructions = [
+        Instruction(Op.INPUT, source=source)
+        for source in draw(st.lists(st.sampled_from(sources), min_size=1, max_size=4))
+    ]
+    instructions += [Instruction(Op.CONSTANT, constant=c) for c in draw(st.lists(constants, max_size=3))]
+    number = st.integers(0, 2**16)
+    for op, first, second, label in draw(
+        st.lists(st.tuples(st.sampled_from(list(ops)), number, number, st.sampled_from(LABELS)), max_size=size)
+    ):
+        operands = tuple(k % len(instructions) for k in (first, second)[: ARITY[op]])
         instructions.append(Instruction(op, operands, label=label))
     outputs = tuple(draw(_outputs(name, len(instructions))) for name in ("x", "Y")[: draw(st.integers(1, 2))])
     return Program(ARGUMENTS, tuple(instructions), outputs, (("v", "a + B"),))
@@ -62,14 +71,8 @@ def _outputs(draw: st.DrawFn, name: str, length: int) -> Output:
     pattern = draw(sparsities(3))
     if pattern.ncol == 1:
         pattern = Sparsity.of_entries(pattern.nrow, 1, [(row, 0) for row in range(pattern.nrow)])
-    late = st.integers(max(0, length - 4), length - 1)
-    values = draw(
-        st.lists(
-            st.one_of(late, st.integers(0, length - 1)),
-            min_size=pattern.nonzeros,
-            max_size=pattern.nonzeros,
-        )
-    )
+    places = [*range(length), *range(max(0, length - 4), length)]
+    values = draw(st.lists(st.sampled_from(places), min_size=pattern.nonzeros, max_size=pattern.nonzeros))
     return Output(name, pattern, tuple(values))
 
 
@@ -99,3 +102,13 @@ def bits(value: float) -> bytes:
     """The bits of a float, with one NaN and one zero for all: their signs depend on the order of operands."""
     number = float(value)
     return b"nan" if math.isnan(number) else struct.pack("<d", 0.0 if number == 0.0 else number)
+
+
+def tree(program: Program, known: dict[object, int]) -> list[tuple[str, tuple[int, ...]]]:
+    """Each output as numbers of its values in `known`: equal for programs that differ in order and naming only."""
+    numbers: list[int] = []
+    for i in program.instructions:
+        operands = [numbers[operand] for operand in i.operands]
+        key = (i.op, tuple(sorted(operands) if i.op in COMMUTATIVE else operands), i.constant, i.source)
+        numbers.append(known.setdefault(key, len(known)))
+    return [(output.name, tuple(numbers[value] for value in output.values)) for output in program.outputs]

@@ -24,7 +24,7 @@ from codegen.ir.evaluate import (
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Instruction, Output, Program, Sparsity
 
-from .programs import OPS, RATIONAL_OPS, bits, inputs_of, matrices, programs, small_fractions
+from .programs import OPS, RANDOM, RATIONAL_OPS, bits, inputs_of, matrices, programs, small_fractions
 
 PRECISION = 200
 ANGLES = (Op.SINCOS, Op.SIN, Op.COS, Op.ATAN2, Op.SQRT)
@@ -47,6 +47,7 @@ def converted(inputs: dict[str, list[Fraction]], convert: Any) -> dict[str, list
     return {name: [convert(value) for value in values] for name, values in inputs.items()}
 
 
+@RANDOM
 @given(programs(), inputs_of(small_fractions()))
 def test_balls_and_mpmath_hold_the_exact_rational_value(program: Program, inputs: dict[str, list[Fraction]]) -> None:
     try:
@@ -55,9 +56,7 @@ def test_balls_and_mpmath_hold_the_exact_rational_value(program: Program, inputs
         assume(False)
         return
     balls = matrices(program, converted(inputs, arb), arb_domain())
-    numbers = matrices(
-        program, converted(inputs, lambda x: mpmath.mpf(x.numerator) / x.denominator), mpmath_domain()
-    )
+    numbers = matrices(program, converted(inputs, lambda x: mpmath.mpf(x.numerator) / x.denominator), mpmath_domain())
     for entry, value in exact.items():
         ball = balls[entry]
         assume(ball.is_finite())  # a divisor that is zero within rounding
@@ -66,18 +65,18 @@ def test_balls_and_mpmath_hold_the_exact_rational_value(program: Program, inputs
         assert abs(numbers[entry] - rounded) <= mpmath.mpf(2) ** -140 * max(1, abs(rounded))
 
 
+@RANDOM
 @given(programs(ops=(*RATIONAL_OPS, *RATIONAL_OPS, Op.SIN, Op.COS, Op.ATAN2), pi=True), inputs_of(small_fractions()))
 def test_balls_and_mpmath_agree_on_angles(program: Program, inputs: dict[str, list[Fraction]]) -> None:
     balls = matrices(program, converted(inputs, arb), arb_domain())
-    numbers = matrices(
-        program, converted(inputs, lambda x: mpmath.mpf(x.numerator) / x.denominator), mpmath_domain()
-    )
+    numbers = matrices(program, converted(inputs, lambda x: mpmath.mpf(x.numerator) / x.denominator), mpmath_domain())
     for entry, ball in balls.items():
         assume(ball.is_finite() and ball.rad() < 1e-30 * (1 + abs(float(ball.mid()))))  # no branch cut within the ball
         middle = mpmath.mpf(ball.mid().str(60, radius=False))
         assert abs(numbers[entry] - middle) <= mpmath.mpf(2) ** -100 * max(1, abs(middle))
 
 
+@RANDOM
 @given(
     programs(ops=(*RATIONAL_OPS, Op.DIVIDE)), inputs_of(st.floats(-10, 10).filter(lambda x: x == 0 or abs(x) > 1e-3))
 )
@@ -94,6 +93,7 @@ def test_numpy_gives_the_bits_of_python_floats(program: Program, inputs: dict[st
             assert bits(lane) == bits(value)
 
 
+@RANDOM
 @given(programs(ops=OPS, pi=True), inputs_of(st.floats(0.5, 2.0)))
 def test_floats_and_numpy_agree_on_roots_and_angles(program: Program, inputs: dict[str, list[float]]) -> None:
     try:

@@ -67,14 +67,9 @@ REQUESTED = (
 VARIANTS = (*COMMITTED, *REQUESTED)
 
 
-def name(variant: Variant) -> str:
-    """Name of a variant in test reports."""
-    return variant.file_stem
-
-
 def each(*variants: Variant) -> pytest.MarkDecorator:
     """Run a test for each of the variants."""
-    return pytest.mark.parametrize("variant", variants, ids=name)
+    return pytest.mark.parametrize("variant", variants, ids=lambda variant: variant.file_stem)
 
 
 every_variant = each(*VARIANTS)
@@ -106,22 +101,31 @@ def derivatives(variant: Variant, inputs: dict[str, Any]) -> tuple[Values, Value
 def inputs_at(variant: Variant, spot: Spot) -> dict[str, Any]:
     """Inputs of the variant's routines: general frames and offsets; velocity tangent on the manifold, else general.
 
-    The substituted derivative of quaternion rows is stated at e.e = 1 only: there, and only there, the Euler
-    parameters of a pose off the manifold are normalised.
+    The substituted derivative of quaternion rows is stated for unit quaternions only: there, and only there, the
+    Euler parameters of a pose off the manifold are normalised and their rates perpendicular to them.
     """
     seed, on_manifold = spot
     options: dict[str, Any] = {"rows": variant.rows, "variation": variant.variation, "consistent": on_manifold}
     inputs = sample(variant.joint, variant.form, seed, **options)
     if not on_manifold:
         inputs["velocity"] = np.random.default_rng(seed + 1).normal(size=inputs["velocity"].shape)
-        if variant.rows == "quaternion" and variant.derivative == "substituted":
-            inputs["alpha"] = np.concatenate([inputs["alpha"][:-4], unit(inputs["alpha"][-4:])])
+        if has_unit_quaternions(variant):
+            inputs["alpha"][-4:] /= np.linalg.norm(inputs["alpha"][-4:])
+            inputs["velocity"] = stated_directions(variant, inputs) @ inputs["velocity"]
     return inputs
 
 
-def unit(vector: Values) -> Values:
-    """Vector of length 1."""
-    return np.asarray(vector / np.linalg.norm(vector))
+def has_unit_quaternions(variant: Variant) -> bool:
+    """Whether the variant's derivatives are stated at unit quaternions only."""
+    return variant.rows == "quaternion" and variant.derivative == "substituted"
+
+
+def stated_directions(variant: Variant, inputs: dict[str, Any]) -> Values:
+    """Projection [n, n] on the variations for which the variant's derivatives are stated: all, or e . delta e = 0."""
+    projection = np.eye(len(inputs["velocity"]))
+    if has_unit_quaternions(variant):
+        projection[-4:, -4:] -= np.outer(inputs["alpha"][-4:], inputs["alpha"][-4:])
+    return projection
 
 
 @cache
@@ -143,3 +147,17 @@ def truth_at(variant: Variant, spot: Spot) -> dict[str, Values]:
 def largest(values: Any) -> float:
     """Largest magnitude, 0 of nothing."""
     return float(np.max(np.abs(values), initial=0.0))
+
+
+@cache
+def usual_size(variant: Variant, quantity: str) -> float:
+    """Largest magnitude of a quantity where nothing cancels: the least over the poses off the manifold."""
+    return min(largest(truth_at(variant, spot)[quantity]) for spot in SPOTS if not spot[1])
+
+
+def natural_scale(variant: Variant, quantity: str, values: Any) -> float:
+    """The largest magnitude of a quantity at this pose, or its usual size where it cancels (phi on the manifold).
+
+    All lengths are of order 1 m, all angles of order 1 rad, so both are of order 1 to 30.
+    """
+    return max(largest(values), usual_size(variant, quantity))

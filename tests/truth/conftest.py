@@ -1,16 +1,15 @@
-"""The benches of a session, shared between workers and runs through pytest's own cache folder."""
+"""Benches of a session, shared by workers and runs through pytest's cache folder; notes of what was measured."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
-flint = pytest.importorskip("flint")
+from codegen.spec.request import Variant
 
-from codegen.spec.request import Variant  # noqa: E402
-
-from .workshop import Bench, Workshop  # noqa: E402
+from .notes import Notes, summary
+from .workshop import Bench, Workshop
 
 
 @pytest.fixture(scope="session")
@@ -25,9 +24,15 @@ def bench(workshop: Workshop, variant: Variant) -> Bench:
     return workshop.bench(variant)
 
 
-@pytest.fixture(autouse=True)
-def _precision() -> Iterator[None]:
-    """200-bit flint numbers inside each test."""
-    before, flint.ctx.prec = flint.ctx.prec, 200
-    yield
-    flint.ctx.prec = before
+@pytest.fixture
+def note(request: pytest.FixtureRequest) -> Notes:
+    """Keeps what a test measured."""
+    return Notes(request.node.user_properties)
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Print the worst of each claim, when these tests are run by name (`pytest tests/truth`)."""
+    lines = summary(report for report in terminalreporter.stats.get("passed", ()) if "/truth/" in report.nodeid)
+    if lines:
+        terminalreporter.section("the worst of each claim")
+        terminalreporter.write_line("\n".join(lines))

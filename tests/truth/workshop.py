@@ -11,18 +11,18 @@ import json
 import os
 import pickle
 import shutil
-import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
-
-import numpy as np
+from unittest import mock
 
 from codegen import build
+from codegen.emit import package
+from codegen.emit.routine import Routine
 from codegen.ir.program import Program
 from codegen.spec.request import Options, Variant
 from tests.harness.library import Library, compile_library, digest
@@ -30,6 +30,9 @@ from tests.harness.library import Library, compile_library, digest
 from .cases import COMMITTED, GENERATED, Values, committed_manifest, variant_of
 
 ROOT = Path(__file__).parents[2]
+QUICK = ("-O0",)
+"""Flags of what is not the committed library in double: compiled without optimisation, to save time."""
+SINGLE = (*QUICK, "-DJG_REAL_IS_FLOAT")
 KEPT_S = 24 * 3600.0
 """How long the cache of sources that have changed since is kept."""
 
@@ -40,7 +43,6 @@ class Bench:
 
     Attributes:
         variant: form and options.
-        package: folder of the generated package that holds them.
         double: compiled as they are.
         single: the same sources compiled with `JG_REAL_IS_FLOAT`.
         programs: output, also ``all`` -> the Program of the routine.
@@ -48,21 +50,19 @@ class Bench:
     """
 
     variant: Variant
-    package: Path
     double: Library
     single: Library
     programs: dict[str, Program]
     saved: dict[str, Path]
 
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """The routines by what they evaluate."""
-        return tuple(self.programs)
+    def entries(self, output: str) -> list[Any]:
+        """Manifest entries of one routine: a vector's only one, or those for nonzeros and for dense storage."""
+        return self.double.find(output=output)
 
-    def entry(self, output: str, storage: str | None = None) -> dict[str, Any]:
-        """Manifest entry of one routine: of a vector, or of a matrix (or ``all``) in one storage, nonzeros first."""
-        entries = self.double.find(output=output)
-        return dict(next(entry for entry in entries if storage is None or entry["storage"] == storage))
+    def entry(self, output: str, dense: bool = False) -> Any:
+        """Manifest entry of one routine: a vector's only one, or that for nonzeros or for dense storage."""
+        (found,) = (entry for entry in self.entries(output) if (entry["storage"] == "dense") == dense)
+        return found
 
     def value(self, quantity: str, inputs: dict[str, Any]) -> Values:
         """One quantity by its own routine in C, dense: a vector [n] or a matrix."""
@@ -88,47 +88,51 @@ class Workshop:
         return self._benches[variant]
 
     def _make(self, variant: Variant) -> Bench:
-        programs = self._programs(variant)
-        package = GENERATED if variant in COMMITTED else self._generated(variant)
-        manifest = committed_manifest() if package == GENERATED else json.loads((package / "manifest.json").read_text())
+        kept = self._dir / f"{variant.file_stem}.pickle"
+        folder = GENERATED if variant in COMMITTED else self._dir / variant.file_stem
+        if not kept.exists():
+            routines = build.routines(variant) if folder == GENERATED else generated(variant, folder)
+            unfinished = kept.with_suffix(".unfinished")
+            unfinished.write_bytes(pickle.dumps({routine.output: routine.program for routine in routines}))
+            unfinished.replace(kept)
+        programs: dict[str, Program] = pickle.loads(kept.read_bytes())
+        manifest = committed_manifest() if folder == GENERATED else json.loads((folder / "manifest.json").read_text())
         entries = [entry for entry in manifest["functions"] if variant_of(entry) == variant]
         sources = sorted({entry["source"] for entry in entries})
         objects = self._dir / "compiled"
         saved = [record for record in manifest["casadi"] if variant_of(record) == variant]
         return Bench(
             variant,
-            package,
-            Library(entries, compile_library(package, sources, objects)),
+            Library(entries, compile_library(folder, sources, objects, [] if folder == GENERATED else QUICK)),
             Library(
-                [entry | {"real": "float"} for entry in entries],
-                compile_library(package, sources, objects, ["-DJG_REAL_IS_FLOAT"]),
+                [entry | {"real": "float"} for entry in entries], compile_library(folder, sources, objects, SINGLE)
             ),
             programs,
-            {record["output"]: package / record["file"] for record in saved},
+            {record["output"]: folder / record["file"] for record in saved},
         )
 
-    def _programs(self, variant: Variant) -> dict[str, Program]:
-        kept = self._dir / f"{variant.file_stem}.pickle"
-        if not kept.exists():
-            programs = {routine.output: routine.program for routine in build.routines(variant)}
-            unfinished = kept.with_suffix(".unfinished")
-            unfinished.write_bytes(pickle.dumps(programs))
-            unfinished.replace(kept)
-            return programs
-        found: dict[str, Program] = pickle.loads(kept.read_bytes())
-        return found
 
-    def _generated(self, variant: Variant) -> Path:
-        package = self._dir / variant.file_stem
-        if not package.exists():
-            files = build.generate(request(variant))
-            with tempfile.TemporaryDirectory(dir=self._dir) as scratch:
-                unfinished = Path(scratch) / "package"
-                for path, content in files.items():
-                    (unfinished / path).parent.mkdir(parents=True, exist_ok=True)
-                    (unfinished / path).write_bytes(content)
-                unfinished.replace(package)
-        return package
+def generated(variant: Variant, folder: Path) -> tuple[Routine, ...]:
+    """Generate a package of one variant alone; the routines are those that were emitted.
+
+    The sources of CasADi's externals, a third of the work and not judged here, are left empty.
+    """
+    seen: list[Routine] = []
+
+    def noted(*arguments: Any) -> tuple[Routine, ...]:
+        seen.extend(routines(*arguments))
+        return tuple(seen)
+
+    routines = build.routines
+    with (
+        mock.patch.object(build, "routines", noted),
+        mock.patch.object(package, "external_source", lambda *_: "", create=True),
+    ):
+        files = build.generate(request(variant))
+    for path, content in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(content)
+    return tuple(seen)
 
 
 def request(variant: Variant) -> Options:
@@ -159,10 +163,6 @@ def locked(path: Path) -> Iterator[None]:
 def forget_old(cache_dir: Path) -> None:
     """Remove what belongs to sources that have changed and was not used for a day."""
     for folder in cache_dir.iterdir():
-        if time.time() - folder.stat().st_mtime > KEPT_S:
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def as_vector(argument: Any) -> Values:
-    """Words of an input, column-major."""
-    return np.asarray(argument, dtype=float).ravel(order="F")
+        with suppress(FileNotFoundError):  # another worker was quicker
+            if time.time() - folder.stat().st_mtime > KEPT_S:
+                shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,100 @@
+"""No pass changes the value of an output in exact arithmetic; those that claim it keep the floats bit for bit.
+
+The sign of a zero is not held: ``-(a - b)`` and ``b - a`` differ in it where a = b.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+import flint
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from codegen.ir.evaluate import arb_domain, float_domain, fraction_domain
+from codegen.ir.ops import Op
+from codegen.ir.program import Program
+from codegen.passes import simplify
+from codegen.passes.absorb_negations import absorb_negations
+from codegen.passes.drop_unused import drop_unused
+from codegen.passes.eliminate_zeros import compress, eliminate_zeros
+from codegen.passes.fold_constants import fold_constants
+from codegen.passes.pair_sincos import pair_sincos
+from codegen.passes.schedule import schedule
+from codegen.passes.share_subexpressions import share_subexpressions
+from tests.ir.programs import OPS, RANDOM, RATIONAL_OPS, bits, inputs_of, matrices, programs, small_fractions
+
+Pass = Callable[[Program], Program]
+
+EXACT: tuple[Pass, ...] = (fold_constants, eliminate_zeros, simplify)
+BITWISE: tuple[Pass, ...] = (
+    share_subexpressions,
+    absorb_negations,
+    schedule,
+    pair_sincos,
+    drop_unused,
+    compress,
+)
+PASSES: tuple[Pass, ...] = (*EXACT, *BITWISE)
+NO_ROOTS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.DIVIDE)
+
+
+@RANDOM
+@given(programs(ops=NO_ROOTS), inputs_of(small_fractions()))
+def test_passes_keep_the_value_of_every_output(program: Program, inputs: dict[str, list[Fraction]]) -> None:
+    try:
+        expected = matrices(program, inputs, fraction_domain())
+    except ZeroDivisionError:
+        assume(False)
+        return
+    for apply in PASSES:
+        changed = matrices(apply(program), inputs, fraction_domain())
+        assert set(changed) <= set(expected), apply
+        assert {entry: changed.get(entry, Fraction(0)) for entry in expected} == expected, apply
+
+
+@RANDOM
+@given(programs(ops=OPS, pi=True), inputs_of(st.floats(0.25, 2.0)))
+def test_passes_keep_roots_and_angles_within_their_enclosures(program: Program, inputs: dict[str, list[float]]) -> None:
+    before = flint.ctx.prec
+    flint.ctx.prec = 200
+    try:
+        balls = {name: [flint.arb(value) for value in values] for name, values in inputs.items()}
+        expected = matrices(program, balls, arb_domain())
+        for apply in PASSES:
+            changed = matrices(apply(program), balls, arb_domain())
+            for entry, ball in expected.items():
+                if ball.is_finite():
+                    assert ball.overlaps(changed.get(entry, flint.arb(0))), apply
+    finally:
+        flint.ctx.prec = before
+
+
+@RANDOM
+@given(
+    programs(ops=(*NO_ROOTS, Op.SIN, Op.COS, Op.ATAN2), pi=True),
+    inputs_of(st.floats(-100, 100, allow_subnormal=False)),
+)
+def test_passes_that_claim_so_keep_the_bits_of_floats(program: Program, inputs: dict[str, list[float]]) -> None:
+    try:
+        expected = matrices(program, inputs, float_domain())
+    except (ArithmeticError, ValueError):
+        assume(False)
+        return
+    for apply in BITWISE:
+        changed = matrices(apply(program), inputs, float_domain())
+        for entry, value in expected.items():
+            assert bits(changed.get(entry, 0.0)) == bits(value), (apply, entry)
+
+
+@RANDOM
+@given(programs(ops=OPS, pi=True))
+def test_passes_keep_arguments_shapes_and_the_legend(program: Program) -> None:
+    for apply in PASSES:
+        changed = apply(program)
+        assert (changed.arguments, changed.legend) == (program.arguments, program.legend), apply
+        patterns = [[output.sparsity for output in p.outputs] for p in (program, changed)]
+        if apply in (compress, simplify):
+            patterns = [[(pattern.nrow, pattern.ncol) for pattern in side] for side in patterns]
+        assert patterns[0] == patterns[1], apply

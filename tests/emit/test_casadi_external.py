@@ -59,9 +59,9 @@ def test_an_external_has_the_value_and_the_jacobian_of_the_function(library, qua
     ours, theirs = (f.jacobian()(*arguments, np.zeros(f.size_out(0))) for f in (external, function))
     pairs = zip(*(blocks if isinstance(blocks, tuple) else (blocks,) for blocks in (ours, theirs)), strict=True)
     for mine, expected in pairs:
-        assert mine.sparsity() == expected.sparsity()
-        scale = max(1.0, float(casadi.norm_inf(casadi.vec(expected))) if expected.nnz() else 1.0)
-        assert np.abs(np.asarray(casadi.DM(mine - expected))).max() <= 1e-13 * scale
+        assert mine.sparsity().is_subset(expected.sparsity())
+        scale = max(1.0, np.abs(np.asarray(expected)).max())
+        assert np.abs(np.asarray(mine) - np.asarray(expected)).max() <= 1e-13 * scale
 
 
 def test_an_external_takes_part_in_a_larger_expression(library):

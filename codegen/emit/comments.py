@@ -49,6 +49,10 @@ def _details(routine: Routine) -> list[str]:
             if variant.form == "conventional"
             else "The joint relation is inserted before differentiation: exact on tangent directions only."
         )
+        if variant.rows == "quaternion":
+            details.append(
+                "It takes e.e = 1: off the unit sphere the derivative along e is that of the simplified form."
+            )
     if any(output.name == "gamma" for output in routine.program.outputs):
         details.append(_ACCELERATION)
     return details

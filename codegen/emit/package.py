@@ -130,7 +130,9 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
         "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=joints),
     }
     for joint in joints:
-        files[f"c/include/jointgen/{joint}.h"] = _header(joint, [u for u in units if u.variant.joint == joint], version)
+        files[f"c/include/jointgen/{joint}.h"] = _header(
+            joint, [u for u in units if u.variant.joint == joint], version, specification
+        )
     files |= {f"c/src/{u.variant.file_stem}.c": u.source for u in units}
     sources = sorted(f"src/{u.variant.file_stem}.c" for u in units)
     files["c/CMakeLists.txt"] = render(
@@ -156,7 +158,7 @@ def _casadi_record(variant: Variant, name: str) -> dict[str, Any]:
     return record
 
 
-def _header(joint: str, units: Sequence[Unit], version: str) -> str:
+def _header(joint: str, units: Sequence[Unit], version: str, specification: str) -> str:
     introduction = [
         f"Constraint routines of the {joint} joint between bodies i and j.",
         "",
@@ -168,6 +170,7 @@ def _header(joint: str, units: Sequence[Unit], version: str) -> str:
         "c/header.h.j2",
         name=joint,
         banner=banner(version),
+        specification=specification,
         introduction=introduction,
         guard=joint.upper(),
         declarations=[declaration for u in units for declaration in u.declarations],

@@ -79,25 +79,31 @@ class Package:
         return [self.root / name for name in dict.fromkeys(entry["source"] for entry in self.entries)]
 
     @property
+    def externals(self) -> list[Path]:
+        """The C sources of CasADi's externals."""
+        stems = {source.stem for source in self.sources}
+        return [path for path in sorted((self.root / "casadi").rglob("*.c")) if path.stem in stems]
+
+    @property
     def headers(self) -> list[Path]:
         """The headers of its joints, and those that all joints share."""
         include = self.root / "c/include/jointgen"
         own = [self.root / name for name in dict.fromkeys(entry["header"] for entry in self.entries)]
         return [*own, include / "jg_real.h", include / "jointgen.h"]
 
-    def objects(self, *flags: str, compiler: str = "gcc") -> list[Path]:
-        """Compile every source; a complaint of the compiler is a `HarnessError`."""
+    def objects(self, *flags: str, externals: bool = False) -> list[Path]:
+        """Compile every source (or external); a complaint of the compiler is a `HarnessError`."""
         include = self.root / "c/include"
         texts = b"".join(path.read_bytes() for path in sorted(include.rglob("*.h")))
 
         def compile_one(source: Path) -> Path:
             target = self.cache / f"{source.stem}-{digest(texts, source.read_bytes(), *flags)}.o"
             if not target.exists():
-                compile_silently([compiler, *flags, f"-I{include}", "-c", str(source), "-o", str(target)])
+                compile_silently(["gcc", *flags, f"-I{include}", "-c", str(source), "-o", str(target)])
             return target
 
         with only_one(self.cache / f"{self.root.name}-{self.joint}.lock"), ThreadPoolExecutor(max_workers=2) as pool:
-            return list(pool.map(compile_one, self.sources))
+            return list(pool.map(compile_one, self.externals if externals else self.sources))
 
     def library(self) -> Library:
         """Its routines, to be called from Python."""
@@ -118,7 +124,7 @@ def compile_silently(command: Sequence[str], text: str | None = None) -> None:
     """Run a compiler on its arguments, or on a text at its standard input; whatever it says is an error."""
     run = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
     if run.returncode or run.stdout or run.stderr:
-        raise HarnessError(f"{' '.join(command)}\n{run.stdout}{run.stderr}")
+        raise HarnessError(f"{' '.join(command)}\n{(run.stdout + run.stderr)[:2000]}")
 
 
 def package(case: str, shared: Path) -> Package:

@@ -24,6 +24,10 @@ def test_sources_compile_silently_in_the_other_number_type(generated: Package) -
     generated.objects(*STRICT, *(FLOAT if generated.real == "double" else DOUBLE))
 
 
+def test_externals_of_casadi_compile_silently(generated: Package) -> None:
+    assert generated.objects(*STRICT, "-O0", "-fPIC", externals=True)
+
+
 def test_the_flags_do_find_what_they_are_for() -> None:
     for wrong in ("void f(void) { }", "static float g(double x) { return x; }\nfloat h(void) { return g(1.0); }"):
         with pytest.raises(HarnessError, match="-Werror="):

@@ -69,6 +69,12 @@ def test_all_incompatible_options_are_told_at_once(previous: Path) -> None:
     assert [line.split(":")[0] for line in lines] == ["revolute --rows quaternion", "planar --rows quaternion"]
 
 
+def test_all_mistakes_about_one_joint_are_told_at_once(previous: Path) -> None:
+    wrong = ("revolute", "--form", "conventional", "--rows", "table4", "--derivative", "substituted")
+    lines = refused(invoke("generate", *wrong, "-o", previous))
+    assert [line.split(":")[0] for line in lines] == ["revolute --rows table4", "revolute --derivative substituted"]
+
+
 @pytest.mark.parametrize(
     "arguments",
     [("generate", "--bogus"), ("generate", "-o"), ("bogus",), ("flops", "--bogus"), ("joints", "surplus")],
@@ -129,6 +135,21 @@ def test_an_empty_folder_is_a_target(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     assert invoke(*SMALL, "-o", tmp_path / "empty").exit_code == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["empty", "new"]
+
+
+def test_a_link_to_a_folder_stays_a_link(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "link").symlink_to("folder")
+    assert invoke(*SMALL, "-o", tmp_path / "link").exit_code == 0
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "folder/manifest.json").is_file()
+
+
+def test_every_output_asked_for_is_there(tmp_path: Path) -> None:
+    assert invoke(*SMALL[:-1], "phi,all", "-o", tmp_path / "package").exit_code == 0
+    manifest = (tmp_path / "package/manifest.json").read_text()
+    assert '"symbol": "jg_ball_conventional_phi"' in manifest
+    assert '"symbol": "jg_ball_conventional_all"' in manifest
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ from codegen.spec.request import (
     QUANTITIES,
     Options,
     Variant,
-    incompatibility,
+    incompatibilities,
     selected_variants,
 )
 from flopcount.count import count
@@ -112,9 +112,9 @@ def model(variant: Variant) -> Model:
         SpecificationError: the joint is unknown or has no such variant.
     """
     joint = joint_type(variant.joint)
-    mistake = incompatibility(joint, variant)
-    if mistake is not None:
-        raise SpecificationError([mistake])
+    mistakes = incompatibilities(joint, variant)
+    if mistakes:
+        raise SpecificationError(mistakes)
     form = formulation(joint, variant)
     return Model(joint, variant, form, Derivation(form))
 

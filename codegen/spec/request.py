@@ -83,45 +83,52 @@ class Options:
     outputs: tuple[str, ...] = ()
 
 
-def incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
-    """Say why a joint has no such variant, or None where it has."""
+def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
+    """Say why a joint has no such variant; nothing where it has."""
     if variant.form == "conventional":
-        return _conventional_incompatibility(joint, variant)
+        return _conventional_incompatibilities(joint, variant)
+    mistakes = []
     if variant.rows == "quaternion" and joint.rotations != 3:
-        return Mistake(
-            f"{joint.name} --rows quaternion",
-            f"quaternion rows need three rotational freedoms, {joint.name} has {joint.rotations}",
-            "use --rows regular, or a joint with rot3 such as ball",
+        mistakes.append(
+            Mistake(
+                f"{joint.name} --rows quaternion",
+                f"quaternion rows need three rotational freedoms, {joint.name} has {joint.rotations}",
+                "use --rows regular, or a joint with rot3 such as ball",
+            )
         )
     if variant.variation == "world" and variant.derivative == "substituted":
-        return Mistake(
-            f"{joint.name} --variation world",
-            "the substituted derivative exists in body axes only (SPEC S1.2)",
-            "use --variation body, or --derivative exact",
+        mistakes.append(
+            Mistake(
+                f"{joint.name} --variation world",
+                "the substituted derivative exists in body axes only (SPEC S1.2)",
+                "use --variation body, or --derivative exact",
+            )
         )
-    return None
+    return mistakes
 
 
-def _conventional_incompatibility(joint: JointType, variant: Variant) -> Mistake | None:
+def _conventional_incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
     if not joint.conventional:
-        return Mistake(
-            f"{joint.name} --form conventional",
-            f"{joint.name} exists in the parametric form only",
-            "use --form parametric",
-        )
+        what = f"{joint.name} exists in the parametric form only"
+        return [Mistake(f"{joint.name} --form conventional", what, "use --form parametric")]
+    mistakes = []
     if variant.rows is not None:
-        return Mistake(
-            f"{joint.name} --rows {variant.rows}",
-            "the conventional form has no choice of rows",
-            "leave --rows out, or use --form parametric",
+        mistakes.append(
+            Mistake(
+                f"{joint.name} --rows {variant.rows}",
+                "the conventional form has no choice of rows",
+                "leave --rows out, or use --form parametric",
+            )
         )
     if variant.derivative == "substituted" and not joint.is_screw:
-        return Mistake(
-            f"{joint.name} --derivative substituted",
-            f"the conventional {joint.name} has only the exact derivative",
-            "use --derivative exact, or --form parametric",
+        mistakes.append(
+            Mistake(
+                f"{joint.name} --derivative substituted",
+                f"the conventional {joint.name} has only the exact derivative",
+                "use --derivative exact, or --form parametric",
+            )
         )
-    return None
+    return mistakes
 
 
 def distinct_rows(joint: JointType) -> tuple[str, ...]:
@@ -196,11 +203,10 @@ def _of_joint(joint: JointType, options: Options) -> tuple[list[Variant], list[M
     found: list[Variant] = []
     problems: list[Mistake] = []
     for variant in dict.fromkeys(variant for form in forms for variant in _of_form(joint, form, options)):
-        problem = incompatibility(joint, variant)
-        if problem is None:
+        mistakes = incompatibilities(joint, variant)
+        problems += mistakes
+        if not mistakes:
             found.append(variant)
-        else:
-            problems.append(problem)
     return found, problems
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ def library(generated: Package) -> Library:
     return generated.library()
 
 
-def inputs_of(entry: dict[str, Any], draw: Any) -> dict[str, Any]:
+def inputs_of(entry: Mapping[str, Any], draw: Any) -> dict[str, Any]:
     return {a["name"]: draw(a["length"]) for a in entry["arguments"] if a["direction"] == "in"}
 
 

@@ -15,7 +15,7 @@ from codegen.mechanics.joints import JOINTS
 from codegen.spec.request import library_variants
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
-REQUIRED = {
+REQUIRED: dict[str, Any] = {
     "symbol": str,
     "header": str,
     "source": str,

@@ -19,7 +19,7 @@ from codegen.ir.ops import LEAVES, Op
 from codegen.ir.program import Program
 from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.passes import simplify
-from codegen.spec.request import Variant, library_variants
+from codegen.spec.request import QUANTITIES, Variant, library_variants
 from flopcount.count import count
 from flopcount.count_c import count_c
 from flopcount.counts import Counts
@@ -85,7 +85,7 @@ def test_counts_of_routines_on_request_agree_by_kind(variant: Variant) -> None:
 @pytest.mark.parametrize("pair", PAIRS)
 def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
     symbolic = build.model(Variant(pair, "parametric", "regular"))
-    program = symbolic.program(build.QUANTITIES)
+    program = symbolic.program(QUANTITIES)
     routine = Routine(symbolic.joint, symbolic.variant, "all", program, count(program), "")
     assert count_c(entries(routine)[0].text)[routine.symbol] == count(program)
 

@@ -33,7 +33,7 @@ def test_a_value_is_not_used_before_it_is_computed(operand: int) -> None:
 
 @pytest.mark.parametrize("op", list(Op))
 def test_an_operation_takes_as_many_operands_as_its_arity_says(op: Op) -> None:
-    assert program(X, Instruction(op, (0,) * ARITY[op]))
+    assert program(X, Instruction(op, (0,) * ARITY[op])).instructions[1].op is op
     for wrong in {0, 1, 2, 3} - {ARITY[op]}:
         with pytest.raises(InternalError, match=f"instruction 1: {op.value}"):
             program(X, Instruction(op, (0,) * wrong))

@@ -1,6 +1,7 @@
 """No pass changes the value of an output in exact arithmetic; those that claim it keep the floats bit for bit.
 
-The sign of a zero is not held: ``-(a - b)`` and ``b - a`` differ in it where a = b.
+The sign of a zero is not held: ``-(a - b)`` and ``b - a`` differ in it where a = b. Arc tangents see the sign of a
+zero, so they are left out of the comparison of bits.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ def test_passes_keep_roots_and_angles_within_their_enclosures(program: Program, 
 
 @RANDOM
 @given(
-    programs(ops=(*NO_ROOTS, Op.SIN, Op.COS, Op.ATAN2), pi=True),
+    programs(ops=(*NO_ROOTS, Op.SIN, Op.COS), pi=True),
     inputs_of(st.floats(-100, 100, allow_subnormal=False)),
 )
 def test_passes_that_claim_so_keep_the_bits_of_floats(program: Program, inputs: dict[str, list[float]]) -> None:
@@ -94,7 +95,7 @@ def test_passes_keep_arguments_shapes_and_the_legend(program: Program) -> None:
     for apply in PASSES:
         changed = apply(program)
         assert (changed.arguments, changed.legend) == (program.arguments, program.legend), apply
-        patterns = [[output.sparsity for output in p.outputs] for p in (program, changed)]
-        if apply in (compress, simplify):
-            patterns = [[(pattern.nrow, pattern.ncol) for pattern in side] for side in patterns]
-        assert patterns[0] == patterns[1], apply
+        for before, after in zip(program.outputs, changed.outputs, strict=True):
+            assert after.name == before.name, apply
+            assert (after.sparsity.nrow, after.sparsity.ncol) == (before.sparsity.nrow, before.sparsity.ncol), apply
+            assert apply in (compress, simplify) or after.sparsity == before.sparsity, apply

@@ -131,7 +131,7 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
         singles = tuple(name for name in OUTPUTS if name in outputs and name != "all")
         fused = singles or QUANTITIES
     routines = {name: (name,) for name in singles}
-    return routines | ({"all": fused} if len(fused) > 1 else {})
+    return routines | ({"all": fused} if len(fused) > 1 or "all" in outputs else {})
 
 
 def routines(variant: Variant, outputs: Sequence[str] = ()) -> tuple[Routine, ...]:

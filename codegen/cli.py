@@ -75,7 +75,7 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
         _report_differences(target, output.differences(target, files))
         return
     lost = output.functions_lost(target, files)
-    if lost and joint:
+    if lost and request != build.LIBRARY:
         what = f"holds {lost} other functions, which this request would remove"
         raise OutputError([Mistake(str(target), what, "name another directory with -o, or generate the whole library")])
     output.replace(target, files)

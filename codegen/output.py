@@ -10,7 +10,6 @@ import contextlib
 import json
 import os
 import shutil
-import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -25,64 +24,59 @@ def check_target(target: Path) -> None:
     Raises:
         OutputError: it is a file, holds something that is not ours, or its parent cannot be written.
     """
+    try:
+        what = _obstacle(Path(os.path.realpath(target)))
+    except OSError as error:
+        what = f"cannot be written ({error.strerror or error})"
+    if what:
+        raise OutputError([Mistake(str(target), what, "name another directory with -o")])
+
+
+def _obstacle(target: Path) -> str | None:
     if target.exists() and not target.is_dir():
-        raise OutputError([Mistake(str(target), "is a file, not a directory", "name another directory with -o")])
-    if target.is_dir() and any(target.iterdir()) and not _is_ours(target):
-        what = f"is not empty and holds no {MANIFEST} of jointgen"
-        raise OutputError([Mistake(str(target), what, "remove it, or name another directory with -o")])
-    parent = _existing_parent(target)
+        return "is a file, not a directory"
+    if target.is_dir() and any(target.iterdir()) and _symbols(target) is None:
+        return f"is not empty and holds no {MANIFEST} of jointgen"
+    if Path.cwd().is_relative_to(target):
+        return "is the current directory or holds it, and cannot be replaced from inside"
+    parent = target.parent
+    while not parent.exists() and parent != parent.parent:
+        parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
-        raise OutputError(
-            [
-                Mistake(
-                    str(target),
-                    f"{parent} is not a directory that can be written",
-                    "name another directory with -o",
-                )
-            ]
-        )
+        return f"{parent} is not a directory that can be written"
+    return None
 
 
-def _is_ours(target: Path) -> bool:
+def _symbols(target: Path) -> set[str] | None:
+    """Functions of the package in a folder; None if there is no package of ours, or a damaged one."""
     try:
         document = json.loads((target / MANIFEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return False
-    return isinstance(document, dict) and "generator" in document
+        return {str(function["symbol"]) for function in document["functions"]} if document["generator"] else None
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
 
 
 def functions_lost(target: Path, files: Mapping[str, bytes]) -> int:
     """Count the functions of the package in the target that the new package lacks."""
-    path = target / MANIFEST
-    if not path.is_file():
-        return 0
-    symbols = [
-        {function["symbol"] for function in json.loads(text).get("functions", [])}
-        for text in (path.read_bytes(), files[MANIFEST])
-    ]
-    return len(symbols[0] - symbols[1])
-
-
-def _existing_parent(target: Path) -> Path:
-    parent = target.absolute().parent
-    while not parent.exists() and parent != parent.parent:
-        parent = parent.parent
-    return parent
+    new = {function["symbol"] for function in json.loads(files[MANIFEST])["functions"]}
+    return len((_symbols(target) or set()) - new)
 
 
 def replace(target: Path, files: Mapping[str, bytes]) -> None:
-    """Put the files in the place of the target directory.
+    """Put the files in the place of the target directory; a link stays a link to the new content.
 
     Raises:
         OutputError: the target cannot be replaced; it is as it was.
     """
     check_target(target)
-    target = target.absolute()
+    real = Path(os.path.realpath(target))
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with _staging(target) as staged:
-            _write(staged, files)
-            _swap(staged, target)
+        real.parent.mkdir(parents=True, exist_ok=True)
+        with _staging(real) as folder:
+            _write(folder / "new", files)
+            if real.exists():
+                real.rename(folder / "previous")
+            (folder / "new").rename(real)
     except OSError as error:
         what = f"cannot be written ({error.strerror or error})"
         raise OutputError([Mistake(str(target), what, "name another directory with -o")]) from error
@@ -90,13 +84,18 @@ def replace(target: Path, files: Mapping[str, bytes]) -> None:
 
 @contextlib.contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """A new folder beside the target, on the same file system; it is gone in the end."""
-    folder = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+    """A new folder beside the target, on the same file system; it is gone in the end.
+
+    What was moved out of the target's place goes back if nothing took that place, whatever happened in between.
+    """
+    folder = target.with_name(f".{target.name[:100]}.{os.getpid()}")
     try:
-        staged = folder / "new"
-        staged.mkdir()
-        yield staged
+        folder.mkdir()
+        yield folder
     finally:
+        previous = folder / "previous"
+        if previous.exists() and not target.exists():
+            previous.rename(target)
         shutil.rmtree(folder, ignore_errors=True)
 
 
@@ -105,19 +104,6 @@ def _write(folder: Path, files: Mapping[str, bytes]) -> None:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
-
-
-def _swap(staged: Path, target: Path) -> None:
-    """Two renames; if the second fails, the first is undone."""
-    previous = staged.parent / "previous"
-    if target.exists():
-        target.rename(previous)
-    try:
-        staged.rename(target)
-    except BaseException:
-        if previous.exists():
-            previous.rename(target)
-        raise
 
 
 def differences(target: Path, files: Mapping[str, bytes]) -> list[str]:

@@ -32,7 +32,7 @@ class Unit:
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
         casadi: name -> serialised CasADi function.
-        external: text of the source of the CasADi externals.
+        external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
     """
 
     variant: Variant
@@ -71,13 +71,14 @@ def unit(routines: Sequence[Routine], version: str, real: str, specification: st
     """Emit the routines of one variant."""
     variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
+    options = _options_line(variant, real)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
     text = render(
         "c/source.c.j2",
         file=f"{variant.file_stem}.c",
         banner=banner(version),
-        options=_options_line(variant, real),
+        options=options,
         specification=specification,
         header=header,
         functions=[*patterns.values(), *(entry.text for entry in emitted)],
@@ -96,7 +97,7 @@ def unit(routines: Sequence[Routine], version: str, real: str, specification: st
         tuple(declarations),
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
-        external_source(routines, header, banner(version), _options_line(variant, "double"), specification),
+        "" if real == "float" else external_source(routines, header, banner(version), options, specification),
     )
 
 
@@ -140,17 +141,18 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
-    casadi = [_casadi_record(u.variant, name) for u in units for name in u.casadi]
+    casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
     files["manifest.json"] = manifest(version, real, specification, records, casadi)
-    files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units}
+    files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}
 
 
-def _casadi_record(variant: Variant, name: str) -> dict[str, Any]:
+def _casadi_record(emitted: Unit, name: str) -> dict[str, Any]:
+    variant = emitted.variant
     output = name.removeprefix(f"{variant.file_stem}_")
     record = {"name": f"jg_{name}", "file": f"casadi/{name}.casadi", **asdict(variant), "output": output}
-    if output in EXTERNALS:
+    if output in EXTERNALS and emitted.external:
         record["external"] = {
             "name": external_name(variant, output),
             "source": f"casadi/external/{variant.file_stem}.c",

@@ -123,7 +123,7 @@ class Program:
         for position, instruction in enumerate(self.instructions):
             if len(instruction.operands) != ARITY[instruction.op]:
                 raise InternalError(f"instruction {position}: {instruction.op.value} with {instruction.operands}")
-            if any(operand >= position or operand < 0 for operand in instruction.operands):
+            if instruction.operands and not 0 <= min(instruction.operands) <= max(instruction.operands) < position:
                 raise InternalError(f"instruction {position} uses a value that is not computed before it")
         for output in self.outputs:
             if len(output.values) != output.sparsity.nonzeros:

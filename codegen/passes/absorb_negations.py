@@ -1,4 +1,4 @@
-"""Turn ``-(a - b)`` into ``b - a`` where the difference has no other use; the bits of the results stay the same."""
+"""Turn ``-(a - b)`` into ``b - a`` where the difference has no other use; the same bits but for the sign of a zero."""
 
 from __future__ import annotations
 

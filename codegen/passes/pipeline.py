@@ -15,8 +15,9 @@ from codegen.passes.share_subexpressions import share_subexpressions
 def simplify(program: Program) -> Program:
     """Bring a freshly lowered program into the form that is emitted and counted."""
     while True:
-        smaller = drop_unused(share_subexpressions(eliminate_zeros(fold_constants(program))))
-        if smaller == program:
+        cleaned = eliminate_zeros(fold_constants(program))
+        if cleaned.instructions == program.instructions:
             break
-        program = smaller
-    return schedule(absorb_negations(pair_sincos(compress(smaller))))
+        program = drop_unused(share_subexpressions(cleaned))
+    shared = drop_unused(share_subexpressions(compress(program)))
+    return schedule(absorb_negations(pair_sincos(shared)))

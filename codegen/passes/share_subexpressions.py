@@ -1,7 +1,8 @@
 """Value numbering over the whole set of outputs: equal values are computed once, up to sign.
 
 Each value is known as plus or minus a base, so that ``a b``, ``(-a) b`` and ``-(a b)`` are one product, and ``a -
-b`` and ``b - a`` one difference. Rounding is symmetric in IEEE arithmetic: the results are the same bits.
+b`` and ``b - a`` one difference. Rounding is symmetric in IEEE arithmetic: the results are the same bits, but
+for the sign of a zero.
 """
 
 from __future__ import annotations

@@ -29,7 +29,8 @@ def check_target(target: Path) -> None:
     except OSError as error:
         what = f"cannot be written ({error.strerror or error})"
     if what:
-        raise OutputError([Mistake(str(target), what, "name another directory with -o")])
+        remedy = f"{'remove it, or ' if MANIFEST in what else ''}name another directory with -o"
+        raise OutputError([Mistake(str(target), what, remedy)])
 
 
 def _obstacle(target: Path) -> str | None:
@@ -51,7 +52,9 @@ def _symbols(target: Path) -> set[str] | None:
     """Functions of the package in a folder; None if there is no package of ours, or a damaged one."""
     try:
         document = json.loads((target / MANIFEST).read_text(encoding="utf-8"))
-        return {str(function["symbol"]) for function in document["functions"]} if document["generator"] else None
+        if "generator" not in document:
+            return None
+        return {str(function["symbol"]) for function in document["functions"]}
     except (OSError, ValueError, LookupError, TypeError):
         return None
 

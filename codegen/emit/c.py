@@ -91,12 +91,15 @@ def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
     text = render(
         "c/dense.c.j2",
         signature=_signature(routine.dense_symbol, dense),
-        symbol=routine.symbol,
-        arguments=[f"{p.name}_nz" if p in matrices else p.name for p in stored],
+        call=_wrapped([f"{routine.symbol}({', '.join(_passed(p, matrices) for p in stored)});"]),
         matrices=[(p.name, p.length, sparsity_symbol(routine, routine.program.output(p.name))) for p in matrices],
     )
     temporaries = sum(p.length for p in matrices)
     return Entry(routine.dense_symbol, "dense", routine, dense, temporaries, text)
+
+
+def _passed(parameter: Parameter, matrices: Sequence[Parameter]) -> str:
+    return f"{parameter.name}_nz" if parameter in matrices else parameter.name
 
 
 def _signature(symbol: str, declared: Sequence[Parameter]) -> str:

@@ -30,7 +30,7 @@ def comment(entry: Entry) -> list[str]:
     """Write the comment of one function as lines."""
     routine = entry.routine
     variant = routine.variant
-    lines = [f"@brief {_BRIEF[routine.output]}: {routine.joint.name} joint, {variant.form} form."]
+    lines = _wrapped(f"@brief {_BRIEF[routine.output]}: {routine.joint.name} joint, {variant.form} form.")
     lines += ["", *_wrapped(" ".join(_details(routine)))]
     lines += [line for parameter in entry.parameters for line in _parameter(parameter)]
     lines += [f"@note Operations: {routine.counts}; temporaries: {entry.temporaries}."]

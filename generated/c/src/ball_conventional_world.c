@@ -341,7 +341,8 @@ void jg_ball_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const 
 {
     jg_real phi_q_nz[18];
     jg_real phi_q_t_lambda_q_nz[18];
-    jg_ball_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_ball_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_ball_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_ball_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

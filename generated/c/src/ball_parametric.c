@@ -2207,7 +2207,8 @@ void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real 
 {
     jg_real phi_q_nz[53];
     jg_real phi_q_t_lambda_q_nz[111];
-    jg_ball_parametric_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_ball_parametric_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_ball_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_ball_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

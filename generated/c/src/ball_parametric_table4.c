@@ -1219,7 +1219,8 @@ void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const j
 {
     jg_real phi_q_nz[50];
     jg_real phi_q_t_lambda_q_nz[73];
-    jg_ball_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_ball_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_ball_parametric_table4_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

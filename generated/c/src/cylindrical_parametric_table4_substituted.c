@@ -589,7 +589,8 @@ void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RE
 {
     jg_real phi_q_nz[49];
     jg_real phi_q_t_lambda_q_nz[13];
-    jg_cylindrical_parametric_table4_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_cylindrical_parametric_table4_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi,
+        phi_q_nz, phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_cylindrical_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

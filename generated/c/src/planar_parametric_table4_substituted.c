@@ -615,7 +615,8 @@ void jg_planar_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRIC
 {
     jg_real phi_q_nz[52];
     jg_real phi_q_t_lambda_q_nz[16];
-    jg_planar_parametric_table4_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_planar_parametric_table4_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi,
+        phi_q_nz, phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_planar_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

@@ -1425,7 +1425,8 @@ void jg_revolute_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_r
 {
     jg_real phi_q_nz[47];
     jg_real phi_q_t_lambda_q_nz[79];
-    jg_revolute_parametric_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_revolute_parametric_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_revolute_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_revolute_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

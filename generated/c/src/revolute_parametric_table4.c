@@ -374,7 +374,8 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_REST
     jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
     jg_real phi_q_t_lambda_q_nz[67];
-    jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, alpha, geometry, lambda, phi_q_t_lambda_q_nz);
+    jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, alpha, geometry, lambda,
+        phi_q_t_lambda_q_nz);
     jg_scatter(jg_revolute_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
@@ -1129,7 +1130,8 @@ void jg_revolute_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, con
 {
     jg_real phi_q_nz[46];
     jg_real phi_q_t_lambda_q_nz[67];
-    jg_revolute_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_revolute_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_revolute_parametric_table4_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_revolute_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

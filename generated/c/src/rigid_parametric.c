@@ -1266,7 +1266,8 @@ void jg_rigid_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real
 {
     jg_real phi_q_nz[45];
     jg_real phi_q_t_lambda_q_nz[66];
-    jg_rigid_parametric_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_rigid_parametric_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz,
+        gamma);
     jg_scatter(jg_rigid_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_rigid_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

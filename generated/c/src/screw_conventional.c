@@ -1596,7 +1596,8 @@ void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_re
 {
     jg_real phi_q_nz[48];
     jg_real phi_q_t_lambda_q_nz[72];
-    jg_screw_conventional_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_screw_conventional_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz,
+        gamma);
     jg_scatter(jg_screw_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_screw_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

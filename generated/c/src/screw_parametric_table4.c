@@ -382,7 +382,8 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRIC
     jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
     jg_real phi_q_t_lambda_q_nz[67];
-    jg_screw_parametric_table4_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, alpha, geometry, lambda, phi_q_t_lambda_q_nz);
+    jg_screw_parametric_table4_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, alpha, geometry, lambda,
+        phi_q_t_lambda_q_nz);
     jg_scatter(jg_screw_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
@@ -1149,7 +1150,8 @@ void jg_screw_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const 
 {
     jg_real phi_q_nz[49];
     jg_real phi_q_t_lambda_q_nz[67];
-    jg_screw_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_screw_parametric_table4_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_screw_parametric_table4_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_screw_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

@@ -361,7 +361,8 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_dense(const jg_real *J
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
     jg_real phi_q_t_lambda_q_nz[60];
-    jg_translational_conventional_world_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, geometry, lambda, phi_q_t_lambda_q_nz);
+    jg_translational_conventional_world_phi_q_t_lambda_q_nz(r_i, A_i, r_j, A_j, geometry, lambda,
+        phi_q_t_lambda_q_nz);
     jg_scatter(jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
@@ -1031,7 +1032,8 @@ void jg_translational_conventional_world_all_dense(const jg_real *JG_RESTRICT r_
 {
     jg_real phi_q_nz[42];
     jg_real phi_q_t_lambda_q_nz[60];
-    jg_translational_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_translational_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_translational_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

@@ -603,7 +603,8 @@ void jg_universal_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, c
 {
     jg_real phi_q_nz[24];
     jg_real phi_q_t_lambda_q_nz[36];
-    jg_universal_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_universal_conventional_world_all(r_i, A_i, r_j, A_j, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_universal_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_universal_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

@@ -764,7 +764,8 @@ void jg_universal_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_
 {
     jg_real phi_q_nz[48];
     jg_real phi_q_t_lambda_q_nz[19];
-    jg_universal_parametric_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz, phi_q_t_lambda_q_nz, gamma);
+    jg_universal_parametric_substituted_all(r_i, A_i, r_j, A_j, alpha, geometry, velocity, lambda, phi, phi_q_nz,
+        phi_q_t_lambda_q_nz, gamma);
     jg_scatter(jg_universal_parametric_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
     jg_scatter(jg_universal_parametric_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }

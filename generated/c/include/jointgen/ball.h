@@ -88,7 +88,8 @@ void jg_ball_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -108,7 +109,8 @@ void jg_ball_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, co
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -332,7 +334,8 @@ void jg_ball_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i, cons
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -352,7 +355,8 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -589,7 +593,8 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -614,7 +619,8 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -870,7 +876,8 @@ void jg_ball_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -890,7 +897,8 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1139,7 +1147,8 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1164,7 +1173,8 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1421,7 +1431,8 @@ void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRIC
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1441,7 +1452,8 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): ball joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

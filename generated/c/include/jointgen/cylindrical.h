@@ -94,7 +94,8 @@ void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -117,7 +118,8 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -359,7 +361,8 @@ void jg_cylindrical_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -382,7 +385,8 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -630,7 +634,8 @@ void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -655,7 +660,8 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -912,7 +918,8 @@ void jg_cylindrical_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRIC
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -932,7 +939,8 @@ void jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1181,7 +1189,8 @@ void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1207,7 +1216,8 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_REST
     jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1464,7 +1474,8 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_dense(const jg_real *JG_
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1484,7 +1495,8 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): cylindrical
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

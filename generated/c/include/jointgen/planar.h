@@ -94,7 +94,8 @@ void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -117,7 +118,8 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -359,7 +361,8 @@ void jg_planar_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, co
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -382,7 +385,8 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -630,7 +634,8 @@ void jg_planar_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -655,7 +660,8 @@ void jg_planar_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, co
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -911,7 +917,8 @@ void jg_planar_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alp
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -931,7 +938,8 @@ void jg_planar_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_REST
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1180,7 +1188,8 @@ void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1205,7 +1214,8 @@ void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1462,7 +1472,8 @@ void jg_planar_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTR
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1482,7 +1493,8 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): planar joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

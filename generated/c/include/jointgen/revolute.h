@@ -88,7 +88,8 @@ void jg_revolute_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const 
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -108,7 +109,8 @@ void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -332,7 +334,8 @@ void jg_revolute_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i, 
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -353,7 +356,8 @@ void jg_revolute_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -590,7 +594,8 @@ void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -615,7 +620,8 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -871,7 +877,8 @@ void jg_revolute_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT a
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -891,7 +898,8 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RE
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1140,7 +1148,8 @@ void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1166,7 +1175,8 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
     jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1423,7 +1433,8 @@ void jg_revolute_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RES
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1443,7 +1454,8 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): revolute joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

@@ -88,7 +88,8 @@ void jg_rigid_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -108,7 +109,8 @@ void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, c
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -332,7 +334,8 @@ void jg_rigid_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i, con
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -352,7 +355,8 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -586,7 +590,8 @@ void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -610,7 +615,8 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -849,7 +855,8 @@ void jg_rigid_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT geometr
 void jg_rigid_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -861,7 +868,8 @@ void jg_rigid_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT geom
 void jg_rigid_parametric_substituted_phi_q_t_lambda_q_nz(jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): rigid joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.

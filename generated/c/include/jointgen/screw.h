@@ -103,7 +103,8 @@ void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -129,7 +130,8 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -398,7 +400,8 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -424,7 +427,8 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -699,7 +703,8 @@ void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -727,7 +732,8 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -1010,7 +1016,8 @@ void jg_screw_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alph
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1033,7 +1040,8 @@ void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1309,7 +1317,8 @@ void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, cons
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1337,7 +1346,8 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1621,7 +1631,8 @@ void jg_screw_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRI
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1644,7 +1655,8 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *J
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): screw joint,
+ *   parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

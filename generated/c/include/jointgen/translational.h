@@ -94,7 +94,8 @@ void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -117,7 +118,8 @@ void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] r_i [3]; world; m
@@ -359,7 +361,8 @@ void jg_translational_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT 
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -382,7 +385,8 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] r_i [3]; world; m
@@ -628,7 +632,8 @@ void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -652,7 +657,8 @@ void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -904,7 +910,8 @@ void jg_translational_parametric_substituted_phi_q_dense(const jg_real *JG_RESTR
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -923,7 +930,8 @@ void jg_translational_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *
     const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): translational
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.

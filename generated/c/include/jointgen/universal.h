@@ -88,7 +88,8 @@ void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -108,7 +109,8 @@ void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in body axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -333,7 +335,8 @@ void jg_universal_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i,
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -354,7 +357,8 @@ void jg_universal_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
     jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, conventional form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, conventional form.
  *
  * Virtual displacements: translations in world axes, rotations in world axes.
  * @param[in] A_i [3 x 3] column-major; body i to world; 1
@@ -591,7 +595,8 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -616,7 +621,8 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular.
@@ -872,7 +878,8 @@ void jg_universal_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT 
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -892,7 +899,8 @@ void jg_universal_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_R
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   regular. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1141,7 +1149,8 @@ void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, 
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1167,7 +1176,8 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4.
@@ -1424,7 +1434,8 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
     const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.
@@ -1444,7 +1455,8 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
     const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q);
 
 /**
- * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal joint, parametric form.
+ * @brief Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric): universal
+ *   joint, parametric form.
  *
  * Virtual displacements: translations in body axes, rotations in body axes. Rows of the rotational constraint:
  *   table4. The joint relation is inserted before differentiation: exact on tangent directions only.

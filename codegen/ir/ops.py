@@ -14,6 +14,9 @@ from fractions import Fraction
 class Op(Enum):
     """An operation of the program."""
 
+    # Members are single objects, and programs ask for their hash by the million.
+    __hash__ = object.__hash__
+
     CONSTANT = "constant"
     INPUT = "input"
     NEGATE = "neg"

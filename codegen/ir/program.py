@@ -123,8 +123,9 @@ class Program:
         for position, instruction in enumerate(self.instructions):
             if len(instruction.operands) != ARITY[instruction.op]:
                 raise InternalError(f"instruction {position}: {instruction.op.value} with {instruction.operands}")
-            if instruction.operands and not 0 <= min(instruction.operands) <= max(instruction.operands) < position:
-                raise InternalError(f"instruction {position} uses a value that is not computed before it")
+            for operand in instruction.operands:
+                if not 0 <= operand < position:
+                    raise InternalError(f"instruction {position} uses a value that is not computed before it")
         for output in self.outputs:
             if len(output.values) != output.sparsity.nonzeros:
                 raise InternalError(f"output {output.name}: {len(output.values)} values for its pattern")

@@ -15,8 +15,8 @@ def rebuild(program: Program, place: Callable[[Builder, Instruction], int]) -> P
     builder = Builder()
     moved: list[int] = []
     for instruction in program.instructions:
-        operands = tuple(moved[operand] for operand in instruction.operands)
-        position = place(builder, instruction.with_operands(operands))
+        operands = tuple([moved[operand] for operand in instruction.operands])
+        position = place(builder, instruction.with_operands(operands) if operands else instruction)
         if instruction.label is not None:
             builder.label(position, instruction.label)
         moved.append(position)

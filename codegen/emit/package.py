@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from codegen.emit.c import Entry, entries, sparsity_functions
+from codegen.emit.c import entries, sparsity_functions
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
@@ -27,7 +27,6 @@ class Unit:
 
     Attributes:
         variant: form and options.
-        entries: its C functions.
         source: text of the source file.
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
@@ -177,6 +176,3 @@ def _header(joint: str, units: Sequence[Unit], version: str, specification: str)
         guard=joint.upper(),
         declarations=[declaration for u in units for declaration in u.declarations],
     )
-
-
-__all__ = ["Entry", "Unit", "banner", "package", "specification_hash", "unit"]

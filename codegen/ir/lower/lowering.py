@@ -83,6 +83,7 @@ class _Lowering:
         self._chains = Chains(self.builder, {}, self._name_product)
 
     def output(self, output: SymbolicOutput) -> Output:
+        """Lower one output, every entry of it."""
         zero = self.builder.constant(0)
         nrow, ncol = output.shape
         entries = [[zero] * ncol for _ in range(nrow)]
@@ -97,6 +98,7 @@ class _Lowering:
         return Output(output.name, Sparsity.of_entries(nrow, ncol, places), values)
 
     def matrix(self, expression: Any) -> Grid:
+        """Lower a matrix expression, or find the value it has already."""
         known = self._matrices.get(expression)
         if known is None:
             known = self._matrices[expression] = self._new_matrix(expression)
@@ -154,6 +156,7 @@ class _Lowering:
             self._name(name, chain_notation(factors, others), grid)
 
     def scalar(self, expression: Any) -> int:
+        """Lower a scalar expression, or find the value it has already."""
         known = self._scalars.get(expression)
         if known is None:
             known = self._scalars[expression] = self._new_scalar(expression)

@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 
 from codegen.mechanics.algebra import Algebra
-from codegen.mechanics.frames import A_i, A_j, C_i, C_j, d_ij, pitch, revolutions, theta_0
+from codegen.mechanics.frames import A_i, A_j, C_i, C_j, d_ij, pitch, revolutions, theta_0, vector
 from codegen.mechanics.terms import unit
 from codegen.spec.joints import Axis, BasicConstraint, Dot1, Dot2, Spherical
 
@@ -19,8 +19,14 @@ _COLUMN: dict[Axis, int] = {"f": 0, "g": 1, "h": 2}
 sine_theta, cosine_theta, theta = sympy.symbols("sine_theta cosine_theta theta")
 """Stages of the screw: ``g_i . f_j``, ``f_i . f_j`` and the angle between them, rad."""
 
-theta_sine, theta_cosine = sympy.symbols("theta_sine theta_cosine")
-"""Partial derivatives of theta by its sine and cosine."""
+tilt, spread = sympy.symbols("tilt spread")
+"""Stages of the derivative of theta: ``h_i . f_j``, and one over the squared length of ``across``."""
+
+across = vector("across")
+"""The part of h_i across f_j, ``h_i - (h_i . f_j) f_j``."""
+
+theta_axis = vector("theta_axis")
+"""What theta varies with: ``delta theta = theta_axis . (turn of body j less that of body i)``."""
 
 
 def axis_i(axis: Axis) -> Any:
@@ -44,38 +50,41 @@ def constraint(kind: BasicConstraint, algebra: Algebra) -> Any:
     return algebra.dot(axis_i("h"), d_ij) - pitch * (theta + 2 * sympy.pi * revolutions + theta_0)
 
 
-def screw_stages(algebra: Algebra) -> dict[Any, Any]:
-    """The angle of the screw from the components of f_j across the axis: H = R_z(theta)."""
+def screw_stages(algebra: Algebra, body_axes: Any | None) -> dict[Any, Any]:
+    """The angle of the screw from the components of f_j across its axis, H = R_z(theta), and what it varies with.
+
+    ``theta = atan2(g_i . f_j, f_i . f_j)``, and ``theta_axis = (h_i - z f_j) / (1 - z^2)`` with ``z = h_i . f_j``, which is
+    ``h_i`` on the manifold.
+
+    Args:
+        algebra: normal form in force.
+        body_axes: rotation of the body in whose axes ``theta_axis`` is kept; None for world axes.
+    """
+    axis = sympy.MatAdd(axis_i("h"), sympy.MatMul(-1, tilt, axis_j("f")))
+    parts = axis.args if body_axes is None else [sympy.MatMul(sympy.Transpose(body_axes), part) for part in axis.args]
     return {
         sine_theta: algebra.dot(axis_i("g"), axis_j("f")),
         cosine_theta: algebra.dot(axis_i("f"), axis_j("f")),
         theta: sympy.atan2(sine_theta, cosine_theta),
-        theta_sine: cosine_theta / (sine_theta**2 + cosine_theta**2),
-        theta_cosine: -sine_theta / (sine_theta**2 + cosine_theta**2),
+        tilt: algebra.dot(axis_i("h"), axis_j("f")),
+        spread: 1 / (1 - tilt**2),
+        across: algebra.normal(sympy.MatAdd(*parts)),
+        theta_axis: sympy.MatMul(spread, across),
     }
 
 
-SCREW_PARTIALS: dict[Any, dict[Any, Any]] = {
-    theta: {sine_theta: theta_sine, cosine_theta: theta_cosine},
-    theta_sine: {
-        sine_theta: 2 * theta_sine * theta_cosine,
-        cosine_theta: theta_cosine**2 - theta_sine**2,
-    },
-    theta_cosine: {
-        sine_theta: theta_cosine**2 - theta_sine**2,
-        cosine_theta: -2 * theta_sine * theta_cosine,
-    },
-}
-"""Partial derivatives of the angle and of its own partial derivatives, in their own terms: theta is harmonic."""
+SCREW_PARTIALS: dict[Any, dict[Any, Any]] = {spread: {tilt: 2 * tilt * spread**2}}
+"""The derivative of ``spread`` in its own terms."""
 
 
-def on_manifold_theta(relative_rotation: Any, algebra: Algebra) -> Any:
-    """Variation of the angle on the manifold, ``delta theta = h_i . (A_j delta pi_j - A_i delta pi_i)`` (SPEC S1.1).
+def theta_variation(axis: Any, relative_rotation: Any, algebra: Algebra) -> Any:
+    """Variation of the angle, ``delta theta = axis . (A_j delta pi_j - A_i delta pi_i)`` (SPEC S1.1).
 
     Args:
+        axis: ``theta_axis``, or ``h_i`` on the manifold; [3], world.
         relative_rotation: virtual rotation of body j less that of body i, [3], world.
         algebra: normal form in force.
     """
     terms = algebra.terms(relative_rotation)
-    parts = [c * algebra.dot(axis_i("h"), sympy.MatMul(*chain) if len(chain) > 1 else chain[0]) for c, chain in terms]
+    parts = [c * algebra.dot(axis, sympy.MatMul(*chain) if len(chain) > 1 else chain[0]) for c, chain in terms]
     return sympy.Add(*parts)

@@ -15,7 +15,15 @@ import sympy
 from codegen.ir.lower import Tilde
 from codegen.mechanics import frames, mixed
 from codegen.mechanics.algebra import Algebra
-from codegen.mechanics.basic import SCREW_PARTIALS, constraint, on_manifold_theta, screw_stages, theta
+from codegen.mechanics.basic import (
+    SCREW_PARTIALS,
+    axis_i,
+    constraint,
+    screw_stages,
+    theta,
+    theta_axis,
+    theta_variation,
+)
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
 from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
@@ -135,12 +143,13 @@ def _conventional(joint: JointType, variant: Variant) -> Formulation:
     virtual = _body_motion(frames.BODY_DISPLACEMENTS, variant.variation)
     rates = _body_motion(frames.BODY_VELOCITIES, variant.variation)
     if joint.is_screw:
-        stages |= screw_stages(algebra)
-        if variant.derivative == "substituted":
-            turns = (frames.delta_pi_i, frames.delta_pi_j), (frames.omega_i, frames.omega_j)
-            for motion, (turn_i, turn_j) in zip((virtual, rates), turns, strict=True):
-                relative = _relative_turn(turn_i, turn_j, variant.variation)
-                motion[theta] = on_manifold_theta(relative, algebra)
+        in_body = variant.variation == "body"
+        stages |= screw_stages(algebra, A_i if in_body else None)
+        exact = sympy.MatMul(A_i, theta_axis) if in_body else theta_axis
+        axis = axis_i("h") if variant.derivative == "substituted" else exact
+        turns = (frames.delta_pi_i, frames.delta_pi_j), (frames.omega_i, frames.omega_j)
+        for motion, (turn_i, turn_j) in zip((virtual, rates), turns, strict=True):
+            motion[theta] = theta_variation(axis, _relative_turn(turn_i, turn_j, variant.variation), algebra)
     return Formulation(
         algebra,
         stages,

@@ -1,0 +1,97 @@
+"""Nodes and alternatives: what has to be known, and the ways to know it.
+
+A node is a quantity at a place: a vector in a frame, a scalar, a block between two frames. An alternative computes it
+from other nodes. The graph of both is laid out on demand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+Key = tuple[Any, ...]
+
+ZERO, UNIT, GENERAL = 0, 1, 2
+"""What is known of an entry: it is zero, plus or minus one, or anything."""
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """One way to compute a node.
+
+    Attributes:
+        kind: names the formula, see `codegen.vectors.scalarise`.
+        children: numbers of the nodes it takes.
+        cost: price of its own operations.
+        data: what the formula needs besides, such as signs.
+        family: alternatives that are alike, such as all that turn vectors from one frame to another.
+    """
+
+    kind: str
+    children: tuple[int, ...]
+    cost: float
+    data: Any = None
+    family: str = ""
+
+
+@dataclass(slots=True)
+class Node:
+    """A quantity at a place.
+
+    Attributes:
+        key: kind, quantity and place.
+        classes: `ZERO`, `UNIT` or `GENERAL` for each entry.
+        alternatives: laid out when first asked for.
+    """
+
+    key: Key
+    classes: tuple[int, ...]
+    alternatives: tuple[Alternative, ...] | None = field(default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class Prices:
+    """Price of an addition, a multiplication and a division."""
+
+    add: float = 1.0
+    mul: float = 1.0
+    div: float = 1.0
+
+
+Layout = Callable[[Key], tuple[Alternative, ...]]
+"""Lays out the alternatives of a node."""
+
+
+class Nodes:
+    """All nodes of a graph, numbered."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self._numbers: dict[Key, int] = {}
+
+    def number(self, key: Key, classes: Callable[[], tuple[int, ...]]) -> int:
+        """Give the number of a node; its classes are asked for once."""
+        known = self._numbers.get(key)
+        if known is None:
+            known = self._numbers[key] = len(self.nodes)
+            self.nodes.append(Node(key, classes()))
+        return known
+
+
+def product_class(a: int, b: int) -> int:
+    """Class of a product of two entries."""
+    return 0 if not (a and b) else UNIT if a == b == UNIT else GENERAL
+
+
+def inner_cost(pairs: list[tuple[int, int]], prices: Prices) -> float:
+    """Price of a sum of products of entries, from their classes."""
+    products = [product for product in pairs if product[0] and product[1]]
+    multiplied = sum(1 for a, b in products if a == b == GENERAL)
+    return prices.mul * multiplied + prices.add * max(len(products) - 1, 0)
+
+
+def inner_class(pairs: list[tuple[int, int]]) -> int:
+    """Class of a sum of products of entries."""
+    classes = [product_class(a, b) for a, b in pairs if a and b]
+    return ZERO if not classes else classes[0] if len(classes) == 1 else GENERAL

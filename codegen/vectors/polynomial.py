@@ -1,0 +1,114 @@
+"""Polynomials with exact rational coefficients over numbered atoms: the scalars of the vector level.
+
+A polynomial is immutable and hashable. What an atom stands for is known to `codegen.vectors.space.Space`.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from functools import cached_property
+
+Monomial = tuple[int, ...]
+"""Atoms in ascending order; an atom stands as often as its power says."""
+
+
+class Polynomial:
+    """A sum of rational coefficients times monomials, kept in ascending order of the monomials."""
+
+    __slots__ = ("__dict__", "_hash", "terms")
+
+    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
+        self.terms: tuple[tuple[Monomial, Fraction], ...] = tuple(sorted((m, c) for m, c in terms.items() if c))
+        self._hash = hash(self.terms)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Polynomial) and self.terms == other.terms
+
+    def __bool__(self) -> bool:
+        return bool(self.terms)
+
+    def __add__(self, other: Polynomial) -> Polynomial:
+        if not self.terms:
+            return other
+        if not other.terms:
+            return self
+        total = dict(self.terms)
+        for monomial, coefficient in other.terms:
+            total[monomial] = total.get(monomial, Fraction(0)) + coefficient
+        return Polynomial(total)
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial({monomial: -coefficient for monomial, coefficient in self.terms})
+
+    def __sub__(self, other: Polynomial) -> Polynomial:
+        return self + -other
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        if self == ONE:
+            return other
+        if other == ONE:
+            return self
+        product: dict[Monomial, Fraction] = {}
+        for left, a in self.terms:
+            for right, b in other.terms:
+                monomial = tuple(sorted(left + right))
+                product[monomial] = product.get(monomial, Fraction(0)) + a * b
+        return Polynomial(product)
+
+    @cached_property
+    def constant(self) -> Fraction | None:
+        """The value, where no atom is in it."""
+        if not self.terms:
+            return Fraction(0)
+        return self.terms[0][1] if len(self.terms) == 1 and not self.terms[0][0] else None
+
+    @cached_property
+    def sign(self) -> int:
+        """Sign of the first coefficient; 0 for zero."""
+        return 0 if not self.terms else 1 if self.terms[0][1] > 0 else -1
+
+    @cached_property
+    def content(self) -> Monomial:
+        """The atoms that every monomial has."""
+        common: Counter[int] | None = None
+        for monomial, _ in self.terms:
+            atoms = Counter(monomial)
+            common = atoms if common is None else common & atoms
+        return tuple(sorted((common or Counter()).elements()))
+
+    def without(self, factor: Monomial) -> Polynomial:
+        """Divide by a monomial that every term has."""
+        reduced = {}
+        for monomial, coefficient in self.terms:
+            atoms = Counter(monomial)
+            atoms.subtract(factor)
+            reduced[tuple(sorted(atoms.elements()))] = coefficient
+        return Polynomial(reduced)
+
+
+def number(value: Fraction | int) -> Polynomial:
+    """A constant."""
+    return Polynomial({(): Fraction(value)})
+
+
+def atom(index: int) -> Polynomial:
+    """A single atom."""
+    return Polynomial({(index,): Fraction(1)})
+
+
+def total(parts: Iterable[Polynomial]) -> Polynomial:
+    """Sum of polynomials."""
+    result: dict[Monomial, Fraction] = {}
+    for part in parts:
+        for monomial, coefficient in part.terms:
+            result[monomial] = result.get(monomial, Fraction(0)) + coefficient
+    return Polynomial(result)
+
+
+ZERO = number(0)
+ONE = number(1)

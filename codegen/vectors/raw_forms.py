@@ -1,0 +1,67 @@
+"""Vectors turned with the rotation matrices as they are, orthonormal or not: for constraints, never for derivatives."""
+
+from __future__ import annotations
+
+from codegen.vectors.nodes import Alternative, inner_cost
+from codegen.vectors.space import Axis, Cross, Given, Named, Vector
+from codegen.vectors.vector_forms import given, read, sums
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from codegen.vectors.layout import Layout
+
+
+def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple[Alternative, ...]:
+    """Lay out the ways to know a vector with raw matrices.
+
+    ``pushed``: products of the given matrices from the inside out. ``pulled``: the transposed matrix of ``frame`` times the
+    vector in the frame around it.
+    """
+    found: list[Alternative] = []
+    if kind == "pulled":
+        outer = layout.tree.outward(frame)[1]
+        found.append(_turned(layout, layout.pushed(vector, outer), outer, frame))
+        if len(vector.terms) > 1:
+            found += sums(layout, vector, frame, "pulled")
+        return tuple(found)
+    if len(vector.terms) > 1:
+        found += sums(layout, vector, frame, "pushed")
+    inner = inside(layout, vector, frame)
+    description = layout.space.primitives[vector.terms[0][0]]
+    if vector.single is not None and not isinstance(description, Cross | Named):
+        known = given(layout, description, frame)
+        if known is not None and frame in layout.tree.outward(description.frame):
+            return (read(layout, known),)
+    if inner is not None:
+        found.append(_turned(layout, layout.pushed(vector, inner), inner, frame))
+    return tuple(found)
+
+
+def inside(layout: Layout, vector: Vector, frame: str) -> str | None:
+    """The frame next inside ``frame`` that all parts of a vector come through, if there is one."""
+    through: set[str] = set()
+    for primitive, _ in vector.terms:
+        description = layout.space.primitives[primitive]
+        if isinstance(description, Cross | Named):
+            return None
+        chain = layout.tree.outward(description.frame)
+        if frame not in chain or chain.index(frame) == 0:
+            return None
+        through.add(chain[chain.index(frame) - 1])
+    return through.pop() if len(through) == 1 else None
+
+
+def _turned(layout: Layout, inner: tuple[int, int], start: str, end: str) -> Alternative:
+    """The given matrix between neighbouring frames times a vector; its columns are given nodes."""
+    by = "columns" if layout.tree.outward(start)[1:2] == [end] else "rows"
+    of, seen = (start, end) if by == "columns" else (end, start)
+    axes = tuple(layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3))
+    entries = [layout.classes(node) for node in axes]
+    rows = list(zip(*entries, strict=True)) if by == "columns" else entries
+    components = layout.classes(inner[1])
+    cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
+    return Alternative("turned", (inner[1], *axes), cost, (by, inner[0]))
+
+
+__all__ = ["Given", "alternatives", "inside"]

@@ -1,0 +1,289 @@
+"""Read the matrix expressions of the symbolic model free of frames.
+
+Rotations only say in which frame a vector is written, so they drop out: ``A_ij h_j`` is h_j, ``A_i s_i~`` is s_i~ between
+the world and body i. What is left are vectors, their products, and scalars.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy
+from sympy.matrices.expressions.matexpr import MatrixExpr
+from sympy.matrices.matrixbase import MatrixBase
+
+from codegen.errors import InternalError
+from codegen.ir.lower.nodes import Dot, Tilde
+from codegen.vectors.frames import Components
+from codegen.vectors.polynomial import ONE, ZERO, Polynomial, number
+from codegen.vectors.space import Axis, Dyadic, Given, Named, Space, Vector, combined
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """What the symbols of a model are.
+
+    Attributes:
+        rotations: rotation matrix -> (a, b), it turns components in frame b to components in frame a.
+        frames: vector symbol -> the frame its components are in.
+        stages: symbol -> definition.
+        axes: frames whose axes have a meaning, so that a vector written in them is a sum of axes.
+        whole: stages that are vectors of their own, not the sums that define them.
+    """
+
+    rotations: Mapping[Any, tuple[str, str]]
+    frames: Mapping[Any, str]
+    stages: Mapping[Any, Any]
+    axes: frozenset[str]
+    whole: frozenset[Any] = frozenset()
+
+
+Definitions = dict[str, tuple[str, tuple[Polynomial, ...]]]
+"""Stage scalar -> function and arguments."""
+
+
+class Reader:
+    """Reads expressions into a space.
+
+    Args:
+        space: where vectors and scalars are numbered.
+        symbols: what the symbols are.
+
+    Attributes:
+        given: components of vectors that an expression writes out, by frame and name.
+        definitions: scalars that are no polynomials: quotients, sines, arc tangents.
+        raw: whether scalar products are taken with the rotation matrices as they are.
+    """
+
+    def __init__(self, space: Space, symbols: Symbols) -> None:
+        self.space = space
+        self.given: dict[tuple[str, str], Components] = {}
+        self.definitions: Definitions = {}
+        self.raw = False
+        self._symbols = symbols
+        self._vectors: dict[Any, Vector] = {}
+
+    # --- vectors
+
+    def vector(self, expression: Any, frame: str | None = None) -> Vector:
+        """Read a [3] expression whose components are in ``frame``, or in the frame that its factors say."""
+        frame = frame or self.frame_of(expression)
+        if isinstance(expression, sympy.MatAdd):
+            return combined((ONE, self.vector(term, frame)) for term in expression.args)
+        if isinstance(expression, sympy.MatMul):
+            coefficient, factors = expression.as_coeff_matrices()
+            return self._chain(tuple(factors), frame).times(self.scalar(coefficient))
+        if isinstance(expression, sympy.MatrixSymbol):
+            return self._symbol(expression)
+        if isinstance(expression, sympy.ZeroMatrix):
+            return Vector({})
+        if isinstance(expression, MatrixBase):
+            return self._explicit(list(expression), frame)
+        return self._chain((expression,), frame)
+
+    def _symbol(self, symbol: Any) -> Vector:
+        if symbol not in self._vectors:
+            if symbol in self._symbols.stages:
+                self._vectors[symbol] = self._of_stage(symbol)
+            else:
+                self._vectors[symbol] = self.space.vector(Given(self._symbols.frames[symbol], symbol.name))
+        return self._vectors[symbol]
+
+    def _of_stage(self, symbol: Any) -> Vector:
+        definition = self.vector(self._symbols.stages[symbol])
+        if symbol not in self._symbols.whole:
+            return definition
+        self.space.named[symbol.name] = definition
+        return self.space.vector(Named(symbol.name))
+
+    def _chain(self, factors: Sequence[Any], frame: str | None) -> Vector:
+        if not factors:
+            raise InternalError("a product of no factors is no vector")
+        first, rest = factors[0], factors[1:]
+        if not rest:
+            return self.vector(first, frame)
+        if isinstance(first, Tilde):
+            frame = frame or self.frame_of(sympy.MatMul(*factors))
+            return self.space.cross(self.vector(first.vector, frame), self._chain(rest, frame))
+        if self._turn(first) is not None:
+            return self._chain(rest, self._turn(first)[1])  # type: ignore[index]
+        if first.shape[1] == 1:
+            raise InternalError("a column inside a product that is a vector")
+        return self.space.apply(self.map(first, frame, frame), self._chain(rest, frame))
+
+    def _explicit(self, entries: list[Any], frame: str | None) -> Vector:
+        if frame is None:
+            raise InternalError(f"in which frame are {entries}?")
+        values = [self.scalar(entry) for entry in entries]
+        axes = [self.space.vector(Axis(frame, k)) for k in range(3)]
+        if frame in self._symbols.axes or all(value.constant is not None for value in values):
+            return combined(zip(values, axes, strict=True))
+        sign = next(value.sign for value in values if value)
+        components = tuple(value if sign > 0 else -value for value in values)
+        name = next((n for (f, n), known in self.given.items() if f == frame and known == components), None)
+        if name is None:
+            name = f"explicit_{len(self.given)}"
+            self.given[frame, name] = components
+        vector = self.space.vector(Given(frame, name))
+        return vector if sign > 0 else -vector
+
+    def _turn(self, factor: Any) -> tuple[str, str] | None:
+        """Frames that a rotation leads to and from."""
+        if isinstance(factor, sympy.Transpose) and factor.arg in self._symbols.rotations:
+            a, b = self._symbols.rotations[factor.arg]
+            return b, a
+        return self._symbols.rotations.get(factor)
+
+    def frame_of(self, expression: Any) -> str | None:
+        """The frame that the rows of an expression are in, where a factor says it."""
+        turn = self._turn(expression)
+        if turn is not None:
+            return turn[0]
+        if isinstance(expression, sympy.MatrixSymbol):
+            if expression in self._symbols.frames:
+                return self._symbols.frames[expression]
+            return self.frame_of(self._symbols.stages[expression])
+        if isinstance(expression, Tilde):
+            return self.frame_of(expression.vector)
+        if isinstance(expression, sympy.MatAdd | sympy.MatMul):
+            factors = expression.args if isinstance(expression, sympy.MatAdd) else expression.as_coeff_matrices()[1]
+            return next((frame for frame in map(self.frame_of, factors) if frame is not None), None)
+        return None
+
+    # --- maps
+
+    def map(self, expression: Any, rows: str | None, columns: str | None) -> Dyadic:
+        """Read a [3, 3] expression between two frames."""
+        if isinstance(expression, sympy.MatAdd):
+            result = Dyadic({})
+            for term in expression.args:
+                result += self.map(term, rows, columns)
+            return result
+        if isinstance(expression, sympy.MatMul):
+            coefficient, factors = expression.as_coeff_matrices()
+            return self._map_chain(tuple(factors), rows, columns).times(self.scalar(coefficient))
+        if self._turn(expression) is not None or isinstance(expression, sympy.Identity):
+            return Dyadic({}, ONE)
+        if isinstance(expression, sympy.Transpose):
+            return self.map(expression.arg, columns, rows).transposed
+        if isinstance(expression, Tilde):
+            return self.space.tilde(self.vector(expression.vector, rows or columns))
+        if isinstance(expression, sympy.ZeroMatrix):
+            return Dyadic({})
+        if isinstance(expression, MatrixBase):
+            return self._explicit_map(expression, rows or columns)
+        raise InternalError(f"no reading of {type(expression).__name__}")
+
+    def _explicit_map(self, matrix: Any, frame: str | None) -> Dyadic:
+        if frame is None:
+            raise InternalError("in which frame is an explicit matrix?")
+        if (matrix + matrix.T).is_zero_matrix:
+            return self.space.tilde(self._explicit([matrix[2, 1], matrix[0, 2], matrix[1, 0]], frame))
+        axes = [self.space.primitive(Axis(frame, k)) for k in range(3)]
+        return Dyadic({(axes[k], axes[n]): self.scalar(matrix[k, n]) for k in range(3) for n in range(3)})
+
+    def _map_chain(self, factors: Sequence[Any], rows: str | None, columns: str | None) -> Dyadic:
+        for k, factor in enumerate(factors[:-1]):
+            if factor.shape[1] == 1:
+                right = sympy.MatMul(*(_transpose(f) for f in reversed(factors[k + 1 :])))
+                left = factors[: k + 1]
+                return self.space.outer(self._chain(left, rows), self.vector(right, columns))
+        result = Dyadic({}, ONE)
+        frame = rows
+        for factor in factors:
+            turn = self._turn(factor)
+            if turn is not None:
+                frame = turn[1]
+            else:
+                frame = frame or self.frame_of(factor)
+                result = self.space.compose(result, self.map(factor, frame, frame))
+        return result
+
+    # --- scalars
+
+    def scalar(self, expression: Any) -> Polynomial:
+        """Read a scalar expression."""
+        if isinstance(expression, sympy.Rational):
+            return number(Fraction(int(expression.p), int(expression.q)))
+        if isinstance(expression, Dot):
+            return self._dot(*expression.args)
+        if isinstance(expression, sympy.Add):
+            return self._sum([self.scalar(term) for term in expression.args])
+        if isinstance(expression, sympy.Mul):
+            return self._product(expression)
+        if isinstance(expression, sympy.Symbol) and expression in self._symbols.stages:
+            return self._stage(expression)
+        if isinstance(expression, sympy.Symbol) or expression is sympy.pi:
+            return self.space.scalar("symbol", str(expression))
+        return self._function(expression)
+
+    def _dot(self, left: Any, right: Any) -> Polynomial:
+        frame = self.frame_of(left) or self.frame_of(right)
+        u, w = self.vector(left, frame), self.vector(right, frame)
+        return self.space.raw_dot(u, w) if self.raw else self.space.dot(u, w)
+
+    def _sum(self, parts: list[Polynomial]) -> Polynomial:
+        result = ZERO
+        for part in parts:
+            result += part
+        hints = self.space.sum_hints.setdefault(result, [])
+        if len(parts) > 1 and tuple(parts) not in hints:
+            hints.append(tuple(parts))
+        return result
+
+    def _product(self, expression: Any) -> Polynomial:
+        dots = [factor for factor in expression.args if isinstance(factor, Dot)]
+        others = ONE
+        for factor in expression.args:
+            if not isinstance(factor, Dot):
+                others *= self.scalar(factor)
+        result = others
+        for dot in dots:
+            value = self.scalar(dot)
+            hints = self.space.product_hints.setdefault(result * value, [])
+            if (result, value) not in hints and result.constant not in (1, -1):
+                hints.append((result, value))
+            result *= value
+        return result
+
+    def _stage(self, symbol: Any) -> Polynomial:
+        definition = self._symbols.stages[symbol]
+        if isinstance(definition, sympy.Pow | sympy.Function):
+            return self._named(symbol.name, definition)
+        return self.scalar(definition)
+
+    def _function(self, expression: Any) -> Polynomial:
+        if isinstance(expression, sympy.Pow) and expression.exp.is_Integer and expression.exp > 0:
+            base, result = self.scalar(expression.base), ONE
+            for _ in range(int(expression.exp)):
+                result *= base
+            return result
+        return self._named(str(expression), expression)
+
+    def _named(self, name: str, expression: Any) -> Polynomial:
+        """A scalar that is no polynomial, under a name."""
+        if name not in self.definitions:
+            if isinstance(expression, sympy.Pow):
+                if expression.exp != -1:
+                    raise InternalError(f"no reading of exponent {expression.exp}")
+                self.definitions[name] = ("ratio", (ONE, self.scalar(expression.base)))
+            else:
+                arguments = tuple(self.scalar(argument) for argument in expression.args)
+                self.definitions[name] = (type(expression).__name__, arguments)
+        return self.space.scalar("stage", name)
+
+
+def is_matrix(expression: Any) -> bool:
+    """Whether an expression is a vector or matrix."""
+    return isinstance(expression, MatrixExpr | MatrixBase)
+
+
+def _transpose(factor: Any) -> Any:
+    if isinstance(factor, sympy.Transpose):
+        return factor.arg
+    if isinstance(factor, Tilde):
+        return sympy.MatMul(-1, factor)
+    return factor.T if isinstance(factor, MatrixBase) else sympy.Transpose(factor)

@@ -1,0 +1,256 @@
+"""The cheapest way to compute the outputs: choose one alternative for every node that is needed.
+
+A node that several others use is paid once, so the choice is made over the whole graph. It starts from the cheapest tree
+of each output and is improved by moves that are kept when the total falls: another alternative for a node; a node opened,
+with everything that profits from it switched to it; a node closed, with everything that used it switched away. The search
+is deterministic.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+import random
+from collections.abc import Callable, Sequence
+
+from codegen.errors import InternalError
+from codegen.vectors.nodes import Alternative
+
+Choice = dict[int, int]
+"""Node -> position of its alternative."""
+
+Graph = Sequence[tuple[Alternative, ...]]
+"""Alternatives of each node, by its number."""
+
+_LEAST_GAIN = 1e-9
+
+
+def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 8) -> Choice:
+    """Search the cheapest acyclic choice for the outputs.
+
+    Args:
+        graph: alternatives of every node.
+        outputs: nodes that must be computed.
+        sweeps: how often all moves are tried at most.
+
+    Returns:
+        The choice of every node that the outputs need.
+    """
+    search = _Search(graph, outputs, seed)
+    for _ in range(sweeps):
+        before = search.total
+        search.sweep()
+        if search.total >= before - _LEAST_GAIN:
+            break
+    return {node: search.choice[node] for node in search.active()}
+
+
+def _weights(graph: Graph, seed: int) -> list[list[float]]:
+    """Factors on the prices of a start: alternatives of one family are cheap or dear together."""
+    noise = random.Random(seed)
+    families: dict[str, float] = {}
+    weights = []
+    for alternatives in graph:
+        weights.append([])
+        for alternative in alternatives:
+            family = alternative.family or alternative.kind
+            if family not in families:
+                families[family] = math.exp(noise.uniform(-1.2, 1.2)) if seed else 1.0
+            weights[-1].append(families[family] * (1.0 + 0.3 * noise.random() * (seed > 0)))
+    return weights
+
+
+class _Search:
+    """A choice under improvement, with counts of how often each node is used."""
+
+    def __init__(self, graph: Graph, outputs: Sequence[int], seed: int) -> None:
+        self._weights = _weights(graph, seed)
+        self.choice: Choice = {}
+        self.total = 0.0
+        self._graph = graph
+        self._outputs = list(outputs)
+        self._uses: dict[int, int] = {}
+        self._users: list[list[tuple[int, int]]] = [[] for _ in graph]
+        for node, alternatives in enumerate(graph):
+            for k, alternative in enumerate(alternatives):
+                for child in set(alternative.children):
+                    self._users[child].append((node, k))
+        for position, output in enumerate(self._outputs):
+            if position % 4 == 0:
+                self._replan()
+            self._use(output)
+        self._weights = [[1.0] * len(alternatives) for alternatives in graph]
+
+    def active(self) -> list[int]:
+        """The nodes in use, in ascending order."""
+        return sorted(self._uses)
+
+    def sweep(self) -> None:
+        """Try every move once."""
+        for move in (self._others, self._open, self._close):
+            self._replan()
+            for node in self._nodes_for(move):
+                self._attempt(move, node)
+
+    def _nodes_for(self, move: Callable[[int], None]) -> list[int]:
+        if move != self._open:
+            return self.active()
+        near = {child for node in self._uses for alternative in self._graph[node] for child in alternative.children}
+        return sorted(node for node in near if node not in self._uses and node in self._plan)
+
+    # --- moves
+
+    def _attempt(self, move: Callable[[int], None], node: int) -> None:
+        """Make a move, and take it back unless the total falls and nothing depends on itself."""
+        saved = dict(self.choice), dict(self._uses), self.total
+        move(node)
+        if self.total > saved[2] - _LEAST_GAIN or not self._is_acyclic(self._outputs):
+            self.choice, self._uses, self.total = saved
+
+    def _others(self, node: int) -> None:
+        """Take another alternative of a node, and use what it brings wherever that is cheaper."""
+        if node not in self._uses:
+            return
+        start = best = dict(self.choice), dict(self._uses), self.total
+        for k in range(len(self._graph[node])):
+            if k == start[0][node] or not self._is_planned(self._graph[node][k]):
+                continue
+            self._switch(node, k)
+            new = [child for child in self._uses if child not in start[1]]
+            for child in new:
+                self._exploit(child, node)
+            if self.total < best[2] - _LEAST_GAIN and self._is_acyclic(self._outputs):
+                best = dict(self.choice), dict(self._uses), self.total
+            self.choice, self._uses, self.total = dict(start[0]), dict(start[1]), start[2]
+        self.choice, self._uses, self.total = best
+
+    def _exploit(self, node: int, spared: int) -> None:
+        """Use a node wherever that is cheaper."""
+        for user, k in self._users[node]:
+            if user in self._uses and user != spared and k != self.choice[user]:
+                self._improve(user, [k])
+
+    def _open(self, node: int) -> None:
+        """Compute a node, and use it wherever that is cheaper."""
+        if node in self._uses:
+            return
+        self._use(node)
+        self._exploit(node, node)
+        self._release(node)
+
+    def _close(self, node: int) -> None:
+        """Switch everything that uses a node to its best alternative without it."""
+        for user, k in self._users[node]:
+            if user in self._uses and self.choice[user] == k:
+                others = [
+                    other
+                    for other, alternative in enumerate(self._graph[user])
+                    if node not in alternative.children and self._is_planned(alternative)
+                ]
+                if others:
+                    self._switch(user, min(others, key=lambda other: self._estimate(self._graph[user][other])))
+
+    def _improve(self, node: int, options: Sequence[int]) -> None:
+        """Switch a node to the best of some alternatives, if that lowers the total."""
+        best = dict(self.choice), dict(self._uses), self.total
+        for k in options:
+            if not self._is_planned(self._graph[node][k]):
+                continue
+            start = dict(self.choice), dict(self._uses), self.total
+            self._switch(node, k)
+            if self.total < best[2] - _LEAST_GAIN and self._is_acyclic([node]):
+                best = dict(self.choice), dict(self._uses), self.total
+            self.choice, self._uses, self.total = start
+        self.choice, self._uses, self.total = best
+
+    # --- bookkeeping
+
+    def _use(self, node: int) -> None:
+        count = self._uses.get(node, 0)
+        self._uses[node] = count + 1
+        if not count:
+            self.choice[node] = self._plan[node]
+            alternative = self._graph[node][self.choice[node]]
+            self.total += alternative.cost
+            for child in alternative.children:
+                self._use(child)
+
+    def _release(self, node: int) -> None:
+        self._uses[node] -= 1
+        if not self._uses[node]:
+            del self._uses[node]
+            alternative = self._graph[node][self.choice[node]]
+            self.total -= alternative.cost
+            for child in alternative.children:
+                self._release(child)
+
+    def _switch(self, node: int, k: int) -> None:
+        old, new = self._graph[node][self.choice[node]], self._graph[node][k]
+        for child in new.children:
+            self._use(child)
+        self.choice[node] = k
+        self.total += new.cost - old.cost
+        for child in old.children:
+            self._release(child)
+
+    def _is_acyclic(self, roots: Sequence[int]) -> bool:
+        """Whether nothing below the roots depends on itself."""
+        done: set[int] = set()
+        on_path: set[int] = set()
+        stack = list(roots)
+        graph, choice = self._graph, self.choice
+        while stack:
+            node = stack[-1]
+            if node in done:
+                stack.pop()
+            elif node in on_path:
+                on_path.discard(node)
+                done.add(node)
+                stack.pop()
+            else:
+                on_path.add(node)
+                for child in graph[node][choice[node]].children:
+                    if child in on_path:
+                        return False
+                    if child not in done:
+                        stack.append(child)
+        return True
+
+    # --- plans: the cheapest tree of every node, nodes in use being free
+
+    def _is_planned(self, alternative: Alternative) -> bool:
+        return all(child in self._plan for child in alternative.children)
+
+    def _estimate(self, alternative: Alternative) -> float:
+        return alternative.cost + sum(self._price[child] for child in alternative.children if child not in self._uses)
+
+    def _replan(self) -> None:
+        """Knuth's generalisation of Dijkstra's algorithm over the whole graph."""
+        price: dict[int, float] = {}
+        plan: Choice = {}
+        missing: dict[tuple[int, int], int] = {}
+        queue: list[tuple[float, int, int]] = []
+        for node, alternatives in enumerate(self._graph):
+            if node in self._uses:
+                heapq.heappush(queue, (0.0, node, self.choice[node]))
+                continue
+            for k, alternative in enumerate(alternatives):
+                if not alternative.children:
+                    heapq.heappush(queue, (alternative.cost * self._weights[node][k], node, k))
+        while queue:
+            cost, node, k = heapq.heappop(queue)
+            if node in price:
+                continue
+            price[node], plan[node] = cost, k
+            for user in self._users[node]:
+                if user[0] in price:
+                    continue
+                alternative = self._graph[user[0]][user[1]]
+                left = missing.get(user, len(set(alternative.children))) - 1
+                missing[user] = left
+                if not left:
+                    estimate = alternative.cost * self._weights[user[0]][user[1]] + sum(price[child] for child in set(alternative.children))
+                    heapq.heappush(queue, (estimate, *user))
+        self._plan, self._price = plan, price
+        if any(output not in plan for output in self._outputs):
+            raise InternalError("an output cannot be computed from the inputs")

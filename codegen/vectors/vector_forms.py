@@ -1,0 +1,238 @@
+"""The ways to know a vector in a frame: given, turned from another frame, a sum, a cross product, its components."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import reduce
+from typing import TYPE_CHECKING
+
+from codegen.vectors.collect import cross_products
+from codegen.vectors.frames import Components
+from codegen.vectors.nodes import GENERAL, UNIT, Alternative, inner_cost
+from codegen.vectors.polynomial import ONE, Polynomial
+from codegen.vectors.space import Axis, Cross, Given, Named, Vector
+
+if TYPE_CHECKING:
+    from codegen.vectors.layout import Layout, Signed
+
+Parts = list[tuple[Polynomial, Vector]]
+"""Coefficient and vector of each part of a sum."""
+
+
+def alternatives(layout: Layout, vector: Vector, frame: str) -> tuple[Alternative, ...]:
+    """Lay out the ways to know a vector in a frame."""
+    primitive = vector.single
+    description = layout.space.primitives[primitive] if primitive is not None else None
+    if isinstance(description, Axis | Given):
+        known = given(layout, description, frame)
+        if known is not None:
+            return (read(layout, known),)
+    found: list[Alternative] = []
+    if len(vector.terms) > 1 and vector not in layout.sums:
+        layout.sums.append(vector)
+    if isinstance(description, Axis):
+        found += _by_other_axes(layout, description, frame)
+    found += _raw(layout, vector, frame)
+    if description is None:
+        found += sums(layout, vector, frame, "vector")
+    if isinstance(description, Named):
+        found += sums(layout, layout.space.named[description.name], frame, "vector")
+    found += crosses(layout, vector, frame)
+    if frame in layout.axes and not (isinstance(description, Axis) and description.frame == frame):
+        found.append(_components(layout, vector, frame))
+    for other in layout.tree.frames:
+        if other != frame:
+            found += turned(layout, vector, other, frame, description)
+    return tuple(dict.fromkeys(found))
+
+
+def read(layout: Layout, components: Components) -> Alternative:
+    """Components that are given; a scalar among them is a node of its own."""
+    children: list[int] = []
+    data: list[tuple[str, int] | int] = []
+    for component in components:
+        if isinstance(component, Polynomial):
+            sign, node = layout.scalar(component)
+            children.append(node)
+            data.append(sign)
+        else:
+            data.append(component)
+    return Alternative("given", tuple(children), 0.0, tuple(data))
+
+
+def given(layout: Layout, description: Axis | Given, frame: str) -> Components | None:
+    """Components of a primitive where they are given."""
+    if isinstance(description, Given):
+        return layout.tree.given[description.frame, description.name] if frame == description.frame else None
+    if frame == description.frame:
+        return tuple(ONE if k == description.k else Polynomial({}) for k in range(3))
+    matrix = layout.tree.matrix(frame, description.frame)
+    return None if matrix is None else matrix[description.k]
+
+
+def _by_other_axes(layout: Layout, axis: Axis, frame: str) -> Iterator[Alternative]:
+    """``h = f x g``."""
+    first, second = (layout.space.vector(Axis(axis.frame, (axis.k + n) % 3)) for n in (1, 2))
+    yield cross(layout, layout.vector(first, frame), layout.vector(second, frame))
+
+
+def _components(layout: Layout, vector: Vector, frame: str) -> Alternative:
+    """Scalar products with the axes of the frame, each a scalar of its own that others may need."""
+    axes = (layout.space.vector(Axis(frame, k)) for k in range(3))
+    values = [layout.scalar(layout.space.dot(axis, vector)) for axis in axes]
+    return Alternative("components", tuple(node for _, node in values), 0.0, tuple(sign for sign, _ in values), f"components {frame}")
+
+
+def _raw(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]:
+    """The same vector as a constraint needs it, with the matrices as they are."""
+    for kind in ("pushed", "pulled"):
+        known = layout.known((kind, vector, frame))
+        if known is not None:
+            yield Alternative("same", (known,), 0.0, 1)
+
+
+def crosses(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]:
+    """Cross products that are known to give the vector, or its negative."""
+    primitive = vector.single
+    if primitive is not None:
+        description = layout.space.primitives[primitive]
+        if isinstance(description, Cross):
+            sides = (layout.space.vector(layout.space.primitives[p]) for p in (description.left, description.right))
+            left, right = sides
+            yield cross(layout, layout.vector(left, frame), layout.vector(right, frame))
+    else:
+        products = cross_products(layout.space, vector)
+        if len(products) == 1:
+            yield cross(layout, *(layout.vector(side, frame) for side in products[0]))
+    for key, sign in ((vector, 1), (-vector, -1)):
+        for left, right in layout.space.cross_hints.get(key, ()):
+            yield cross(layout, layout.vector(left, frame), layout.vector(right, frame), sign)
+
+
+def cross(layout: Layout, left: Signed, right: Signed, sign: int = 1) -> Alternative:
+    """The cross product of two nodes."""
+    a, b = layout.classes(left[1]), layout.classes(right[1])
+    cost = sum(
+        inner_cost([(a[(k + 1) % 3], b[(k + 2) % 3]), (a[(k + 2) % 3], b[(k + 1) % 3])], layout.prices)
+        for k in range(3)
+    )
+    return Alternative("cross", (left[1], right[1]), cost, sign * left[0] * right[0], f"cross {layout.nodes[left[1]].key[2]}")
+
+
+def turned(
+    layout: Layout, vector: Vector, start: str, end: str, description: object
+) -> Iterator[Alternative]:
+    """``R v`` with R by its columns (axes of ``start`` seen in ``end``) or by its rows."""
+    if not layout.tree.path(start, end):
+        return
+    is_axis_of_start = isinstance(description, Axis) and description.frame == start
+    inner = layout.vector(vector, start)
+    for by in ("columns", "rows"):
+        if by == "columns" and is_axis_of_start:
+            continue
+        axes = _matrix(layout, start, end, by)
+        if inner[1] in axes:
+            continue
+        entries = [layout.classes(node) for node in axes]
+        components = layout.classes(inner[1])
+        rows = list(zip(*entries, strict=True)) if by == "columns" else entries
+        cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
+        yield Alternative("turned", (inner[1], *axes), cost, (by, inner[0]), f"{by} {start} {end}")
+
+
+def _matrix(layout: Layout, start: str, end: str, by: str) -> tuple[int, ...]:
+    """Nodes of the columns, or of the rows, of the rotation from ``start`` to ``end``."""
+    of, seen = (start, end) if by == "columns" else (end, start)
+    return tuple(layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3))
+
+
+def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alternative]:
+    """Sums of parts: one by one, by body, by common coefficient, or with a sum that is known."""
+    place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
+    for parts in partitions(layout, vector):
+        children: list[int] = []
+        signs: list[tuple[int, int]] = []
+        cost = -layout.prices.add
+        counts = [0, 0, 0]
+        for coefficient, part in parts:
+            sign, node = place(part, frame)
+            factor_sign, factor = layout.scalar(coefficient)
+            children += [factor, node]
+            signs.append((sign * factor_sign, int(coefficient.constant in (1, -1))))
+            for k, c in enumerate(layout.classes(node)):
+                counts[k] += int(c > 0)
+                cost += layout.prices.mul * (c == GENERAL and layout.classes(factor)[0] != UNIT)
+        cost = cost + layout.prices.add + layout.prices.add * sum(max(n - 1, 0) for n in counts)
+        yield Alternative("sum", tuple(children), cost, tuple(signs), f"sum {frame}")
+
+
+def partitions(layout: Layout, vector: Vector) -> list[Parts]:
+    """Ways to write a vector as a sum; none that is the vector itself."""
+    single: Parts = [(coefficient, Vector({p: ONE})) for p, coefficient in vector.terms]
+    found = [single, _by_body(layout, vector), _by_coefficient(vector), _by_content(vector), _by_product(layout, vector)]
+    for known in layout.sums[:40]:
+        part = _with_known(vector, known)
+        if part:
+            found.append(part)
+    return [
+        parts for k, parts in enumerate(found) if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector)
+    ]
+
+
+def _by_body(layout: Layout, vector: Vector) -> Parts:
+    groups: dict[str, dict[int, Polynomial]] = {}
+    for p, coefficient in vector.terms:
+        groups.setdefault(_body(layout, p), {})[p] = coefficient
+    return [(ONE, Vector(terms)) for terms in groups.values()]
+
+
+def _body(layout: Layout, primitive: int) -> str:
+    """The outermost frame but one that a primitive is fixed in."""
+    description = layout.space.primitives[primitive]
+    if isinstance(description, Named):
+        return description.name
+    if isinstance(description, Cross):
+        return "+".join(sorted({_body(layout, description.left), _body(layout, description.right)}))
+    chain = layout.tree.outward(description.frame)
+    return chain[-2] if len(chain) > 1 else chain[-1]
+
+
+def _by_coefficient(vector: Vector) -> Parts:
+    groups: dict[Polynomial, dict[int, Polynomial]] = {}
+    for p, coefficient in vector.terms:
+        key, sign = (coefficient, ONE) if coefficient.sign > 0 else (-coefficient, -ONE)
+        groups.setdefault(key, {})[p] = sign
+    return [(key, Vector(terms)) for key, terms in groups.items()]
+
+
+def _by_content(vector: Vector) -> Parts:
+    """Take out what all coefficients have as a factor."""
+    common = reduce(lambda a, b: a & b, (Counter(c.content) for _, c in vector.terms))
+    content = tuple(sorted(common.elements()))
+    if not content:
+        return []
+    factor = Polynomial({content: Fraction(1)})
+    return [(factor, Vector({p: c.without(content) for p, c in vector.terms}))]
+
+
+def _by_product(layout: Layout, vector: Vector) -> Parts:
+    """Collect the cross products of primitives to as few as possible, beside what is no cross product."""
+    is_cross = {p: isinstance(layout.space.primitives[p], Cross) for p, _ in vector.terms}
+    plain = Vector({p: c for p, c in vector.terms if not is_cross[p]})
+    products = cross_products(layout.space, Vector({p: c for p, c in vector.terms if is_cross[p]}))
+    parts = [(ONE, layout.space.cross(left, right)) for left, right in products]
+    return [*parts, (ONE, plain)] if plain else parts
+
+
+def _with_known(vector: Vector, known: Vector) -> Parts:
+    """Write a vector with a known sum inside it, up to sign."""
+    if known in (vector, -vector) or len(known.terms) >= len(vector.terms):
+        return []
+    terms = dict(vector.terms)
+    for part, sign in ((known, ONE), (-known, -ONE)):
+        if all(terms.get(p) == coefficient for p, coefficient in part.terms):
+            rest = Vector({p: c for p, c in terms.items() if p not in dict(part.terms)})
+            return [(sign, known), (ONE, rest)]
+    return []

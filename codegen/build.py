@@ -180,6 +180,7 @@ class _Job:
     outputs: tuple[str, ...]
     real: str
     specification: str
+    batch: int | None = None
 
 
 def _emit_unit(job: _Job) -> Unit:
@@ -193,7 +194,7 @@ def _emit_unit(job: _Job) -> Unit:
         )
         for routine in built
     }
-    return unit(built, codegen.__version__, job.real, job.specification, serialised)
+    return unit(built, codegen.__version__, job.real, job.specification, serialised, job.batch)
 
 
 def variants(options: Options) -> tuple[Variant, ...]:
@@ -220,11 +221,12 @@ def generate(options: Options, progress: Progress = lambda _: None) -> dict[str,
     """
     chosen = variants(options)
     joints = [joint_type(name) for name in dict.fromkeys(variant.joint for variant in chosen)]
-    asked = {"outputs": list(options.outputs), "real": options.real}
+    asked: dict[str, Any] = {"outputs": list(options.outputs), "real": options.real}
+    asked |= {"batch": options.batch} if options.batch else {}
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
-    jobs = [_Job(variant, options.outputs, options.real, specification) for variant in chosen]
+    jobs = [_Job(variant, options.outputs, options.real, specification, options.batch) for variant in chosen]
     units = parallel(_emit_unit, jobs, lambda job: progress(job.variant.file_stem))
-    return package(units, codegen.__version__, options.real, specification)
+    return package(units, codegen.__version__, options.real, specification, options.batch)
 
 
 def dump(options: Options, stage: str) -> Iterator[str]:

@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 import codegen
-from codegen.errors import JointgenError, Mistake, OutputError
+from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 
 _LIBRARY = Path("generated")
 
@@ -50,6 +50,7 @@ def joints(as_json: bool) -> None:
 @click.option("--variation", help="Axes of the virtual rotations: body or world.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
 @click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
+@click.option("--batch", help="Besides, routines for groups of so many joints: 2, 4, 8 or 16.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), default=_LIBRARY, show_default=True)
 @click.option(
     "--check",
@@ -97,7 +98,15 @@ def _request(joint: tuple[str, ...], options: dict[str, str | None]) -> Any:
 
     chosen = {name: value for name, value in options.items() if value is not None}
     outputs = tuple(name.strip() for name in chosen.pop("outputs", "").split(",") if name.strip())
-    return Options(joint, outputs=outputs, **chosen)
+    batch = _whole_number("--batch", chosen.pop("batch", None))
+    return Options(joint, outputs=outputs, batch=batch, **chosen)
+
+
+def _whole_number(option: str, text: str | None) -> int | None:
+    try:
+        return None if text is None else int(text)
+    except ValueError:
+        raise SpecificationError([Mistake(option, f'"{text}" is not a whole number', "give a number like 4")]) from None
 
 
 def _dump(request: Any, stage: str) -> None:

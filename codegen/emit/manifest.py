@@ -73,9 +73,14 @@ def _parameter_record(parameter: Parameter) -> dict[str, Any]:
 
 
 def manifest(
-    version: str, real: str, specification: str, functions: list[dict[str, Any]], casadi: list[dict[str, Any]]
+    version: str,
+    real: str,
+    specification: str,
+    functions: list[dict[str, Any]],
+    casadi: list[dict[str, Any]],
+    batch: dict[str, Any] | None = None,
 ) -> str:
-    """Write the manifest of a package."""
+    """Write the manifest of a package; what it tells of batch routines stands under a key of its own."""
     document = {
         "schema_version": SCHEMA_VERSION,
         "generator": {"name": "jointgen", "version": version},
@@ -83,5 +88,5 @@ def manifest(
         "real": real,
         "functions": functions,
         "casadi": casadi,
-    }
+    } | ({"batch": batch} if batch else {})
     return json.dumps(document, indent=1, ensure_ascii=True) + "\n"

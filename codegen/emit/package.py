@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from codegen.emit.batch_files import BatchUnit, batch_headers, batch_manifest, batch_unit
 from codegen.emit.c import entries, sparsity_functions
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
@@ -32,6 +33,7 @@ class Unit:
         records: for the manifest, one a function.
         casadi: name -> serialised CasADi function.
         external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
+        batch: the routines for many joints, where they were asked for.
     """
 
     variant: Variant
@@ -40,6 +42,7 @@ class Unit:
     records: tuple[dict[str, Any], ...]
     casadi: Mapping[str, bytes]
     external: str
+    batch: BatchUnit | None = None
 
 
 def banner(version: str) -> str:
@@ -66,7 +69,14 @@ def specification_hash(
     return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
 
 
-def unit(routines: Sequence[Routine], version: str, real: str, specification: str, casadi: Mapping[str, bytes]) -> Unit:
+def unit(
+    routines: Sequence[Routine],
+    version: str,
+    real: str,
+    specification: str,
+    casadi: Mapping[str, bytes],
+    batch: int | None = None,
+) -> Unit:
     """Emit the routines of one variant."""
     variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
@@ -97,6 +107,7 @@ def unit(routines: Sequence[Routine], version: str, real: str, specification: st
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
         "" if real == "float" else external_source(routines, header, banner(version), options, specification),
+        batch_unit(routines, banner(version), options, specification, batch) if batch else None,
     )
 
 
@@ -112,7 +123,9 @@ def _options_line(variant: Variant, real: str) -> str:
     return ", ".join(words)
 
 
-def package(units: Sequence[Unit], version: str, real: str, specification: str) -> dict[str, bytes]:
+def package(
+    units: Sequence[Unit], version: str, real: str, specification: str, batch: int | None = None
+) -> dict[str, bytes]:
     """Assemble the files of a package.
 
     Args:
@@ -120,28 +133,35 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
         version: of jointgen.
         real: default number type, ``double`` or ``float``.
         specification: hash of the request.
+        batch: joints in a group of the batch routines; none if there are no such routines.
 
     Returns:
         Path below the package's folder -> content.
     """
     joints = list(dict.fromkeys(u.variant.joint for u in units))
+    batches = [u.batch for u in units if u.batch]
+    headers = [*joints, *dict.fromkeys(b.header for b in batches)]
     files: dict[str, str] = {
-        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real),
-        "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=joints),
+        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real, batch=batch),
+        "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=headers),
     }
     for joint in joints:
         files[f"c/include/jointgen/{joint}.h"] = _header(
             joint, [u for u in units if u.variant.joint == joint], version, specification
         )
     files |= {f"c/src/{u.variant.file_stem}.c": u.source for u in units}
-    sources = sorted(f"src/{u.variant.file_stem}.c" for u in units)
+    files |= batch_headers(batches, batch, banner(version), specification) if batch else {}
+    files |= {f"c/src/{b.file}": b.source for b in batches}
+    sources = sorted(path.removeprefix("c/") for path in files if path.startswith("c/src/"))
     files["c/CMakeLists.txt"] = render(
         "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
     casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
-    files["manifest.json"] = manifest(version, real, specification, records, casadi)
+    files["manifest.json"] = manifest(
+        version, real, specification, records, casadi, batch_manifest(batches, batch) if batch else None
+    )
     files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}

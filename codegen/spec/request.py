@@ -16,6 +16,8 @@ ROWS = ("regular", "table4", "quaternion")
 DERIVATIVES = ("exact", "substituted")
 VARIATIONS = ("body", "world")
 REALS = ("double", "float")
+BATCHES = (2, 4, 8, 16)
+"""Joints in a group of the batch routines."""
 
 QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
 """What the fused routine of the library evaluates."""
@@ -72,6 +74,7 @@ class Options:
         variation: see `Variant`.
         real: ``double`` or ``float``.
         outputs: names out of `OUTPUTS`; empty means all of them.
+        batch: joints in a group of the batch routines; none means that there are none.
     """
 
     joints: tuple[str, ...] = ()
@@ -81,6 +84,7 @@ class Options:
     variation: str | None = None
     real: str = "double"
     outputs: tuple[str, ...] = ()
+    batch: int | None = None
 
 
 def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
@@ -190,11 +194,18 @@ def _unknown_values(options: Options) -> list[Mistake]:
         ("--real", options.real, REALS),
         *(("--outputs", output, OUTPUTS) for output in options.outputs),
     )
-    return [
+    return _unknown_batch(options.batch) + [
         Mistake(name, f'there is no "{value}"', nearest(value, known))
         for name, value, known in choices
         if value is not None and value not in known
     ]
+
+
+def _unknown_batch(batch: int | None) -> list[Mistake]:
+    if batch is None or batch in BATCHES:
+        return []
+    sizes = ", ".join(str(size) for size in BATCHES)
+    return [Mistake("--batch", f"there are no groups of {batch} joints", f"known: {sizes}")]
 
 
 def _of_joint(joint: JointType, options: Options) -> tuple[list[Variant], list[Mistake]]:

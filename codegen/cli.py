@@ -98,15 +98,17 @@ def _request(joint: tuple[str, ...], options: dict[str, str | None]) -> Any:
 
     chosen = {name: value for name, value in options.items() if value is not None}
     outputs = tuple(name.strip() for name in chosen.pop("outputs", "").split(",") if name.strip())
-    batch = _whole_number("--batch", chosen.pop("batch", None))
-    return Options(joint, outputs=outputs, batch=batch, **chosen)
+    return Options(joint, outputs=outputs, batch=_batch(chosen.pop("batch", None)), **chosen)
 
 
-def _whole_number(option: str, text: str | None) -> int | None:
+def _batch(text: str | None) -> int | None:
+    from codegen.spec.request import BATCHES
+
     try:
         return None if text is None else int(text)
     except ValueError:
-        raise SpecificationError([Mistake(option, f'"{text}" is not a whole number', "give a number like 4")]) from None
+        remedy = f"give one of {', '.join(map(str, BATCHES))}"
+        raise SpecificationError([Mistake("--batch", f'"{text}" is not a whole number', remedy)]) from None
 
 
 def _dump(request: Any, stage: str) -> None:

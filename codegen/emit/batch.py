@@ -73,6 +73,8 @@ def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int)
     symbol = f"{routine.symbol}_batch{lanes}"
     functions = _entries(routine.symbol, symbol, declared, lanes)
     statements = Statements(routine.program, views(declared), VECTORS)
+    is_empty = not any(output.values for output in routine.program.outputs)
+    unused = ["(void)stride;"] if is_empty else []
     text = render(
         "c/batch_functions.c.j2",
         symbol=symbol,
@@ -80,7 +82,7 @@ def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int)
         strided=_static("static JG_OUT_OF_LINE", f"{symbol}_strided", declared, "long ld"),
         few=_static("static JG_OUT_OF_LINE", f"{symbol}_few", declared, "long count", "long ld"),
         signatures=[entry.signature for entry in functions],
-        body=wrapped(_unpacking(declared, statements.used_views) + statements.lines, indent=8),
+        body=wrapped(_unpacking(declared, statements.used_views) + statements.lines + unused, indent=8),
         calls=_calls(symbol, declared),
         parameters=declared,
     )

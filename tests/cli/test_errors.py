@@ -20,6 +20,9 @@ UNKNOWN = {
     "variation": (("ball", "--variation", "word"), '--variation: there is no "word"; did you mean "world"?'),
     "real": (("ball", "--real", "flaot"), '--real: there is no "flaot"; did you mean "float"? known: double, float'),
     "output": (("ball", "--outputs", "phi,gama"), '--outputs: there is no "gama"; did you mean "gamma"?'),
+    "batch": (("ball", "--batch", "3"), "--batch: there are no groups of 3 joints; known: 2, 4, 8, 16"),
+    "batch of nothing": (("ball", "--batch", "0"), "--batch: there are no groups of 0 joints; known: 2, 4, 8, 16"),
+    "batch in words": (("ball", "--batch", "four"), '--batch: "four" is not a whole number; give one of 2, 4, 8, 16'),
     "dump": (("ball", "--dump", "programs"), '--dump: there is no stage "programs"; did you mean "program"?'),
     "far": (("xyz",), "joint xyz: there is no such joint; known: revolute, translational,"),
 }

@@ -7,6 +7,7 @@ stride is the number of lanes, and whole arrays (SoA), where it is the leading d
 from __future__ import annotations
 
 import hashlib
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +18,8 @@ from codegen.emit.routine import Parameter, Routine
 from codegen.emit.statements import Notation, Statements
 
 VECTORS = Notation("jg_vector", "JG_IN({array}, {index})", "JG_OUT({array}, {index})", "jg_splat({literal})", "_batch")
+
+_WIDTH = 112
 
 GROUPS = "aosoa"
 ARRAYS = "soa"
@@ -114,30 +117,24 @@ def batch_record(entry: BatchEntry, text: str, header: str, source: str, lanes: 
 
 def _entries(scalar: str, symbol: str, declared: tuple[Parameter, ...], lanes: int) -> tuple[BatchEntry, ...]:
     same = f"The arrays are those of {scalar}"
-    group = (
-        f"@brief {scalar} for a group of {lanes} joints.",
-        "",
-        f"{same}: entry k of joint l at [{lanes} * k + l].",
+    count = "@param[in] count number of joints"
+    ld = "@param[in] ld joints between two entries of one joint, at least count; a power of two is slow"
+    group = _comment(f"{scalar} for a group of {lanes} joints", f"{same}: entry k of joint l at [{lanes} * k + l].")
+    filling = "All of the last group is read and written, also where it is not full."
+    loop = _comment(
+        f"{scalar} for groups of {lanes} joints", f"{same}, group after group as {symbol} has them. {filling}", count
     )
-    loop = (
-        f"@brief {scalar} for groups of {lanes} joints, one group after the other.",
-        "",
-        f"{same}, a group as {symbol} has it. All of the last group is read and written,",
-        "also where it is not full.",
-        "@param[in] count number of joints",
-    )
-    arrays = (
-        f"@brief {scalar} for arrays of joints.",
-        "",
-        f"{same}: entry k of joint j at [k * ld + j].",
-        "@param[in] count number of joints",
-        "@param[in] ld joints between two entries of one joint, at least count; a power of two is slow",
-    )
+    arrays = _comment(f"{scalar} for arrays of joints", f"{same}: entry k of joint j at [k * ld + j].", count, ld)
     return (
         BatchEntry(symbol, scalar, GROUPS, (), declared, group),
         BatchEntry(f"{symbol}_loop", scalar, GROUPS, ("count",), declared, loop),
         BatchEntry(f"{symbol}_soa", scalar, ARRAYS, ("count", "ld"), declared, arrays),
     )
+
+
+def _comment(brief: str, words: str, *parameters: str) -> tuple[str, ...]:
+    lines = [*textwrap.wrap(f"@brief {brief}.", _WIDTH), "", *textwrap.wrap(words, _WIDTH)]
+    return (*lines, *parameters)
 
 
 def _static(kind: str, symbol: str, declared: Sequence[Parameter], *leading: str) -> str:

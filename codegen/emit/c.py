@@ -102,9 +102,7 @@ def _passed(parameter: Parameter, matrices: Sequence[Parameter]) -> str:
     return f"{parameter.name}_nz" if parameter in matrices else parameter.name
 
 
-def declaration(
-    symbol: str, declared: Sequence[Parameter], leading: Sequence[str] = (), kind: str = "void"
-) -> str:
+def declaration(symbol: str, declared: Sequence[Parameter], leading: Sequence[str] = (), kind: str = "void") -> str:
     """Declaration of a function, with further parameters before; lines break between parameters only."""
     kinds = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
     words = [*leading, *(f"{kinds[p.direction]} {p.name}" for p in declared)]

@@ -66,6 +66,4 @@ CONSTANTS: dict[str, dict[str, float]] = {
 
 def definitions(real: str) -> list[tuple[str, str]]:
     """Names and literals of the constants for a number type."""
-    return [
-        (name, repr(value) if name in _WIDE else f"JG_REAL({value!r})") for name, value in CONSTANTS[real].items()
-    ]
+    return [(name, repr(value) if name in _WIDE else f"JG_REAL({value!r})") for name, value in CONSTANTS[real].items()]

@@ -97,9 +97,7 @@ class Routines:
         entry = self.scalar[symbol]
         results = {a["name"]: self._unset(a["length"], count) for a in entry["arguments"] if a["direction"] == "out"}
         for joint in range(count):
-            columns = [
-                np.ascontiguousarray((inputs | results)[a["name"]][:, joint]) for a in entry["arguments"]
-            ]
+            columns = [np.ascontiguousarray((inputs | results)[a["name"]][:, joint]) for a in entry["arguments"]]
             self._call(symbol, [], columns)
             for a, column in zip(entry["arguments"], columns, strict=True):
                 if a["direction"] == "out":

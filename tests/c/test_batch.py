@@ -100,7 +100,7 @@ def test_the_headers_of_batches_are_cpp_too(shared: Path) -> None:
     flags = ("-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion")
     include = f"-I{package.root / 'c/include'}"
     for own in ((), ("-DJG_OWN_TRIGONOMETRY",)):
-        text = '#include "jointgen/screw_batch4.h"\n#include "jointgen/screw_batch4.h"\n#include "jointgen/jointgen.h"\n'
+        text = "".join(f'#include "jointgen/{name}.h"\n' for name in ("screw_batch4", "screw_batch4", "jointgen"))
         compile_silently(["g++", *flags, *own, "-Werror", include, "-fsyntax-only", "-xc++", "-"], text)
 
 

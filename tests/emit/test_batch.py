@@ -38,11 +38,10 @@ def test_the_routines_for_one_joint_are_the_same_with_and_without(files: dict[st
 
 
 def test_every_stored_routine_has_its_three_batch_functions(manifest: dict[str, Any]) -> None:
+    endings = (("", "aosoa", []), ("_loop", "aosoa", ["count"]), ("_soa", "soa", ["count", "ld"]))
     stored = {f["symbol"]: f for f in manifest["functions"] if f["storage"] != "dense"}
     wanted = {
-        f"{symbol}_batch8{ending}": (symbol, layout, counts)
-        for symbol in stored
-        for ending, layout, counts in (("", "aosoa", []), ("_loop", "aosoa", ["count"]), ("_soa", "soa", ["count", "ld"]))
+        f"{symbol}_batch8{ending}": (symbol, layout, counts) for symbol in stored for ending, layout, counts in endings
     }
     batch = manifest["batch"]
     assert batch["lanes"] == 8 and batch["layouts"].keys() == {"aosoa", "soa"}
@@ -52,7 +51,7 @@ def test_every_stored_routine_has_its_three_batch_functions(manifest: dict[str, 
         assert [(a["name"], a["direction"], a["length"]) for a in f["arguments"]] == scalar
 
 
-def test_signatures_and_definitions_are_those_of_the_manifest(files: dict[str, bytes], manifest: dict[str, Any]) -> None:
+def test_signatures_and_definitions_are_as_told(files: dict[str, bytes], manifest: dict[str, Any]) -> None:
     qualifier = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
     for f in manifest["batch"]["functions"]:
         counts = [f"long {name}" for name in f["counts"]]

@@ -47,7 +47,6 @@ class Polynomial:
     terms: dict[str, int]
 
 
-
 def _sine(z: Real) -> Real:
     """(sin x / x - 1) / z with z = x^2."""
     return _sum(z, lambda k: mp.mpf(-1) ** (k + 1) / mp.factorial(2 * k + 3))

@@ -78,8 +78,8 @@ def batch_headers(units: Sequence[BatchUnit], lanes: int, banner: str, specifica
 def _header(header: str, units: Sequence[BatchUnit], lanes: int, banner: str, specification: str) -> str:
     joint = units[0].variant.joint
     introduction = [
-        f"Constraint routines of the {joint} joint for many joints at once, {lanes} in a group; one joint at a time they",
-        f"are declared in {joint}.h, where the arguments are described. Arrays of one call must not overlap.",
+        f"Constraint routines of the {joint} joint for many joints at once, {lanes} in a group; {joint}.h has those",
+        "for one joint and describes the arguments. Arrays of one call must not overlap.",
     ]
     entries = [entry for unit in units for routine in unit.routines for entry in routine.entries]
     return render(

@@ -1,4 +1,4 @@
-"""The numbers of `templates/c/jg_trigonometry.h.j2`: minimax polynomials for sine, cosine and arc tangent, pi in pieces.
+"""The numbers of `templates/c/jg_trigonometry.h.j2`: minimax polynomials, and pi in pieces.
 
 ``python -m tests.trigonometry.coefficients`` derives them; a test holds this table against that derivation.
 """

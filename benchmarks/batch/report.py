@@ -43,7 +43,7 @@ def _lines(timings: Sequence[Timing]) -> list[str]:
         f"{told['routine']}. {told['compiler']}, `{told['flags']}`, {told['processor']}.",
         "",
         "Nanoseconds per joint: median of interleaved rounds, in brackets the middle half of the rounds in per cent of",
-        "it. *scalar*: the routine for one joint, in a loop. *AoSoA*: `_loop`. *SoA*: `_soa`, the leading dimension not",
+        "it. *scalar*: the routine for one joint, looped. *AoSoA*: `_loop`. *SoA*: `_soa`, with a leading dimension not",
         "a power of two. *memory*: the inputs are read and the outputs written, and nothing is computed.",
     ]
     for real in dict.fromkeys(timing.real for timing in timings):

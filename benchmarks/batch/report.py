@@ -42,9 +42,11 @@ def _lines(timings: Sequence[Timing]) -> list[str]:
         "",
         f"{told['routine']}. {told['compiler']}, `{told['flags']}`, {told['processor']}.",
         "",
-        "Nanoseconds per joint: median of interleaved rounds, in brackets the middle half of the rounds in per cent of",
-        "it. *scalar*: the routine for one joint, looped. *AoSoA*: `_loop`. *SoA*: `_soa`, its leading dimension no power",
-        "of two. *memory*: the inputs are read and the outputs written, and nothing is computed.",
+        "Nanoseconds per joint: median of interleaved rounds, in brackets the middle half of the rounds in per cent.",
+        "",
+        "- *scalar*: the routine for one joint, in a loop.",
+        "- *AoSoA*: `_loop`. *SoA*: `_soa`, its leading dimension no power of two.",
+        "- *memory*: the inputs are read and the outputs written, and nothing is computed.",
     ]
     for real in dict.fromkeys(timing.real for timing in timings):
         for count in dict.fromkeys(timing.count for timing in timings):

@@ -15,7 +15,13 @@ from codegen.ir.ops import COMMUTATIVE, LEAVES, PROJECTIONS, Op
 from codegen.ir.program import Instruction, Program
 
 _INFIX: dict[Op, str] = {Op.ADD: "+", Op.SUBTRACT: "-", Op.MULTIPLY: "*", Op.DIVIDE: "/"}
-_CALL: dict[Op, str] = {Op.SQRT: "jg_sqrt", Op.SIN: "jg_sin", Op.COS: "jg_cos", Op.ATAN2: "jg_atan2"}
+_CALL: dict[Op, str] = {
+    Op.FMA: "jg_fma",
+    Op.SQRT: "jg_sqrt",
+    Op.SIN: "jg_sin",
+    Op.COS: "jg_cos",
+    Op.ATAN2: "jg_atan2",
+}
 _PRECEDENCE: dict[Op, int] = {Op.ADD: 1, Op.SUBTRACT: 1, Op.MULTIPLY: 2, Op.DIVIDE: 2, Op.NEGATE: 3}
 _ATOM = 4
 

@@ -95,10 +95,12 @@ def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
 def test_every_operation_is_counted_once_and_leaves_are_free(program: Program) -> None:
     kinds = Counter(i.op for i in program.instructions if i.op not in LEAVES)
     counted = count(program)
-    assert counted.total == sum(number for op, number in kinds.items() if op is not Op.NEGATE)
+    assert counted.total == sum(number for op, number in kinds.items() if op is not Op.NEGATE) + kinds[Op.FMA]
+    assert counted.roundings == sum(number for op, number in kinds.items() if op is not Op.NEGATE)
     assert counted.add == kinds[Op.ADD] + kinds[Op.SUBTRACT]
     assert counted.neg == kinds[Op.NEGATE]
-    assert counted.arithmetic == counted.add + counted.mul + counted.div
+    assert counted.fma == kinds[Op.FMA]
+    assert counted.arithmetic == counted.add + counted.mul + counted.div + 2 * counted.fma
 
 
 def test_counts_add_up_and_round_trip() -> None:

@@ -32,6 +32,7 @@ from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
 from codegen.parallel import parallel
 from codegen.passes import simplify
+from codegen.passes.contract_fma import contract_fma
 from codegen.spec.joints import JointType
 from codegen.spec.request import (
     OUTPUTS,
@@ -134,15 +135,20 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
     return routines | ({"all": fused} if len(fused) > 1 or "all" in outputs else {})
 
 
-def routines(variant: Variant, outputs: Sequence[str] = ()) -> tuple[Routine, ...]:
-    """Run the stages up to programs for one variant."""
+def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
+    """Run the stages up to programs for one variant; ``fma``: with products and sums fused."""
     symbolic = model(variant)
     built = []
     for name, quantities in quantities_of(outputs).items():
-        program = symbolic.program(quantities)
+        program = contracted(symbolic.program(quantities), fma)
         words = equations(symbolic.joint, variant, name)
         built.append(Routine(symbolic.joint, variant, name, program, count(program), words))
     return tuple(built)
+
+
+def contracted(program: Program, fma: bool) -> Program:
+    """Give the program with products and sums fused where that is asked for."""
+    return contract_fma(program) if fma else program
 
 
 def casadi_function(
@@ -180,20 +186,21 @@ class _Job:
     outputs: tuple[str, ...]
     real: str
     specification: str
+    fma: bool
 
 
 def _emit_unit(job: _Job) -> Unit:
     """All stages for one variant, in a worker process."""
     from codegen.emit import casadi
 
-    built = routines(job.variant, job.outputs)
+    built = routines(job.variant, job.outputs, job.fma)
     serialised = {
         f"{job.variant.file_stem}_{routine.output}": casadi.serialised(
             casadi.casadi_function(f"{job.variant.stem}_{routine.output}", routine.program)
         )
         for routine in built
     }
-    return unit(built, codegen.__version__, job.real, job.specification, serialised)
+    return unit(built, codegen.__version__, job.real, job.specification, serialised, job.fma)
 
 
 def variants(options: Options) -> tuple[Variant, ...]:
@@ -220,11 +227,11 @@ def generate(options: Options, progress: Progress = lambda _: None) -> dict[str,
     """
     chosen = variants(options)
     joints = [joint_type(name) for name in dict.fromkeys(variant.joint for variant in chosen)]
-    asked = {"outputs": list(options.outputs), "real": options.real}
+    asked = {"outputs": list(options.outputs), "real": options.real} | ({"fma": True} if options.fma else {})
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
-    jobs = [_Job(variant, options.outputs, options.real, specification) for variant in chosen]
+    jobs = [_Job(variant, options.outputs, options.real, specification, options.fma) for variant in chosen]
     units = parallel(_emit_unit, jobs, lambda job: progress(job.variant.file_stem))
-    return package(units, codegen.__version__, options.real, specification)
+    return package(units, codegen.__version__, options.real, specification, options.fma)
 
 
 def dump(options: Options, stage: str) -> Iterator[str]:
@@ -247,4 +254,7 @@ def dump(options: Options, stage: str) -> Iterator[str]:
             if stage == "model" and name == "all":
                 continue
             heading = f"# {variant.stem}_{name}\n"
-            yield heading + (symbolic.text(quantities) if stage == "model" else text.dump(symbolic.program(quantities)))
+            if stage == "model":
+                yield heading + symbolic.text(quantities)
+            else:
+                yield heading + text.dump(contracted(symbolic.program(quantities), options.fma))

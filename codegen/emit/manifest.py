@@ -73,14 +73,20 @@ def _parameter_record(parameter: Parameter) -> dict[str, Any]:
 
 
 def manifest(
-    version: str, real: str, specification: str, functions: list[dict[str, Any]], casadi: list[dict[str, Any]]
+    version: str,
+    real: str,
+    specification: str,
+    functions: list[dict[str, Any]],
+    casadi: list[dict[str, Any]],
+    fma: bool = False,
 ) -> str:
-    """Write the manifest of a package."""
+    """Write the manifest of a package; ``fma``: its C holds fused multiply-adds and nothing else may be contracted."""
     document = {
         "schema_version": SCHEMA_VERSION,
         "generator": {"name": "jointgen", "version": version},
         "specification_sha256": specification,
         "real": real,
+        "fma": fma,
         "functions": functions,
         "casadi": casadi,
     }

@@ -66,11 +66,18 @@ def specification_hash(
     return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
 
 
-def unit(routines: Sequence[Routine], version: str, real: str, specification: str, casadi: Mapping[str, bytes]) -> Unit:
-    """Emit the routines of one variant."""
+def unit(
+    routines: Sequence[Routine],
+    version: str,
+    real: str,
+    specification: str,
+    casadi: Mapping[str, bytes],
+    fma: bool = False,
+) -> Unit:
+    """Emit the routines of one variant; ``fma`` says whether their programs are contracted."""
     variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
-    options = _options_line(variant, real)
+    options = _options_line(variant, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
     text = render(
@@ -105,14 +112,15 @@ def _patterns(routines: Sequence[Routine]) -> dict[str, str]:
     return {symbol: text for routine in routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _options_line(variant: Variant, real: str) -> str:
+def _options_line(variant: Variant, real: str, fma: bool) -> str:
     words = [f"joint {variant.joint}", f"form {variant.form}"]
     words += [f"rows {variant.rows}"] if variant.rows else []
     words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
+    words += ["fma"] if fma else []
     return ", ".join(words)
 
 
-def package(units: Sequence[Unit], version: str, real: str, specification: str) -> dict[str, bytes]:
+def package(units: Sequence[Unit], version: str, real: str, specification: str, fma: bool = False) -> dict[str, bytes]:
     """Assemble the files of a package.
 
     Args:
@@ -120,13 +128,14 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
         version: of jointgen.
         real: default number type, ``double`` or ``float``.
         specification: hash of the request.
+        fma: whether the programs are contracted.
 
     Returns:
         Path below the package's folder -> content.
     """
     joints = list(dict.fromkeys(u.variant.joint for u in units))
     files: dict[str, str] = {
-        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real),
+        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real, fma=fma),
         "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=joints),
     }
     for joint in joints:
@@ -136,12 +145,12 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
     files |= {f"c/src/{u.variant.file_stem}.c": u.source for u in units}
     sources = sorted(f"src/{u.variant.file_stem}.c" for u in units)
     files["c/CMakeLists.txt"] = render(
-        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources
+        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources, fma=fma
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
     casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
-    files["manifest.json"] = manifest(version, real, specification, records, casadi)
+    files["manifest.json"] = manifest(version, real, specification, records, casadi, fma)
     files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}

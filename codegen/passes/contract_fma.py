@@ -2,7 +2,8 @@
 
 A product is contracted where it is used once, by an addition or a subtraction. Where both terms are products, the one
 whose factors are ready last is fused and the other is rounded by itself: it is finished by the time it is wanted. Signs
-go to the operands: ``a b - c = fma(a, b, -c)``, ``c - a b = fma(-a, b, c)``; processors have these forms.
+go to the operands: ``a b - c = fma(a, b, -c)``, ``c - a b = fma(-a, b, c)``; processors have these forms. A negated result
+becomes ``fma(-a, b, -c)`` as well: GCC does that by itself, though it changes the sign of a zero.
 
 The bits then depend on this pass alone, provided that no compiler contracts anything else (``-ffp-contract=off``).
 """
@@ -48,7 +49,26 @@ def contract_fma(program: Program) -> Program:
             addend = rebuilding.moved[instruction.operands[1 - fused]]
             place = _contracted(rebuilding.builder, instruction.op, fused, (a, b), addend)
             rebuilding.put(instruction, place)
-    return drop_unused(rebuilding.finish())
+    return _signs_inside(drop_unused(rebuilding.finish()))
+
+
+def _signs_inside(program: Program) -> Program:
+    """Move the sign of a fused result that nothing else takes to its operands."""
+    while True:
+        uses = program.uses()
+        rebuilding = Rebuilding(program)
+        for instruction in program.instructions:
+            inner = program.instructions[instruction.operands[0]] if instruction.op is Op.NEGATE else None
+            if inner is None or inner.op is not Op.FMA or uses[instruction.operands[0]] > 1:
+                rebuilding.copy(instruction)
+                continue
+            a, b, addend = (rebuilding.moved[operand] for operand in inner.operands)
+            place = _contracted(rebuilding.builder, Op.SUBTRACT, 1, (a, b), _negative(rebuilding.builder, addend))
+            rebuilding.put(instruction, place)
+        moved = drop_unused(rebuilding.finish())
+        if moved == program:
+            return program
+        program = moved
 
 
 def _ready(program: Program) -> list[int]:
@@ -77,14 +97,15 @@ def _contracted(builder: Builder, op: Op, fused: int, factors: tuple[int, int], 
     if op is Op.SUBTRACT and fused == 0:
         addend = _negative(builder, addend)
     elif op is Op.SUBTRACT:
-        if _has_free_negative(builder, b):
-            a, b = b, a
+        a, b = sorted(factors, key=lambda factor: _reluctance(builder, factor))
         a = _negative(builder, a)
     return builder.emit(Op.FMA, a, b, addend)
 
 
-def _has_free_negative(builder: Builder, position: int) -> bool:
-    return builder.instructions[position].op in (Op.CONSTANT, Op.NEGATE)
+def _reluctance(builder: Builder, factor: int) -> int:
+    """Which factor is to change its sign: a constant or a negative one best, a fused result last."""
+    op = builder.instructions[factor].op
+    return 0 if op in (Op.CONSTANT, Op.NEGATE) else 2 if op is Op.FMA else 1
 
 
 def _negative(builder: Builder, position: int) -> int:

@@ -72,6 +72,7 @@ class Options:
         variation: see `Variant`.
         real: ``double`` or ``float``.
         outputs: names out of `OUTPUTS`; empty means all of them.
+        fma: whether products and sums are fused, explicitly and alike with every compiler.
     """
 
     joints: tuple[str, ...] = ()
@@ -81,6 +82,7 @@ class Options:
     variation: str | None = None
     real: str = "double"
     outputs: tuple[str, ...] = ()
+    fma: bool = False
 
 
 def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:

@@ -82,6 +82,15 @@ def test_counts_of_routines_on_request_agree_by_kind(variant: Variant) -> None:
             assert in_text[symbol] == count(routine.program), symbol
 
 
+@pytest.mark.parametrize("joint", JOINTS)
+def test_counts_of_contracted_routines_agree_by_kind(joint: str) -> None:
+    for variant in library_variants(JOINTS[joint]):
+        for routine in build.routines(variant, ("all",), True):
+            in_text = count_c("\n".join(entry.text for entry in entries(routine)))
+            assert routine.counts.fma > 0
+            assert [in_text[symbol] for symbol in symbols_of(routine)] == [routine.counts] * 2
+
+
 @pytest.mark.parametrize("pair", PAIRS)
 def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
     symbolic = build.model(Variant(pair, "parametric", "regular"))

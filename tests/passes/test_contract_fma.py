@@ -37,6 +37,12 @@ from .test_rules import Expression, expressions_of, operations, program_of
         (("sub", "z", ("mul", "x", ("neg", "y"))), ("fma", "y", "x", "z")),
         (("sub", ("mul", "x", "y"), ("neg", "z")), ("fma", "x", "y", "z")),
         (("sub", ("mul", "x", "y"), 3), ("fma", "x", "y", -3)),
+        (("neg", ("add", ("mul", "x", "y"), "z")), ("fma", ("neg", "x"), "y", ("neg", "z"))),
+        (("neg", ("sub", ("mul", "x", 2), "z")), ("fma", -2, "x", "z")),
+        (
+            ("neg", ("fma", ("fma", "x", "y", "z"), "y", "z")),
+            ("fma", ("neg", "y"), ("fma", "x", "y", "z"), ("neg", "z")),
+        ),
         (("mul", ("add", "x", "y"), "z"), ("mul", ("add", "x", "y"), "z")),
         (("div", ("mul", "x", "y"), "z"), ("div", ("mul", "x", "y"), "z")),
     ],

@@ -16,7 +16,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current lock clean help
+.PHONY: all setup generate flops check lint types imports test current lock clean help bench-flags
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -45,6 +45,9 @@ test: $(STAMP) ## pytest on two cores; make test ARGS='-k lower'
 
 current: $(STAMP) ## fail if generated/ is not what would be generated now
 	$(BIN)/jointgen generate --check
+
+bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
+	$(BIN)/python -m benchmarks.flags.measure
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \

@@ -2,8 +2,8 @@
 
 A product is contracted where it is used once, by an addition or a subtraction. Where both terms are products, the one
 whose factors are ready last is fused and the other is rounded by itself: it is finished by the time it is wanted. Signs
-go to the operands: ``a b - c = fma(a, b, -c)``, ``c - a b = fma(-a, b, c)``; processors have these forms. A negated result
-becomes ``fma(-a, b, -c)`` as well: GCC does that by itself, though it changes the sign of a zero.
+go to the operands: ``a b - c = fma(a, b, -c)``, ``c - a b = fma(-a, b, c)``; processors have these forms. A negated
+result becomes ``fma(-a, b, -c)`` as well: GCC does that by itself, though it changes the sign of a zero.
 
 The bits then depend on this pass alone, provided that no compiler contracts anything else (``-ffp-contract=off``).
 """

@@ -19,6 +19,7 @@ from typing import Any
 
 import codegen
 from codegen.emit.package import Unit, package, specification_hash, unit
+from codegen.emit.prepared import prepare_geometry
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
@@ -36,6 +37,7 @@ from codegen.passes.contract_fma import contract_fma
 from codegen.spec.joints import JointType
 from codegen.spec.request import (
     OUTPUTS,
+    PREPARE,
     PRODUCTS,
     QUANTITIES,
     Options,
@@ -136,14 +138,17 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 
 def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
-    """Run the stages up to programs for one variant; ``fma``: with products and sums fused."""
+    """Run the stages up to programs for one variant; ``fma``: with products and sums fused.
+
+    Prepared geometry comes last, so that its routines do the operations of those on run-time geometry.
+    """
     symbolic = model(variant)
     built = []
     for name, quantities in quantities_of(outputs).items():
         program = contracted(symbolic.program(quantities), fma)
         words = equations(symbolic.joint, variant, name)
         built.append(Routine(symbolic.joint, variant, name, program, count(program), words))
-    return tuple(built)
+    return prepare_geometry(built) if variant.geometry == "prepared" else tuple(built)
 
 
 def contracted(program: Program, fma: bool) -> Program:
@@ -158,6 +163,7 @@ def casadi_function(
     rows: str | None = None,
     derivative: str = "exact",
     variation: str = "body",
+    geometry: str = "runtime",
 ) -> Any:
     """Build a joint routine as a ``casadi.Function``.
 
@@ -168,14 +174,19 @@ def casadi_function(
         rows: of the parametric form; ``regular`` if left out.
         derivative: ``exact`` or ``substituted``.
         variation: ``body`` or ``world``.
+        geometry: ``runtime``, or ``prepared``: of the library's routines, with the output ``prepare`` too.
 
     Raises:
         SpecificationError: unknown names, or options that do not go together.
     """
     from codegen.emit import casadi
 
-    options = Options((joint,), form, rows, derivative, variation, outputs=(output,))
+    outputs = () if output == PREPARE and geometry == "prepared" else (output,)
+    options = Options((joint,), form, rows, derivative, variation, outputs=outputs, geometry=geometry)
     chosen = variants(options)[0]
+    if geometry == "prepared":
+        found = next(routine for routine in routines(chosen) if routine.output == output)
+        return casadi.casadi_function(chosen.routine_stem(output), found.program)
     program = model(chosen).program(quantities_of([output])[output])
     return casadi.casadi_function(f"{chosen.stem}_{output}", program)
 
@@ -195,8 +206,8 @@ def _emit_unit(job: _Job) -> Unit:
 
     built = routines(job.variant, job.outputs, job.fma)
     serialised = {
-        f"{job.variant.file_stem}_{routine.output}": casadi.serialised(
-            casadi.casadi_function(f"{job.variant.stem}_{routine.output}", routine.program)
+        routine.output: casadi.serialised(
+            casadi.casadi_function(job.variant.routine_stem(routine.output), routine.program)
         )
         for routine in built
     }
@@ -249,12 +260,11 @@ def dump(options: Options, stage: str) -> Iterator[str]:
             [Mistake("--dump", f'there is no stage "{stage}"', nearest(stage, ("model", "program")))]
         )
     for variant in variants(options):
+        if stage == "program":
+            for routine in routines(variant, options.outputs, options.fma):
+                yield f"# {variant.routine_stem(routine.output)}\n{text.dump(routine.program)}"
+            continue
         symbolic = model(variant)
         for name, quantities in quantities_of(options.outputs).items():
-            if stage == "model" and name == "all":
-                continue
-            heading = f"# {variant.stem}_{name}\n"
-            if stage == "model":
-                yield heading + symbolic.text(quantities)
-            else:
-                yield heading + text.dump(contracted(symbolic.program(quantities), options.fma))
+            if name != "all":
+                yield f"# {variant.stem}_{name}\n{symbolic.text(quantities)}"

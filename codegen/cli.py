@@ -50,6 +50,7 @@ def joints(as_json: bool) -> None:
 @click.option("--variation", help="Axes of the virtual rotations: body or world.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
 @click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
+@click.option("--geometry", default="runtime", show_default=True, help="runtime, or prepared once for all steps.")
 @click.option("--fma", is_flag=True, help="Fused multiply-adds, written out as fma(); see the README for flags.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), default=_LIBRARY, show_default=True)
 @click.option(

@@ -81,7 +81,7 @@ def external_source(routines: Sequence[Routine], header: str, banner: str, optio
             jacobian = simplify(differentiate(routine.program))
             jacobian = contract_fma(jacobian) if routine.counts.fma else jacobian
             symbol = f"{routine.symbol}_jacobian"
-            declared = parameters(routine.joint, routine.variant, jacobian, dense=False)
+            declared = parameters(routine.joint, routine.variant, jacobian, False, routine.prepared_members)
             jacobians.append(definition(symbol, declared, jacobian)[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(

@@ -30,7 +30,7 @@ class Unit:
         source: text of the source file.
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
-        casadi: name -> serialised CasADi function.
+        casadi: output -> serialised CasADi function.
         external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
     """
 
@@ -116,6 +116,7 @@ def _options_line(variant: Variant, real: str, fma: bool) -> str:
     words = [f"joint {variant.joint}", f"form {variant.form}"]
     words += [f"rows {variant.rows}"] if variant.rows else []
     words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
+    words += ["geometry prepared"] if variant.geometry == "prepared" else []
     words += ["fma"] if fma else []
     return ", ".join(words)
 
@@ -149,17 +150,21 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str, 
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
-    casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
+    casadi = [_casadi_record(u, output) for u in units for output in u.casadi]
     files["manifest.json"] = manifest(version, real, specification, records, casadi, fma)
     files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
-    return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}
+    return content | {_casadi_file(u.variant, output): data for u in units for output, data in u.casadi.items()}
 
 
-def _casadi_record(emitted: Unit, name: str) -> dict[str, Any]:
+def _casadi_file(variant: Variant, output: str) -> str:
+    return f"casadi/{variant.routine_stem(output).removeprefix('jg_')}.casadi"
+
+
+def _casadi_record(emitted: Unit, output: str) -> dict[str, Any]:
     variant = emitted.variant
-    output = name.removeprefix(f"{variant.file_stem}_")
-    record = {"name": f"jg_{name}", "file": f"casadi/{name}.casadi", **asdict(variant), "output": output}
+    name = variant.routine_stem(output)
+    record = {"name": name, "file": _casadi_file(variant, output), **asdict(variant), "output": output}
     if output in EXTERNALS and emitted.external:
         record["external"] = {
             "name": external_name(variant, output),

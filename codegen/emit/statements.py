@@ -51,7 +51,7 @@ class Statements:
         self._legend = dict(program.legend)
         self._uses = program.uses()
         self._names: dict[int, str] = {}
-        self._taken: set[str] = set()
+        self._taken = {name for parts in views.values() for name, _, _ in parts}
         self._indices = Counter(label[0] for label in {i.label for i in program.instructions if i.label is not None})
         self._inline: dict[int, _Expression] = {}
         self._write()

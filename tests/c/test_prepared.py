@@ -161,3 +161,22 @@ def test_a_request_that_needs_no_geometry_has_nothing_to_prepare() -> None:
     functions = json.loads(build.generate(request)["manifest.json"])["functions"]
     assert {entry["output"] for entry in functions} == {"phi_q_t_lambda_q"}
     assert all("prepare" not in entry for entry in functions)
+
+
+@pytest.mark.parametrize("joint", ["translational", "screw"])
+def test_fused_and_prepared_together_have_the_bits_of_fused_alone(joint: str, shared: Path) -> None:
+    root = shared / f"prepared-fma-{joint}"
+    with only_one(shared / f"{root.name}.lock"):
+        if not root.exists():
+            output.replace(root, build.generate(Options((joint,), outputs=("all",), fma=True, geometry="prepared")))
+    prepared = Package(root, None, shared / "objects")
+    called = library(prepared)
+    for variant in library_variants(JOINTS[joint]):
+        entries = by_output(prepared.entries, variant)
+        (routine,) = build.routines(variant, ("all",), True)
+        for spot in SPOTS:
+            inputs = inputs_at(variant, spot)
+            vector = called.call(entries["prepare"]["symbol"], inputs)["prepared"]
+            found = called.call(entries["all"]["symbol"], {**inputs, "prepared": vector})
+            there = {name: np.ravel(value, order="F").tobytes() for name, value in found.items()}
+            assert there == values_of(routine, inputs), (variant.stem, spot)

@@ -16,7 +16,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current lock bench-batch clean help
+.PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -48,6 +48,9 @@ current: $(STAMP) ## fail if generated/ is not what would be generated now
 
 bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results.md and .json
 	$(BIN)/python -m benchmarks.batch $(ARGS)
+
+bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
+	$(BIN)/python -m benchmarks.flags.measure
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \

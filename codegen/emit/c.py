@@ -43,7 +43,7 @@ class Entry:
 
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
-    stored = parameters(routine.joint, routine.variant, routine.program, dense=False)
+    stored = parameters(routine.joint, routine.variant, routine.program, False, routine.prepared_members)
     text, temporaries = definition(routine.symbol, stored, routine.program)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
@@ -86,7 +86,7 @@ def _pattern_rows(pattern: Sparsity) -> list[str]:
 
 
 def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
-    dense = parameters(routine.joint, routine.variant, routine.program, dense=True)
+    dense = parameters(routine.joint, routine.variant, routine.program, True, routine.prepared_members)
     matrices = [p for p in stored if p.layout == "compressed-columns"]
     text = render(
         "c/dense.c.j2",
@@ -120,7 +120,7 @@ def views(declared: Sequence[Parameter]) -> dict[str, tuple[tuple[str, int, int]
     return {
         p.name: tuple((name, offset, shape[0] * shape[1]) for name, offset, shape, _ in p.members)
         for p in declared
-        if p.members
+        if p.members and p.direction == "in"
     }
 
 
@@ -129,7 +129,7 @@ def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
     lines = []
     for parameter in declared:
         for name, offset, shape, _ in parameter.members:
-            if name not in used:
+            if name not in used or parameter.direction != "in":
                 continue
             if shape == (1, 1):
                 lines.append(f"const jg_real {name} = {parameter.name}[{offset}];")

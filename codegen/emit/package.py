@@ -31,7 +31,7 @@ class Unit:
         source: text of the source file.
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
-        casadi: name -> serialised CasADi function.
+        casadi: output -> serialised CasADi function.
         external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
         batch: the routines for many joints, where they were asked for.
     """
@@ -75,12 +75,13 @@ def unit(
     real: str,
     specification: str,
     casadi: Mapping[str, bytes],
+    fma: bool = False,
     batch: int | None = None,
 ) -> Unit:
-    """Emit the routines of one variant."""
+    """Emit the routines of one variant; ``fma`` says whether their programs are contracted."""
     variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
-    options = _options_line(variant, real)
+    options = _options_line(variant, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
     text = render(
@@ -116,15 +117,17 @@ def _patterns(routines: Sequence[Routine]) -> dict[str, str]:
     return {symbol: text for routine in routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _options_line(variant: Variant, real: str) -> str:
+def _options_line(variant: Variant, real: str, fma: bool) -> str:
     words = [f"joint {variant.joint}", f"form {variant.form}"]
     words += [f"rows {variant.rows}"] if variant.rows else []
     words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
+    words += ["geometry prepared"] if variant.geometry == "prepared" else []
+    words += ["fma"] if fma else []
     return ", ".join(words)
 
 
 def package(
-    units: Sequence[Unit], version: str, real: str, specification: str, batch: int | None = None
+    units: Sequence[Unit], version: str, real: str, specification: str, fma: bool = False, batch: int | None = None
 ) -> dict[str, bytes]:
     """Assemble the files of a package.
 
@@ -133,6 +136,7 @@ def package(
         version: of jointgen.
         real: default number type, ``double`` or ``float``.
         specification: hash of the request.
+        fma: whether the programs are contracted.
         batch: joints in a group of the batch routines; none if there are no such routines.
 
     Returns:
@@ -142,7 +146,9 @@ def package(
     batches = [u.batch for u in units if u.batch]
     headers = [*joints, *dict.fromkeys(b.header for b in batches)]
     files: dict[str, str] = {
-        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real, batch=batch),
+        "c/include/jointgen/jg_real.h": render(
+            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch
+        ),
         "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=headers),
     }
     for joint in joints:
@@ -154,23 +160,26 @@ def package(
     files |= {f"c/src/{b.file}": b.source for b in batches}
     sources = sorted(path.removeprefix("c/") for path in files if path.startswith("c/src/"))
     files["c/CMakeLists.txt"] = render(
-        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources
+        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources, fma=fma
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
-    casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
-    files["manifest.json"] = manifest(
-        version, real, specification, records, casadi, batch_manifest(batches, batch) if batch else None
-    )
+    casadi = [_casadi_record(u, output) for u in units for output in u.casadi]
+    told = batch_manifest(batches, batch) if batch else None
+    files["manifest.json"] = manifest(version, real, specification, records, casadi, fma, told)
     files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
-    return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}
+    return content | {_casadi_file(u.variant, output): data for u in units for output, data in u.casadi.items()}
 
 
-def _casadi_record(emitted: Unit, name: str) -> dict[str, Any]:
+def _casadi_file(variant: Variant, output: str) -> str:
+    return f"casadi/{variant.routine_stem(output).removeprefix('jg_')}.casadi"
+
+
+def _casadi_record(emitted: Unit, output: str) -> dict[str, Any]:
     variant = emitted.variant
-    output = name.removeprefix(f"{variant.file_stem}_")
-    record = {"name": f"jg_{name}", "file": f"casadi/{name}.casadi", **asdict(variant), "output": output}
+    name = variant.routine_stem(output)
+    record = {"name": name, "file": _casadi_file(variant, output), **asdict(variant), "output": output}
     if output in EXTERNALS and emitted.external:
         record["external"] = {
             "name": external_name(variant, output),

@@ -16,7 +16,13 @@ from codegen.ir.ops import COMMUTATIVE, LEAVES, PROJECTIONS, Op
 from codegen.ir.program import Instruction, Program
 
 _INFIX: dict[Op, str] = {Op.ADD: "+", Op.SUBTRACT: "-", Op.MULTIPLY: "*", Op.DIVIDE: "/"}
-_CALL: dict[Op, str] = {Op.SQRT: "jg_sqrt", Op.SIN: "jg_sin", Op.COS: "jg_cos", Op.ATAN2: "jg_atan2"}
+_CALL: dict[Op, str] = {
+    Op.FMA: "jg_fma",
+    Op.SQRT: "jg_sqrt",
+    Op.SIN: "jg_sin",
+    Op.COS: "jg_cos",
+    Op.ATAN2: "jg_atan2",
+}
 _PRECEDENCE: dict[Op, int] = {Op.ADD: 1, Op.SUBTRACT: 1, Op.MULTIPLY: 2, Op.DIVIDE: 2, Op.NEGATE: 3}
 _ATOM = 4
 
@@ -72,7 +78,7 @@ class Statements:
         self._legend = dict(program.legend)
         self._uses = program.uses()
         self._names: dict[int, str] = {}
-        self._taken: set[str] = set()
+        self._taken = {name for parts in views.values() for name, _, _ in parts}
         self._indices = Counter(label[0] for label in {i.label for i in program.instructions if i.label is not None})
         self._inline: dict[int, _Expression] = {}
         self._write()

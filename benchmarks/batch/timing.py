@@ -25,7 +25,7 @@ WAYS = ("scalar", "aosoa", "soa", "memory")
 """One joint at a time; groups; arrays; the inputs read and the outputs written, nothing computed."""
 FLAGS = ("-std=gnu11", "-O3", "-march=native")
 
-_JOINTS_A_MEASUREMENT = 40_000
+_JOINTS_A_MEASUREMENT = 20_000
 _ROUNDS = {1_000_000: 5}
 
 

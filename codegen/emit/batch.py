@@ -162,7 +162,7 @@ def _calls(symbol: str, declared: Sequence[Parameter]) -> dict[str, list[str]]:
 def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
     """Name the parts of compound arguments."""
     lines = []
-    for parameter in declared:
+    for parameter in (p for p in declared if p.direction == "in"):
         for name, offset, shape, _ in parameter.members:
             if name in used and shape == (1, 1):
                 place = VECTORS.read.format(array=parameter.name, index=offset)

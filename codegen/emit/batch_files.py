@@ -8,9 +8,8 @@ from typing import Any
 
 from codegen.emit import trigonometry
 from codegen.emit.batch import LAYOUTS, BatchRoutine, batch_record, batch_routine
+from codegen.emit.c import Entry
 from codegen.emit.environment import render
-from codegen.emit.parameters import parameters
-from codegen.emit.routine import Routine
 from codegen.spec.request import Variant
 
 
@@ -41,12 +40,11 @@ class BatchUnit:
         return f"{self.variant.joint}_batch{self.lanes}"
 
 
-def batch_unit(routines: Sequence[Routine], banner: str, options: str, specification: str, lanes: int) -> BatchUnit:
-    """Emit the batch routines of one variant."""
-    variant = routines[0].variant
+def batch_unit(entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int) -> BatchUnit:
+    """Emit the batch routines of one variant: those of its functions that store nonzeros or vectors."""
+    variant = entries[0].routine.variant
     emitted = tuple(
-        batch_routine(routine, parameters(routine.joint, variant, routine.program, dense=False), lanes)
-        for routine in routines
+        batch_routine(entry.routine, entry.parameters, lanes) for entry in entries if entry.storage != "dense"
     )
     source = render(
         "c/batch_source.c.j2",

@@ -108,7 +108,7 @@ def unit(
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
         "" if real == "float" else external_source(routines, header, banner(version), options, specification),
-        batch_unit(routines, banner(version), options, specification, batch) if batch else None,
+        batch_unit(emitted, banner(version), options, specification, batch) if batch else None,
     )
 
 

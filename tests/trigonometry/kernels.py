@@ -64,7 +64,9 @@ class Kernels:
 
     def __init__(self, folder: Path, real: str, flags: Sequence[str]) -> None:
         headers = dict(batch_headers((), LANES, "test", "test"))
-        headers["c/include/jointgen/jg_real.h"] = render("c/jg_real.h.j2", banner="test", real=real, batch=LANES)
+        headers["c/include/jointgen/jg_real.h"] = render(
+            "c/jg_real.h.j2", banner="test", real=real, batch=LANES, fma=False
+        )
         for name, text in headers.items():
             path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import subprocess
 from pathlib import Path
 
@@ -61,6 +62,33 @@ def test_every_variant_gives_the_bits_of_the_routine_for_one_joint(joint: str, s
 def test_the_bits_hang_on_no_compiler_and_no_flag(compiler: str, flags: tuple[str, ...], shared: Path) -> None:
     routines = batch_package(shared, SCREW).compiled(*SAME_BITS, *flags, compiler=compiler)
     assert differences(routines, COUNTS) == 0
+
+
+@pytest.mark.parametrize(
+    ("compiler", "flags"),
+    [
+        ("gcc", ("-mfma",)),
+        ("gcc", ()),
+        ("gcc", ("-O3", "-march=native")),
+        ("gcc", ("-mfma", "-DJG_NO_VECTORS")),
+        pytest.param("clang", ("-mfma",), marks=needs_clang),
+    ],
+    ids=lambda value: value if isinstance(value, str) else " ".join(value),
+)
+@pytest.mark.parametrize(("real", "lanes"), [("double", 4), ("double", 8), ("float", 2), ("float", 4), ("float", 8)])
+def test_fused_multiply_adds_give_the_bits_of_one_joint(
+    real: str, lanes: int, compiler: str, flags: tuple[str, ...], shared: Path
+) -> None:
+    if "-mfma" in flags and platform.machine() != "x86_64":
+        pytest.skip("needs x86-64")
+    options = Options(("screw",), "conventional", variation="body", real=real, outputs=("phi",), batch=lanes, fma=True)
+    routines = batch_package(shared, options).compiled(*SAME_BITS, *flags, compiler=compiler)
+    assert differences(routines, COUNTS) == 0
+
+
+def test_prepared_geometry_comes_in_batches_too(shared: Path) -> None:
+    options = Options(("screw",), "parametric", "table4", "exact", outputs=OUTPUTS, batch=4, geometry="prepared")
+    assert differences(batch_package(shared, options).compiled(*SAME_BITS), COUNTS) == 0
 
 
 @pytest.mark.parametrize("lanes", BATCHES)

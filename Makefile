@@ -16,7 +16,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current lock clean help
+.PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -46,6 +46,12 @@ test: $(STAMP) ## pytest on two cores; make test ARGS='-k lower'
 current: $(STAMP) ## fail if generated/ is not what would be generated now
 	$(BIN)/jointgen generate --check
 
+bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results.md and .json
+	$(BIN)/python -m benchmarks.batch $(ARGS)
+
+bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
+	$(BIN)/python -m benchmarks.flags.measure
+
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
@@ -57,7 +63,7 @@ clean: ## remove .venv, caches and build products; generated/ stays
 	find . -name .git -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' Makefile
 
 # A usable .venv is brought up to date; a missing, broken or too old one is made anew.
 USABLE = import pip, sys; sys.exit(sys.version_info < (3, 11))

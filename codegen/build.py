@@ -19,6 +19,7 @@ from typing import Any
 
 import codegen
 from codegen.emit.package import Unit, package, specification_hash, unit
+from codegen.emit.prepared import prepare_geometry
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
@@ -32,9 +33,11 @@ from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
 from codegen.parallel import parallel
 from codegen.passes import simplify
+from codegen.passes.contract_fma import contract_fma
 from codegen.spec.joints import JointType
 from codegen.spec.request import (
     OUTPUTS,
+    PREPARE,
     PRODUCTS,
     QUANTITIES,
     Options,
@@ -134,15 +137,23 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
     return routines | ({"all": fused} if len(fused) > 1 or "all" in outputs else {})
 
 
-def routines(variant: Variant, outputs: Sequence[str] = ()) -> tuple[Routine, ...]:
-    """Run the stages up to programs for one variant."""
+def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
+    """Run the stages up to programs for one variant; ``fma``: with products and sums fused.
+
+    Prepared geometry comes last, so that its routines do the operations of those on run-time geometry.
+    """
     symbolic = model(variant)
     built = []
     for name, quantities in quantities_of(outputs).items():
-        program = symbolic.program(quantities)
+        program = contracted(symbolic.program(quantities), fma)
         words = equations(symbolic.joint, variant, name)
         built.append(Routine(symbolic.joint, variant, name, program, count(program), words))
-    return tuple(built)
+    return prepare_geometry(built) if variant.geometry == "prepared" else tuple(built)
+
+
+def contracted(program: Program, fma: bool) -> Program:
+    """Give the program with products and sums fused where that is asked for."""
+    return contract_fma(program) if fma else program
 
 
 def casadi_function(
@@ -152,6 +163,7 @@ def casadi_function(
     rows: str | None = None,
     derivative: str = "exact",
     variation: str = "body",
+    geometry: str = "runtime",
 ) -> Any:
     """Build a joint routine as a ``casadi.Function``.
 
@@ -162,14 +174,19 @@ def casadi_function(
         rows: of the parametric form; ``regular`` if left out.
         derivative: ``exact`` or ``substituted``.
         variation: ``body`` or ``world``.
+        geometry: ``runtime``, or ``prepared``: of the library's routines, with the output ``prepare`` too.
 
     Raises:
         SpecificationError: unknown names, or options that do not go together.
     """
     from codegen.emit import casadi
 
-    options = Options((joint,), form, rows, derivative, variation, outputs=(output,))
+    outputs = () if output == PREPARE and geometry == "prepared" else (output,)
+    options = Options((joint,), form, rows, derivative, variation, outputs=outputs, geometry=geometry)
     chosen = variants(options)[0]
+    if geometry == "prepared":
+        found = next(routine for routine in routines(chosen) if routine.output == output)
+        return casadi.casadi_function(chosen.routine_stem(output), found.program)
     program = model(chosen).program(quantities_of([output])[output])
     return casadi.casadi_function(f"{chosen.stem}_{output}", program)
 
@@ -180,20 +197,22 @@ class _Job:
     outputs: tuple[str, ...]
     real: str
     specification: str
+    fma: bool
+    batch: int | None = None
 
 
 def _emit_unit(job: _Job) -> Unit:
     """All stages for one variant, in a worker process."""
     from codegen.emit import casadi
 
-    built = routines(job.variant, job.outputs)
+    built = routines(job.variant, job.outputs, job.fma)
     serialised = {
-        f"{job.variant.file_stem}_{routine.output}": casadi.serialised(
-            casadi.casadi_function(f"{job.variant.stem}_{routine.output}", routine.program)
+        routine.output: casadi.serialised(
+            casadi.casadi_function(job.variant.routine_stem(routine.output), routine.program)
         )
         for routine in built
     }
-    return unit(built, codegen.__version__, job.real, job.specification, serialised)
+    return unit(built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch)
 
 
 def variants(options: Options) -> tuple[Variant, ...]:
@@ -220,11 +239,15 @@ def generate(options: Options, progress: Progress = lambda _: None) -> dict[str,
     """
     chosen = variants(options)
     joints = [joint_type(name) for name in dict.fromkeys(variant.joint for variant in chosen)]
-    asked = {"outputs": list(options.outputs), "real": options.real}
+    asked: dict[str, Any] = {"outputs": list(options.outputs), "real": options.real}
+    asked |= {"fma": True} if options.fma else {}
+    asked |= {"batch": options.batch} if options.batch else {}
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
-    jobs = [_Job(variant, options.outputs, options.real, specification) for variant in chosen]
+    jobs = [
+        _Job(variant, options.outputs, options.real, specification, options.fma, options.batch) for variant in chosen
+    ]
     units = parallel(_emit_unit, jobs, lambda job: progress(job.variant.file_stem))
-    return package(units, codegen.__version__, options.real, specification)
+    return package(units, codegen.__version__, options.real, specification, options.fma, options.batch)
 
 
 def dump(options: Options, stage: str) -> Iterator[str]:
@@ -242,9 +265,11 @@ def dump(options: Options, stage: str) -> Iterator[str]:
             [Mistake("--dump", f'there is no stage "{stage}"', nearest(stage, ("model", "program")))]
         )
     for variant in variants(options):
+        if stage == "program":
+            for routine in routines(variant, options.outputs, options.fma):
+                yield f"# {variant.routine_stem(routine.output)}\n{text.dump(routine.program)}"
+            continue
         symbolic = model(variant)
         for name, quantities in quantities_of(options.outputs).items():
-            if stage == "model" and name == "all":
-                continue
-            heading = f"# {variant.stem}_{name}\n"
-            yield heading + (symbolic.text(quantities) if stage == "model" else text.dump(symbolic.program(quantities)))
+            if name != "all":
+                yield f"# {variant.stem}_{name}\n{symbolic.text(quantities)}"

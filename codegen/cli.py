@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 import codegen
-from codegen.errors import JointgenError, Mistake, OutputError
+from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 
 _LIBRARY = Path("generated")
 
@@ -50,6 +50,9 @@ def joints(as_json: bool) -> None:
 @click.option("--variation", help="Axes of the virtual rotations: body or world.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
 @click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
+@click.option("--batch", help="Besides, routines for groups of so many joints: 2, 4, 8 or 16.")
+@click.option("--geometry", default="runtime", show_default=True, help="runtime, or prepared once for all steps.")
+@click.option("--fma", is_flag=True, help="Fused multiply-adds, written out as fma(); see the README for flags.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), default=_LIBRARY, show_default=True)
 @click.option(
     "--check",
@@ -57,7 +60,7 @@ def joints(as_json: bool) -> None:
     help="Write nothing; exit 1 if the output directory is not what would be written.",
 )
 @click.option("--dump", help="Print a stage of every routine instead of writing: model or program.")
-def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None, **options: str | None) -> None:
+def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None, **options: Any) -> None:
     """Emit routines for JOINT... (names of the catalogue, or trnK_rotN); without arguments the whole library."""
     from codegen import build, output
 
@@ -92,12 +95,22 @@ def _flop_files() -> dict[str, bytes]:
         return flop_files(comparison.tables(advance), banner(codegen.__version__))
 
 
-def _request(joint: tuple[str, ...], options: dict[str, str | None]) -> Any:
+def _request(joint: tuple[str, ...], options: dict[str, Any]) -> Any:
     from codegen.spec.request import Options
 
     chosen = {name: value for name, value in options.items() if value is not None}
     outputs = tuple(name.strip() for name in chosen.pop("outputs", "").split(",") if name.strip())
-    return Options(joint, outputs=outputs, **chosen)
+    return Options(joint, outputs=outputs, batch=_batch(chosen.pop("batch", None)), **chosen)
+
+
+def _batch(text: str | None) -> int | None:
+    from codegen.spec.request import BATCHES
+
+    try:
+        return None if text is None else int(text)
+    except ValueError:
+        remedy = f"give one of {', '.join(map(str, BATCHES))}"
+        raise SpecificationError([Mistake("--batch", f'"{text}" is not a whole number', remedy)]) from None
 
 
 def _dump(request: Any, stage: str) -> None:

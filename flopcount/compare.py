@@ -17,6 +17,9 @@ Document = dict[str, Any]
 Emitted = Mapping[tuple[str, Derivative], Mapping[str, Operations]]
 """(joint or basic constraint, derivative) -> kind of routine -> its operations."""
 
+PerStep = Mapping[tuple[str, Derivative], Mapping[str, int]]
+"""The same -> operations that are left for each step when the geometry is prepared."""
+
 LeftOut = Mapping[str, Mapping[str, Operations]]
 """Joint -> what the paper takes as given -> its operations."""
 
@@ -108,13 +111,16 @@ def paper_table_2(assume: Collection[str] = ()) -> Document:
     return {"table": "2", "assume": list(assume), "rows": rows, "footnotes": []}
 
 
-def table_7(emitted: Emitted, left_out: LeftOut, models: Mapping[str, Model] = MODELS) -> Document:
+def table_7(
+    emitted: Emitted, left_out: LeftOut, models: Mapping[str, Model] = MODELS, per_step: PerStep | None = None
+) -> Document:
     """Compare every joint of the library with Table 7; a joint that is not in the paper has our numbers only.
 
     Args:
         emitted: operations of the routines.
         left_out: operations that the paper does not count on either side.
         models: how to price them.
+        per_step: operations of a step on prepared geometry.
     """
     document = paper_table_7()
     of_paper = {(row["joint"], row["derivative"]): row for row in document["rows"]}
@@ -127,6 +133,7 @@ def table_7(emitted: Emitted, left_out: LeftOut, models: Mapping[str, Model] = M
             | {
                 "emitted": _emitted(kinds, models),
                 "fair": _pair(kinds[BASE].counts.total, kinds[own].counts.total),
+                "per_step": dict((per_step or {}).get((joint, derivative), {})),
                 "left_out": {name: operations.counts.as_dict() for name, operations in left_out[joint].items()},
             }
         )

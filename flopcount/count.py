@@ -13,6 +13,7 @@ _KIND: dict[Op, str] = {
     Op.SUBTRACT: "add",
     Op.MULTIPLY: "mul",
     Op.DIVIDE: "div",
+    Op.FMA: "fma",
     Op.SQRT: "sqrt",
     Op.SINCOS: "sincos",
     Op.SIN: "sin",

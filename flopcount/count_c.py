@@ -17,6 +17,7 @@ _LITERAL = re.compile(r"JG_REAL\([^)]*\)")
 _INDEX = re.compile(r"\[[^\[\]]*\]")
 _TOKEN = re.compile(r"[A-Za-z_]\w*|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?|[-+*/(),;=&]")
 _MATHEMATICAL = {
+    "jg_fma": "fma",
     "jg_sqrt": "sqrt",
     "jg_sin": "sin",
     "jg_cos": "cos",

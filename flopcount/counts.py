@@ -1,8 +1,9 @@
 """`Counts`: how many operations of each kind.
 
 The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair,
-single sine or cosine and arc tangent is one operation. A change of sign is free and listed; loads, stores and
-constants are free.
+single sine or cosine and arc tangent is one operation. A fused multiply-add is one multiplication and one addition, two
+operations in the paper's sense, so that contracting a program leaves its total as it is; it is listed apart, and
+`Counts.roundings` takes it once. A change of sign is free and listed; loads, stores and constants are free.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ class Counts:
         add: additions and subtractions.
         mul: multiplications.
         div: divisions.
+        fma: fused multiply-adds, two operations each.
         sqrt: square roots.
         sincos: pairs of sine and cosine of one angle.
         sin: single sines.
@@ -30,6 +32,7 @@ class Counts:
     add: int = 0
     mul: int = 0
     div: int = 0
+    fma: int = 0
     sqrt: int = 0
     sincos: int = 0
     sin: int = 0
@@ -44,8 +47,13 @@ class Counts:
 
     @property
     def arithmetic(self) -> int:
-        """Additions, subtractions, multiplications and divisions: what the paper counts."""
-        return self.add + self.mul + self.div
+        """Additions, subtractions, multiplications and divisions, fused or not: what the paper counts."""
+        return self.add + self.mul + self.div + 2 * self.fma
+
+    @property
+    def roundings(self) -> int:
+        """Number of rounded results: a fused multiply-add rounds once."""
+        return self.total - self.fma
 
     def __add__(self, other: Counts) -> Counts:
         return Counts(*(getattr(self, kind.name) + getattr(other, kind.name) for kind in fields(self)))

@@ -57,12 +57,14 @@ class Model:
         return total - self.prices.get("add", 0.0) * operations.contractions * self.contracts
 
 
-_ARITHMETIC = {"add": 1.0, "mul": 1.0, "div": 1.0}
+_ARITHMETIC = {"add": 1.0, "mul": 1.0, "div": 1.0, "fma": 2.0}
 _FUNCTIONS = {"sqrt": 1.0, "sincos": 1.0, "sin": 1.0, "cos": 1.0, "atan2": 1.0}
 
 PAPER = Model("paper", "every operation 1", _ARITHMETIC | _FUNCTIONS)
-MULTIPLY = Model("multiply", "multiplications and divisions only", {"mul": 1.0, "div": 1.0})
-FMA = Model("fma", "a product and the addition it feeds count as one", _ARITHMETIC | _FUNCTIONS, contracts=True)
+MULTIPLY = Model("multiply", "multiplications and divisions only", {"mul": 1.0, "div": 1.0, "fma": 1.0})
+FMA = Model(
+    "fma", "a product and the addition it feeds count as one", _ARITHMETIC | _FUNCTIONS | {"fma": 1.0}, contracts=True
+)
 
 MODELS: dict[str, Model] = {model.name: model for model in (PAPER, MULTIPLY, FMA)}
 """The models that need no measurement."""

@@ -38,12 +38,12 @@ class Entry:
     @property
     def signature(self) -> str:
         """Return type, name and parameters, as declared."""
-        return _signature(self.symbol, self.parameters)
+        return declaration(self.symbol, self.parameters)
 
 
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
-    stored = parameters(routine.joint, routine.variant, routine.program, dense=False)
+    stored = parameters(routine.joint, routine.variant, routine.program, False, routine.prepared_members)
     text, temporaries = definition(routine.symbol, stored, routine.program)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
@@ -52,9 +52,9 @@ def entries(routine: Routine) -> tuple[Entry, ...]:
 
 def definition(symbol: str, declared: Sequence[Parameter], program: Program) -> tuple[str, int]:
     """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
-    statements = Statements(program, _views(declared))
-    body = _unpacking(declared, statements.used_views) + _wrapped(statements.lines)
-    text = render("c/function.c.j2", signature=_signature(symbol, declared), body=body)
+    statements = Statements(program, views(declared))
+    body = _unpacking(declared, statements.used_views) + wrapped(statements.lines)
+    text = render("c/function.c.j2", signature=declaration(symbol, declared), body=body)
     return text, statements.temporaries
 
 
@@ -86,12 +86,12 @@ def _pattern_rows(pattern: Sparsity) -> list[str]:
 
 
 def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
-    dense = parameters(routine.joint, routine.variant, routine.program, dense=True)
+    dense = parameters(routine.joint, routine.variant, routine.program, True, routine.prepared_members)
     matrices = [p for p in stored if p.layout == "compressed-columns"]
     text = render(
         "c/dense.c.j2",
-        signature=_signature(routine.dense_symbol, dense),
-        call=_wrapped([f"{routine.symbol}({', '.join(_passed(p, matrices) for p in stored)});"]),
+        signature=declaration(routine.dense_symbol, dense),
+        call=wrapped([f"{routine.symbol}({', '.join(_passed(p, matrices) for p in stored)});"]),
         matrices=[(p.name, p.length, sparsity_symbol(routine, routine.program.output(p.name))) for p in matrices],
     )
     temporaries = sum(p.length for p in matrices)
@@ -102,11 +102,11 @@ def _passed(parameter: Parameter, matrices: Sequence[Parameter]) -> str:
     return f"{parameter.name}_nz" if parameter in matrices else parameter.name
 
 
-def _signature(symbol: str, declared: Sequence[Parameter]) -> str:
-    """Declaration of a function; lines break between parameters only."""
+def declaration(symbol: str, declared: Sequence[Parameter], leading: Sequence[str] = (), kind: str = "void") -> str:
+    """Declaration of a function, with further parameters before; lines break between parameters only."""
     kinds = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
-    words = [f"{kinds[p.direction]} {p.name}" for p in declared]
-    lines = [f"void {symbol}("]
+    words = [*leading, *(f"{kinds[p.direction]} {p.name}" for p in declared)]
+    lines = [f"{kind} {symbol}("]
     for k, word in enumerate(words):
         piece = word + (", " if k + 1 < len(words) else ")")
         if len(lines[-1]) + len(piece.rstrip()) > _WIDTH:
@@ -115,11 +115,12 @@ def _signature(symbol: str, declared: Sequence[Parameter]) -> str:
     return "\n".join(line.rstrip() for line in lines)
 
 
-def _views(declared: Sequence[Parameter]) -> dict[str, tuple[tuple[str, int, int], ...]]:
+def views(declared: Sequence[Parameter]) -> dict[str, tuple[tuple[str, int, int], ...]]:
+    """Argument -> (name, offset, length) of the parts of compound arguments."""
     return {
         p.name: tuple((name, offset, shape[0] * shape[1]) for name, offset, shape, _ in p.members)
         for p in declared
-        if p.members
+        if p.members and p.direction == "in"
     }
 
 
@@ -128,7 +129,7 @@ def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
     lines = []
     for parameter in declared:
         for name, offset, shape, _ in parameter.members:
-            if name not in used:
+            if name not in used or parameter.direction != "in":
                 continue
             if shape == (1, 1):
                 lines.append(f"const jg_real {name} = {parameter.name}[{offset}];")
@@ -137,10 +138,11 @@ def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
     return lines
 
 
-def _wrapped(lines: Sequence[str]) -> list[str]:
-    wrapped: list[str] = []
+def wrapped(lines: Sequence[str], indent: int = 4) -> list[str]:
+    """Break statements that are too long for a line."""
+    broken: list[str] = []
     for line in lines:
-        wrapped += textwrap.wrap(
-            line, _WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+        broken += textwrap.wrap(
+            line, _WIDTH - indent, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
         )
-    return wrapped
+    return broken

@@ -16,6 +16,7 @@ from codegen.emit.parameters import parameters
 from codegen.emit.routine import Routine
 from codegen.ir.program import Argument, Output, Program, Sparsity
 from codegen.passes import simplify
+from codegen.passes.contract_fma import contract_fma
 from codegen.passes.differentiate import differentiate
 from codegen.spec.request import Variant
 
@@ -78,8 +79,9 @@ def external_source(routines: Sequence[Routine], header: str, banner: str, optio
     for routine in routines:
         if routine.output in EXTERNALS:
             jacobian = simplify(differentiate(routine.program))
+            jacobian = contract_fma(jacobian) if routine.counts.fma else jacobian
             symbol = f"{routine.symbol}_jacobian"
-            declared = parameters(routine.joint, routine.variant, jacobian, dense=False)
+            declared = parameters(routine.joint, routine.variant, jacobian, False, routine.prepared_members)
             jacobians.append(definition(symbol, declared, jacobian)[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(

@@ -7,6 +7,7 @@ import textwrap
 from codegen.emit.c import Entry
 from codegen.emit.parameters import axes
 from codegen.emit.routine import Parameter, Routine
+from codegen.spec.request import PREPARE
 
 _WIDTH = 112
 
@@ -18,6 +19,7 @@ _BRIEF: dict[str, str] = {
     "phi_q_v": "Product phi_q v, without forming phi_q",
     "phi_q_t_lambda": "Product phi_q^T lambda, without forming phi_q",
     "all": "All quantities at once, sub-expressions shared",
+    "prepare": "What the routines of this variant need of the geometry, to be computed once",
 }
 
 _ACCELERATION = (
@@ -40,6 +42,8 @@ def comment(entry: Entry) -> list[str]:
 
 def _details(routine: Routine) -> list[str]:
     variant = routine.variant
+    if routine.output == PREPARE:
+        return ["Call it again when the geometry changes."]
     details = [f"Virtual displacements: {axes(variant)}."]
     if variant.rows is not None:
         details.append(f"Rows of the rotational constraint: {variant.rows}.")
@@ -55,6 +59,8 @@ def _details(routine: Routine) -> list[str]:
             )
     if any(output.name == "gamma" for output in routine.program.outputs):
         details.append(_ACCELERATION)
+    if routine.preparation:
+        details.append(f"Prepared by {routine.preparation.symbol}, operations once: {routine.preparation.counts}.")
     return details
 
 

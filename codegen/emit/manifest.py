@@ -23,7 +23,7 @@ def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str,
     """
     routine, variant = entry.routine, entry.routine.variant
     matrices = [output for output in routine.program.outputs if output.sparsity.ncol > 1]
-    return {
+    record: dict[str, Any] = {
         "symbol": entry.symbol,
         "header": header,
         "source": source,
@@ -32,6 +32,7 @@ def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str,
         "rows": variant.rows,
         "derivative": variant.derivative,
         "variation": variant.variation,
+        "geometry": variant.geometry,
         "real": real,
         "output": routine.output,
         "storage": entry.storage,
@@ -52,6 +53,10 @@ def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str,
         "equations": routine.equations,
         "sha256": hashlib.sha256(entry.text.encode()).hexdigest(),
     }
+    if routine.preparation:
+        prepare = routine.preparation
+        record["prepare"] = {"symbol": prepare.symbol, "operations": prepare.counts.as_dict()}
+    return record
 
 
 def _parameter_record(parameter: Parameter) -> dict[str, Any]:
@@ -73,15 +78,26 @@ def _parameter_record(parameter: Parameter) -> dict[str, Any]:
 
 
 def manifest(
-    version: str, real: str, specification: str, functions: list[dict[str, Any]], casadi: list[dict[str, Any]]
+    version: str,
+    real: str,
+    specification: str,
+    functions: list[dict[str, Any]],
+    casadi: list[dict[str, Any]],
+    fma: bool = False,
+    batch: dict[str, Any] | None = None,
 ) -> str:
-    """Write the manifest of a package."""
+    """Write the manifest of a package.
+
+    ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines stands
+    under a key of its own.
+    """
     document = {
         "schema_version": SCHEMA_VERSION,
         "generator": {"name": "jointgen", "version": version},
         "specification_sha256": specification,
         "real": real,
+        "fma": fma,
         "functions": functions,
         "casadi": casadi,
-    }
+    } | ({"batch": batch} if batch else {})
     return json.dumps(document, indent=1, ensure_ascii=True) + "\n"

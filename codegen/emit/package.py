@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from codegen.emit.batch_files import BatchUnit, batch_headers, batch_manifest, batch_unit
 from codegen.emit.c import entries, sparsity_functions
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
@@ -30,8 +31,9 @@ class Unit:
         source: text of the source file.
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
-        casadi: name -> serialised CasADi function.
+        casadi: output -> serialised CasADi function.
         external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
+        batch: the routines for many joints, where they were asked for.
     """
 
     variant: Variant
@@ -40,6 +42,7 @@ class Unit:
     records: tuple[dict[str, Any], ...]
     casadi: Mapping[str, bytes]
     external: str
+    batch: BatchUnit | None = None
 
 
 def banner(version: str) -> str:
@@ -66,11 +69,19 @@ def specification_hash(
     return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
 
 
-def unit(routines: Sequence[Routine], version: str, real: str, specification: str, casadi: Mapping[str, bytes]) -> Unit:
-    """Emit the routines of one variant."""
+def unit(
+    routines: Sequence[Routine],
+    version: str,
+    real: str,
+    specification: str,
+    casadi: Mapping[str, bytes],
+    fma: bool = False,
+    batch: int | None = None,
+) -> Unit:
+    """Emit the routines of one variant; ``fma`` says whether their programs are contracted."""
     variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
-    options = _options_line(variant, real)
+    options = _options_line(variant, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
     text = render(
@@ -97,6 +108,7 @@ def unit(routines: Sequence[Routine], version: str, real: str, specification: st
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
         "" if real == "float" else external_source(routines, header, banner(version), options, specification),
+        batch_unit(emitted, banner(version), options, specification, batch) if batch else None,
     )
 
 
@@ -105,14 +117,18 @@ def _patterns(routines: Sequence[Routine]) -> dict[str, str]:
     return {symbol: text for routine in routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _options_line(variant: Variant, real: str) -> str:
+def _options_line(variant: Variant, real: str, fma: bool) -> str:
     words = [f"joint {variant.joint}", f"form {variant.form}"]
     words += [f"rows {variant.rows}"] if variant.rows else []
     words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
+    words += ["geometry prepared"] if variant.geometry == "prepared" else []
+    words += ["fma"] if fma else []
     return ", ".join(words)
 
 
-def package(units: Sequence[Unit], version: str, real: str, specification: str) -> dict[str, bytes]:
+def package(
+    units: Sequence[Unit], version: str, real: str, specification: str, fma: bool = False, batch: int | None = None
+) -> dict[str, bytes]:
     """Assemble the files of a package.
 
     Args:
@@ -120,37 +136,50 @@ def package(units: Sequence[Unit], version: str, real: str, specification: str) 
         version: of jointgen.
         real: default number type, ``double`` or ``float``.
         specification: hash of the request.
+        fma: whether the programs are contracted.
+        batch: joints in a group of the batch routines; none if there are no such routines.
 
     Returns:
         Path below the package's folder -> content.
     """
     joints = list(dict.fromkeys(u.variant.joint for u in units))
+    batches = [u.batch for u in units if u.batch]
+    headers = [*joints, *dict.fromkeys(b.header for b in batches)]
     files: dict[str, str] = {
-        "c/include/jointgen/jg_real.h": render("c/jg_real.h.j2", banner=banner(version), real=real),
-        "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=joints),
+        "c/include/jointgen/jg_real.h": render(
+            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch
+        ),
+        "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=headers),
     }
     for joint in joints:
         files[f"c/include/jointgen/{joint}.h"] = _header(
             joint, [u for u in units if u.variant.joint == joint], version, specification
         )
     files |= {f"c/src/{u.variant.file_stem}.c": u.source for u in units}
-    sources = sorted(f"src/{u.variant.file_stem}.c" for u in units)
+    files |= batch_headers(batches, batch, banner(version), specification) if batch else {}
+    files |= {f"c/src/{b.file}": b.source for b in batches}
+    sources = sorted(path.removeprefix("c/") for path in files if path.startswith("c/src/"))
     files["c/CMakeLists.txt"] = render(
-        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources
+        "cmake/CMakeLists.txt.j2", banner=banner(version), version=version, sources=sources, fma=fma
     )
     files["c/jointgen.pc.in"] = render("cmake/jointgen.pc.in.j2", version=version)
     records = [record for u in units for record in u.records]
-    casadi = [_casadi_record(u, name) for u in units for name in u.casadi]
-    files["manifest.json"] = manifest(version, real, specification, records, casadi)
+    casadi = [_casadi_record(u, output) for u in units for output in u.casadi]
+    told = batch_manifest(batches, batch) if batch else None
+    files["manifest.json"] = manifest(version, real, specification, records, casadi, fma, told)
     files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
-    return content | {f"casadi/{name}.casadi": data for u in units for name, data in u.casadi.items()}
+    return content | {_casadi_file(u.variant, output): data for u in units for output, data in u.casadi.items()}
 
 
-def _casadi_record(emitted: Unit, name: str) -> dict[str, Any]:
+def _casadi_file(variant: Variant, output: str) -> str:
+    return f"casadi/{variant.routine_stem(output).removeprefix('jg_')}.casadi"
+
+
+def _casadi_record(emitted: Unit, output: str) -> dict[str, Any]:
     variant = emitted.variant
-    output = name.removeprefix(f"{variant.file_stem}_")
-    record = {"name": f"jg_{name}", "file": f"casadi/{name}.casadi", **asdict(variant), "output": output}
+    name = variant.routine_stem(output)
+    record = {"name": name, "file": _casadi_file(variant, output), **asdict(variant), "output": output}
     if output in EXTERNALS and emitted.external:
         record["external"] = {
             "name": external_name(variant, output),

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from codegen.emit.routine import Parameter
+from codegen.emit.routine import Member, Parameter
 from codegen.ir.program import Argument, Output, Program
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 
-_Members = tuple[tuple[str, int, tuple[int, int], str], ...]
+_Members = tuple[Member, ...]
 
 _BODY_ARGUMENTS: dict[str, tuple[str, str]] = {
     "r_i": ("world", "m"),
@@ -24,7 +24,9 @@ GEOMETRY_MEMBERS: _Members = (
 )
 
 
-def parameters(joint: JointType, variant: Variant, program: Program, dense: bool) -> tuple[Parameter, ...]:
+def parameters(
+    joint: JointType, variant: Variant, program: Program, dense: bool, prepared: _Members = ()
+) -> tuple[Parameter, ...]:
     """Describe the parameters of a routine, in the order of its signature.
 
     Args:
@@ -32,12 +34,13 @@ def parameters(joint: JointType, variant: Variant, program: Program, dense: bool
         variant: for the axes of velocities and virtual displacements.
         program: for the arguments it uses and the patterns of its outputs.
         dense: whether matrix outputs are stored dense.
+        prepared: parts of the argument or output ``prepared``.
     """
-    inputs = tuple(_input(argument, joint, variant) for argument in program.used_arguments())
-    return inputs + tuple(_output(output, variant, dense) for output in program.outputs)
+    inputs = tuple(_input(argument, joint, variant, prepared) for argument in program.used_arguments())
+    return inputs + tuple(_output(output, variant, dense, prepared) for output in program.outputs)
 
 
-def _input(argument: Argument, joint: JointType, variant: Variant) -> Parameter:
+def _input(argument: Argument, joint: JointType, variant: Variant, prepared: _Members) -> Parameter:
     name = argument.name
     members: _Members = ()
     if name in _BODY_ARGUMENTS:
@@ -45,7 +48,9 @@ def _input(argument: Argument, joint: JointType, variant: Variant) -> Parameter:
     elif name == "alpha":
         frame, unit = "joint", _alpha_unit(joint, variant)
     elif name == "geometry":
-        frame, unit, members = "body", "mixed", _geometry(joint)
+        frame, unit, members = "body", "mixed", geometry_members(joint)
+    elif name == "prepared":
+        frame, unit, members = "body", "mixed", prepared
     elif name == "velocity":
         frame, unit, members = axes(variant), "m/s, rad/s", _velocity(argument, variant)
     else:
@@ -54,7 +59,8 @@ def _input(argument: Argument, joint: JointType, variant: Variant) -> Parameter:
     return Parameter(name, "in", argument.shape, argument.length, layout, frame, unit, members)
 
 
-def _geometry(joint: JointType) -> _Members:
+def geometry_members(joint: JointType) -> _Members:
+    """Parts of ``geometry``."""
     extra = tuple((name, 24 + k, (1, 1), unit) for k, (name, unit) in enumerate(joint.parameters))
     return GEOMETRY_MEMBERS + extra
 
@@ -91,8 +97,11 @@ def _alpha_unit(joint: JointType, variant: Variant) -> str:
     return ", ".join(["m"] * joint.translations + turning)
 
 
-def _output(output: Output, variant: Variant, dense: bool) -> Parameter:
+def _output(output: Output, variant: Variant, dense: bool, prepared: _Members) -> Parameter:
     pattern = output.sparsity
+    if output.name == "prepared":
+        shape = (pattern.nrow, 1)
+        return Parameter(output.name, "out", shape, pattern.nrow, "column-major", "body", "mixed", prepared)
     is_matrix = pattern.ncol > 1
     frame, unit = _OUTPUT_WORDS.get(output.name, ("partial derivatives by the entries of an argument", "mixed"))
     if output.name != "phi":

@@ -12,6 +12,24 @@ from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 from flopcount.counts import Counts
 
+Member = tuple[str, int, tuple[int, int], str]
+"""A part of a compound array: name, offset, shape, meaning."""
+
+
+@dataclass(frozen=True, slots=True)
+class Preparation:
+    """What is computed once from the geometry, and how the result is laid out.
+
+    Attributes:
+        symbol: of the C function that computes it.
+        counts: operations of that function.
+        members: parts of the array ``prepared``.
+    """
+
+    symbol: str
+    counts: Counts
+    members: tuple[Member, ...]
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -25,7 +43,7 @@ class Parameter:
         layout: ``column-major``, or ``compressed-columns`` for nonzeros only.
         frame: axes of its components.
         unit: unit of its components.
-        members: parts of a compound array: (name, offset, shape, meaning).
+        members: parts of a compound array.
     """
 
     name: str
@@ -35,7 +53,7 @@ class Parameter:
     layout: str
     frame: str
     unit: str
-    members: tuple[tuple[str, int, tuple[int, int], str], ...] = ()
+    members: tuple[Member, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +63,11 @@ class Routine:
     Attributes:
         joint: its type.
         variant: form and options.
-        output: a quantity, or ``all``.
+        output: a quantity, ``all``, or ``prepare``.
         program: what it evaluates.
         counts: operations of the program.
         equations: where the formulas come from.
+        preparation: what the routine takes, or computes, in the place of the geometry; None for run-time geometry.
     """
 
     joint: JointType
@@ -57,6 +76,12 @@ class Routine:
     program: Program
     counts: Counts
     equations: str
+    preparation: Preparation | None = None
+
+    @property
+    def prepared_members(self) -> tuple[Member, ...]:
+        """Parts of the array ``prepared``; none for run-time geometry."""
+        return self.preparation.members if self.preparation else ()
 
     @property
     def is_matrix(self) -> bool:
@@ -66,7 +91,7 @@ class Routine:
     @property
     def symbol(self) -> str:
         """The C symbol of the entry that stores nonzeros (or the vector)."""
-        stem = f"{self.variant.stem}_{self.output}"
+        stem = self.variant.routine_stem(self.output)
         return f"{stem}_nz" if self.is_matrix and self.output != "all" else stem
 
     @property

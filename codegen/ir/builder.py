@@ -26,7 +26,7 @@ class Builder:
         """Append an instruction, or find the equal one that is there; give its position."""
         operands = instruction.operands
         if instruction.op in COMMUTATIVE and operands[0] > operands[1]:
-            operands = (operands[1], operands[0])
+            operands = (operands[1], operands[0], *operands[2:])
         key = (instruction.op, operands, instruction.constant, instruction.source)
         position = self._known.get(key)
         if position is None:

@@ -1,7 +1,7 @@
 """Evaluate a program over a number type: float, numpy array, Fraction, Arb ball, mpmath number, any with operators.
 
-A `Domain` says how an exact constant becomes a number and how the transcendental functions are called; sums and
-products are the type's own operators.
+A `Domain` says how an exact constant becomes a number, how the transcendental functions are called and how a product
+and a sum are rounded at once; sums and products are the type's own operators.
 """
 
 from __future__ import annotations
@@ -13,11 +13,16 @@ from fractions import Fraction
 from typing import Any
 
 from codegen.errors import InternalError
+from codegen.ir.fused import fused_multiply_add, fused_multiply_add_arrays
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Program
 
 Number = Any
 """A value of the domain: the evaluator uses its operators only."""
+
+
+def _product_and_sum(a: Number, b: Number, c: Number) -> Number:
+    return a * b + c
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +36,7 @@ class Domain:
         sin: sine.
         cos: cosine.
         atan2: angle of (y, x).
+        fma: ``a b + c``, rounded once where the type rounds; the plain operators in an exact or enclosing type.
     """
 
     name: str
@@ -39,6 +45,7 @@ class Domain:
     sin: Callable[[Number], Number]
     cos: Callable[[Number], Number]
     atan2: Callable[[Number, Number], Number]
+    fma: Callable[[Number, Number, Number], Number] = _product_and_sum
 
 
 def _float_constant(constant: Constant) -> float:
@@ -57,7 +64,7 @@ def _not_rational(*_: Number) -> Number:
 
 def float_domain() -> Domain:
     """Python floats (IEEE double)."""
-    return Domain("float", _float_constant, math.sqrt, math.sin, math.cos, math.atan2)
+    return Domain("float", _float_constant, math.sqrt, math.sin, math.cos, math.atan2, fused_multiply_add)
 
 
 def fraction_domain() -> Domain:
@@ -69,7 +76,8 @@ def numpy_domain() -> Domain:
     """Numpy arrays, elementwise: many poses at once."""
     import numpy
 
-    return Domain("numpy", _float_constant, numpy.sqrt, numpy.sin, numpy.cos, numpy.arctan2)
+    functions = (numpy.sqrt, numpy.sin, numpy.cos, numpy.arctan2)
+    return Domain("numpy", _float_constant, *functions, fused_multiply_add_arrays)
 
 
 def arb_domain() -> Domain:
@@ -146,6 +154,8 @@ def _apply(op: Op, operands: list[Number], domain: Domain) -> Number:
             return operands[0] * operands[1]
         case Op.DIVIDE:
             return operands[0] / operands[1]
+        case Op.FMA:
+            return domain.fma(operands[0], operands[1], operands[2])
         case Op.SQRT:
             return domain.sqrt(operands[0])
         case Op.SIN:

@@ -1,7 +1,8 @@
 """The operations of a program: what each takes, and whether it costs anything.
 
 This is the one definition of an operation. ``SINCOS`` yields the pair of sine and cosine of one angle; ``SIN`` and
-``COS`` of a pair are free projections of it (``SINE_OF``, ``COSINE_OF``).
+``COS`` of a pair are free projections of it (``SINE_OF``, ``COSINE_OF``). ``FMA`` is ``a b + c`` rounded once; its
+negated forms are changes of sign of its operands.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ class Op(Enum):
     SUBTRACT = "sub"
     MULTIPLY = "mul"
     DIVIDE = "div"
+    FMA = "fma"
     SQRT = "sqrt"
     SIN = "sin"
     COS = "cos"
@@ -41,6 +43,7 @@ ARITY: dict[Op, int] = {
     Op.SUBTRACT: 2,
     Op.MULTIPLY: 2,
     Op.DIVIDE: 2,
+    Op.FMA: 3,
     Op.SQRT: 1,
     Op.SIN: 1,
     Op.COS: 1,
@@ -50,7 +53,9 @@ ARITY: dict[Op, int] = {
     Op.ATAN2: 2,
 }
 
-COMMUTATIVE = frozenset({Op.ADD, Op.MULTIPLY})
+COMMUTATIVE = frozenset({Op.ADD, Op.MULTIPLY, Op.FMA})
+"""The first two operands may change places."""
+
 LEAVES = frozenset({Op.CONSTANT, Op.INPUT})
 PROJECTIONS = frozenset({Op.SINE_OF, Op.COSINE_OF})
 

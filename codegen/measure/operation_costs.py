@@ -19,6 +19,7 @@ _EXPRESSIONS: dict[str, str] = {
     "add": "x[k] + c",
     "mul": "x[k] * c",
     "div": "x[k] / c",
+    "fma": "fma(x[k], c, c)",
     "sqrt": "sqrt(x[k])",
     "sin": "sin(x[k])",
     "cos": "cos(x[k])",

@@ -88,6 +88,8 @@ class _Differentiation:
             case Op.DIVIDE:
                 inverse = emit(Op.DIVIDE, builder.constant(1), operands[1])
                 return [inverse, emit(Op.NEGATE, emit(Op.MULTIPLY, place, inverse))]
+            case Op.FMA:
+                return [operands[1], operands[0], None]
             case Op.SQRT:
                 return [emit(Op.DIVIDE, builder.constant(1), emit(Op.MULTIPLY, builder.constant(2), place))]
             case Op.SIN:

@@ -37,8 +37,25 @@ def _place(builder: Builder, instruction: Instruction) -> int:
             first, second = instruction.operands
             if is_constant(builder, first, 0) or is_constant(builder, second, 1):
                 return first
+        case Op.FMA:
+            return _fused(builder, instruction)
         case Op.NEGATE:
             return negated(builder, instruction.operands[0])
+    return builder.append(instruction)
+
+
+def _fused(builder: Builder, instruction: Instruction) -> int:
+    """Leave what a zero or a one makes of ``a b + c``."""
+    first, second, addend = instruction.operands
+    if is_constant(builder, addend, 0):
+        return _product(builder, Instruction(Op.MULTIPLY, (first, second)))
+    for factor, other in ((first, second), (second, first)):
+        if is_constant(builder, factor, 0):
+            return addend
+        if is_constant(builder, factor, 1):
+            return _place(builder, Instruction(Op.ADD, (other, addend)))
+        if is_constant(builder, factor, -1):
+            return _place(builder, Instruction(Op.SUBTRACT, (addend, other)))
     return builder.append(instruction)
 
 

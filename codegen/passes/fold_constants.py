@@ -36,6 +36,9 @@ def _fold(op: Op, values: list[Constant]) -> Constant | None:
     if op in (Op.ADD, Op.SUBTRACT) and first.pi_power == second.pi_power:
         sign = 1 if op is Op.ADD else -1
         return Constant(first.rational + sign * second.rational, first.pi_power)
+    if op is Op.FMA:
+        product = Constant(first.rational * values[1].rational, first.pi_power + values[1].pi_power)
+        return _fold(Op.ADD, [product, second])
     if op is Op.SIN and first.is_zero:
         return first
     if op is Op.COS and first.is_zero:

@@ -10,17 +10,44 @@ from codegen.ir.ops import Op
 from codegen.ir.program import Instruction, Program
 
 
+class Rebuilding:
+    """A program under reconstruction, instruction by instruction.
+
+    Attributes:
+        builder: what has been rebuilt.
+        moved: new position of each instruction that has been put.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self.builder = Builder()
+        self.moved: list[int] = []
+        self._program = program
+
+    def copy(self, instruction: Instruction) -> None:
+        """Repeat the next instruction on its moved operands."""
+        operands = tuple(self.moved[operand] for operand in instruction.operands)
+        self.put(instruction, self.builder.append(instruction.with_operands(operands)))
+
+    def put(self, instruction: Instruction, position: int) -> None:
+        """Let a rebuilt value stand for the next instruction, under its name."""
+        if instruction.label is not None:
+            self.builder.label(position, instruction.label)
+        self.moved.append(position)
+
+    def finish(self) -> Program:
+        """Give the rebuilt program."""
+        return _with(self._program, self.builder, self.moved)
+
+
 def rebuild(program: Program, place: Callable[[Builder, Instruction], int]) -> Program:
     """Rebuild a program; ``place`` appends each instruction, operands mapped already, and gives its new position."""
-    builder = Builder()
-    moved: list[int] = []
+    rebuilding = Rebuilding(program)
+    moved = rebuilding.moved
     for instruction in program.instructions:
         operands = tuple([moved[operand] for operand in instruction.operands])
-        position = place(builder, instruction.with_operands(operands) if operands else instruction)
-        if instruction.label is not None:
-            builder.label(position, instruction.label)
-        moved.append(position)
-    return _with(program, builder, moved)
+        moving = instruction.with_operands(operands) if operands else instruction
+        rebuilding.put(instruction, place(rebuilding.builder, moving))
+    return rebuilding.finish()
 
 
 def reorder(program: Program, order: Sequence[int]) -> Program:

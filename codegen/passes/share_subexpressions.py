@@ -54,6 +54,8 @@ class _Numbering:
             case Op.MULTIPLY | Op.DIVIDE:
                 (sign_a, a), (sign_b, b) = operands
                 return sign_a * sign_b, self._emit(instruction.op, a, b)
+            case Op.FMA:
+                return self._fused(*operands)
             case Op.ADD:
                 return self._sum(operands[0], operands[1])
             case Op.SUBTRACT:
@@ -82,6 +84,13 @@ class _Numbering:
             return -1, self._differences[b, a]
         position = self._differences[a, b] = self.builder.emit(Op.SUBTRACT, a, b)
         return 1, position
+
+    def _fused(self, first: _Signed, second: _Signed, addend: _Signed) -> _Signed:
+        """The product is given a plus, the addend keeps the sign that is left."""
+        sign = first[0] * second[0]
+        third = self.materialise((sign * addend[0], addend[1]))
+        factors = sorted((first[1], second[1]))
+        return sign, self.builder.emit(Op.FMA, *factors, third)
 
     def materialise(self, value: _Signed) -> int:
         """Give a position that holds the value itself."""

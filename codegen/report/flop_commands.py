@@ -16,6 +16,7 @@ from codegen.report.sheets import (
     Sheet,
     emitted,
     glance,
+    per_step,
     printed_and_rules,
     printed_and_rules_2,
     switches,
@@ -112,6 +113,7 @@ def result(request: FlopRequest, progress: Callable[[str], None]) -> FlopResult:
             sheets += (flop_files.sheets_7 if document["table"] == "7" else flop_files.sheets_2)(document)
         else:
             sheets += [emitted(document, derivative, request.model) for derivative in DERIVATIVES]
+            sheets += [per_step(document)] if document["table"] == "7" and request.model == "paper" else []
     lines = _cost_lines(models["measured"].prices) if request.model == "measured" else []
     return FlopResult(chosen, lines, list(dict.fromkeys(sheets)))
 

@@ -84,6 +84,20 @@ def emitted(document: Document, derivative: str, model: str = "paper") -> Sheet:
     )
 
 
+def per_step(document: Document) -> Sheet:
+    """What prepared geometry leaves of our counts: operations of a step."""
+    rows = tuple(
+        (row["joint"], _WORDS[row["derivative"]], *(str(row["per_step"].get(name, "")) for name in document["columns"]))
+        for row in document["rows"]
+    )
+    return Sheet(
+        f"S1 Table {document['table']} as emitted, operations a step with prepared geometry",
+        ("joint", "derivative", *document["columns"].values()),
+        rows,
+        ("What depends on the geometry alone is computed once (jointgen generate --geometry prepared).",),
+    )
+
+
 def _printed_cell(row: Document) -> str:
     printed = row.get("printed")
     if printed is None:

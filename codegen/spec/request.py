@@ -6,7 +6,7 @@ Two routines that differ in an option have different symbols; the defaults leave
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.spec.joints import JointType
@@ -16,6 +16,9 @@ ROWS = ("regular", "table4", "quaternion")
 DERIVATIVES = ("exact", "substituted")
 VARIATIONS = ("body", "world")
 REALS = ("double", "float")
+BATCHES = (2, 4, 8, 16)
+"""Joints in a group of the batch routines."""
+GEOMETRIES = ("runtime", "prepared")
 
 QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
 """What the fused routine of the library evaluates."""
@@ -25,6 +28,9 @@ PRODUCTS = ("phi_q_v", "phi_q_t_lambda")
 
 OUTPUTS = (*QUANTITIES, *PRODUCTS, "all")
 """Everything that can be asked for; ``all`` is the fused routine."""
+
+PREPARE = "prepare"
+"""The routine that prepares the geometry for all others of its variant."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +43,7 @@ class Variant:
         rows: rows of the rotational constraint; None in the conventional form.
         derivative: ``exact``, or ``substituted`` (S1: the joint relation is inserted before differentiating again).
         variation: axes of the virtual rotations: ``body`` or ``world``.
+        geometry: ``runtime``, or ``prepared``: what depends on it alone is computed once.
     """
 
     joint: str
@@ -44,6 +51,7 @@ class Variant:
     rows: str | None
     derivative: str = "exact"
     variation: str = "body"
+    geometry: str = "runtime"
 
     @property
     def stem(self) -> str:
@@ -52,12 +60,18 @@ class Variant:
         words += [self.rows] if self.rows not in (None, "regular") else []
         words += [self.derivative] if self.derivative != "exact" else []
         words += [self.variation] if self.variation != "body" else []
+        words += [self.geometry] if self.geometry != "runtime" else []
         return "_".join(str(word) for word in words)
 
     @property
     def file_stem(self) -> str:
         """Name of the source file, without ending."""
         return self.stem.removeprefix("jg_")
+
+    def routine_stem(self, output: str) -> str:
+        """The C symbol of a routine without its storage ending."""
+        stem = replace(self, geometry="runtime").stem if output == PREPARE else self.stem
+        return f"{stem}_{output}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +86,9 @@ class Options:
         variation: see `Variant`.
         real: ``double`` or ``float``.
         outputs: names out of `OUTPUTS`; empty means all of them.
+        batch: joints in a group of the batch routines; none means that there are none.
+        fma: whether products and sums are fused, explicitly and alike with every compiler.
+        geometry: see `Variant`.
     """
 
     joints: tuple[str, ...] = ()
@@ -81,6 +98,9 @@ class Options:
     variation: str | None = None
     real: str = "double"
     outputs: tuple[str, ...] = ()
+    batch: int | None = None
+    fma: bool = False
+    geometry: str = "runtime"
 
 
 def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
@@ -178,7 +198,7 @@ def selected_variants(
             mistakes += problems
     if mistakes and (options.joints or not variants):
         raise SpecificationError(dict.fromkeys(mistakes))
-    return tuple(variants)
+    return tuple(replace(variant, geometry=options.geometry) for variant in variants)
 
 
 def _unknown_values(options: Options) -> list[Mistake]:
@@ -188,13 +208,21 @@ def _unknown_values(options: Options) -> list[Mistake]:
         ("--derivative", options.derivative, DERIVATIVES),
         ("--variation", options.variation, VARIATIONS),
         ("--real", options.real, REALS),
+        ("--geometry", options.geometry, GEOMETRIES),
         *(("--outputs", output, OUTPUTS) for output in options.outputs),
     )
-    return [
+    return _unknown_batch(options.batch) + [
         Mistake(name, f'there is no "{value}"', nearest(value, known))
         for name, value, known in choices
         if value is not None and value not in known
     ]
+
+
+def _unknown_batch(batch: int | None) -> list[Mistake]:
+    if batch is None or batch in BATCHES:
+        return []
+    sizes = ", ".join(str(size) for size in BATCHES)
+    return [Mistake("--batch", f"there are no groups of {batch} joints", f"known: {sizes}")]
 
 
 def _of_joint(joint: JointType, options: Options) -> tuple[list[Variant], list[Mistake]]:

@@ -19,7 +19,11 @@ UNKNOWN = {
     "derivative": (("ball", "--derivative", "exactly"), '--derivative: there is no "exactly"; did you mean "exact"?'),
     "variation": (("ball", "--variation", "word"), '--variation: there is no "word"; did you mean "world"?'),
     "real": (("ball", "--real", "flaot"), '--real: there is no "flaot"; did you mean "float"? known: double, float'),
+    "geometry": (("ball", "--geometry", "prepare"), '--geometry: there is no "prepare"; did you mean "prepared"?'),
     "output": (("ball", "--outputs", "phi,gama"), '--outputs: there is no "gama"; did you mean "gamma"?'),
+    "batch": (("ball", "--batch", "3"), "--batch: there are no groups of 3 joints; known: 2, 4, 8, 16"),
+    "batch of nothing": (("ball", "--batch", "0"), "--batch: there are no groups of 0 joints; known: 2, 4, 8, 16"),
+    "batch in words": (("ball", "--batch", "four"), '--batch: "four" is not a whole number; give one of 2, 4, 8, 16'),
     "dump": (("ball", "--dump", "programs"), '--dump: there is no stage "programs"; did you mean "program"?'),
     "far": (("xyz",), "joint xyz: there is no such joint; known: revolute, translational,"),
 }
@@ -57,10 +61,10 @@ def test_options_that_do_not_go_together_are_told_with_a_remedy(case: str, previ
 
 
 def test_all_unknown_names_are_told_at_once(previous: Path) -> None:
-    wrong = ("--form", "x", "--rows", "y", "--derivative", "z", "--variation", "u", "--real", "v")
+    wrong = ("--form", "x", "--rows", "y", "--derivative", "z", "--variation", "u", "--real", "v", "--geometry", "w")
     lines = refused(invoke("generate", "revolut", "bal", *wrong, "--outputs", "phi,psi,chi", "-o", previous))
     places = [line.split(":")[0] for line in lines]
-    options = ["--form", "--rows", "--derivative", "--variation", "--real", "--outputs", "--outputs"]
+    options = ["--form", "--rows", "--derivative", "--variation", "--real", "--geometry", "--outputs", "--outputs"]
     assert places == ["joint revolut", "joint bal", *options]
 
 

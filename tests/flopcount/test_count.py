@@ -82,6 +82,15 @@ def test_counts_of_routines_on_request_agree_by_kind(variant: Variant) -> None:
             assert in_text[symbol] == count(routine.program), symbol
 
 
+@pytest.mark.parametrize("joint", JOINTS)
+def test_counts_of_contracted_routines_agree_by_kind(joint: str) -> None:
+    for variant in library_variants(JOINTS[joint]):
+        for routine in build.routines(variant, ("all",), True):
+            in_text = count_c("\n".join(entry.text for entry in entries(routine)))
+            assert routine.counts.fma > 0
+            assert [in_text[symbol] for symbol in symbols_of(routine)] == [routine.counts] * 2
+
+
 @pytest.mark.parametrize("pair", PAIRS)
 def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
     symbolic = build.model(Variant(pair, "parametric", "regular"))
@@ -95,10 +104,12 @@ def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
 def test_every_operation_is_counted_once_and_leaves_are_free(program: Program) -> None:
     kinds = Counter(i.op for i in program.instructions if i.op not in LEAVES)
     counted = count(program)
-    assert counted.total == sum(number for op, number in kinds.items() if op is not Op.NEGATE)
+    assert counted.total == sum(number for op, number in kinds.items() if op is not Op.NEGATE) + kinds[Op.FMA]
+    assert counted.roundings == sum(number for op, number in kinds.items() if op is not Op.NEGATE)
     assert counted.add == kinds[Op.ADD] + kinds[Op.SUBTRACT]
     assert counted.neg == kinds[Op.NEGATE]
-    assert counted.arithmetic == counted.add + counted.mul + counted.div
+    assert counted.fma == kinds[Op.FMA]
+    assert counted.arithmetic == counted.add + counted.mul + counted.div + 2 * counted.fma
 
 
 def test_counts_add_up_and_round_trip() -> None:

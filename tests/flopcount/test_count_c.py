@@ -29,6 +29,8 @@ def counted(*statements: str) -> Counts:
         ("y[0] = (x[0])-(x[1]);", Counts(add=1)),
         ("y[0] = a-b;", Counts(add=1)),
         ("y[0] = jg_sqrt(-a);", Counts(sqrt=1, neg=1)),
+        ("y[0] = jg_fma(a, b, c);", Counts(fma=1)),
+        ("y[0] = jg_fma(-a, b - c, -x[2]) + jg_fma(a, b, c * x[1]);", Counts(fma=2, neg=2, add=2, mul=1)),
         ("y[0] = jg_atan2(-a, b - c);", Counts(atan2=1, neg=1, add=1)),
     ],
 )

@@ -15,6 +15,9 @@ from pathlib import Path
 
 import pytest
 
+from codegen import build, output
+from codegen.spec.request import Options
+
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 SOURCES = sorted(path.stem for path in (GENERATED / "c/src").glob("*.c"))
 KIND = {
@@ -22,6 +25,7 @@ KIND = {
     "subsd": "add",
     "mulsd": "mul",
     "divsd": "div",
+    "fma": "fma",
     "sqrtsd": "sqrt",
     "jg_sincos": "sincos",
     "sin": "sin",
@@ -64,17 +68,30 @@ def kinds_of(name: str, functions: dict[str, str]) -> Counter[str]:
     return kinds
 
 
-@pytest.mark.parametrize("stem", SOURCES)
-def test_counts_are_the_floating_point_instructions(stem: str, tmp_path: Path) -> None:
+def check(root: Path, stem: str, tmp_path: Path) -> int:
+    """Compare every routine of a source with its object code; gives their number."""
     source, target = tmp_path / "routines.c", tmp_path / "routines.o"
-    text = (GENERATED / f"c/src/{stem}.c").read_text()
+    text = (root / f"c/src/{stem}.c").read_text()
     source.write_text(text.replace("JG_REAL(2.0)", "JG_REAL(3.0)").replace("JG_REAL(-2.0)", "JG_REAL(-3.0)"))
-    flags = ["-std=c99", "-O0", f"-I{GENERATED / 'c/include'}"]
+    flags = ["-std=c99", "-O0", f"-I{root / 'c/include'}"]
     subprocess.run(["gcc", *flags, "-c", str(source), "-o", str(target)], check=True)
     functions = disassembled(target)
-    records = json.loads((GENERATED / "manifest.json").read_text())["functions"]
+    records = json.loads((root / "manifest.json").read_text())["functions"]
     chosen = [record for record in records if Path(record["source"]).stem == stem]
-    assert len(chosen) == 10
     for record in chosen:
         operations = {kind: n for kind, n in record["operations"].items() if n and kind not in ("neg", "total")}
         assert dict(kinds_of(record["symbol"], functions)) == operations, record["symbol"]
+    return len(chosen)
+
+
+@pytest.mark.parametrize("stem", SOURCES)
+def test_counts_are_the_floating_point_instructions(stem: str, tmp_path: Path) -> None:
+    assert check(GENERATED, stem, tmp_path) == 10
+
+
+@pytest.mark.parametrize("joint", ["screw", "universal"])
+def test_fused_multiply_adds_are_counted_as_they_are_called(joint: str, tmp_path: Path) -> None:
+    output.replace(tmp_path / "package", build.generate(Options((joint,), outputs=("all",), fma=True)))
+    for source in sorted((tmp_path / "package/c/src").glob("*.c")):
+        assert check(tmp_path / "package", source.stem, tmp_path) == 2
+        assert "jg_fma(" in source.read_text()

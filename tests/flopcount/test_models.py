@@ -5,6 +5,7 @@ from fractions import Fraction
 from codegen.ir.builder import Builder
 from codegen.ir.ops import Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
+from codegen.passes.contract_fma import contract_fma
 from flopcount.counts import Counts
 from flopcount.models import FMA, MODELS, MULTIPLY, PAPER, Operations, contractions, measured
 
@@ -52,6 +53,14 @@ def test_the_models_price_a_scalar_product_as_they_say():
     assert MULTIPLY.price(operations) == 2
     assert FMA.price(operations) == 2
     assert measured({"add": 1.0, "mul": 1.5}).price(operations) == 4.0
+
+
+def test_a_fused_scalar_product_has_the_price_of_what_it_does():
+    fused = Operations.of(contract_fma(program_of(scalar_product)))
+    assert fused.counts == Counts(mul=1, fma=1)
+    assert (fused.counts.total, fused.counts.arithmetic, fused.counts.roundings) == (3, 3, 2)
+    assert (PAPER.price(fused), MULTIPLY.price(fused), FMA.price(fused)) == (3, 2, 2)
+    assert measured({"mul": 1.5, "fma": 2.0}).price(fused) == 3.5
 
 
 def test_a_change_of_sign_is_free_in_every_model():

@@ -22,7 +22,8 @@ from codegen.ir.program import Argument, Instruction, Output, Program, Sparsity
 ARGUMENTS = (Argument("a", (3, 1)), Argument("B", (2, 2)))
 RATIONALS = [Fraction(n) for n in (0, 0, 1, 1, -1, -1, 2, -2, 3)] + [Fraction(1, 2), Fraction(-3, 4), Fraction(1, 3)]
 RATIONAL_OPS = (Op.NEGATE, Op.ADD, Op.SUBTRACT, Op.MULTIPLY)
-OPS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.DIVIDE, Op.SQRT, Op.SIN, Op.COS, Op.ATAN2)
+FUSED_OPS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.FMA)
+OPS = (*RATIONAL_OPS, *FUSED_OPS, Op.DIVIDE, Op.SQRT, Op.SIN, Op.COS, Op.ATAN2)
 LABELS = (None, None, ("A_ij", 0), ("A_ij", 1), ("d_ij", 0), ("v", 0))
 
 RANDOM = settings(
@@ -48,10 +49,9 @@ def programs(
     ]
     instructions += [Instruction(Op.CONSTANT, constant=c) for c in draw(st.lists(constants, max_size=3))]
     number = st.integers(0, 2**16)
-    for op, first, second, label in draw(
-        st.lists(st.tuples(st.sampled_from(list(ops)), number, number, st.sampled_from(LABELS)), max_size=size)
-    ):
-        operands = tuple(k % len(instructions) for k in (first, second)[: ARITY[op]])
+    step = st.tuples(st.sampled_from(list(ops)), number, number, number, st.sampled_from(LABELS))
+    for op, *places, label in draw(st.lists(step, max_size=size)):
+        operands = tuple(place % len(instructions) for place in places[: ARITY[op]])
         instructions.append(Instruction(op, operands, label=label))
     outputs = tuple(draw(_outputs(name, len(instructions))) for name in ("x", "Y")[: draw(st.integers(1, 2))])
     return Program(ARGUMENTS, tuple(instructions), outputs, (("v", "a + B"),))
@@ -109,6 +109,7 @@ def tree(program: Program, known: dict[object, int]) -> list[tuple[str, tuple[in
     numbers: list[int] = []
     for i in program.instructions:
         operands = [numbers[operand] for operand in i.operands]
-        key = (i.op, tuple(sorted(operands) if i.op in COMMUTATIVE else operands), i.constant, i.source)
+        factors = sorted(operands[:2]) if i.op in COMMUTATIVE else operands[:2]
+        key = (i.op, (*factors, *operands[2:]), i.constant, i.source)
         numbers.append(known.setdefault(key, len(known)))
     return [(output.name, tuple(numbers[value] for value in output.values)) for output in program.outputs]

@@ -82,7 +82,9 @@ def test_a_change_of_the_program_shows_in_the_text(program: Program, data: st.Da
     position = data.draw(st.integers(0, len(program.instructions) - 1))
     instruction = program.instructions[position]
     others = [op for op in Op if ARITY[op] == ARITY[instruction.op] and op is not instruction.op]
-    if instruction.operands:
+    if instruction.operands and not others:
+        changed = Instruction(Op.ADD, instruction.operands[:2])
+    elif instruction.operands:
         changed = replace(instruction, op=data.draw(st.sampled_from(others)))
     elif instruction.constant is not None:
         changed = replace(instruction, constant=Constant(instruction.constant.rational + 1, 1))

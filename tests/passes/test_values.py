@@ -24,7 +24,7 @@ from codegen.passes.fold_constants import fold_constants
 from codegen.passes.pair_sincos import pair_sincos
 from codegen.passes.schedule import schedule
 from codegen.passes.share_subexpressions import share_subexpressions
-from tests.ir.programs import OPS, RANDOM, RATIONAL_OPS, bits, inputs_of, matrices, programs, small_fractions
+from tests.ir.programs import FUSED_OPS, OPS, RANDOM, bits, inputs_of, matrices, programs, small_fractions
 
 Pass = Callable[[Program], Program]
 
@@ -38,7 +38,7 @@ BITWISE: tuple[Pass, ...] = (
     compress,
 )
 PASSES: tuple[Pass, ...] = (*EXACT, *BITWISE)
-NO_ROOTS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.DIVIDE)
+NO_ROOTS = (*FUSED_OPS, Op.DIVIDE)
 
 
 @RANDOM

@@ -10,7 +10,7 @@ import pytest
 from codegen import comparison
 from codegen.build import model
 from codegen.report.charts import bar_chart, bars_of
-from codegen.report.sheets import glance
+from codegen.report.sheets import glance, per_step
 from codegen.spec.request import Variant
 from flopcount import rules
 from flopcount.count import count
@@ -110,6 +110,24 @@ def test_the_page_holds_every_chart_and_loads_nothing():
     page = (FLOPS / "index.html").read_text()
     assert page.count("<svg") == 8
     assert not re.search(r"(src|href)=\"https?:", page)
+
+
+def test_prepared_geometry_leaves_fifteen_operations_to_the_translational_joint():
+    programs = [
+        model(Variant("translational", "parametric", "regular", "substituted")).program([d]) for d in DERIVATIVES
+    ]
+    assert sum(comparison.operations_per_step(program) for program in programs) == 15
+    assert sum(count(program).total for program in programs) == 87
+
+
+def test_the_sheet_of_steps_shows_what_is_left_of_each_routine():
+    rows = [
+        {"joint": "ball", "derivative": "phi_q", "per_step": {"conventional": 54}},
+        {"joint": "ball", "derivative": "phi_q_t_lambda_q", "per_step": {"conventional": 50, "parametric": 7}},
+    ]
+    sheet = per_step({"table": "7", "columns": {"conventional": "conv.", "parametric": "param."}, "rows": rows})
+    assert [row[2:] for row in sheet.rows] == [("54", ""), ("50", "7")]
+    assert sheet.columns[2:] == ("conv.", "param.")
 
 
 def test_the_left_out_operations_are_those_of_a_program():

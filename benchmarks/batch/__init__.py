@@ -1,0 +1,1 @@
+"""Time the batch routines against the scalar loop and against the memory."""

@@ -23,14 +23,14 @@ from codegen.emit.prepared import prepare_geometry
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
-from codegen.ir.lower import SymbolicOutput, definition_notation, lower, notation
+from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, lower, notation
 from codegen.ir.program import Program
 from codegen.mechanics import frames
-from codegen.mechanics.alternatives import alternatives
 from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.equations import equations
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
+from codegen.mechanics.places import places
 from codegen.parallel import parallel
 from codegen.passes import simplify
 from codegen.passes.contract_fma import contract_fma
@@ -49,6 +49,12 @@ from flopcount.count import count
 
 LIBRARY = Options()
 """The request for the whole committed library."""
+
+PRICES = Prices()
+"""What the search minimises: the number of operations."""
+
+STARTS = range(4)
+"""Seeds from which the search starts for every routine."""
 
 Progress = Callable[[str], None]
 """Told the name of each variant that is finished."""
@@ -82,16 +88,30 @@ class Model:
         """Lower the named quantities to one simplified program."""
         return self.lowered(self.outputs(names))
 
-    def lowered(self, outputs: tuple[SymbolicOutput, ...]) -> Program:
-        """Lower any outputs in the stages of this model to one simplified program, in the cheapest of their forms."""
+    def lowered(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None = None) -> Program:
+        """Lower any outputs in the stages of this model to one simplified program, the cheapest that is found.
+
+        Args:
+            outputs: what to evaluate.
+            is_substituted: whether the joint relation takes the place of the rotation matrices; by default where the
+                derivative is substituted, but never in ``phi``.
+        """
         form = self.form
         arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
-        places = frames.inputs(form.coordinates, form.row_count)
+        inputs = frames.inputs(form.coordinates, form.row_count)
         programs = [
-            simplify(lower(arguments, places, form.stages, alternative, form.aliases))
-            for alternative in alternatives(outputs, form.algebra)
+            simplify(program)
+            for program in lower(arguments, inputs, self._parts(outputs, is_substituted), PRICES, STARTS)
         ]
         return min(programs, key=lambda program: count(program).total)
+
+    def _parts(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None) -> list[Part]:
+        """Outputs by the frames they are written in; ``phi`` comes first, as everywhere."""
+        inserted = bool(self.form.substitution) if is_substituted is None else is_substituted
+        groups: dict[bool, list[SymbolicOutput]] = {}
+        for output in outputs:
+            groups.setdefault(inserted and output.name != "phi", []).append(output)
+        return [Part(places(self.form, self.variant, key), tuple(group)) for key, group in groups.items()]
 
 
 def joint_type(name: str) -> JointType:

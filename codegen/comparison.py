@@ -78,14 +78,14 @@ def left_out_operations(joint: str) -> dict[str, Operations]:
     counted = {name: _operations(conventional, outputs) for name, outputs in conventional_quantities().items()}
     parametric = model(Variant(joint, "parametric", "regular"))
     for name, outputs in parametric_quantities(parametric.form).items():
-        counted[name] = _operations(parametric, outputs)
+        counted[name] = _operations(parametric, outputs, is_substituted=True)
     both, value = counted.pop("with derivatives"), counted["A_ij(alpha)"]
     counted["dA_ij/dalpha"] = _difference(both, value)
     return counted
 
 
-def _operations(symbolic: Model, outputs: tuple[SymbolicOutput, ...]) -> Operations:
-    return Operations.of(symbolic.lowered(outputs))
+def _operations(symbolic: Model, outputs: tuple[SymbolicOutput, ...], is_substituted: bool = False) -> Operations:
+    return Operations.of(symbolic.lowered(outputs, is_substituted))
 
 
 def _difference(whole: Operations, part: Operations) -> Operations:

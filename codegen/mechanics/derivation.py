@@ -18,7 +18,6 @@ from codegen.ir.lower import Block, SymbolicOutput
 from codegen.mechanics import frames
 from codegen.mechanics.algebra import Algebra
 from codegen.mechanics.formulation import Formulation, height
-from codegen.mechanics.rank_one import rank_one
 from codegen.mechanics.terms import assemble, expand, scalar_products
 from codegen.mechanics.variation import Variation, coefficient, gradient
 
@@ -121,7 +120,7 @@ class Derivation:
     def _second_block(self, varied_force: Any, displacement: Any) -> Any:
         algebra = self.form.algebra
         if is_matrix(varied_force):
-            return rank_one(coefficient(varied_force, displacement, algebra), algebra)
+            return coefficient(varied_force, displacement, algebra)
         return gradient(varied_force, displacement, algebra)
 
     @cached_property

@@ -10,12 +10,12 @@ from typing import Any
 
 import sympy
 
+from codegen.ir.lower.places import Places
 from codegen.mechanics import frames
 from codegen.mechanics.basic import across
 from codegen.mechanics.formulation import Formulation
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
 from codegen.spec.request import Variant
-from codegen.vectors.lowering import Places
 
 WORLD, BODY_I, BODY_J, JOINT_I, JOINT_J, STAR = "world", "i", "j", "joint i", "joint j", "star"
 

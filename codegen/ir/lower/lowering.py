@@ -1,215 +1,120 @@
-"""Lower staged matrix expressions to a scalar program.
-
-Input: the symbols that are arguments, the named stages with their definitions, and for each output its blocks.
-Output: a plain `Program`; simplification is left to the passes. Stage names survive as labels of the values they name.
-"""
+"""Lower symbolic outputs to a scalar program: read, lay out, search, write."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy.matrices.expressions.matexpr import MatrixExpr
-from sympy.matrices.matrixbase import MatrixBase
 
-from codegen.errors import InternalError
 from codegen.ir.builder import Builder
-from codegen.ir.lower.chain import Chains, Factors
-from codegen.ir.lower.grid import Grid, add, multiply, skew, total, transpose
-from codegen.ir.lower.nodes import Dot, Tilde
-from codegen.ir.lower.notation import chain_notation, definition_notation, product_name
-from codegen.ir.ops import Constant, Op
+from codegen.ir.lower.alternatives import Prices
+from codegen.ir.lower.demands import Demand, Demands
+from codegen.ir.lower.outputs import SymbolicOutput
+from codegen.ir.lower.places import Places
+from codegen.ir.lower.scalarise import Entries, Scalariser
+from codegen.ir.lower.search import Choice, Graph, cheapest, price
+from codegen.ir.ops import Constant
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
 
-@dataclass(frozen=True, slots=True)
-class Block:
-    """A part of an output: a scalar or matrix expression and the place of its first entry."""
+@dataclass(frozen=True)
+class Part:
+    """Outputs that are written in the same frames."""
 
-    row: int
-    column: int
-    expression: Any
+    places: Places
+    outputs: tuple[SymbolicOutput, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class SymbolicOutput:
-    """An output matrix as blocks; blocks may not overlap, what no block covers is zero."""
-
-    name: str
-    shape: tuple[int, int]
-    blocks: tuple[Block, ...]
+Inputs = Mapping[Any, tuple[str, int]]
+"""Symbol -> argument and offset of its first entry (column-major)."""
 
 
 def lower(
     arguments: tuple[Argument, ...],
-    inputs: Mapping[Any, tuple[str, int]],
-    stages: Mapping[Any, Any],
-    outputs: tuple[SymbolicOutput, ...],
-    aliases: Mapping[Factors, str] | None = None,
-) -> Program:
-    """Lower the outputs to one program.
+    inputs: Inputs,
+    parts: Sequence[Part],
+    prices: Prices,
+    starts: Iterable[int],
+    candidates: int = 2,
+) -> list[Program]:
+    """Lower outputs to a program, in the few cheapest ways that a search finds.
 
     Args:
         arguments: the arrays of the signature, in order.
-        inputs: symbol -> argument and offset of its first entry (column-major).
-        stages: symbol -> its definition in terms of inputs and other stages.
-        outputs: what to compute.
-        aliases: names of products, for readers.
+        inputs: where symbols are read.
+        parts: the outputs, by the frames they are written in; they come in this order.
+        prices: of operations.
+        starts: seeds from which the search starts.
+        candidates: how many ways at most; what they share as scalars is only seen in the program.
 
     Returns:
-        The program, every output dense; `eliminate_zeros` and `compress` find the structural nonzeros.
+        Programs of the same outputs, the one that looks cheapest first; not simplified, every output dense.
     """
-    lowering = _Lowering(inputs, stages, aliases or {})
-    results = tuple(lowering.output(output) for output in outputs)
-    return lowering.builder.freeze(arguments, results, lowering.legend)
+    searched = [_Searched(part, inputs, prices, tuple(starts)) for part in parts]
+    count = min(candidates, max(len(found.choices) for found in searched))
+    programs = []
+    for k in range(count):
+        builder = Builder()
+        legend: dict[str, str] = {}
+        outputs = [output for found in searched for output in found.written(k, builder, inputs, legend)]
+        programs.append(builder.freeze(arguments, tuple(outputs), legend))
+    return programs
 
 
-class _Lowering:
-    """State of one lowering: the builder and everything that has a value already."""
+class _Searched:
+    """One part with the choices that the searches ended in, the cheapest first."""
 
-    def __init__(
-        self, inputs: Mapping[Any, tuple[str, int]], stages: Mapping[Any, Any], aliases: Mapping[Factors, str]
-    ) -> None:
-        self.builder = Builder()
-        self.legend: dict[str, str] = {}
-        self._inputs = inputs
-        self._stages = stages
-        self._aliases = aliases
-        self._matrices: dict[Any, Grid] = {}
-        self._scalars: dict[Any, int] = {}
-        self._chains = Chains(self.builder, {}, self._name_product)
+    def __init__(self, part: Part, inputs: Inputs, prices: Prices, starts: Sequence[int]) -> None:
+        self._outputs = part.outputs
+        self._demands = Demands(part.places, inputs, prices)
+        self._found = {output.name: self._demands.of(output) for output in part.outputs}
+        self._graph: Graph = self._demands.layout.lay_out()
+        nodes = list(dict.fromkeys(demand[3][1] for found in self._found.values() for demand in found))
+        ends: dict[tuple[tuple[int, int], ...], Choice] = {}
+        for start in starts:
+            choice = cheapest(self._graph, nodes, start)
+            ends.setdefault(tuple(sorted(choice.items())), choice)
+        self.choices = sorted(ends.values(), key=lambda choice: price(self._graph, choice))
 
-    def output(self, output: SymbolicOutput) -> Output:
-        """Lower one output, every entry of it."""
-        zero = self.builder.constant(0)
-        nrow, ncol = output.shape
-        entries = [[zero] * ncol for _ in range(nrow)]
-        for block in output.blocks:
-            is_matrix = isinstance(block.expression, MatrixExpr | MatrixBase)
-            grid = self.matrix(block.expression) if is_matrix else ((self.scalar(block.expression),),)
-            for i, row in enumerate(grid):
-                for j, entry in enumerate(row):
-                    entries[block.row + i][block.column + j] = entry
-        places = [(row, column) for row in range(nrow) for column in range(ncol)]
-        values = tuple(entries[row][column] for column in range(ncol) for row in range(nrow))
-        return Output(output.name, Sparsity.of_entries(nrow, ncol, places), values)
+    def written(self, k: int, builder: Builder, inputs: Inputs, legend: dict[str, str]) -> list[Output]:
+        """Write the outputs with the k-th cheapest choice, or the last there is."""
+        naming = self._demands.naming
+        nodes = self._demands.layout.nodes
+        places = {symbol.name: place for symbol, place in inputs.items() if isinstance(symbol, sympy.Symbol)}
 
-    def matrix(self, expression: Any) -> Grid:
-        """Lower a matrix expression, or find the value it has already."""
-        known = self._matrices.get(expression)
-        if known is None:
-            known = self._matrices[expression] = self._new_matrix(expression)
-        return known
+        def read(name: str) -> int:
+            return builder.constant(Constant(Fraction(1), 1)) if name == "pi" else builder.input(*places[name])
 
-    def _new_matrix(self, expression: Any) -> Grid:
-        if isinstance(expression, sympy.MatrixSymbol):
-            return self._symbol(expression)
-        if isinstance(expression, sympy.Transpose):
-            return transpose(self.matrix(expression.arg))
-        if isinstance(expression, Tilde):
-            return skew(self.matrix(expression.vector), self.builder)
-        if isinstance(expression, sympy.MatAdd):
-            return add([self.matrix(term) for term in expression.args], self.builder)
-        if isinstance(expression, sympy.MatMul):
-            return self._product(expression)
-        if isinstance(expression, sympy.Identity | sympy.ZeroMatrix):
-            expression = expression.as_explicit()
-        if isinstance(expression, MatrixBase):
-            nrow, ncol = expression.shape
-            return tuple(tuple(self.scalar(expression[i, j]) for j in range(ncol)) for i in range(nrow))
-        raise InternalError(f"no lowering for {type(expression).__name__}")
+        def finished(node: int, entries: Entries) -> None:
+            named = naming.of(nodes[node].key)
+            if named is not None:
+                name, definition, first = named
+                legend.setdefault(name, definition)
+                for position, entry in enumerate(entries):
+                    builder.label(entry, (name, first + position))
 
-    def _symbol(self, symbol: Any) -> Grid:
-        nrow, ncol = (int(size) for size in symbol.shape)
-        place = self._inputs.get(symbol)
-        if place is not None:
-            name, offset = place
-            return tuple(
-                tuple(self.builder.input(name, offset + i + nrow * j) for j in range(ncol)) for i in range(nrow)
-            )
-        grid = self.matrix(self._stages[symbol])
-        self._name(symbol.name, definition_notation(symbol.name, self._stages[symbol], self._aliases), grid)
-        return grid
+        choice = self.choices[min(k, len(self.choices) - 1)]
+        scalariser = Scalariser(self._graph, choice, builder, read, finished)
+        return [_written(output, self._found[output.name], scalariser, builder) for output in self._outputs]
 
-    def _name(self, name: str, definition: str, grid: Grid) -> None:
-        nrow = len(grid)
-        self.legend.setdefault(name, definition)
-        for i, row in enumerate(grid):
-            for j, entry in enumerate(row):
-                self.builder.label(entry, (name, i + nrow * j))
 
-    def _product(self, expression: Any) -> Grid:
-        coefficient, factors = expression.as_coeff_matrices()
-        grids = [self.matrix(factor) for factor in factors]
-        if coefficient == 1:
-            return self._chains.product(tuple(factors), grids)
-        return self._chains.scaled(coefficient, self.scalar(coefficient), tuple(factors), grids)
+def _written(output: SymbolicOutput, demands: list[Demand], scalariser: Scalariser, builder: Builder) -> Output:
+    nrow, ncol = output.shape
+    zero = builder.constant(0)
+    entries = [[zero] * ncol for _ in range(nrow)]
+    for row, column, kind, (sign, node, *turned) in demands:
+        for k, value in enumerate(_laid(scalariser.entries(node), kind, bool(turned and turned[0]))):
+            i, j = {"scalar": (0, 0), "row": (0, k), "column": (k, 0), "matrix": divmod(k, 3)}[kind]
+            entries[row + i][column + j] = scalariser.signed(sign, value)
+    everything = [(row, column) for row in range(nrow) for column in range(ncol)]
+    values = tuple(entries[row][column] for column in range(ncol) for row in range(nrow))
+    return Output(output.name, Sparsity.of_entries(nrow, ncol, everything), values)
 
-    def _name_product(self, factors: Factors, grid: Grid) -> None:
-        """Label short products of plain symbols, as ``A_ij_h_j``, for readers."""
-        name = product_name(factors, self._aliases)
-        if name:
-            others = {chain: alias for chain, alias in self._aliases.items() if alias != name}
-            self._name(name, chain_notation(factors, others), grid)
 
-    def scalar(self, expression: Any) -> int:
-        """Lower a scalar expression, or find the value it has already."""
-        known = self._scalars.get(expression)
-        if known is None:
-            known = self._scalars[expression] = self._new_scalar(expression)
-        return known
-
-    def _new_scalar(self, expression: Any) -> int:
-        builder = self.builder
-        if isinstance(expression, sympy.Rational):
-            return builder.constant(Fraction(int(expression.p), int(expression.q)))
-        if expression is sympy.pi:
-            return builder.constant(Constant(Fraction(1), 1))
-        if isinstance(expression, sympy.Symbol):
-            return self._scalar_symbol(expression)
-        if isinstance(expression, Dot):
-            left, right = (self.matrix(side) for side in expression.args)
-            return multiply(transpose(left), right, builder)[0][0]
-        if isinstance(expression, sympy.Add):
-            return total([self.scalar(term) for term in expression.args], builder)
-        if isinstance(expression, sympy.Mul):
-            return self._scalar_product(expression)
-        if isinstance(expression, sympy.Pow):
-            return self._power(expression)
-        for function, op in ((sympy.sin, Op.SIN), (sympy.cos, Op.COS), (sympy.atan2, Op.ATAN2)):
-            if isinstance(expression, function):
-                return builder.emit(op, *(self.scalar(argument) for argument in expression.args))
-        raise InternalError(f"no lowering for {type(expression).__name__}")
-
-    def _scalar_symbol(self, symbol: Any) -> int:
-        place = self._inputs.get(symbol)
-        if place is not None:
-            return self.builder.input(*place)
-        value = self.scalar(self._stages[symbol])
-        self._name(symbol.name, definition_notation(symbol.name, self._stages[symbol], self._aliases), ((value,),))
-        return value
-
-    def _scalar_product(self, expression: Any) -> int:
-        """Product from the left; a sign is taken out so that it costs nothing."""
-        coefficient, rest = expression.as_coeff_Mul()
-        if coefficient == -1:
-            return self.builder.emit(Op.NEGATE, self.scalar(rest))
-        values = [self.scalar(factor) for factor in expression.args]
-        result = values[0]
-        for value in values[1:]:
-            result = self.builder.emit(Op.MULTIPLY, result, value)
-        return result
-
-    def _power(self, expression: Any) -> int:
-        base, exponent = self.scalar(expression.base), expression.exp
-        if exponent == sympy.Rational(1, 2):
-            return self.builder.emit(Op.SQRT, base)
-        if not exponent.is_Integer or exponent == 0:
-            raise InternalError(f"no lowering for exponent {exponent}")
-        result = base
-        for _ in range(abs(int(exponent)) - 1):
-            result = self.builder.emit(Op.MULTIPLY, result, base)
-        return self.builder.emit(Op.DIVIDE, self.builder.constant(1), result) if exponent < 0 else result
+def _laid(entries: Entries, kind: str, turned: bool) -> Entries:
+    if kind == "matrix" and turned:
+        return tuple(entries[3 * (k % 3) + k // 3] for k in range(9))
+    return entries

@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 from sympy.matrices.matrixbase import MatrixBase
 
-from codegen.ir.lower.nodes import Dot, Tilde
+from codegen.ir.lower.operators import Dot, Tilde
 
 Factors = tuple[Any, ...]
 

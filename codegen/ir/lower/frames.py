@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from codegen.vectors.polynomial import Polynomial
+from codegen.ir.lower.polynomial import Polynomial
 
 Component = tuple[str, int] | Polynomial
 """Entry of an argument (name, index), or a scalar."""

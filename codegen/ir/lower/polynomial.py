@@ -1,6 +1,6 @@
 """Polynomials with exact rational coefficients over numbered atoms: the scalars of the vector level.
 
-A polynomial is immutable and hashable. What an atom stands for is known to `codegen.vectors.space.Space`.
+A polynomial is immutable and hashable. What an atom stands for is known to `codegen.ir.lower.space.Space`.
 """
 
 from __future__ import annotations
@@ -9,6 +9,9 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property
+
+Coefficient = int | Fraction
+"""Integers stay integers: their arithmetic is fast."""
 
 Monomial = tuple[int, ...]
 """Atoms in ascending order; an atom stands as often as its power says."""
@@ -19,8 +22,8 @@ class Polynomial:
 
     __slots__ = ("__dict__", "_hash", "terms")
 
-    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
-        self.terms: tuple[tuple[Monomial, Fraction], ...] = tuple(sorted((m, c) for m, c in terms.items() if c))
+    def __init__(self, terms: Mapping[Monomial, Coefficient]) -> None:
+        self.terms: tuple[tuple[Monomial, Coefficient], ...] = tuple(sorted((m, c) for m, c in terms.items() if c))
         self._hash = hash(self.terms)
 
     def __hash__(self) -> int:
@@ -39,10 +42,14 @@ class Polynomial:
             return self
         total = dict(self.terms)
         for monomial, coefficient in other.terms:
-            total[monomial] = total.get(monomial, Fraction(0)) + coefficient
+            total[monomial] = total.get(monomial, 0) + coefficient
         return Polynomial(total)
 
     def __neg__(self) -> Polynomial:
+        return self._negative
+
+    @cached_property
+    def _negative(self) -> Polynomial:
         return Polynomial({monomial: -coefficient for monomial, coefficient in self.terms})
 
     def __sub__(self, other: Polynomial) -> Polynomial:
@@ -53,18 +60,18 @@ class Polynomial:
             return other
         if other == ONE:
             return self
-        product: dict[Monomial, Fraction] = {}
+        product: dict[Monomial, Coefficient] = {}
         for left, a in self.terms:
             for right, b in other.terms:
                 monomial = tuple(sorted(left + right))
-                product[monomial] = product.get(monomial, Fraction(0)) + a * b
+                product[monomial] = product.get(monomial, 0) + a * b
         return Polynomial(product)
 
     @cached_property
-    def constant(self) -> Fraction | None:
+    def constant(self) -> Coefficient | None:
         """The value, where no atom is in it."""
         if not self.terms:
-            return Fraction(0)
+            return 0
         return self.terms[0][1] if len(self.terms) == 1 and not self.terms[0][0] else None
 
     @cached_property
@@ -91,22 +98,22 @@ class Polynomial:
         return Polynomial(reduced)
 
 
-def number(value: Fraction | int) -> Polynomial:
+def number(value: Coefficient) -> Polynomial:
     """A constant."""
-    return Polynomial({(): Fraction(value)})
+    return Polynomial({(): int(value) if value == int(value) else value})
 
 
 def atom(index: int) -> Polynomial:
     """A single atom."""
-    return Polynomial({(index,): Fraction(1)})
+    return Polynomial({(index,): 1})
 
 
 def total(parts: Iterable[Polynomial]) -> Polynomial:
     """Sum of polynomials."""
-    result: dict[Monomial, Fraction] = {}
+    result: dict[Monomial, Coefficient] = {}
     for part in parts:
         for monomial, coefficient in part.terms:
-            result[monomial] = result.get(monomial, Fraction(0)) + coefficient
+            result[monomial] = result.get(monomial, 0) + coefficient
     return Polynomial(result)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
-from codegen.vectors.polynomial import ONE, Polynomial
-from codegen.vectors.space import Cross, Space, Vector
+from codegen.ir.lower.polynomial import ONE, Polynomial
+from codegen.ir.lower.space import Cross, Space, Vector
 
 Product = tuple[Vector, Vector]
 """Two vectors that are multiplied."""

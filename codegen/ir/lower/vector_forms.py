@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import reduce
 from typing import TYPE_CHECKING
 
-from codegen.vectors.collect import cross_products
-from codegen.vectors.frames import Components
-from codegen.vectors.nodes import GENERAL, UNIT, Alternative, inner_cost
-from codegen.vectors.polynomial import ONE, Polynomial
-from codegen.vectors.space import Axis, Cross, Given, Named, Vector
+from codegen.ir.lower.alternatives import GENERAL, UNIT, Alternative, inner_cost
+from codegen.ir.lower.collect import cross_products
+from codegen.ir.lower.frames import Components
+from codegen.ir.lower.polynomial import ONE, Polynomial
+from codegen.ir.lower.space import Axis, Cross, Given, Named, Vector
 
 if TYPE_CHECKING:
-    from codegen.vectors.layout import Layout, Signed
+    from codegen.ir.lower.layout import Layout, Signed
 
 Parts = list[tuple[Polynomial, Vector]]
 """Coefficient and vector of each part of a sum."""
@@ -82,7 +81,9 @@ def _components(layout: Layout, vector: Vector, frame: str) -> Alternative:
     """Scalar products with the axes of the frame, each a scalar of its own that others may need."""
     axes = (layout.space.vector(Axis(frame, k)) for k in range(3))
     values = [layout.scalar(layout.space.dot(axis, vector)) for axis in axes]
-    return Alternative("components", tuple(node for _, node in values), 0.0, tuple(sign for sign, _ in values), f"components {frame}")
+    return Alternative(
+        "components", tuple(node for _, node in values), 0.0, tuple(sign for sign, _ in values), f"components {frame}"
+    )
 
 
 def _raw(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]:
@@ -118,12 +119,12 @@ def cross(layout: Layout, left: Signed, right: Signed, sign: int = 1) -> Alterna
         inner_cost([(a[(k + 1) % 3], b[(k + 2) % 3]), (a[(k + 2) % 3], b[(k + 1) % 3])], layout.prices)
         for k in range(3)
     )
-    return Alternative("cross", (left[1], right[1]), cost, sign * left[0] * right[0], f"cross {layout.nodes[left[1]].key[2]}")
+    return Alternative(
+        "cross", (left[1], right[1]), cost, sign * left[0] * right[0], f"cross {layout.nodes[left[1]].key[2]}"
+    )
 
 
-def turned(
-    layout: Layout, vector: Vector, start: str, end: str, description: object
-) -> Iterator[Alternative]:
+def turned(layout: Layout, vector: Vector, start: str, end: str, description: object) -> Iterator[Alternative]:
     """``R v`` with R by its columns (axes of ``start`` seen in ``end``) or by its rows."""
     if not layout.tree.path(start, end):
         return
@@ -132,7 +133,7 @@ def turned(
     for by in ("columns", "rows"):
         if by == "columns" and is_axis_of_start:
             continue
-        axes = _matrix(layout, start, end, by)
+        axes = layout.axes_between(start, end, by)
         if inner[1] in axes:
             continue
         entries = [layout.classes(node) for node in axes]
@@ -140,12 +141,6 @@ def turned(
         rows = list(zip(*entries, strict=True)) if by == "columns" else entries
         cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
         yield Alternative("turned", (inner[1], *axes), cost, (by, inner[0]), f"{by} {start} {end}")
-
-
-def _matrix(layout: Layout, start: str, end: str, by: str) -> tuple[int, ...]:
-    """Nodes of the columns, or of the rows, of the rotation from ``start`` to ``end``."""
-    of, seen = (start, end) if by == "columns" else (end, start)
-    return tuple(layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3))
 
 
 def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alternative]:
@@ -171,13 +166,21 @@ def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alte
 def partitions(layout: Layout, vector: Vector) -> list[Parts]:
     """Ways to write a vector as a sum; none that is the vector itself."""
     single: Parts = [(coefficient, Vector({p: ONE})) for p, coefficient in vector.terms]
-    found = [single, _by_body(layout, vector), _by_coefficient(vector), _by_content(vector), _by_product(layout, vector)]
+    found = [
+        single,
+        _by_body(layout, vector),
+        _by_coefficient(vector),
+        _by_content(vector),
+        _by_product(layout, vector),
+    ]
     for known in layout.sums[:40]:
         part = _with_known(vector, known)
         if part:
             found.append(part)
     return [
-        parts for k, parts in enumerate(found) if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector)
+        parts
+        for k, parts in enumerate(found)
+        if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector)
     ]
 
 
@@ -213,7 +216,7 @@ def _by_content(vector: Vector) -> Parts:
     content = tuple(sorted(common.elements()))
     if not content:
         return []
-    factor = Polynomial({content: Fraction(1)})
+    factor = Polynomial({content: 1})
     return [(factor, Vector({p: c.without(content) for p, c in vector.terms}))]
 
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from typing import Any
 
 from codegen.errors import InternalError
 from codegen.ir.builder import Builder
-from codegen.ir.ops import Constant, Op
-from codegen.vectors.nodes import Alternative
-from codegen.vectors.scalar_forms import Sum
-from codegen.vectors.search import Choice, Graph
+from codegen.ir.lower.alternatives import Alternative
+from codegen.ir.lower.polynomial import Coefficient
+from codegen.ir.lower.scalar_forms import Sum
+from codegen.ir.lower.search import Choice, Graph
+from codegen.ir.ops import Op
 
 Entries = tuple[int, ...]
 """Positions of a node's entries in the program; of a block row by row."""
@@ -90,7 +90,9 @@ class Scalariser:
             case "input":
                 return (self._inputs(data),)
             case "function":
-                return (self._function(data[0], [self.signed(s, c[0]) for s, c in zip(data[1], children, strict=True)]),)
+                return (
+                    self._function(data[0], [self.signed(s, c[0]) for s, c in zip(data[1], children, strict=True)]),
+                )
             case "dot":
                 return (self.signed(data, self._inner(children[0], children[1])),)
             case "trace":
@@ -210,11 +212,11 @@ class Scalariser:
     def _plan(self, plan: Sum, atoms: dict[int, int]) -> int:
         return self._total([self._product(term.coefficient, term.factors, atoms) for term in plan.terms])
 
-    def _product(self, coefficient: Fraction, factors: Sequence[int | Sum], atoms: dict[int, int]) -> int:
+    def _product(self, coefficient: Coefficient, factors: Sequence[int | Sum], atoms: dict[int, int]) -> int:
         values = [self._plan(f, atoms) if isinstance(f, Sum) else atoms[f] for f in factors]
         sign = 1 if coefficient > 0 else -1
         if abs(coefficient) != 1 or not values:
-            values.insert(0, self._builder.constant(Constant(abs(coefficient))))
+            values.insert(0, self._builder.constant(abs(coefficient)))
         result = values[0]
         for value in values[1:]:
             result = self._times(result, value)

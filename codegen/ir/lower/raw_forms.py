@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from codegen.vectors.nodes import Alternative, inner_cost
-from codegen.vectors.space import Axis, Cross, Given, Named, Vector
-from codegen.vectors.vector_forms import given, read, sums
-
 from typing import TYPE_CHECKING
 
+from codegen.ir.lower.alternatives import Alternative, inner_cost
+from codegen.ir.lower.space import Cross, Given, Named, Vector
+from codegen.ir.lower.vector_forms import given, read, sums
+
 if TYPE_CHECKING:
-    from codegen.vectors.layout import Layout
+    from codegen.ir.lower.layout import Layout
 
 
 def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple[Alternative, ...]:
@@ -55,8 +55,7 @@ def inside(layout: Layout, vector: Vector, frame: str) -> str | None:
 def _turned(layout: Layout, inner: tuple[int, int], start: str, end: str) -> Alternative:
     """The given matrix between neighbouring frames times a vector; its columns are given nodes."""
     by = "columns" if layout.tree.outward(start)[1:2] == [end] else "rows"
-    of, seen = (start, end) if by == "columns" else (end, start)
-    axes = tuple(layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3))
+    axes = layout.axes_between(start, end, by)
     entries = [layout.classes(node) for node in axes]
     rows = list(zip(*entries, strict=True)) if by == "columns" else entries
     components = layout.classes(inner[1])

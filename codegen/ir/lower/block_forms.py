@@ -1,6 +1,6 @@
 """The ways to know a map between two frames: sums of outer products, grouped one way or another, beside the identity.
 
-``a~ b~`` has become ``b a^T - (a . b) I`` by now (`codegen.vectors.space`), so a block is a matrix of low rank, a scalar
+``a~ b~`` has become ``b a^T - (a . b) I`` by now (`codegen.ir.lower.space`), so a block is a matrix of low rank, a scalar
 times the rotation between its two frames, and the skew map of a vector.
 """
 
@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from codegen.vectors.collect import common_coefficient
-from codegen.vectors.nodes import GENERAL, Alternative, inner_cost
-from codegen.vectors.polynomial import ONE, ZERO, Polynomial, total
-from codegen.vectors.space import Axis, Dyadic, Vector
+from codegen.ir.lower.alternatives import GENERAL, Alternative, inner_cost
+from codegen.ir.lower.collect import common_coefficient
+from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, total
+from codegen.ir.lower.space import Axis, Dyadic, Vector
 
 if TYPE_CHECKING:
-    from codegen.vectors.layout import Layout
+    from codegen.ir.lower.layout import Layout
 
 Outers = tuple[tuple[Vector, Vector], ...]
 """A sum of outer products."""
@@ -142,9 +142,7 @@ def _trace(layout: Layout, dyadic: Dyadic) -> Polynomial:
     return total(layout.space.dot(layout.space.vector(a), layout.space.vector(b)) * c for a, b, c in one)
 
 
-def _from_known(
-    layout: Layout, pairs: Dyadic, known: Dyadic, rows: str, columns: str
-) -> Iterator[Alternative]:
+def _from_known(layout: Layout, pairs: Dyadic, known: Dyadic, rows: str, columns: str) -> Iterator[Alternative]:
     """Another sum of outer products between the same frames plus one; negated, and transposed where frames agree."""
     if known == pairs:
         return
@@ -184,8 +182,7 @@ def rotation_alternatives(layout: Layout, factor: Polynomial, rows: str, columns
     sign, scalar = layout.scalar(factor)
     found = []
     for by in ("columns", "rows"):
-        of, seen = (columns, rows) if by == "columns" else (rows, columns)
-        axes = [layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3)]
+        axes = layout.axes_between(columns, rows, by)
         entries = [c for node in axes for c in layout.classes(node)]
         cost = layout.prices.mul * sum(c == layout.classes(scalar)[0] == GENERAL for c in entries)
         found.append(Alternative("rotation", (scalar, *axes), cost, (by, sign)))
@@ -196,9 +193,8 @@ def tilde_alternatives(layout: Layout, vector: Vector, rows: str, columns: str) 
     """``w~ R`` or ``R w~``, column by column: cross products of the vector with the axes of one frame seen in the other."""
     found = []
     for by in ("columns", "rows"):
-        of, seen = (columns, rows) if by == "columns" else (rows, columns)
-        axes = [layout.vector(layout.space.vector(Axis(of, k)), seen)[1] for k in range(3)]
-        sign, node = layout.vector(vector, seen)
+        axes = layout.axes_between(columns, rows, by)
+        sign, node = layout.vector(vector, rows if by == "columns" else columns)
         w = layout.classes(node)
         cost = 0.0
         for axis in axes:

@@ -16,10 +16,10 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 from sympy.matrices.matrixbase import MatrixBase
 
 from codegen.errors import InternalError
-from codegen.ir.lower.nodes import Dot, Tilde
-from codegen.vectors.frames import Components
-from codegen.vectors.polynomial import ONE, ZERO, Polynomial, number
-from codegen.vectors.space import Axis, Dyadic, Given, Named, Space, Vector, combined
+from codegen.ir.lower.frames import Components
+from codegen.ir.lower.operators import Dot, Tilde
+from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, number
+from codegen.ir.lower.space import Axis, Dyadic, Given, Named, Space, Vector, combined
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,7 @@ class Reader:
     def _map_chain(self, factors: Sequence[Any], rows: str | None, columns: str | None) -> Dyadic:
         for k, factor in enumerate(factors[:-1]):
             if factor.shape[1] == 1:
-                right = sympy.MatMul(*(_transpose(f) for f in reversed(factors[k + 1 :])))
+                right = sympy.MatMul(*(transposed_factor(f) for f in reversed(factors[k + 1 :])))
                 left = factors[: k + 1]
                 return self.space.outer(self._chain(left, rows), self.vector(right, columns))
         result = Dyadic({}, ONE)
@@ -281,7 +281,8 @@ def is_matrix(expression: Any) -> bool:
     return isinstance(expression, MatrixExpr | MatrixBase)
 
 
-def _transpose(factor: Any) -> Any:
+def transposed_factor(factor: Any) -> Any:
+    """The transpose of a factor of a product."""
     if isinstance(factor, sympy.Transpose):
         return factor.arg
     if isinstance(factor, Tilde):

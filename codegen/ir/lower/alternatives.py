@@ -21,7 +21,7 @@ class Alternative:
     """One way to compute a node.
 
     Attributes:
-        kind: names the formula, see `codegen.vectors.scalarise`.
+        kind: names the formula, see `codegen.ir.lower.scalarise`.
         children: numbers of the nodes it takes.
         cost: price of its own operations.
         data: what the formula needs besides, such as signs.

@@ -8,20 +8,20 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from codegen.vectors.collect import scalar_products
-from codegen.vectors.nodes import GENERAL, Alternative, Prices, inner_cost
-from codegen.vectors.polynomial import ONE, Polynomial, atom, number
-from codegen.vectors.space import Cross, Vector
+from codegen.ir.lower.alternatives import GENERAL, Alternative, Prices, inner_cost
+from codegen.ir.lower.collect import scalar_products
+from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
+from codegen.ir.lower.space import Cross, Vector
 
 if TYPE_CHECKING:
-    from codegen.vectors.layout import Layout, Signed
+    from codegen.ir.lower.layout import Layout, Signed
 
 
 @dataclass(frozen=True, slots=True)
 class Product:
     """A rational times atoms times plans."""
 
-    coefficient: Fraction
+    coefficient: Coefficient
     factors: tuple[int | Sum, ...]
 
 
@@ -65,7 +65,9 @@ def _of_atom(layout: Layout, index: int) -> Iterator[Alternative]:
         children = [layout.scalar(argument) for argument in arguments]
         prices = {"ratio": layout.prices.div, "same": 0.0}
         cost = prices.get(function, 1.0)
-        yield Alternative("function", tuple(node for _, node in children), cost, (function, tuple(s for s, _ in children)))
+        yield Alternative(
+            "function", tuple(node for _, node in children), cost, (function, tuple(s for s, _ in children))
+        )
     elif description.kind == "dot":
         left, right = (layout.space.vector(layout.space.primitives[p]) for p in description.key)
         yield from dots(layout, left, right, 1)
@@ -103,7 +105,9 @@ def dots(layout: Layout, left: Vector, right: Vector, sign: int) -> Iterator[Alt
 def _dot(layout: Layout, left: Signed, right: Signed, sign: int) -> Alternative:
     classes = list(zip(layout.classes(left[1]), layout.classes(right[1]), strict=True))
     family = f"dot {layout.nodes[left[1]].key[2]}"
-    return Alternative("dot", (left[1], right[1]), inner_cost(classes, layout.prices), sign * left[0] * right[0], family)
+    return Alternative(
+        "dot", (left[1], right[1]), inner_cost(classes, layout.prices), sign * left[0] * right[0], family
+    )
 
 
 def _collected(layout: Layout, value: Polynomial) -> Iterator[Alternative]:
@@ -153,7 +157,7 @@ def _by_known_factor(layout: Layout, value: Polynomial) -> Iterator[Alternative]
         rest.subtract(known)
         if len(known) < len(monomial) and min(rest.values()) >= 0:
             other = Polynomial({tuple(sorted(rest.elements())): coefficient})
-            yield _product(layout, Polynomial({known: Fraction(1)}), other, 1)
+            yield _product(layout, Polynomial({known: 1}), other, 1)
     if monomial not in layout.products:
         layout.products.append(monomial)
 
@@ -171,11 +175,11 @@ def plan_of(value: Polynomial) -> Sum:
         return Sum(())
     content = value.content
     rest = value.without(content)
-    common = abs(rest.terms[0][1])
+    common: Coefficient = abs(rest.terms[0][1])
     if common != 1 and all(abs(c) == common for _, c in rest.terms):
-        rest = rest * number(1 / common)
+        rest = rest * number(Fraction(1, common))
     else:
-        common = Fraction(1)
+        common = 1
     if rest == ONE or len(rest.terms) == 1:
         monomial, coefficient = rest.terms[0]
         return Sum((Product(coefficient * common, (*content, *monomial)),))

@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 
 from codegen.errors import InternalError
-from codegen.vectors.frames import Component, FrameTree
-from codegen.vectors.nodes import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
-from codegen.vectors.polynomial import Polynomial
-from codegen.vectors.space import Axis, Cross, Dyadic, Given, Named, Space, Vector
+from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
+from codegen.ir.lower.frames import Component, FrameTree
+from codegen.ir.lower.polynomial import Polynomial
+from codegen.ir.lower.space import Axis, Cross, Dyadic, Given, Named, Space, Vector
 
 Signed = tuple[int, int]
 """Sign and number of a node."""
@@ -27,7 +26,7 @@ class Layout:
     Args:
         space: the vectors and scalars.
         tree: the frames.
-        definitions: stage scalar -> its definition, see `codegen.vectors.read`.
+        definitions: stage scalar -> its definition, see `codegen.ir.lower.read`.
         prices: of operations.
         axes: frames whose axes have a meaning.
     """
@@ -51,6 +50,7 @@ class Layout:
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}
         self._numbers: dict[Key, int] = {}
+        self._axes_between: dict[tuple[str, str, str], tuple[int, ...]] = {}
         self._axis_classes: dict[tuple[int, str], tuple[int, ...]] = {}
 
     # --- nodes
@@ -59,6 +59,14 @@ class Layout:
         """A vector in a frame."""
         sign = vector.sign or 1
         return sign, self._number(("vector", vector if sign > 0 else -vector, frame))
+
+    def axes_between(self, start: str, end: str, by: str) -> tuple[int, ...]:
+        """Nodes of the columns, or of the rows, of the rotation from ``start`` to ``end``."""
+        key = start, end, by
+        if key not in self._axes_between:
+            of, seen = (start, end) if by == "columns" else (end, start)
+            self._axes_between[key] = tuple(self.vector(self.space.vector(Axis(of, k)), seen)[1] for k in range(3))
+        return self._axes_between[key]
 
     def pushed(self, vector: Vector, frame: str) -> Signed:
         """A vector in a frame around its own, the rotation matrices taken as they are."""
@@ -142,7 +150,7 @@ class Layout:
         return any(self.space.atoms[a].kind in ("raw", "stage") for monomial, _ in key[1].terms for a in monomial)
 
     def _alternatives(self, key: Key) -> tuple[Alternative, ...]:
-        from codegen.vectors import block_forms, raw_forms, scalar_forms, vector_forms
+        from codegen.ir.lower import block_forms, raw_forms, scalar_forms, vector_forms
 
         match key[0]:
             case "vector":
@@ -238,7 +246,7 @@ class Layout:
 def scalar_class(value: Polynomial) -> int:
     """Class of a scalar."""
     constant = value.constant
-    return GENERAL if constant is None else ZERO if not constant else UNIT if abs(constant) == Fraction(1) else GENERAL
+    return GENERAL if constant is None else ZERO if not constant else UNIT if abs(constant) == 1 else GENERAL
 
 
 def component_class(component: Component) -> int:

@@ -1,9 +1,9 @@
 """The cheapest way to compute the outputs: choose one alternative for every node that is needed.
 
 A node that several others use is paid once, so the choice is made over the whole graph. It starts from the cheapest tree
-of each output and is improved by moves that are kept when the total falls: another alternative for a node; a node opened,
-with everything that profits from it switched to it; a node closed, with everything that used it switched away. The search
-is deterministic.
+of each output and is improved by moves that are kept when the total falls: another alternative for a node, with
+everything that profits from what it brings switched to it; a node closed, with everything that used it switched away. A
+seed changes where the search starts; from the same seed it always ends the same.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import random
 from collections.abc import Callable, Sequence
 
 from codegen.errors import InternalError
-from codegen.vectors.nodes import Alternative
+from codegen.ir.lower.alternatives import Alternative
 
 Choice = dict[int, int]
 """Node -> position of its alternative."""
@@ -23,6 +23,9 @@ Graph = Sequence[tuple[Alternative, ...]]
 """Alternatives of each node, by its number."""
 
 _LEAST_GAIN = 1e-9
+
+_REACH = 10.0
+"""How much dearer an alternative may look, before what it frees, to be tried beside others."""
 
 
 def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 8) -> Choice:
@@ -43,6 +46,11 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
         if search.total >= before - _LEAST_GAIN:
             break
     return {node: search.choice[node] for node in search.active()}
+
+
+def price(graph: Graph, choice: Choice) -> float:
+    """What a choice costs."""
+    return sum(graph[node][k].cost for node, k in choice.items())
 
 
 def _weights(graph: Graph, seed: int) -> list[list[float]]:
@@ -87,16 +95,10 @@ class _Search:
 
     def sweep(self) -> None:
         """Try every move once."""
-        for move in (self._others, self._open, self._close):
+        for move in (self._close, self._others):
             self._replan()
-            for node in self._nodes_for(move):
+            for node in self.active():
                 self._attempt(move, node)
-
-    def _nodes_for(self, move: Callable[[int], None]) -> list[int]:
-        if move != self._open:
-            return self.active()
-        near = {child for node in self._uses for alternative in self._graph[node] for child in alternative.children}
-        return sorted(node for node in near if node not in self._uses and node in self._plan)
 
     # --- moves
 
@@ -127,20 +129,12 @@ class _Search:
     def _exploit(self, node: int, spared: int) -> None:
         """Use a node wherever that is cheaper."""
         for user, k in self._users[node]:
-            if user in self._uses and user != spared and k != self.choice[user]:
+            if user in self._uses and user != spared and k != self.choice[user] and self._is_promising(user, k):
                 self._improve(user, [k])
-
-    def _open(self, node: int) -> None:
-        """Compute a node, and use it wherever that is cheaper."""
-        if node in self._uses:
-            return
-        self._use(node)
-        self._exploit(node, node)
-        self._release(node)
 
     def _close(self, node: int) -> None:
         """Switch everything that uses a node to its best alternative without it."""
-        for user, k in self._users[node]:
+        for user, k in self._users[node] if node in self._uses else ():
             if user in self._uses and self.choice[user] == k:
                 others = [
                     other
@@ -149,6 +143,11 @@ class _Search:
                 ]
                 if others:
                     self._switch(user, min(others, key=lambda other: self._estimate(self._graph[user][other])))
+
+    def _is_promising(self, node: int, k: int) -> bool:
+        """Whether an alternative takes little that is not there yet."""
+        new, old = self._graph[node][k], self._graph[node][self.choice[node]]
+        return self._is_planned(new) and self._estimate(new) <= old.cost + _REACH
 
     def _improve(self, node: int, options: Sequence[int]) -> None:
         """Switch a node to the best of some alternatives, if that lowers the total."""
@@ -249,7 +248,9 @@ class _Search:
                 left = missing.get(user, len(set(alternative.children))) - 1
                 missing[user] = left
                 if not left:
-                    estimate = alternative.cost * self._weights[user[0]][user[1]] + sum(price[child] for child in set(alternative.children))
+                    estimate = alternative.cost * self._weights[user[0]][user[1]] + sum(
+                        price[child] for child in set(alternative.children)
+                    )
                     heapq.heappush(queue, (estimate, *user))
         self._plan, self._price = plan, price
         if any(output not in plan for output in self._outputs):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from codegen.vectors.polynomial import ONE, ZERO, Polynomial, atom, total
+from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, atom, total
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +74,10 @@ class Vector:
         return Vector(result)
 
     def __neg__(self) -> Vector:
+        return self._negative
+
+    @cached_property
+    def _negative(self) -> Vector:
         return Vector({primitive: -coefficient for primitive, coefficient in self.terms})
 
     def __sub__(self, other: Vector) -> Vector:
@@ -214,9 +218,7 @@ class Space:
 
     def dot(self, left: Vector, right: Vector) -> Polynomial:
         """Scalar product."""
-        result = total(
-            a * b * self._dot(p, q) for p, a in left.terms for q, b in right.terms
-        )
+        result = total(a * b * self._dot(p, q) for p, a in left.terms for q, b in right.terms)
         self._remember(self.dot_hints, result, left, right)
         return result
 
@@ -315,7 +317,11 @@ class Space:
             if simple is not None:
                 return total(c * self._dot(p, z) for p, c in simple.terms)
         order = sorted((a, b, r))
-        even = (a, b, r) in ((order[0], order[1], order[2]), (order[1], order[2], order[0]), (order[2], order[0], order[1]))
+        even = (a, b, r) in (
+            (order[0], order[1], order[2]),
+            (order[1], order[2], order[0]),
+            (order[2], order[0], order[1]),
+        )
         triple = self.scalar("triple", *order)
         return triple if even else -triple
 

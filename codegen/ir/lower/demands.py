@@ -1,0 +1,126 @@
+"""What the outputs of a model demand of the vector level."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy
+
+from codegen.errors import InternalError
+from codegen.ir.lower.alternatives import Prices
+from codegen.ir.lower.frames import FrameTree, Matrix
+from codegen.ir.lower.layout import Layout
+from codegen.ir.lower.naming import Naming
+from codegen.ir.lower.outputs import Block, SymbolicOutput
+from codegen.ir.lower.places import Places
+from codegen.ir.lower.polynomial import Polynomial
+from codegen.ir.lower.read import Reader, Symbols, is_matrix, transposed_factor
+from codegen.ir.lower.space import Axis, Space, Vector
+
+Demand = tuple[int, int, str, Any]
+"""Row, column, how its entries lie (``scalar``, ``row``, ``column``, ``matrix``) and what `Layout` gave."""
+
+
+class Demands:
+    """Reads the outputs of one model in one set of frames, and says which nodes they take.
+
+    Args:
+        places: the frames.
+        inputs: symbol -> argument and offset of its first entry (column-major).
+        prices: of operations.
+
+    Attributes:
+        layout: the graph of the nodes.
+        naming: of its nodes.
+    """
+
+    def __init__(self, places: Places, inputs: Mapping[Any, tuple[str, int]], prices: Prices) -> None:
+        self._places = places
+        self._inputs = inputs
+        self._reader = Reader(
+            Space(self._relation),
+            Symbols(places.rotations, places.frames, places.stages, places.axes, places.whole),
+        )
+        self._tree_rotations: dict[tuple[str, str], Matrix] = {}
+        for symbol in places.given:
+            self._tree_rotations[places.rotations[symbol]] = self._matrix(symbol)
+        for symbol, frame in places.frames.items():
+            name, offset = inputs[symbol]
+            self._reader.given[frame, symbol.name] = tuple((name, offset + k) for k in range(3))
+        tree = FrameTree(self._tree_rotations, self._reader.given, places.bodies)
+        self.layout = Layout(self._reader.space, tree, self._reader.definitions, prices, places.axes)
+        names = {self._reader.vector(symbol): name for symbol, name in places.vector_names.items()}
+        self.naming = Naming(self._reader.space, places.axis_names, names)
+
+    def _matrix(self, symbol: Any) -> Matrix:
+        if symbol in self._places.explicit:
+            matrix = self._places.explicit[symbol]
+            return tuple(tuple(self._entry(symbol, matrix, i, k) for i in range(3)) for k in range(3))
+        name, offset = self._inputs[symbol]
+        return tuple(tuple((name, offset + i + 3 * k) for i in range(3)) for k in range(3))
+
+    def _entry(self, symbol: Any, matrix: Any, i: int, k: int) -> Polynomial:
+        """An entry of a written-out rotation; one that takes arithmetic has a name of its own."""
+        value = self._reader.scalar(matrix[i, k])
+        if len(value.terms) <= 1 and all(len(monomial) <= 1 for monomial, _ in value.terms):
+            return value
+        name = f"{symbol.name}_{i}{k}"
+        self._reader.definitions[name] = ("same", (value,))
+        return self._reader.space.scalar("stage", name)
+
+    def _relation(self, left: Axis, right: Axis) -> Polynomial | None:
+        """Entries of a written-out rotation are scalar products of axes."""
+        for symbol in self._places.explicit:
+            a, b = self._places.rotations[symbol]
+            for first, second in ((left, right), (right, left)):
+                if (first.frame, second.frame) == (a, b):
+                    entry = self._tree_rotations[a, b][second.k][first.k]
+                    return entry if isinstance(entry, Polynomial) else None
+        return None
+
+    # --- demands
+
+    def of(self, output: SymbolicOutput) -> list[Demand]:
+        """Read an output and say which nodes it takes."""
+        self._reader.raw = self._places.is_raw and output.name == "phi"
+        by_displacement = output.name in ("phi_q_t_lambda_q", "phi_q_t_lambda")
+        columns = dict(self._places.columns)
+        rows: Mapping[int, str] = columns if by_displacement else self._places.rows
+        return [demand for block in output.blocks for demand in self._demand(block, rows, columns, output.shape[1])]
+
+    def _demand(self, block: Block, rows: Mapping[int, str], columns: Mapping[int, str], width: int) -> list[Demand]:
+        expression, place = block.expression, (block.row, block.column)
+        if not is_matrix(expression):
+            value = self._reader.scalar(expression)
+            return [(*place, "scalar", self.layout.scalar(value))] if value else []
+        if expression.shape == (1, 3):
+            vector = self._reader.vector(_transposed(expression), columns[block.column])
+            return [(*place, "row", self.layout.vector(vector, columns[block.column]))] if vector else []
+        if expression.shape == (3, 1):
+            vector = self._reader.vector(expression, rows.get(block.row))
+            frame = rows.get(block.row) or self._reader.frame_of(expression)
+            if frame is None:
+                raise InternalError(f"in which frame is {expression}?")
+            place_vector = self._raw_vector if self._reader.raw else self.layout.vector
+            return [(*place, "column", place_vector(vector, frame))] if vector else []
+        row_frame = rows.get(block.row) or self._reader.frame_of(expression)
+        column_frame = columns[block.column] if width > 3 else self._reader.frame_of(_transposed(expression))
+        if row_frame is None or column_frame is None:
+            raise InternalError(f"between which frames is {expression}?")
+        dyadic = self._reader.map(expression, row_frame, column_frame)
+        return [(*place, "matrix", self.layout.block(dyadic, row_frame, column_frame))] if dyadic else []
+
+    def _raw_vector(self, vector: Vector, frame: str) -> tuple[int, int]:
+        outermost = self.layout.tree.frames[0]
+        return self.layout.pushed(vector, frame) if frame == outermost else self.layout.pulled(vector, frame)
+
+
+def _transposed(expression: Any) -> Any:
+    if isinstance(expression, sympy.Transpose):
+        return expression.arg
+    if isinstance(expression, sympy.MatMul):
+        return sympy.MatMul(*(transposed_factor(factor) for factor in reversed(expression.as_coeff_matrices()[1])))
+    if isinstance(expression, sympy.MatAdd):
+        return _transposed(expression.args[0])
+    return transposed_factor(expression)

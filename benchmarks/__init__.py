@@ -1,0 +1,1 @@
+"""Measurements of the generated routines against other programs; nothing here is installed."""

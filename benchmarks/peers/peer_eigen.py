@@ -1,0 +1,23 @@
+"""Hand-written C++ with Eigen: fixed-size matrices, one file a joint in ``eigen_routines``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from benchmarks.peers.eigen import eigen_include
+from benchmarks.peers.source import Source
+from benchmarks.peers.work import Work
+
+NAME = "eigen"
+PACKAGE = "cmeel-eigen"
+FORMS = ("by hand",)
+
+_FOLDER = Path(__file__).parent / "eigen_routines"
+
+
+def write(work: Work, form: str, symbol: str) -> Source:
+    """Give the routine; nothing is generated."""
+    del form
+    text = (_FOLDER / f"{work.joint}.cpp").read_text()
+    text = text.replace('#include "blocks.hpp"', (_FOLDER / "blocks.hpp").read_text().replace("#pragma once\n", ""))
+    return Source("c++", text.replace("ROUTINE(", f"{symbol}("), (str(eigen_include()),))

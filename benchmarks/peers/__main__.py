@@ -10,6 +10,7 @@ import platform
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -18,7 +19,7 @@ from benchmarks.peers.candidates import (
     HERE,
     PEERS,
     Candidate,
-    PeerUnusable,
+    UnusablePeerError,
     floor_candidate,
     generated_package,
     our_candidate,
@@ -36,8 +37,8 @@ Packages = dict[str, tuple[Ours, float | None]]
 """Label -> package of ours, seconds of its generation."""
 
 
-def _names(known: Sequence[str]) -> click.ParamType:
-    class Names(click.ParamType):
+def _names(known: Sequence[str]) -> Any:
+    class Names(click.ParamType):  # type: ignore[type-arg]
         name = ",".join(known[:2]) + ",..."
 
         def convert(
@@ -75,7 +76,7 @@ def _candidates(joint: str, packages: Packages, peers: Sequence[str], skipped: d
     for peer in peers:
         try:
             found += peer_candidates(peer, joint, first.folder, work)
-        except PeerUnusable as error:
+        except UnusablePeerError as error:
             if peer not in skipped:
                 _log(f"{peer} is left out: {error}")
             skipped[peer] = str(error)

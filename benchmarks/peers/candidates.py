@@ -57,7 +57,7 @@ class Candidate:
     seconds: float | None = None
 
 
-class PeerUnusable(Exception):
+class UnusablePeerError(Exception):
     """A peer cannot take part; the message says why."""
 
 
@@ -73,7 +73,7 @@ def peer_candidates(peer: str, joint: str, package: Path, work: Work) -> list[Ca
     """Generate the candidates of a peer, unless an earlier run left the same ones.
 
     Raises:
-        PeerUnusable: it is not installed, failed, or took too long.
+        UnusablePeerError: it is not installed, failed, or took too long.
     """
     folder = BUILD / "sources" / peer / joint
     key, stamp = _key(peer, work), folder / "key"
@@ -93,12 +93,12 @@ def _generate(peer: str, joint: str, package: Path, folder: Path) -> None:
     try:
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
     except subprocess.TimeoutExpired:
-        raise PeerUnusable(f"takes more than {TIME_LIMIT} s") from None
+        raise UnusablePeerError(f"takes more than {TIME_LIMIT} s") from None
     if done.returncode == UNUSABLE:
-        raise PeerUnusable(done.stdout.strip() or "cannot be imported")
+        raise UnusablePeerError(done.stdout.strip() or "cannot be imported")
     if done.returncode:
         said = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        raise PeerUnusable(f"fails: {said[-1]}")
+        raise UnusablePeerError(f"fails: {said[-1]}")
 
 
 def _key(peer: str, work: Work) -> str:

@@ -47,7 +47,7 @@ class Compiled:
     seconds: float
 
 
-class DoesNotCompile(Exception):
+class CompilationError(Exception):
     """The compiler refuses a candidate, or there is no compiler of its language."""
 
 
@@ -61,7 +61,7 @@ def compiled(candidate: Candidate, setting: Setting) -> Compiled:
     """Compile a candidate, or take the object of an earlier run.
 
     Raises:
-        DoesNotCompile: see there.
+        CompilationError: see there.
     """
     command = _command(candidate, setting)
     key = hashlib.sha256(" ".join(command).encode() + candidate.source.read_bytes())
@@ -82,7 +82,7 @@ def _command(candidate: Candidate, setting: Setting) -> list[str]:
     ending = candidate.source.suffix
     compiler = COMPILERS[setting.compiler][ending]
     if not shutil.which(compiler):
-        raise DoesNotCompile(f"there is no {compiler}")
+        raise CompilationError(f"there is no {compiler}")
     includes = [f"-I{folder}" for folder in candidate.includes]
     return [compiler, DIALECT[ending], *setting.flags, "-DNDEBUG", *includes, "-c", str(candidate.source)]
 
@@ -91,7 +91,7 @@ def _run(command: list[str]) -> str:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         lines = [line for line in done.stderr.splitlines() if "error" in line] or ["the compiler fails"]
-        raise DoesNotCompile(lines[0])
+        raise CompilationError(lines[0])
     return done.stdout
 
 
@@ -109,7 +109,7 @@ def operations(candidate: Candidate) -> dict[str, int] | None:
     is_eigen = candidate.name == "eigen"
     try:
         listed = _disassembly(candidate, _COUNTING_TEMPLATES if is_eigen else _COUNTING)
-    except DoesNotCompile:
+    except CompilationError:
         return None
     if "x86-64" not in listed:
         return None
@@ -135,12 +135,12 @@ def _count(symbol: str, bodies: dict[str, list[str]]) -> Counter[str]:
     called = ""
     for line in bodies[symbol]:
         words = line.split()
-        relocation = re.search(r"R_X86_64_PLT32\s+(\w+)", line)
+        relocation = re.search(r"R_X86_64_\w+\s+(?:\.text\.)?([\w.$]+)", line)
         if relocation and called:
             called = relocation[1]
         elif len(words) > 1:
             _add_call(total, called, bodies)
-            called = words[-1].strip("<>").split("+")[0] if words[1] == "call" else ""
+            called = words[-1].strip("<>") if words[1] == "call" else ""
             kind = _OPERATIONS.get(words[1].removeprefix("v"))
             total.update([kind] if kind else [])
     _add_call(total, called, bodies)

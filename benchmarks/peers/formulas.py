@@ -42,7 +42,7 @@ class Closed:
     geometry: Geometry
 
     @property
-    def A_ij(self) -> Matrix:  # noqa: N802
+    def A_ij(self) -> Matrix:
         """Body j to body i."""
         return product(transpose(self.pose.A_i), self.pose.A_j)
 
@@ -206,5 +206,3 @@ def _assembled(terms: list[Blocks]) -> Matrix:
                     place = dense[3 * m + row]
                     place[3 * n + column] = add(place[3 * n + column], block[row][column])
     return dense
-
-

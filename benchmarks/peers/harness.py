@@ -19,6 +19,9 @@ from benchmarks.peers.oracle import POSES, Truth
 from benchmarks.peers.work import Work
 
 Values = NDArray[np.float64]
+_BOUND = os.environ | {"LD_BIND_NOW": "1"}
+"""Calls of libm are resolved before the first one, which would otherwise be charged for it."""
+
 _ALIGNMENT = 8
 """Doubles: no wider than Eigen aligns its matrices."""
 
@@ -66,18 +69,29 @@ class Harness:
         return np.array([[float(x) for x in line.split()] for line in done.stdout.splitlines()])
 
     def instructions(self) -> list[float] | None:
-        """Instructions per call of each candidate with all that it calls, by callgrind; None where there is none."""
+        """Instructions per call of each candidate with all that it calls; None where they cannot be counted.
+
+        By callgrind, or by single steps where callgrind does not know the processor's instructions.
+        """
+        return self._instructions_by_callgrind() or self._instructions_by_steps()
+
+    def _instructions_by_callgrind(self) -> list[float] | None:
         if not shutil.which("valgrind"):
             return None
         report = self.program.with_suffix(".callgrind")
+        report.unlink(missing_ok=True)
         command = ["valgrind", "--tool=callgrind", "--compress-strings=no", "--compress-pos=no"]
         command += [f"--callgrind-out-file={report}", str(self.program), "count", str(self.poses)]
-        environment = os.environ | {"LD_BIND_NOW": "1"}
-        done = subprocess.run(command, capture_output=True, env=environment, check=False)
+        done = subprocess.run(command, capture_output=True, env=_BOUND, check=False)
         if done.returncode or not report.exists():
             return None
         costs = _inclusive(report.read_text())
         return [costs[c.candidate.symbol] / POSES for c in self.candidates]
+
+    def _instructions_by_steps(self) -> list[float] | None:
+        command = [str(self.program), "step", str(self.poses)]
+        done = subprocess.run(command, capture_output=True, text=True, env=_BOUND, check=False)
+        return None if done.returncode else [float(line) for line in done.stdout.split()]
 
 
 def _inclusive(report: str) -> dict[str, int]:

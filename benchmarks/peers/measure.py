@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.peers.candidates import Candidate
-from benchmarks.peers.compile import Compiled, DoesNotCompile, Setting, compiled, operations
+from benchmarks.peers.compile import CompilationError, Compiled, Setting, compiled, operations
 from benchmarks.peers.harness import build
 from benchmarks.peers.oracle import TOLERANCE, Truth
 from benchmarks.peers.work import Work
@@ -78,7 +78,7 @@ def _compiled(candidates: Sequence[Candidate], setting: Setting, log: Log) -> li
     for candidate in candidates:
         try:
             made.append(compiled(candidate, setting))
-        except DoesNotCompile as error:
+        except CompilationError as error:
             log(f"{candidate.name} ({candidate.form}) with {setting}: {error}")
     return made
 
@@ -98,11 +98,15 @@ def _timed(
     result = {}
     for c, error in zip(made, errors, strict=True):
         symbol = c.candidate.symbol
-        low, ns, high = np.percentile(samples[symbol], [25, 50, 75]) if symbol in samples else (None, None, None)
-        spread = None if ns is None else float(high - low)
-        median = None if ns is None else float(ns)
+        median, spread = _quartiles(samples[symbol]) if symbol in samples else (None, None)
         result[symbol] = Timing(error, c.seconds, median, spread, instructions.get(symbol))
     return result
+
+
+def _quartiles(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Median and interquartile range."""
+    low, median, high = (float(x) for x in np.percentile(values, [25, 50, 75]))
+    return median, high - low
 
 
 def _samples(work: Work, truth: Truth, right: list[Compiled], rounds: int) -> dict[str, NDArray[np.float64]]:

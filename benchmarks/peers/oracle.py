@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.peers.work import OUTPUTS, Work
-from tests.reference import derivatives, poses
+from tests.reference import constraints, derivatives, poses
 
 POSES = 32
 PRECISION = 128
@@ -85,9 +85,9 @@ def truth(joint: str) -> Truth:
 
 
 def _evaluate(joint: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
-    pose, geometry = derivatives.pose_of(inputs), derivatives.unpack_geometry(inputs["geometry"])
+    pose, geometry = derivatives.pose_of(inputs), constraints.unpack_geometry(inputs["geometry"])
     first, second = derivatives.tensors(joint, "conventional", None, pose, geometry)
-    values = derivatives.phi(joint, "conventional", None, pose, geometry)
+    values = constraints.phi(joint, "conventional", None, pose, geometry)
     weighted = np.tensordot(inputs["lambda"], second, axes=(0, 0)).T
     return dict(zip(OUTPUTS, (values[:, np.newaxis], first, weighted), strict=True))
 

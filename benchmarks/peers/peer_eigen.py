@@ -10,14 +10,16 @@ from benchmarks.peers.work import Work
 
 NAME = "eigen"
 PACKAGE = "cmeel-eigen"
-FORMS = ("by hand",)
+FORMS = ("by hand", "by hand scalar")
+"""With Eigen's explicit vectorisation, and with all of it left to the compiler."""
 
 _FOLDER = Path(__file__).parent / "eigen_routines"
 
 
 def write(work: Work, form: str, symbol: str) -> Source:
     """Give the routine; nothing is generated."""
-    del form
     text = (_FOLDER / f"{work.joint}.cpp").read_text()
     text = text.replace('#include "blocks.hpp"', (_FOLDER / "blocks.hpp").read_text().replace("#pragma once\n", ""))
+    if form == "by hand scalar":
+        text = f"#ifndef EIGEN_DONT_VECTORIZE\n#define EIGEN_DONT_VECTORIZE\n#endif\n{text}"
     return Source("c++", text.replace("ROUTINE(", f"{symbol}("), (str(eigen_include()),))

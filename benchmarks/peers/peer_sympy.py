@@ -52,7 +52,5 @@ def write(work: Work, form: str, symbol: str) -> Source:
     replacements, reduced = sympy.cse(expressions, symbols=temporaries)
     expand = create_expand_pow_optimization(4)
     statements = [f"const double {name} = {sympy.ccode(expand(value))};" for name, value in replacements]
-    statements += [
-        f"{target} = {sympy.ccode(expand(value))};" for target, value in zip(targets, reduced, strict=True)
-    ]
+    statements += [f"{target} = {sympy.ccode(expand(value))};" for target, value in zip(targets, reduced, strict=True)]
     return c_function(work, symbol, [integer_powers(statement) for statement in statements])

@@ -59,9 +59,9 @@ class _Mapped:
         self._inputs = [np.ascontiguousarray(np.tile(truth.inputs[name], (_COPIES, 1))) for name in names]
         self._outputs = [np.zeros(mapped.nnz_out(k)) for k in range(mapped.n_out())]
         for k, values in enumerate(self._inputs):
-            self._buffer.set_arg(k, memoryview(values.reshape(-1)))
+            self._buffer.set_arg(k, _memory(values.reshape(-1)))
         for k, values in enumerate(self._outputs):
-            self._buffer.set_res(k, memoryview(values))
+            self._buffer.set_res(k, _memory(values))
 
     def error(self, work: Work, truth: Truth) -> float:
         self.evaluate()
@@ -70,6 +70,10 @@ class _Mapped:
             name: values.reshape(POSES * _COPIES, -1)[:POSES] for name, values in zip(names, self._outputs, strict=True)
         }
         return truth.error(work, stored)
+
+
+def _memory(values: Any) -> memoryview:
+    return memoryview(values)
 
 
 def virtual_times(work: Work, truth: Truth, ours: Mapping[str, Path], rounds: int) -> list[VirtualTime]:

@@ -94,7 +94,13 @@ def read_package(folder: Path) -> Ours:
 
 
 def _is_the_work(record: dict[str, Any]) -> bool:
-    kept = {"form": "conventional", "variation": "body", "derivative": "exact", "output": "all", "storage": "nz"}
+    kept: dict[str, object] = {
+        "form": "conventional",
+        "variation": "body",
+        "derivative": "exact",
+        "output": "all",
+        "storage": "nz",
+    }
     kept |= {"real": "double", "outputs": list(OUTPUTS)}
     return all(record[key] == value for key, value in kept.items())
 

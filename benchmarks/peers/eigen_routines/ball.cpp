@@ -13,12 +13,12 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
     Block<3, 1>{phi} = joint.d_ij();
 
     RowBlock<3>(phi_q).setConstant(-1.0);
-    Block<3, 3>{phi_q + 3} = times_skew(joint.A_i, joint.s_i);
+    set_times_skew(joint.A_i, joint.s_i, Block<3, 3>(phi_q + 3));
     RowBlock<3>(phi_q + 12).setConstant(1.0);
-    Block<3, 3>{phi_q + 15} = -times_skew(joint.A_j, joint.s_j);
+    set_times_skew(joint.A_j, Vector3(-joint.s_j), Block<3, 3>(phi_q + 15));
 
     const Vector3 force_i = joint.A_i.transpose() * force;
     const Vector3 force_j = joint.A_j.transpose() * force;
-    Block<3, 3>{phi_q_t_lambda_q} = -skew_skew(joint.s_i, force_i);
-    Block<3, 3>{phi_q_t_lambda_q + 9} = skew_skew(joint.s_j, force_j);
+    set_less_diagonal(Block<3, 3>(phi_q_t_lambda_q), -outer(force_i, joint.s_i), -joint.s_i.dot(force_i));
+    set_less_diagonal(Block<3, 3>(phi_q_t_lambda_q + 9), outer(force_j, joint.s_j), joint.s_j.dot(force_j));
 }

@@ -35,7 +35,8 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
     const Vector3 w_h = lambda[0] * in_j.col(0) + lambda[1] * in_j.col(1);
     const Vector3 a_d = lambda[2] * joint.h_i();
     const Vector3 w_d = lambda[2] * in_j.col(2);
-    const Rotations blocks =
-        dot1_second(a_h, joint.h_j(), h, w_h, A_ij) + dot2_second(a_d, joint.s_j, e, u, w_d, A_ij);
-    store(blocks, times_skew(joint.A_i, a_d), phi_q_t_lambda_q);
+    const double along_h = a_h.dot(h), along_u = a_d.dot(u);
+    store(joint.A_i, a_d, outer(h, a_h) + outer(e, a_d), along_h + a_d.dot(e),
+          (along_h + along_u) * A_ij - outer(h, w_h) - outer(u, w_d), outer(w_h, joint.h_j()) + outer(w_d, joint.s_j),
+          along_h + along_u, phi_q_t_lambda_q);
 }

@@ -20,14 +20,13 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
 
     // theta = atan2(y, x); theta_q = (x y_q - y x_q) / (x^2 + y^2) is the row of n . f_j with n = (x g - y f) / (x^2 + y^2)
     const double x = joint.f_i().dot(f), y = joint.g_i().dot(f);
-    const double along = x / (x * x + y * y), across = y / (x * x + y * y);
+    const double inverse = 1.0 / (x * x + y * y), along = x * inverse, across = y * inverse;
     const Vector3 n = along * joint.g_i() - across * joint.f_i();
     const Vector3 n_in_j = along * in_j.col(1) - across * in_j.col(0);
     const Vector3 m = along * joint.f_i() + across * joint.g_i();
     const Vector3 m_in_j = along * in_j.col(0) + across * in_j.col(1);
-    Eigen::Matrix<double, 6, 1> theta_q, sigma;
-    theta_q << n.cross(f), joint.f_j().cross(n_in_j);
-    sigma << m.cross(f), joint.f_j().cross(m_in_j);
+    const Vector3 theta_i = n.cross(f), theta_j = joint.f_j().cross(n_in_j);
+    const Vector3 sigma_i = m.cross(f), sigma_j = joint.f_j().cross(m_in_j);
 
     phi[0] = joint.f_i().dot(d);
     phi[1] = joint.g_i().dot(d);
@@ -42,13 +41,13 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
     on_i.row(1) = joint.g_i().cross(e);
     on_i.row(2) = joint.f_i().cross(h);
     on_i.row(3) = joint.g_i().cross(h);
-    on_i.row(4) = joint.h_i().cross(e) - pitch * theta_q.head<3>();
+    on_i.row(4) = joint.h_i().cross(e) - pitch * theta_i;
     Block<3, 3>{phi_q + 24} = world;
     on_j.row(0) = joint.s_j.cross(in_j.col(0));
     on_j.row(1) = joint.s_j.cross(in_j.col(1));
     on_j.row(2) = joint.h_j().cross(in_j.col(0));
     on_j.row(3) = joint.h_j().cross(in_j.col(1));
-    on_j.row(4) = joint.s_j.cross(in_j.col(2)) - pitch * theta_q.tail<3>();
+    on_j.row(4) = joint.s_j.cross(in_j.col(2)) - pitch * theta_j;
 
     // d(theta_q^T)/dq = second derivative of n . f_j with n fixed, less theta_q sigma^T + sigma theta_q^T
     const double torque = -pitch * lambda[4];
@@ -58,12 +57,14 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
     const Vector3 w_h = lambda[2] * in_j.col(0) + lambda[3] * in_j.col(1);
     const Vector3 a_f = torque * n;
     const Vector3 w_f = torque * n_in_j;
-    Rotations blocks = dot1_second(a_h, joint.h_j(), h, w_h, A_ij) + dot1_second(a_f, joint.f_j(), f, w_f, A_ij) +
-                       dot2_second(a_d, joint.s_j, e, u, w_d, A_ij);
-    const Vector3 s_i = torque * sigma.head<3>(), s_j = torque * sigma.tail<3>();
-    const Vector3 t_i = theta_q.head<3>(), t_j = theta_q.tail<3>();
-    blocks.ii -= t_i * s_i.transpose() + s_i * t_i.transpose();
-    blocks.ij -= t_i * s_j.transpose() + s_i * t_j.transpose();
-    blocks.jj -= t_j * s_j.transpose() + s_j * t_j.transpose();
-    store(blocks, times_skew(joint.A_i, a_d), phi_q_t_lambda_q);
+    const Vector3 torque_i = torque * sigma_i, torque_j = torque * sigma_j;
+    const double along_h = a_h.dot(h), along_f = a_f.dot(f), along_u = a_d.dot(u);
+    store(joint.A_i, a_d,
+          outer(h, a_h) + outer(f, a_f) + outer(e, a_d) - outer(theta_i, torque_i) - outer(torque_i, theta_i),
+          along_h + along_f + a_d.dot(e),
+          (along_h + along_f + along_u) * A_ij - outer(h, w_h) - outer(f, w_f) - outer(u, w_d) - outer(theta_i, torque_j) -
+              outer(torque_i, theta_j),
+          outer(w_h, joint.h_j()) + outer(w_f, joint.f_j()) + outer(w_d, joint.s_j) - outer(theta_j, torque_j) -
+              outer(torque_j, theta_j),
+          along_h + along_f + along_u, phi_q_t_lambda_q);
 }

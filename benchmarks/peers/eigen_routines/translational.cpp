@@ -45,7 +45,9 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
     const Vector3 w_g = lambda[2] * f_in_j;
     const Vector3 a_d = lambda[3] * joint.f_i() + lambda[4] * joint.g_i();
     const Vector3 w_d = lambda[3] * f_in_j + lambda[4] * g_in_j;
-    const Rotations blocks = dot1_second(a_h, joint.h_j(), h, w_h, A_ij) + dot1_second(a_g, joint.g_j(), g, w_g, A_ij) +
-                             dot2_second(a_d, joint.s_j, e, u, w_d, A_ij);
-    store(blocks, times_skew(joint.A_i, a_d), phi_q_t_lambda_q);
+    const double along_h = a_h.dot(h), along_g = a_g.dot(g), along_u = a_d.dot(u);
+    store(joint.A_i, a_d, outer(h, a_h) + outer(g, a_g) + outer(e, a_d), along_h + along_g + a_d.dot(e),
+          (along_h + along_g + along_u) * A_ij - outer(h, w_h) - outer(g, w_g) - outer(u, w_d),
+          outer(w_h, joint.h_j()) + outer(w_g, joint.g_j()) + outer(w_d, joint.s_j), along_h + along_g + along_u,
+          phi_q_t_lambda_q);
 }

@@ -19,18 +19,17 @@ extern "C" void ROUTINE(const double *__restrict r_i, const double *__restrict A
 
     RowBlock<3>(phi_q).setConstant(-1.0);
     Block<4, 3> on_i(phi_q + 3), on_j(phi_q + 18);
-    on_i.topRows<3>() = times_skew(joint.A_i, joint.s_i);
+    set_times_skew(joint.A_i, joint.s_i, on_i.topRows<3>());
     on_i.row(3) = joint.h_i().cross(h);
     RowBlock<3>(phi_q + 15).setConstant(1.0);
-    on_j.topRows<3>() = -times_skew(joint.A_j, joint.s_j);
+    set_times_skew(joint.A_j, Vector3(-joint.s_j), on_j.topRows<3>());
     on_j.row(3) = joint.h_j().cross(h_in_j);
 
     const Vector3 a = lambda[3] * joint.h_i();
     const Vector3 w = lambda[3] * h_in_j;
     const Vector3 force_i = joint.A_i.transpose() * force;
     const Vector3 force_j = joint.A_j.transpose() * force;
-    Rotations blocks = dot1_second(a, joint.h_j(), h, w, A_ij);
-    blocks.ii -= skew_skew(joint.s_i, force_i);
-    blocks.jj += skew_skew(joint.s_j, force_j);
-    store(blocks, phi_q_t_lambda_q);
+    const double a_h = a.dot(h);
+    store(outer(h, a) - outer(force_i, joint.s_i), a_h - joint.s_i.dot(force_i), a_h * A_ij - outer(h, w),
+          outer(w, joint.h_j()) + outer(force_j, joint.s_j), a_h + joint.s_j.dot(force_j), phi_q_t_lambda_q);
 }

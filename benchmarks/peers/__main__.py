@@ -29,7 +29,7 @@ from benchmarks.peers.candidates import (
 )
 from benchmarks.peers.compile import FLAGS, Setting, settings
 from benchmarks.peers.constraint import JOINTS
-from benchmarks.peers.measure import measure
+from benchmarks.peers.measure import Measured, measure
 from benchmarks.peers.report import JointResult
 from benchmarks.peers.work import Ours, read_package
 
@@ -112,9 +112,19 @@ def _result(
     ours = next(iter(packages.values()))[0]
     work, truth = ours.work(joint), oracle.truth(joint)
     measured = measure(work, truth, candidates, chosen, rounds, instructions, _log)
+    _compare_counts(joint, packages, measured)
     functions = {label: package.casadi[joint] for label, (package, _) in packages.items() if joint in package.casadi}
     times = vm.virtual_times(work, truth, functions, max(1, rounds // 20)) if virtual else []
     return JointResult(joint, ours.operations(joint), measured, times)
+
+
+def _compare_counts(joint: str, packages: Packages, measured: Sequence[Measured]) -> None:
+    """Say where the object code of ours has other operations than its manifest tells."""
+    for each in measured:
+        if each.candidate.name in packages and each.operations:
+            told, found = packages[each.candidate.name][0].operations(joint), each.operations["total"]
+            if told != found:
+                _log(f"{joint}: the manifest of {each.candidate.name} tells {told} operations, its object code {found}")
 
 
 @click.command()
@@ -163,6 +173,8 @@ def main(
         candidates = _candidates(joint, packages, [peer for peer in peers if peer not in skipped], skipped)
         results.append(_result(joint, packages, candidates, chosen, rounds, instructions, virtual))
         _log(f"{joint} done")
+    if not results:
+        raise click.UsageError("nothing to measure; --outputs phi,phi_q,phi_q_t_lambda_q makes a package that fits")
     environment = _environment(chosen, peers, skipped)
     text = report.as_markdown(results, chosen, environment)
     click.echo(text)

@@ -62,7 +62,7 @@ def write(work: Work, form: str, symbol: str) -> Source:
     The caller is compiled with it and promises that no pointer is null, so that the compiler may drop CasADi's checks
     of every access.
     """
-    generator = casadi.CodeGenerator("work.c", {"with_header": False, "verbose": False})
+    generator = casadi.CodeGenerator(f"{symbol}_work.c", {"with_header": False, "verbose": False})
     generator.add(function(work, form, "work"))
     names = [*work.arguments, *work.patterns]
     inputs, results = ", ".join(work.arguments), ", ".join(work.patterns)

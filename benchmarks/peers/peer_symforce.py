@@ -66,8 +66,10 @@ def write(work: Work, form: str, symbol: str) -> Source:
     generated = codegen.Codegen(inputs=inputs, outputs=results, config=codegen.CppConfig(), name="work")
     with tempfile.TemporaryDirectory() as folder:
         generated.generate_function(output_dir=folder, skip_directory_nesting=True)
-        text = (Path(folder) / "work.h").read_text().replace("#pragma once", "")
+        text = (
+            (Path(folder) / "work.h").read_text().replace("#pragma once", "").replace("namespace sym {", "namespace {")
+        )
     views = [f"*reinterpret_cast<const Eigen::Matrix<double, {n}, 1> *>({name})" for name, n in work.arguments.items()]
     views += [f"reinterpret_cast<Eigen::Matrix<double, {n}, 1> *>({name})" for name, n in work.lengths.items()]
-    caller = f'extern "C" {signature(work, symbol, "__restrict")}\n{{\n    sym::Work<double>({", ".join(views)});\n}}\n'
+    caller = f'extern "C" {signature(work, symbol, "__restrict")}\n{{\n    Work<double>({", ".join(views)});\n}}\n'
     return Source("c++", f"{integer_powers(text)}\n{caller}", (str(eigen_include()),))

@@ -17,6 +17,7 @@ PACKAGE = "wrenfold"
 __all__ = ["FORMS", "NAME", "PACKAGE", "write"]
 
 _SPANS = """#include <cmath>
+namespace {
 namespace wf {
 template <typename T, int Rows> struct span {
     T *data;
@@ -70,4 +71,4 @@ def write(work: Work, form: str, symbol: str) -> Source:
     text = code_generation.CppGenerator().generate(code_generation.transpile(description))
     names = ", ".join([*work.arguments, *work.patterns])
     caller = f'extern "C" {signature(work, symbol, "__restrict")}\n{{\n    work<double>({names});\n}}\n'
-    return Source("c++", f"{_SPANS}\n{text}\n{caller}")
+    return Source("c++", f"{_SPANS}\n{text}\n}}\n{caller}")

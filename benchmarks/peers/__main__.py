@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import platform
+import shutil
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -29,6 +30,7 @@ from benchmarks.peers.candidates import (
 )
 from benchmarks.peers.compile import FLAGS, Setting, settings
 from benchmarks.peers.constraint import JOINTS
+from benchmarks.peers.harness import FOLDER
 from benchmarks.peers.measure import Measured, measure
 from benchmarks.peers.report import JointResult
 from benchmarks.peers.work import Ours, read_package
@@ -154,7 +156,7 @@ def main(
 ) -> None:
     """Lay our routines beside those of other code generators.
 
-    Prints the tables. A complete run (every joint and peer, a fresh package) writes them to benchmarks/peers too.
+    Prints the tables. A complete run (every joint and peer, none left out, a fresh package) writes them to benchmarks/peers too.
     """
     chosen = settings(flags)
     if not chosen:
@@ -175,10 +177,12 @@ def main(
         _log(f"{joint} done")
     if not results:
         raise click.UsageError("nothing to measure; --outputs phi,phi_q,phi_q_t_lambda_q makes a package that fits")
+    shutil.rmtree(FOLDER, ignore_errors=True)
     environment = _environment(chosen, peers, skipped)
     text = report.as_markdown(results, chosen, environment)
     click.echo(text)
-    complete = set(joints) == set(JOINTS) and set(peers) == set(PEERS) and not folders and set(flags) == set(FLAGS)
+    complete = (set(joints), set(peers), set(flags)) == (set(JOINTS), set(PEERS), set(FLAGS)) and not folders
+    complete = complete and not skipped
     target = output or (HERE if complete else None)
     if target:
         os.makedirs(target, exist_ok=True)

@@ -11,13 +11,12 @@ import json
 import re
 import shutil
 import subprocess
-import time
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.peers.candidates import BUILD, Candidate
+from benchmarks.peers.candidates import BUILD, Candidate, children_seconds
 
 DIALECT = {".c": "-std=gnu11", ".cpp": "-std=gnu++17"}
 COMPILERS = {"gcc": {".c": "gcc", ".cpp": "g++"}, "clang": {".c": "clang", ".cpp": "clang++"}}
@@ -37,10 +36,15 @@ class Setting:
     def __str__(self) -> str:
         return f"{self.compiler} {' '.join(self.flags)}"
 
+    @property
+    def short(self) -> str:
+        """For the head of a column."""
+        return str(self).replace("-march=", "").replace(" -", " ")
+
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """An object file and the seconds that its compilation took."""
+    """An object file and the processor seconds that its compilation took."""
 
     candidate: Candidate
     object: Path
@@ -72,9 +76,9 @@ def compiled(candidate: Candidate, setting: Setting) -> Compiled:
     record = place.with_suffix(".json")
     if not record.exists():
         place.parent.mkdir(parents=True, exist_ok=True)
-        start = time.perf_counter()
+        start = children_seconds()
         _run([*command, "-o", str(place)])
-        seconds = time.perf_counter() - start
+        seconds = children_seconds() - start
         _keep_symbol(place, candidate.symbol)
         record.write_text(json.dumps({"seconds": seconds}))
     return Compiled(candidate, place, json.loads(record.read_text())["seconds"])
@@ -106,7 +110,7 @@ def _run(command: list[str]) -> str:
 
 
 def operations(candidate: Candidate) -> dict[str, int] | None:
-    """Count additions, multiplications, divisions, roots and calls of libm; changes of sign are free.
+    """Count additions, multiplications, divisions, roots and calls of libm; changes of sign are free, fma is two.
 
     Read off the object code without optimisation, so that it is what the text says. Templates of Eigen mean nothing
     before they are inlined: there it is the optimised code, scalar and without fused operations.
@@ -160,6 +164,8 @@ def _count(symbol: str, bodies: dict[str, list[str]]) -> Counter[str]:
 def _add_call(total: Counter[str], called: str, bodies: dict[str, list[str]]) -> None:
     if called in bodies:
         total.update(_count(called, bodies))
+    elif called == "fma":
+        total.update(["add", "mul"])
     elif called in ("atan2", "sin", "cos", "sqrt", "sincos", "pow"):
         total[called] += 1
 

@@ -32,13 +32,13 @@ def main(peer: str, joint: str, package: str, folder: str) -> int:
     work = read_package(Path(package)).work(joint)
     for form in module.FORMS:
         symbol = symbol_of(peer, form, joint)
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             source = module.write(work, form, symbol)
         except ModuleNotFoundError as error:
             print(error)
             return UNUSABLE
-        seconds = time.perf_counter() - start
+        seconds = time.process_time() - start
         path = Path(folder) / f"{symbol}{source.ending}"
         path.write_text(source.text)
         record = {"form": form, "symbol": symbol, "file": path.name, "includes": source.includes, "seconds": seconds}

@@ -19,6 +19,9 @@ from benchmarks.peers.oracle import POSES, Truth
 from benchmarks.peers.work import Work
 
 Values = NDArray[np.float64]
+FOLDER = BUILD / "harness" / str(os.getpid())
+"""Of this process; two runs do not meet."""
+
 _BOUND = os.environ | {"LD_BIND_NOW": "1"}
 """Calls of libm are resolved before the first one, which would otherwise be charged for it."""
 
@@ -106,7 +109,7 @@ def _inclusive(report: str) -> dict[str, int]:
 
 def build(work: Work, candidates: Sequence[Compiled], truth: Truth, name: str) -> Harness:
     """Link a harness of compiled candidates, in their order."""
-    folder = BUILD / "harness" / name
+    folder = FOLDER / name
     folder.mkdir(parents=True, exist_ok=True)
     places, stride = _places(list(work.arguments.values()), _ALIGNMENT)
     inputs = np.zeros((POSES, stride))

@@ -27,7 +27,7 @@ class Timing:
 
     Attributes:
         error: largest error, relative to the scale of the block.
-        compile_seconds: of its translation unit.
+        compile_seconds: of the processor, for its translation unit.
         ns: median time per call; None if the candidate is wrong.
         spread: interquartile range, ns.
         instructions: executed per call; None where it is wrong or there is no valgrind.

@@ -180,12 +180,13 @@ def _detail(result: JointResult, settings: Sequence[Setting]) -> list[str]:
         row += [_number(best.candidate.seconds, 2)]
         for setting in settings:
             each = best.timings.get(str(setting))
-            row += [_number(each.compile_seconds if each else None, 2), _time(best, setting)]
-            row += [_number(each.instructions if each else None, 0)]
+            row += [_time(best, setting), _number(each.instructions if each else None, 0)]
+        row += [_number(t.compile_seconds if t else None, 2) for t in (best.timings.get(str(s)) for s in settings)]
         rows.append(row)
     heads = ["candidate", "form", "error", "operations", "generation, s"]
     for setting in settings:
-        heads += [f"{setting}: compile, s", "ns", "instructions"]
+        heads += [f"{setting.short}: ns", "instructions"]
+    heads += [f"compile, s: {setting.short}" for setting in settings]
     return _table(heads, rows)
 
 

@@ -57,7 +57,8 @@ def main(python: str, lock: str) -> int:
             single.write_text(lines)
             done = install(python, single, "--no-deps")
             if done.returncode:
-                said = (done.stderr.strip().splitlines() or ["pip fails"])[-1]
+                errors = [line for line in done.stderr.splitlines() if line.startswith("ERROR")]
+                said = (errors or ["pip fails"])[-1]
                 print(f"{name} is not installed: {said}", file=sys.stderr)
                 failed |= name not in OPTIONAL
     return failed

@@ -156,7 +156,8 @@ def main(
 ) -> None:
     """Lay our routines beside those of other code generators.
 
-    Prints the tables. A complete run (every joint and peer, none left out, a fresh package) writes them to benchmarks/peers too.
+    Prints the tables. A complete run (every joint and peer, none left out, a fresh package) writes them to
+    benchmarks/peers too.
     """
     chosen = settings(flags)
     if not chosen:

@@ -128,7 +128,7 @@ def operations(candidate: Candidate) -> dict[str, int] | None:
     if "x86-64" not in listed:
         return None
     bodies = _functions(listed)
-    if is_eigen and any(_jumps_back(line) for line in bodies.get(candidate.symbol, [])):
+    if is_eigen and any(_jumps_back(line) for body in bodies.values() for line in body):
         return None
     total = _count(candidate.symbol, bodies)
     return dict(sorted(total.items())) | {"total": sum(total.values())}

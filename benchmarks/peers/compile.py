@@ -23,7 +23,10 @@ COMPILERS = {"gcc": {".c": "gcc", ".cpp": "g++"}, "clang": {".c": "clang", ".cpp
 FLAGS = {"O3-native": ("-O3", "-march=native"), "O2": ("-O2",)}
 _OPERATIONS = {"addsd": "add", "subsd": "add", "mulsd": "mul", "divsd": "div", "sqrtsd": "sqrt"}
 _COUNTING = ("-O0", "-ffp-contract=off")
-_COUNTING_TEMPLATES = ("-O2", "-ffp-contract=off", "-fno-tree-vectorize", "-DEIGEN_DONT_VECTORIZE")
+_COUNTING_TEMPLATES = (
+    *("-O2", "-ffp-contract=off", "-fno-tree-vectorize"),
+    *("-DEIGEN_DONT_VECTORIZE", "-DEIGEN_UNROLLING_LIMIT=1000", "-DINLINED=__attribute__((flatten))"),
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,12 +8,18 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from benchmarks.peers import symbolic
 from benchmarks.peers.compile import Setting
 from benchmarks.peers.measure import Measured
 from benchmarks.peers.vm import VirtualTime
 
-OURS = "ours"
 FLOOR = "floor"
+AMONG = {
+    "ratio": (),
+    "to generators": symbolic.FORMS,
+    "fed phi or formulas": ("phi", "formulas"),
+}
+"""Heading -> forms of the peers that ours is compared with; none means all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,15 +60,9 @@ class JointResult:
         """Labels of our packages."""
         return list(dict.fromkeys(m.candidate.name for m in self.measured if m.candidate.form == "jointgen"))
 
-    def ratio(self, label: str, setting: Setting, published: bool = False) -> float | None:
-        """Time of ours over that of the fastest peer.
-
-        Args:
-            label: of our package.
-            setting: compiler and flags.
-            published: only peers fed with the constraint or with the paper's formulas as printed, and by hand.
-        """
-        peers = [m for m in self.peers() if not (published and m.candidate.form == "lambda first")]
+    def ratio(self, label: str, setting: Setting, forms: Sequence[str] = ()) -> float | None:
+        """Time of ours over that of the fastest peer, among all or among those fed in some forms."""
+        peers = [m for m in self.peers() if not forms or m.candidate.form in forms]
         ours, peer = self.best(self.named(label), setting), self.best(peers, setting)
         if ours is None or peer is None:
             return None
@@ -88,12 +88,11 @@ def as_json(results: Sequence[JointResult], settings: Sequence[Setting], environ
         "settings": [str(setting) for setting in settings],
         "joints": {result.joint: _record(result, settings) for result in results},
         "geometric_mean": {
-            label: {str(s): geometric_mean([r.ratio(label, s) for r in results]) for s in settings}
-            for label in _labels(results)
-        },
-        "geometric_mean_published": {
-            label: {str(s): geometric_mean([r.ratio(label, s, True) for r in results]) for s in settings}
-            for label in _labels(results)
+            among: {
+                label: {str(s): geometric_mean([r.ratio(label, s, forms) for r in results]) for s in settings}
+                for label in _labels(results)
+            }
+            for among, forms in AMONG.items()
         },
     }
     return json.dumps(document, indent=1) + "\n"
@@ -111,8 +110,10 @@ def _record(result: JointResult, settings: Sequence[Setting]) -> dict[str, Any]:
         for m in result.measured
     ]
     return {
-        "ratio": {label: {str(s): result.ratio(label, s) for s in settings} for label in result.ours()},
-        "ratio_published": {label: {str(s): result.ratio(label, s, True) for s in settings} for label in result.ours()},
+        "ratio": {
+            among: {label: {str(s): result.ratio(label, s, forms) for s in settings} for label in result.ours()}
+            for among, forms in AMONG.items()
+        },
         "manifest_operations": result.counted,
         "candidates": candidates,
         "virtual_machine": [asdict(v) for v in result.virtual],
@@ -150,13 +151,11 @@ def _summary(results: Sequence[JointResult], label: str, setting: Setting) -> li
                 f"{peer.candidate.name}, {peer.candidate.form}" if peer else "-",
                 _total(peer),
                 _time(floor, setting),
-                _number(result.ratio(label, setting), 2),
-                _number(result.ratio(label, setting, published=True), 2),
+                *(_number(result.ratio(label, setting, forms), 2) for forms in AMONG.values()),
             ]
         )
-    mean = geometric_mean([result.ratio(label, setting) for result in results])
-    published = geometric_mean([result.ratio(label, setting, published=True) for result in results])
-    rows.append(["geometric mean", *[""] * 6, _number(mean, 2), _number(published, 2)])
+    means = [geometric_mean([result.ratio(label, setting, forms) for result in results]) for forms in AMONG.values()]
+    rows.append(["geometric mean", *[""] * 6, *(_number(mean, 2) for mean in means)])
     heads = [
         "joint",
         f"{label}, ns",
@@ -165,8 +164,7 @@ def _summary(results: Sequence[JointResult], label: str, setting: Setting) -> li
         "which",
         "its operations",
         "floor, ns",
-        "ratio",
-        "without lambda first",
+        *AMONG,
     ]
     return _table(heads, rows)
 

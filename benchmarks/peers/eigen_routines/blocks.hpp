@@ -3,6 +3,12 @@
 // the axes of body i, likewise j; A_ij = A_i^T A_j.
 #pragma once
 
+// INLINED and EIGEN_UNROLLING_LIMIT: Eigen's default leaves loops in sums of a few outer products, and the compilers
+// then do not inline them. The routines are compiled as they are, and with both remedies.
+#ifndef INLINED
+#define INLINED
+#endif
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -4,9 +4,9 @@
 using namespace peers;
 
 extern "C" INLINED void ROUTINE(const double *__restrict r_i, const double *__restrict A_i, const double *__restrict r_j,
-                                  const double *__restrict A_j, const double *__restrict geometry,
-                                  const double *__restrict lambda, double *__restrict phi, double *__restrict phi_q,
-                                  double *__restrict phi_q_t_lambda_q)
+                                const double *__restrict A_j, const double *__restrict geometry,
+                                const double *__restrict lambda, double *__restrict phi, double *__restrict phi_q,
+                                double *__restrict phi_q_t_lambda_q)
 {
     const Joint joint(r_i, A_i, r_j, A_j, geometry);
     const double pitch = geometry[24], initial = geometry[25], revolutions = geometry[26];

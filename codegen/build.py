@@ -53,7 +53,7 @@ LIBRARY = Options()
 PRICES = Prices()
 """What the search minimises: the number of operations."""
 
-STARTS = range(2)
+STARTS = range(1)
 """Seeds from which the search starts for every routine."""
 
 Progress = Callable[[str], None]

@@ -22,7 +22,7 @@ unexport PYTHONHOME PYTHONPATH
 .NOTPARALLEL:
 .SUFFIXES:
 .PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
-.PHONY: all setup generate flops check lint types imports test current bench-peers lock clean help
+.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import heapq
 import math
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Alternative
@@ -40,6 +40,7 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
     Args:
         graph: alternatives of every node.
         outputs: nodes that must be computed.
+        seed: changes where the search starts; 0 starts from the prices as they are.
         sweeps: how often all moves are tried at most.
 
     Returns:
@@ -54,6 +55,25 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
         if idle == _PATIENCE:
             break
     return dict(sorted(search.choice.items()))
+
+
+def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: int = 2) -> list[Choice]:
+    """Search from several starts.
+
+    Args:
+        graph: alternatives of every node.
+        outputs: nodes that must be computed.
+        seeds: of the starts.
+        best: how many of the choices are given at most.
+
+    Returns:
+        The cheapest of the choices found, each once, the cheapest first.
+    """
+    ends: dict[tuple[tuple[int, int], ...], Choice] = {}
+    for seed in seeds:
+        choice = cheapest(graph, outputs, seed)
+        ends.setdefault(tuple(choice.items()), choice)
+    return sorted(ends.values(), key=lambda choice: price(graph, choice))[:best]
 
 
 def price(graph: Graph, choice: Choice) -> float:

@@ -22,7 +22,7 @@ unexport PYTHONHOME PYTHONPATH
 .NOTPARALLEL:
 .SUFFIXES:
 .PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
-.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers lock clean help
+.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -51,6 +51,9 @@ test: $(STAMP) ## pytest on two cores; make test ARGS='-k lower'
 
 current: $(STAMP) ## fail if generated/ is not what would be generated now
 	$(BIN)/jointgen generate --check
+
+search: $(STAMP) ## search long for the cheapest routines, put what is found on record; then make generate
+	$(BIN)/python -m benchmarks.search $(ARGS)
 
 bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results.md and .json
 	$(BIN)/python -m benchmarks.batch $(ARGS)

@@ -53,7 +53,7 @@ class Naming:
             return f"{name}_{_place(frame)}", f"{self._plain(primitive or 0)}, {_axes_of(frame)}", 0
         if vector not in self._vectors:
             self._vectors[vector] = self._next("v")
-        definition = self.vector(vector)
+        definition = self._sum(vector)
         return f"{self._vectors[vector]}_{_place(frame)}", _short(f"{definition}, {_axes_of(frame)}"), 0
 
     def _rotation(self, axis: Axis, frame: str) -> tuple[str, str, int]:
@@ -100,8 +100,10 @@ class Naming:
 
     def vector(self, vector: Vector) -> str:
         """A vector in the notation of the papers."""
-        if vector in self._vectors and not self._vectors[vector].startswith("v_"):
-            return self._vectors[vector]
+        name = self._vectors.get(vector, "v_")
+        return self._sum(vector) if name.startswith("v_") else name
+
+    def _sum(self, vector: Vector) -> str:
         words = []
         for primitive, coefficient in vector.terms:
             factor = self.scalar(coefficient)

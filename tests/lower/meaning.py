@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -67,7 +68,7 @@ class Meaning:
         if frame not in self._turns:
             path = self._tree.path(frame, self._tree.frames[0])
             matrix = np.eye(3, dtype=object)
-            for inner, outer in zip(path, path[1:], strict=False):
+            for inner, outer in pairwise(path):
                 columns = self._tree.matrix(outer, inner)
                 assert columns is not None
                 step = np.array([[self._component(entry) for entry in column] for column in columns], dtype=object).T

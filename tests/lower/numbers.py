@@ -1,7 +1,7 @@
-"""Exact numbers for the vector level: rational rotations, rational inputs, and stand-ins for the functions of an angle.
+"""Exact numbers for the vector level: rational rotations and inputs, and stand-ins for the functions of an angle.
 
-Sine and cosine are a rational point of the unit circle, so that ``s^2 + c^2 = 1`` holds exactly; the arc tangent is some
-rational function, the same wherever its arguments are. No addition theorem holds, and none is used.
+Sine and cosine are a rational point of the unit circle, so that ``s^2 + c^2 = 1`` holds exactly; the arc tangent is
+some rational function, the same wherever its arguments are. No addition theorem holds, and none is used.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ LIBRARY = Options()
 PRICES = Prices()
 """What the search minimises: the number of operations."""
 
-STARTS = range(4)
+STARTS = range(2)
 """Seeds from which the search starts for every routine."""
 
 Progress = Callable[[str], None]

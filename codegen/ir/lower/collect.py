@@ -66,8 +66,8 @@ def _joined(products: Iterable[Product]) -> list[Product]:
 
 
 def common_coefficient(vector: Vector) -> tuple[Polynomial, Vector]:
-    """Take out a coefficient that all terms have up to sign; 1 where they differ."""
+    """Take out a coefficient that all terms have up to sign; where they differ, the sign of the first."""
     first = vector.terms[0][1]
     if all(c in (first, -first) for _, c in vector.terms):
         return first, Vector({p: ONE if c == first else -ONE for p, c in vector.terms})
-    return ONE, vector
+    return (ONE, vector) if vector.sign > 0 else (-ONE, -vector)

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
@@ -45,7 +45,7 @@ class Layout:
         self.prices = prices
         self.axes = axes
         self.nodes: list[Node] = []
-        self.sums: list[Vector] = []
+        self.sums: dict[Vector, None] = {}
         self.products: list[tuple[int, ...]] = []
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}
@@ -58,6 +58,8 @@ class Layout:
     def vector(self, vector: Vector, frame: str) -> Signed:
         """A vector in a frame."""
         sign = vector.sign or 1
+        if len(vector.terms) > 1:
+            self.sums.setdefault(vector if sign > 0 else -vector)
         return sign, self._number(("vector", vector if sign > 0 else -vector, frame))
 
     def axes_between(self, start: str, end: str, by: str) -> tuple[int, ...]:
@@ -133,18 +135,40 @@ class Layout:
         return known
 
     def lay_out(self) -> list[tuple[Alternative, ...]]:
-        """Give the alternatives of every node that the demands may need."""
-        for everything in (False, True):
-            position = 0
-            while position < len(self.nodes):
-                node = self.nodes[position]
-                if node.alternatives is None and (everything or self._is_raw(node.key)):
-                    node.alternatives = self._alternatives(node.key)
-                position += 1
+        """Give the alternatives of every node that the demands may need.
+
+        Vectors with raw matrices are laid out first, so that others find them; what can be written with known sums,
+        products or blocks is laid out once more when all of these are known.
+        """
+        self._extend(self._is_raw)
+        self._extend(lambda key: True)
+        for node in self.nodes:
+            if self._is_composite(node.key):
+                node.alternatives = None
+        self._extend(lambda key: True)
         return [node.alternatives or () for node in self.nodes]
 
+    def _extend(self, includes: Callable[[Key], bool]) -> None:
+        position = 0
+        while position < len(self.nodes):
+            node = self.nodes[position]
+            if node.alternatives is None and includes(node.key):
+                node.alternatives = self._alternatives(node.key)
+            position += 1
+
+    def _is_composite(self, key: Key) -> bool:
+        """Whether a node may be written with others of its kind."""
+        match key[0]:
+            case "vector" | "pushed" | "pulled":
+                return len(key[1].terms) > 1
+            case "scalar":
+                return key[1] in self.traces or -key[1] in self.traces or key[1].content in self.products
+            case "pairs" | "block":
+                return True
+        return False
+
     def _is_raw(self, key: Key) -> bool:
-        """Whether a node leads to vectors turned with raw matrices; these are laid out first, so that others find them."""
+        """Whether a node leads to vectors turned with raw matrices."""
         if key[0] != "scalar":
             return key[0] in ("pushed", "pulled")
         return any(self.space.atoms[a].kind in ("raw", "stage") for monomial, _ in key[1].terms for a in monomial)

@@ -24,11 +24,14 @@ Graph = Sequence[tuple[Alternative, ...]]
 
 _LEAST_GAIN = 1e-9
 
+_PATIENCE = 2
+"""Sweeps without a gain after which the search ends."""
+
 _REACH = 10.0
 """How much dearer an alternative may look, before what it frees, to be tried beside others."""
 
 
-def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 8) -> Choice:
+def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 12) -> Choice:
     """Search the cheapest acyclic choice for the outputs.
 
     Args:
@@ -40,10 +43,12 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
         The choice of every node that the outputs need.
     """
     search = _Search(graph, outputs, seed)
+    idle = 0
     for _ in range(sweeps):
         before = search.total
         search.sweep()
-        if search.total >= before - _LEAST_GAIN:
+        idle = idle + 1 if search.total > before - _LEAST_GAIN else 0
+        if idle == _PATIENCE:
             break
     return {node: search.choice[node] for node in search.active()}
 
@@ -53,31 +58,34 @@ def price(graph: Graph, choice: Choice) -> float:
     return sum(graph[node][k].cost for node, k in choice.items())
 
 
-def _weights(graph: Graph, seed: int) -> list[list[float]]:
-    """Factors on the prices of a start: alternatives of one family are cheap or dear together."""
+def _weighted(graph: Graph, seed: int) -> list[list[float]]:
+    """Prices for a start: alternatives of one family are cheap or dear together."""
     noise = random.Random(seed)
     families: dict[str, float] = {}
-    weights = []
+    weighted: list[list[float]] = []
     for alternatives in graph:
-        weights.append([])
+        weighted.append([])
         for alternative in alternatives:
             family = alternative.family or alternative.kind
             if family not in families:
                 families[family] = math.exp(noise.uniform(-1.2, 1.2)) if seed else 1.0
-            weights[-1].append(families[family] * (1.0 + 0.3 * noise.random() * (seed > 0)))
-    return weights
+            weighted[-1].append(alternative.cost * families[family] * (1.0 + 0.3 * noise.random() * (seed > 0)))
+    return weighted
 
 
 class _Search:
     """A choice under improvement, with counts of how often each node is used."""
 
     def __init__(self, graph: Graph, outputs: Sequence[int], seed: int) -> None:
-        self._weights = _weights(graph, seed)
+        self._weighted = _weighted(graph, seed)
         self.choice: Choice = {}
         self.total = 0.0
         self._graph = graph
         self._outputs = list(outputs)
+        self._sideways: set[tuple[int, int]] = set()
         self._uses: dict[int, int] = {}
+        self._sizes = [[len(set(alternative.children)) for alternative in alternatives] for alternatives in graph]
+        self._leaves = [(node, k) for node, sizes in enumerate(self._sizes) for k, size in enumerate(sizes) if not size]
         self._users: list[list[tuple[int, int]]] = [[] for _ in graph]
         for node, alternatives in enumerate(graph):
             for k, alternative in enumerate(alternatives):
@@ -87,7 +95,7 @@ class _Search:
             if position % 4 == 0:
                 self._replan()
             self._use(output)
-        self._weights = [[1.0] * len(alternatives) for alternatives in graph]
+        self._weighted = [[alternative.cost for alternative in alternatives] for alternatives in graph]
 
     def active(self) -> list[int]:
         """The nodes in use, in ascending order."""
@@ -103,14 +111,17 @@ class _Search:
     # --- moves
 
     def _attempt(self, move: Callable[[int], None], node: int) -> None:
-        """Make a move, and take it back unless the total falls and nothing depends on itself."""
+        """Make a move, and take it back if the total rises or something depends on itself."""
         saved = dict(self.choice), dict(self._uses), self.total
         move(node)
-        if self.total > saved[2] - _LEAST_GAIN or not self._is_acyclic(self._outputs):
+        if self.total > saved[2] + _LEAST_GAIN or not self._is_acyclic(self._outputs):
             self.choice, self._uses, self.total = saved
 
     def _others(self, node: int) -> None:
-        """Take another alternative of a node, and use what it brings wherever that is cheaper."""
+        """Take another alternative of a node, and use what it brings wherever that is cheaper.
+
+        One that leaves the total as it is is taken too, but never twice: it may open the way for others.
+        """
         if node not in self._uses:
             return
         start = best = dict(self.choice), dict(self._uses), self.total
@@ -121,7 +132,10 @@ class _Search:
             new = [child for child in self._uses if child not in start[1]]
             for child in new:
                 self._exploit(child, node)
-            if self.total < best[2] - _LEAST_GAIN and self._is_acyclic(self._outputs):
+            limit = best[2] + (_LEAST_GAIN if best is start and (node, k) not in self._sideways else -_LEAST_GAIN)
+            if self.total < limit and self._is_acyclic(self._outputs):
+                if self.total > start[2] - _LEAST_GAIN:
+                    self._sideways.add((node, k))
                 best = dict(self.choice), dict(self._uses), self.total
             self.choice, self._uses, self.total = dict(start[0]), dict(start[1]), start[2]
         self.choice, self._uses, self.total = best
@@ -218,40 +232,33 @@ class _Search:
     # --- plans: the cheapest tree of every node, nodes in use being free
 
     def _is_planned(self, alternative: Alternative) -> bool:
-        return all(child in self._plan for child in alternative.children)
+        plan = self._plan
+        return all([child in plan for child in alternative.children])
 
     def _estimate(self, alternative: Alternative) -> float:
-        return alternative.cost + sum(self._price[child] for child in alternative.children if child not in self._uses)
+        uses, prices = self._uses, self._price
+        return alternative.cost + sum([prices[child] for child in alternative.children if child not in uses])
 
     def _replan(self) -> None:
         """Knuth's generalisation of Dijkstra's algorithm over the whole graph."""
         price: dict[int, float] = {}
         plan: Choice = {}
-        missing: dict[tuple[int, int], int] = {}
-        queue: list[tuple[float, int, int]] = []
-        for node, alternatives in enumerate(self._graph):
-            if node in self._uses:
-                heapq.heappush(queue, (0.0, node, self.choice[node]))
-                continue
-            for k, alternative in enumerate(alternatives):
-                if not alternative.children:
-                    heapq.heappush(queue, (alternative.cost * self._weights[node][k], node, k))
+        missing = [list(counts) for counts in self._sizes]
+        sums = [list(costs) for costs in self._weighted]
+        queue = [(0.0, node, self.choice[node]) for node in self._uses]
+        queue += [(sums[node][k], node, k) for node, k in self._leaves if node not in self._uses]
+        heapq.heapify(queue)
         while queue:
             cost, node, k = heapq.heappop(queue)
             if node in price:
                 continue
             price[node], plan[node] = cost, k
-            for user in self._users[node]:
-                if user[0] in price:
-                    continue
-                alternative = self._graph[user[0]][user[1]]
-                left = missing.get(user, len(set(alternative.children))) - 1
-                missing[user] = left
-                if not left:
-                    estimate = alternative.cost * self._weights[user[0]][user[1]] + sum(
-                        price[child] for child in set(alternative.children)
-                    )
-                    heapq.heappush(queue, (estimate, *user))
+            for user, number in self._users[node]:
+                left = missing[user][number] - 1
+                missing[user][number] = left
+                sums[user][number] += cost
+                if not left and user not in price:
+                    heapq.heappush(queue, (sums[user][number], user, number))
         self._plan, self._price = plan, price
         if any(output not in plan for output in self._outputs):
             raise InternalError("an output cannot be computed from the inputs")

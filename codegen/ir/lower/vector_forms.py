@@ -16,6 +16,9 @@ from codegen.ir.lower.space import Axis, Cross, Given, Named, Vector
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout, Signed
 
+_KNOWN = 60
+"""How many sums are looked through for one that is part of another."""
+
 Parts = list[tuple[Polynomial, Vector]]
 """Coefficient and vector of each part of a sum."""
 
@@ -29,8 +32,6 @@ def alternatives(layout: Layout, vector: Vector, frame: str) -> tuple[Alternativ
         if known is not None:
             return (read(layout, known),)
     found: list[Alternative] = []
-    if len(vector.terms) > 1 and vector not in layout.sums:
-        layout.sums.append(vector)
     if isinstance(description, Axis):
         found += _by_other_axes(layout, description, frame)
     found += _raw(layout, vector, frame)
@@ -173,8 +174,8 @@ def partitions(layout: Layout, vector: Vector) -> list[Parts]:
         _by_content(vector),
         _by_product(layout, vector),
     ]
-    for known in layout.sums[:40]:
-        part = _with_known(vector, known)
+    for known in list(layout.sums)[:_KNOWN]:
+        part = _with_known(layout, vector, known)
         if part:
             found.append(part)
     return [
@@ -229,7 +230,7 @@ def _by_product(layout: Layout, vector: Vector) -> Parts:
     return [*parts, (ONE, plain)] if plain else parts
 
 
-def _with_known(vector: Vector, known: Vector) -> Parts:
+def _with_known(layout: Layout, vector: Vector, known: Vector) -> Parts:
     """Write a vector with a known sum inside it, up to sign."""
     if known in (vector, -vector) or len(known.terms) >= len(vector.terms):
         return []
@@ -237,5 +238,6 @@ def _with_known(vector: Vector, known: Vector) -> Parts:
     for part, sign in ((known, ONE), (-known, -ONE)):
         if all(terms.get(p) == coefficient for p, coefficient in part.terms):
             rest = Vector({p: c for p, c in terms.items() if p not in dict(part.terms)})
-            return [(sign, known), (ONE, rest)]
+            if len(rest.terms) == 1 or rest in layout.sums or -rest in layout.sums:
+                return [(sign, known), (ONE, rest)]
     return []

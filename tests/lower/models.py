@@ -30,7 +30,8 @@ VARIANTS = (
     Variant("revolute", "parametric", "table4"),
     Variant("cylindrical", "parametric", "regular", "substituted"),
     Variant("translational", "parametric", "regular", "substituted"),
-    Variant("ball", "parametric", "regular"),
+    Variant("ball", "parametric", "quaternion"),
+    Variant("ball", "parametric", "quaternion", "substituted"),
 )
 """Both forms, both variations, both derivatives, all rows; one joint with an angle that is an arc tangent."""
 

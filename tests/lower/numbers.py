@@ -18,6 +18,8 @@ from codegen.build import Model
 from codegen.ir.evaluate import Domain
 from codegen.ir.ops import Constant
 from codegen.mechanics import frames
+from codegen.spec.request import Variant
+from tests.truth.cases import has_unit_quaternions
 
 Numbers = NDArray[Any]
 """Array of fractions."""
@@ -95,7 +97,19 @@ def random_inputs(model: Model, seed: int, is_orthonormal: bool = True) -> Input
         places = [("A_i", 0), ("A_j", 0), ("geometry", 3), ("geometry", 15)]
         for name, offset in places:
             inputs[name][offset : offset + 9] = list(rotation(source).T.ravel())
+    if has_unit_quaternions(model.variant):
+        inputs["alpha"][-4:] = source.sample([Fraction(1, 5), Fraction(-2, 5), Fraction(2, 5), Fraction(4, 5)], 4)
+        velocity = np.array(inputs["velocity"], dtype=object)
+        inputs["velocity"] = list(stated_directions(model.variant, inputs) @ velocity)
     return inputs
+
+
+def stated_directions(variant: Variant, inputs: Inputs) -> Numbers:
+    """Projection on the variations for which derivatives are stated: all, or those that keep Euler parameters unit."""
+    projection = np.eye(len(inputs["velocity"]), dtype=object) * Fraction(1)
+    if has_unit_quaternions(variant):
+        projection[-4:, -4:] -= np.outer(inputs["alpha"][-4:], inputs["alpha"][-4:])
+    return projection
 
 
 def of_symbols(model: Model, inputs: Mapping[str, Sequence[Fraction]]) -> dict[str, Any]:

@@ -116,8 +116,9 @@ class Reader:
         return self.space.apply(self.map(first, frame, inner), self._chain(rest, inner))
 
     def _frame_within(self, rest: Sequence[Any], frame: str | None) -> str | None:
-        """The frame that a written-out matrix turns from: that of the next factor where it says one, else its own."""
-        return (self.frame_of(rest[0]) if rest else None) or frame
+        """The frame that a written-out matrix turns from: that of a rotation behind it, else its own."""
+        turn = self._turn(rest[0]) if rest else None
+        return frame if turn is None else turn[0]
 
     def _explicit(self, entries: list[Any], frame: str | None) -> Vector:
         if frame is None:

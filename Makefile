@@ -9,6 +9,11 @@ BIN := .venv/bin
 STAMP := .venv/.stamp
 LOCK := .ci/requirements.lock
 
+# The benchmarks have their own environment, so that no other code generator comes near the checks.
+BENCH_BIN := .venv-bench/bin
+BENCH_STAMP := .venv-bench/.stamp
+BENCH_LOCK := .ci/requirements-bench.lock
+
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 unexport PYTHONHOME PYTHONPATH
 
@@ -17,6 +22,7 @@ unexport PYTHONHOME PYTHONPATH
 .NOTPARALLEL:
 .SUFFIXES:
 .PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
+.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -51,15 +57,21 @@ bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results
 
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
+bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
+	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
-	@printf '%s\n' '# Pinned by "make lock" for Python 3.11 on Linux x86_64. Do not edit.' | cat - $(LOCK) > $(LOCK).new
-	@mv $(LOCK).new $(LOCK)
+	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
+		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
+	@for lock in $(LOCK) $(BENCH_LOCK); do \
+		printf '%s\n' '# Pinned by "make lock" for Python 3.11 on Linux x86_64. Do not edit.' | cat - $$lock > $$lock.new; \
+		mv $$lock.new $$lock; \
+	done
 
 clean: ## remove .venv, caches and build products; generated/ stays
-	rm -rf .venv build dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv .venv-bench build dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name .git -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 
 help: ## list the targets
@@ -82,4 +94,11 @@ $(STAMP): $(LOCK) pyproject.toml
 	fi
 	$(BIN)/python -m pip install -q --require-hashes -r $(LOCK)
 	$(BIN)/python -m pip install -qq --no-deps --no-build-isolation -e .
+	@touch $@
+
+# A peer that cannot be installed is left out by the benchmark; everything else must be there.
+$(BENCH_STAMP): $(BENCH_LOCK) $(STAMP)
+	@if ! $(BENCH_BIN)/python -c '$(USABLE)' 2>/dev/null; then $(BIN)/python -m venv --clear .venv-bench; fi
+	$(BIN)/python benchmarks/install.py $(BENCH_BIN)/python $(BENCH_LOCK)
+	$(BENCH_BIN)/python -m pip install -qq --no-deps --no-build-isolation -e .
 	@touch $@

@@ -13,8 +13,11 @@ Writing is the last step: a package appears whole or not at all (:mod:`codegen.o
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib import resources
 from typing import Any
 
 import codegen
@@ -24,6 +27,9 @@ from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
 from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, lower, notation
+from codegen.ir.lower.lowering import Choose
+from codegen.ir.lower.record import Records, fingerprint, replayed
+from codegen.ir.lower.search import Choice, Graph, searched
 from codegen.ir.program import Program
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import Derivation
@@ -54,10 +60,24 @@ PRICES = Prices()
 """What the search minimises: the number of operations."""
 
 STARTS = range(2)
-"""Seeds from which the search starts for every routine."""
+"""Seeds from which the search starts where nothing is on record."""
 
 Progress = Callable[[str], None]
 """Told the name of each variant that is finished."""
+
+
+@cache
+def records() -> Records:
+    """The choices that a long search found for the routines of the library (``make search``)."""
+    content = resources.files(codegen).joinpath("records.json").read_text(encoding="utf-8")
+    found: Records = json.loads(content)
+    return found
+
+
+def chosen(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
+    """Choose among the ways to evaluate nodes: what is on record, or the best that a short search finds."""
+    record = records().get(fingerprint(graph, outputs))
+    return [replayed(graph, outputs, record)] if record is not None else searched(graph, outputs, STARTS)
 
 
 @dataclass(frozen=True)
@@ -88,20 +108,26 @@ class Model:
         """Lower the named quantities to one simplified program."""
         return self.lowered(self.outputs(names))
 
-    def lowered(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None = None) -> Program:
+    def lowered(
+        self,
+        outputs: tuple[SymbolicOutput, ...],
+        is_substituted: bool | None = None,
+        choose: Choose = lambda graph, nodes: chosen(graph, nodes),
+    ) -> Program:
         """Lower any outputs in the stages of this model to one simplified program, the cheapest that is found.
 
         Args:
             outputs: what to evaluate.
             is_substituted: whether the joint relation takes the place of the rotation matrices; by default where the
                 derivative is substituted, but never in ``phi``.
+            choose: among the ways to evaluate them; what is on record, or a search.
         """
         form = self.form
         arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
         inputs = frames.inputs(form.coordinates, form.row_count)
         programs = [
             simplify(program)
-            for program in lower(arguments, inputs, self._parts(outputs, is_substituted), PRICES, STARTS)
+            for program in lower(arguments, inputs, self._parts(outputs, is_substituted), PRICES, choose)
         ]
         return min(programs, key=lambda program: count(program).total)
 

@@ -17,6 +17,9 @@ from codegen.ir.lower.space import Axis, Dyadic, Vector
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout
 
+_KNOWN = 24
+"""How many blocks between the same frames are looked through."""
+
 Outers = tuple[tuple[Vector, Vector], ...]
 """A sum of outer products."""
 
@@ -24,13 +27,19 @@ Outers = tuple[tuple[Vector, Vector], ...]
 def alternatives(layout: Layout, dyadic: Dyadic, rows: str, columns: str) -> tuple[Alternative, ...]:
     """Lay out the ways to know a block: its pairs, beside the identity and the skew map."""
     found = list(_assembled(layout, dyadic, rows, columns))
-    if rows == columns:
-        for known in layout.blocks.get((rows, columns), ())[:12]:
-            for whole in _skewed(layout, dyadic, known):
-                found += _assembled(layout, whole, rows, columns)
     for whole in _identity_spread(layout, dyadic):
         found += _assembled(layout, whole, rows, columns)
     return tuple(dict.fromkeys(found))
+
+
+def with_known(layout: Layout, kind: str, dyadic: Dyadic, rows: str, columns: str) -> Iterator[Alternative]:
+    """Ways that take pairs which something else has asked for between the same frames."""
+    for known in layout.blocks.get((rows, columns), ())[:_KNOWN]:
+        if kind == "pairs":
+            yield from _from_known(layout, dyadic, known, rows, columns)
+        elif rows == columns:
+            for whole in _skewed(layout, dyadic, known):
+                yield from _assembled(layout, whole, rows, columns)
 
 
 def _skewed(layout: Layout, dyadic: Dyadic, known: Dyadic) -> Iterator[Dyadic]:
@@ -49,10 +58,7 @@ def _skewed(layout: Layout, dyadic: Dyadic, known: Dyadic) -> Iterator[Dyadic]:
 
 def pair_alternatives(layout: Layout, pairs: Dyadic, rows: str, columns: str) -> tuple[Alternative, ...]:
     """Lay out the ways to know a sum of outer products."""
-    found = [_outers(layout, outers, rows, columns) for outers in groupings(pairs)]
-    for known in layout.blocks.get((rows, columns), ())[:24]:
-        found += _from_known(layout, pairs, known, rows, columns)
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(_outers(layout, outers, rows, columns) for outers in groupings(pairs)))
 
 
 def groupings(dyadic: Dyadic) -> list[Outers]:

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
@@ -46,7 +46,7 @@ class Layout:
         self.axes = axes
         self.nodes: list[Node] = []
         self.sums: dict[Vector, None] = {}
-        self.products: list[tuple[int, ...]] = []
+        self.products: dict[tuple[int, ...], None] = {}
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}
         self._numbers: dict[Key, int] = {}
@@ -83,6 +83,8 @@ class Layout:
     def scalar(self, value: Polynomial) -> Signed:
         """A scalar."""
         sign = value.sign or 1
+        if len(value.terms) == 1 and len(value.terms[0][0]) > 1:
+            self.products.setdefault(value.terms[0][0])
         return sign, self._number(("scalar", value if sign > 0 else -value))
 
     def outer(self, left: Vector, right: Vector, rows: str, columns: str) -> Signed:
@@ -137,15 +139,17 @@ class Layout:
     def lay_out(self) -> list[tuple[Alternative, ...]]:
         """Give the alternatives of every node that the demands may need.
 
-        Vectors with raw matrices are laid out first, so that others find them; what can be written with known sums,
-        products or blocks is laid out once more when all of these are known.
+        Vectors with raw matrices are laid out first, so that others find them. What takes known sums, products or blocks is
+        added at the end, when all of these are known.
         """
         self._extend(self._is_raw)
         self._extend(lambda key: True)
-        for node in self.nodes:
-            if self._is_composite(node.key):
-                node.alternatives = None
-        self._extend(lambda key: True)
+        position = 0
+        while position < len(self.nodes):
+            node = self.nodes[position]
+            base = node.alternatives or self._alternatives(node.key)
+            node.alternatives = tuple(dict.fromkeys((*base, *self._with_known(node.key))))
+            position += 1
         return [node.alternatives or () for node in self.nodes]
 
     def _extend(self, includes: Callable[[Key], bool]) -> None:
@@ -156,16 +160,17 @@ class Layout:
                 node.alternatives = self._alternatives(node.key)
             position += 1
 
-    def _is_composite(self, key: Key) -> bool:
-        """Whether a node may be written with others of its kind."""
+    def _with_known(self, key: Key) -> Iterable[Alternative]:
+        from codegen.ir.lower import block_forms, scalar_forms, vector_forms
+
         match key[0]:
-            case "vector" | "pushed" | "pulled":
-                return len(key[1].terms) > 1
+            case "vector" | "pushed" | "pulled" if len(key[1].terms) > 1:
+                return vector_forms.with_known(self, *key)
             case "scalar":
-                return key[1] in self.traces or -key[1] in self.traces or key[1].content in self.products
+                return scalar_forms.with_known(self, key[1])
             case "pairs" | "block":
-                return True
-        return False
+                return block_forms.with_known(self, *key)
+        return ()
 
     def _is_raw(self, key: Key) -> bool:
         """Whether a node leads to vectors turned with raw matrices."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -15,7 +15,7 @@ from codegen.ir.lower.demands import Demand, Demands
 from codegen.ir.lower.outputs import SymbolicOutput
 from codegen.ir.lower.places import Places
 from codegen.ir.lower.scalarise import Entries, Scalariser
-from codegen.ir.lower.search import Choice, Graph, cheapest, price
+from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.ops import Constant
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
@@ -32,31 +32,32 @@ Inputs = Mapping[Any, tuple[str, int]]
 """Symbol -> argument and offset of its first entry (column-major)."""
 
 
+Choose = Callable[[Graph, Sequence[int]], Sequence[Choice]]
+"""Graph and outputs -> one choice or several."""
+
+
 def lower(
     arguments: tuple[Argument, ...],
     inputs: Inputs,
     parts: Sequence[Part],
     prices: Prices,
-    starts: Iterable[int],
-    candidates: int = 2,
+    choose: Choose,
 ) -> list[Program]:
-    """Lower outputs to a program, in the few cheapest ways that a search finds.
+    """Lower outputs to a program, in each of the ways that are chosen among all.
 
     Args:
         arguments: the arrays of the signature, in order.
         inputs: where symbols are read.
         parts: the outputs, by the frames they are written in; they come in this order.
         prices: of operations.
-        starts: seeds from which the search starts.
-        candidates: how many ways at most; what they share as scalars is only seen in the program.
+        choose: gives the choices for a graph; what they share as scalars is only seen in the program.
 
     Returns:
-        Programs of the same outputs, the one that looks cheapest first; not simplified, every output dense.
+        Programs of the same outputs; not simplified, every output dense.
     """
-    searched = [_Searched(part, inputs, prices, tuple(starts)) for part in parts]
-    count = min(candidates, max(len(found.choices) for found in searched))
+    searched = [_Searched(part, inputs, prices, choose) for part in parts]
     programs = []
-    for k in range(count):
+    for k in range(max(len(found.choices) for found in searched)):
         builder = Builder()
         legend: dict[str, str] = {}
         outputs = [output for found in searched for output in found.written(k, builder, inputs, legend)]
@@ -65,22 +66,18 @@ def lower(
 
 
 class _Searched:
-    """One part with the choices that the searches ended in, the cheapest first."""
+    """One part with the choices for it."""
 
-    def __init__(self, part: Part, inputs: Inputs, prices: Prices, starts: Sequence[int]) -> None:
+    def __init__(self, part: Part, inputs: Inputs, prices: Prices, choose: Choose) -> None:
         self._outputs = part.outputs
         self._demands = Demands(part.places, inputs, prices)
         self._found = {output.name: self._demands.of(output) for output in part.outputs}
         self._graph: Graph = self._demands.layout.lay_out()
         nodes = list(dict.fromkeys(demand[3][1] for found in self._found.values() for demand in found))
-        ends: dict[tuple[tuple[int, int], ...], Choice] = {}
-        for start in starts:
-            choice = cheapest(self._graph, nodes, start)
-            ends.setdefault(tuple(sorted(choice.items())), choice)
-        self.choices = sorted(ends.values(), key=lambda choice: price(self._graph, choice))
+        self.choices = choose(self._graph, nodes)
 
     def written(self, k: int, builder: Builder, inputs: Inputs, legend: dict[str, str]) -> list[Output]:
-        """Write the outputs with the k-th cheapest choice, or the last there is."""
+        """Write the outputs with the k-th choice, or the last there is."""
         naming = self._demands.naming
         nodes = self._demands.layout.nodes
         places = {symbol.name: place for symbol, place in inputs.items() if isinstance(symbol, sympy.Symbol)}

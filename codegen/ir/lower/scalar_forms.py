@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout, Signed
 
 
+_KNOWN = 20
+"""How many products are looked through for one that is a factor of another."""
+
+
 @dataclass(frozen=True, slots=True)
 class Product:
     """A rational times atoms times plans."""
@@ -42,11 +46,8 @@ def alternatives(layout: Layout, value: Polynomial) -> tuple[Alternative, ...]:
         found += _of_atom(layout, monomial[0])
     else:
         found.append(_polynomial(layout, value))
-        found += _by_known_factor(layout, value)
         found += _collected(layout, value)
     for key, sign in ((value, 1), (-value, -1)):
-        for trace_sign, pairs in layout.traces.get(key, ()):
-            found.append(Alternative("trace", (pairs,), 2 * layout.prices.add, sign * trace_sign))
         for left, right in layout.space.dot_hints.get(key, ()):
             found += dots(layout, left, right, sign)
         for parts in layout.space.sum_hints.get(key, ()):
@@ -54,6 +55,14 @@ def alternatives(layout: Layout, value: Polynomial) -> tuple[Alternative, ...]:
         for left_factor, right_factor in layout.space.product_hints.get(key, ()):
             found.append(_product(layout, left_factor, right_factor, sign))
     return tuple(dict.fromkeys(found))
+
+
+def with_known(layout: Layout, value: Polynomial) -> Iterator[Alternative]:
+    """Ways that take what something else has asked for: a factor, or the pairs of which the scalar is the trace."""
+    yield from _by_known_factor(layout, value)
+    for key, sign in ((value, 1), (-value, -1)):
+        for trace_sign, pairs in layout.traces.get(key, ()):
+            yield Alternative("trace", (pairs,), 2 * layout.prices.add, sign * trace_sign)
 
 
 def _of_atom(layout: Layout, index: int) -> Iterator[Alternative]:
@@ -149,17 +158,15 @@ def _product(layout: Layout, left: Polynomial, right: Polynomial, sign: int) -> 
 
 def _by_known_factor(layout: Layout, value: Polynomial) -> Iterator[Alternative]:
     """A product one factor of which is known as a product itself."""
-    if len(value.terms) > 1 or len(value.terms[0][0]) < 2:
+    if len(value.terms) != 1 or len(value.terms[0][0]) < 2:
         return
     monomial, coefficient = value.terms[0]
-    for known in layout.products[:20]:
+    for known in list(layout.products)[:_KNOWN]:
         rest = Counter(monomial)
         rest.subtract(known)
         if len(known) < len(monomial) and min(rest.values()) >= 0:
             other = Polynomial({tuple(sorted(rest.elements())): coefficient})
             yield _product(layout, Polynomial({known: 1}), other, 1)
-    if monomial not in layout.products:
-        layout.products.append(monomial)
 
 
 def _polynomial(layout: Layout, value: Polynomial) -> Alternative:

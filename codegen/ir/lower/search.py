@@ -11,7 +11,7 @@ from __future__ import annotations
 import heapq
 import math
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Alternative
@@ -21,6 +21,9 @@ Choice = dict[int, int]
 
 Graph = Sequence[tuple[Alternative, ...]]
 """Alternatives of each node, by its number."""
+
+_State = tuple[Choice, dict[int, int], float]
+"""Choice, number of uses of each node, total."""
 
 _LEAST_GAIN = 1e-9
 
@@ -37,6 +40,7 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
     Args:
         graph: alternatives of every node.
         outputs: nodes that must be computed.
+        seed: changes where the search starts; 0 starts from the prices as they are.
         sweeps: how often all moves are tried at most.
 
     Returns:
@@ -50,7 +54,26 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
         idle = idle + 1 if search.total > before - _LEAST_GAIN else 0
         if idle == _PATIENCE:
             break
-    return {node: search.choice[node] for node in search.active()}
+    return dict(sorted(search.choice.items()))
+
+
+def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: int = 2) -> list[Choice]:
+    """Search from several starts.
+
+    Args:
+        graph: alternatives of every node.
+        outputs: nodes that must be computed.
+        seeds: of the starts.
+        best: how many of the choices are given at most.
+
+    Returns:
+        The cheapest of the choices found, each once, the cheapest first.
+    """
+    ends: dict[tuple[tuple[int, int], ...], Choice] = {}
+    for seed in seeds:
+        choice = cheapest(graph, outputs, seed)
+        ends.setdefault(tuple(choice.items()), choice)
+    return sorted(ends.values(), key=lambda choice: price(graph, choice))[:best]
 
 
 def price(graph: Graph, choice: Choice) -> float:
@@ -91,6 +114,10 @@ class _Search:
             for k, alternative in enumerate(alternatives):
                 for child in set(alternative.children):
                     self._users[child].append((node, k))
+        self._users_of: list[dict[int, list[int]]] = [{} for _ in graph]
+        for child, users in enumerate(self._users):
+            for node, k in users:
+                self._users_of[child].setdefault(node, []).append(k)
         for position, output in enumerate(self._outputs):
             if position % 4 == 0:
                 self._replan()
@@ -112,7 +139,7 @@ class _Search:
 
     def _attempt(self, move: Callable[[int], None], node: int) -> None:
         """Make a move, and take it back if the total rises or something depends on itself."""
-        saved = dict(self.choice), dict(self._uses), self.total
+        saved = self._state()
         move(node)
         if self.total > saved[2] + _LEAST_GAIN or not self._is_acyclic(self._outputs):
             self.choice, self._uses, self.total = saved
@@ -124,27 +151,41 @@ class _Search:
         """
         if node not in self._uses:
             return
-        start = best = dict(self.choice), dict(self._uses), self.total
-        for k in range(len(self._graph[node])):
-            if k == start[0][node] or not self._is_planned(self._graph[node][k]):
+        start = best = self._state()
+        for k, alternative in enumerate(self._graph[node]):
+            if k == start[0][node] or not self._is_planned(alternative):
                 continue
             self._switch(node, k)
-            new = [child for child in self._uses if child not in start[1]]
-            for child in new:
+            for child in sorted(self._uses.keys() - start[1].keys()):
                 self._exploit(child, node)
             limit = best[2] + (_LEAST_GAIN if best is start and (node, k) not in self._sideways else -_LEAST_GAIN)
             if self.total < limit and self._is_acyclic(self._outputs):
                 if self.total > start[2] - _LEAST_GAIN:
                     self._sideways.add((node, k))
-                best = dict(self.choice), dict(self._uses), self.total
-            self.choice, self._uses, self.total = dict(start[0]), dict(start[1]), start[2]
-        self.choice, self._uses, self.total = best
+                best = self._state()
+            self._return_to(start)
+        self._return_to(best)
 
     def _exploit(self, node: int, spared: int) -> None:
         """Use a node wherever that is cheaper."""
-        for user, k in self._users[node]:
-            if user in self._uses and user != spared and k != self.choice[user] and self._is_promising(user, k):
-                self._improve(user, [k])
+        users = self._users_of[node]
+        for user in sorted(users.keys() & self._uses.keys()):
+            if user != spared:
+                for k in users[user]:
+                    if user in self._uses and k != self.choice[user] and self._is_promising(user, k):
+                        self._improve(user, k)
+
+    def _is_promising(self, node: int, k: int) -> bool:
+        """Whether an alternative takes little that is not there yet."""
+        new, old = self._graph[node][k], self._graph[node][self.choice[node]]
+        return self._is_planned(new) and self._estimate(new) <= old.cost + _REACH
+
+    def _improve(self, node: int, k: int) -> None:
+        """Switch a node to an alternative, if that lowers the total."""
+        start = self._state()
+        self._switch(node, k)
+        if self.total > start[2] - _LEAST_GAIN or not self._is_acyclic([node]):
+            self.choice, self._uses, self.total = start
 
     def _close(self, node: int) -> None:
         """Switch everything that uses a node to its best alternative without it."""
@@ -158,25 +199,13 @@ class _Search:
                 if others:
                     self._switch(user, min(others, key=lambda other: self._estimate(self._graph[user][other])))
 
-    def _is_promising(self, node: int, k: int) -> bool:
-        """Whether an alternative takes little that is not there yet."""
-        new, old = self._graph[node][k], self._graph[node][self.choice[node]]
-        return self._is_planned(new) and self._estimate(new) <= old.cost + _REACH
-
-    def _improve(self, node: int, options: Sequence[int]) -> None:
-        """Switch a node to the best of some alternatives, if that lowers the total."""
-        best = dict(self.choice), dict(self._uses), self.total
-        for k in options:
-            if not self._is_planned(self._graph[node][k]):
-                continue
-            start = dict(self.choice), dict(self._uses), self.total
-            self._switch(node, k)
-            if self.total < best[2] - _LEAST_GAIN and self._is_acyclic([node]):
-                best = dict(self.choice), dict(self._uses), self.total
-            self.choice, self._uses, self.total = start
-        self.choice, self._uses, self.total = best
-
     # --- bookkeeping
+
+    def _state(self) -> _State:
+        return dict(self.choice), dict(self._uses), self.total
+
+    def _return_to(self, state: _State) -> None:
+        self.choice, self._uses, self.total = dict(state[0]), dict(state[1]), state[2]
 
     def _use(self, node: int) -> None:
         count = self._uses.get(node, 0)
@@ -192,7 +221,7 @@ class _Search:
         self._uses[node] -= 1
         if not self._uses[node]:
             del self._uses[node]
-            alternative = self._graph[node][self.choice[node]]
+            alternative = self._graph[node][self.choice.pop(node)]
             self.total -= alternative.cost
             for child in alternative.children:
                 self._release(child)

@@ -145,27 +145,7 @@ def turned(layout: Layout, vector: Vector, start: str, end: str, description: ob
 
 
 def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alternative]:
-    """Sums of parts: one by one, by body, by common coefficient, or with a sum that is known."""
-    place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
-    for parts in partitions(layout, vector):
-        children: list[int] = []
-        signs: list[tuple[int, int]] = []
-        cost = -layout.prices.add
-        counts = [0, 0, 0]
-        for coefficient, part in parts:
-            sign, node = place(part, frame)
-            factor_sign, factor = layout.scalar(coefficient)
-            children += [factor, node]
-            signs.append((sign * factor_sign, int(coefficient.constant in (1, -1))))
-            for k, c in enumerate(layout.classes(node)):
-                counts[k] += int(c > 0)
-                cost += layout.prices.mul * (c == GENERAL and layout.classes(factor)[0] != UNIT)
-        cost = cost + layout.prices.add + layout.prices.add * sum(max(n - 1, 0) for n in counts)
-        yield Alternative("sum", tuple(children), cost, tuple(signs), f"sum {frame}")
-
-
-def partitions(layout: Layout, vector: Vector) -> list[Parts]:
-    """Ways to write a vector as a sum; none that is the vector itself."""
+    """Sums of parts: one by one, by body, by common coefficient, by product."""
     single: Parts = [(coefficient, Vector({p: ONE})) for p, coefficient in vector.terms]
     found = [
         single,
@@ -174,15 +154,35 @@ def partitions(layout: Layout, vector: Vector) -> list[Parts]:
         _by_content(vector),
         _by_product(layout, vector),
     ]
+    for k, parts in enumerate(found):
+        if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector):
+            yield _sum(layout, parts, frame, kind)
+
+
+def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterator[Alternative]:
+    """Sums with another sum that something has asked for."""
     for known in list(layout.sums)[:_KNOWN]:
-        part = _with_known(layout, vector, known)
-        if part:
-            found.append(part)
-    return [
-        parts
-        for k, parts in enumerate(found)
-        if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector)
-    ]
+        parts = _with_known(layout, vector, known)
+        if parts:
+            yield _sum(layout, parts, frame, kind)
+
+
+def _sum(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
+    place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
+    children: list[int] = []
+    signs: list[tuple[int, int]] = []
+    cost = 0.0
+    counts = [0, 0, 0]
+    for coefficient, part in parts:
+        sign, node = place(part, frame)
+        factor_sign, factor = layout.scalar(coefficient)
+        children += [factor, node]
+        signs.append((sign * factor_sign, int(coefficient.constant in (1, -1))))
+        for k, c in enumerate(layout.classes(node)):
+            counts[k] += int(c > 0)
+            cost += layout.prices.mul * (c == GENERAL and layout.classes(factor)[0] != UNIT)
+    cost += layout.prices.add * sum(max(n - 1, 0) for n in counts)
+    return Alternative("sum", tuple(children), cost, tuple(signs), f"sum {frame}")
 
 
 def _by_body(layout: Layout, vector: Vector) -> Parts:

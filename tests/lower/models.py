@@ -97,7 +97,7 @@ def laid_out(variant: Variant, names: tuple[str, ...] = QUANTITIES) -> tuple[Lai
     model = model_of(variant)
     inputs = frames.inputs(model.form.coordinates, model.form.row_count)
     parts = model._parts(model.outputs(names), None)
-    return tuple(Laid(model, part, _Searched(part, inputs, build.PRICES, ())) for part in parts)
+    return tuple(Laid(model, part, _Searched(part, inputs, build.PRICES, lambda *_: [])) for part in parts)
 
 
 def program_of(parts: tuple[Laid, ...], choices: Iterable[Choice]) -> Program:
@@ -156,4 +156,9 @@ def needed(graph: Graph, choice: Choice, roots: Iterable[int]) -> list[int]:
     return list(seen)
 
 
-every_variant = pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.file_stem)
+def each(*variants: Variant) -> pytest.MarkDecorator:
+    """Run a test for each of the variants."""
+    return pytest.mark.parametrize("variant", variants, ids=lambda variant: variant.file_stem)
+
+
+every_variant = each(*VARIANTS)

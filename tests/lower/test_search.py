@@ -130,10 +130,7 @@ def test_a_real_model_gets_a_choice_that_is_complete_and_acyclic() -> None:
 
 
 _PRINT_CHOICES = f"""
-import hashlib
-from codegen.ir.lower.search import cheapest
 from codegen.spec.request import Variant
-from tests.lower.models import laid_out
 from tests.lower.test_search import digest
 print(digest({REVOLUTE!r}))
 """

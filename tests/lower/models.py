@@ -26,14 +26,13 @@ VARIANTS = (
     Variant("revolute", "conventional", None),
     Variant("translational", "conventional", None, variation="world"),
     Variant("screw", "conventional", None),
-    Variant("universal", "parametric", "regular"),
-    Variant("revolute", "parametric", "table4"),
+    Variant("revolute", "parametric", "regular"),
     Variant("cylindrical", "parametric", "regular", "substituted"),
     Variant("translational", "parametric", "regular", "substituted"),
     Variant("ball", "parametric", "quaternion"),
     Variant("ball", "parametric", "quaternion", "substituted"),
 )
-"""Both forms, both variations, both derivatives, all rows; one joint with an angle that is an arc tangent."""
+"""Both forms, both variations, both derivatives, regular and quaternion rows; one joint with an angle that is an arc tangent."""
 
 Covered = set[tuple[int, int]]
 """Nodes with one of their alternatives."""

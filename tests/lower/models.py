@@ -27,12 +27,10 @@ VARIANTS = (
     Variant("translational", "conventional", None, variation="world"),
     Variant("screw", "conventional", None),
     Variant("revolute", "parametric", "regular"),
-    Variant("cylindrical", "parametric", "regular", "substituted"),
     Variant("translational", "parametric", "regular", "substituted"),
-    Variant("ball", "parametric", "quaternion"),
     Variant("ball", "parametric", "quaternion", "substituted"),
 )
-"""Both forms, both variations, both derivatives, regular and quaternion rows; one joint with an angle that is an arc tangent."""
+"""Both forms, both variations, both derivatives, regular and quaternion rows, an arc tangent."""
 
 Covered = set[tuple[int, int]]
 """Nodes with one of their alternatives."""

@@ -30,7 +30,7 @@ KINDS = frozenset(
 SEED = 5
 """Of the rational inputs."""
 
-CHOICES = 3
+CHOICES = 2
 """Random choices for each variant."""
 
 

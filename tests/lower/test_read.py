@@ -19,7 +19,7 @@ OUTPUTS = (*QUANTITIES, "phi_q_v", "phi_q_t_lambda")
 READ = (
     *(
         Variant(joint, "conventional", None, "exact", variation)
-        for joint in ("revolute", "translational", "screw", "planar", "universal")
+        for joint in ("revolute", "translational", "screw")
         for variation in ("body", "world")
     ),
     Variant("screw", "conventional", None, "substituted"),

@@ -74,7 +74,7 @@ def records() -> Records:
     return found
 
 
-def chosen(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
+def choices_for(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
     """Choose among the ways to evaluate nodes: what is on record, or the best that a short search finds."""
     record = records().get(fingerprint(graph, outputs))
     return [replayed(graph, outputs, record)] if record is not None else searched(graph, outputs, STARTS)
@@ -112,7 +112,7 @@ class Model:
         self,
         outputs: tuple[SymbolicOutput, ...],
         is_substituted: bool | None = None,
-        choose: Choose = lambda graph, nodes: chosen(graph, nodes),
+        choose: Choose = lambda graph, nodes: choices_for(graph, nodes),
     ) -> Program:
         """Lower any outputs in the stages of this model to one simplified program, the cheapest that is found.
 
@@ -122,14 +122,16 @@ class Model:
                 derivative is substituted, but never in ``phi``.
             choose: among the ways to evaluate them; what is on record, or a search.
         """
-        form = self.form
-        arguments = frames.arguments(self.joint, form.coordinates, form.row_count)
-        inputs = frames.inputs(form.coordinates, form.row_count)
-        programs = [
-            simplify(program)
-            for program in lower(arguments, inputs, self._parts(outputs, is_substituted), PRICES, choose)
-        ]
-        return min(programs, key=lambda program: count(program).total)
+        return min(self.programs(outputs, is_substituted, choose), key=lambda program: count(program).total)
+
+    def programs(
+        self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose
+    ) -> list[Program]:
+        """Lower any outputs in each of the ways that are chosen; see `lowered`."""
+        arguments = frames.arguments(self.joint, self.form.coordinates, self.form.row_count)
+        inputs = frames.inputs(self.form.coordinates, self.form.row_count)
+        parts = self._parts(outputs, is_substituted)
+        return [simplify(program) for program in lower(arguments, inputs, parts, PRICES, choose)]
 
     def _parts(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None) -> list[Part]:
         """Outputs by the frames they are written in; ``phi`` comes first, as everywhere."""
@@ -210,6 +212,7 @@ def casadi_function(
     derivative: str = "exact",
     variation: str = "body",
     geometry: str = "runtime",
+    matrices: str = "orthonormal",
 ) -> Any:
     """Build a joint routine as a ``casadi.Function``.
 
@@ -221,6 +224,7 @@ def casadi_function(
         derivative: ``exact`` or ``substituted``.
         variation: ``body`` or ``world``.
         geometry: ``runtime``, or ``prepared``: of the library's routines, with the output ``prepare`` too.
+        matrices: ``orthonormal``, or ``raw``: ``phi`` takes the rotation matrices as they are.
 
     Raises:
         SpecificationError: unknown names, or options that do not go together.
@@ -228,7 +232,9 @@ def casadi_function(
     from codegen.emit import casadi
 
     outputs = () if output == PREPARE and geometry == "prepared" else (output,)
-    options = Options((joint,), form, rows, derivative, variation, outputs=outputs, geometry=geometry)
+    options = Options(
+        (joint,), form, rows, derivative, variation, outputs=outputs, geometry=geometry, matrices=matrices
+    )
     chosen = variants(options)[0]
     if geometry == "prepared":
         found = next(routine for routine in routines(chosen) if routine.output == output)

@@ -52,6 +52,7 @@ def joints(as_json: bool) -> None:
 @click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
 @click.option("--batch", help="Besides, routines for groups of so many joints: 2, 4, 8 or 16.")
 @click.option("--geometry", default="runtime", show_default=True, help="runtime, or prepared once for all steps.")
+@click.option("--matrices", default="orthonormal", show_default=True, help="orthonormal, or raw: phi from A as it is.")
 @click.option("--fma", is_flag=True, help="Fused multiply-adds, written out as fma(); see the README for flags.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), default=_LIBRARY, show_default=True)
 @click.option(

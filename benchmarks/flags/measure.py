@@ -85,7 +85,7 @@ def processor() -> str:
     return match[1] if match else "unknown"
 
 
-def measured(folder: Path, joint: str) -> dict[str, dict[str, float]]:
+def measured(folder: Path, joint: str) -> dict[str, dict[str, Any]]:
     """Nanoseconds a call, their spread (quartiles), instructions and library calls of every build."""
     entries = {fma: entry_of(folder / f"fma-{fma}", joint) for fma in (False, True)}
     builds = {
@@ -145,9 +145,10 @@ def loop_text(entry: dict[str, Any]) -> str:
         words.append(f"{array} + {offsets[argument['direction']]}")
         offsets[argument["direction"]] += argument["length"]
     template = jinja2.Template((HERE / "loop.c.j2").read_text(), keep_trailing_newline=True)
-    return template.render(
+    text: str = template.render(
         joint=entry["joint"], symbol=entry["symbol"], stride=offsets["in"], arguments=", ".join(words)
     )
+    return text
 
 
 def instructions(path: Path, symbol: str) -> tuple[int, int]:

@@ -45,6 +45,11 @@ def _details(routine: Routine) -> list[str]:
     if routine.output == PREPARE:
         return ["Call it again when the geometry changes."]
     details = [f"Virtual displacements: {axes(variant)}."]
+    details.append(
+        "phi takes A_i and A_j as they are, derivatives take them as rotations."
+        if variant.matrices == "raw"
+        else "A_i and A_j are taken as rotations."
+    )
     if variant.rows is not None:
         details.append(f"Rows of the rotational constraint: {variant.rows}.")
     if variant.derivative == "substituted":

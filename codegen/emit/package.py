@@ -121,6 +121,7 @@ def _options_line(variant: Variant, real: str, fma: bool) -> str:
     words = [f"joint {variant.joint}", f"form {variant.form}"]
     words += [f"rows {variant.rows}"] if variant.rows else []
     words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
+    words += ["matrices raw"] if variant.matrices == "raw" else []
     words += ["geometry prepared"] if variant.geometry == "prepared" else []
     words += ["fma"] if fma else []
     return ", ".join(words)

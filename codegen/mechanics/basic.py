@@ -53,8 +53,8 @@ def constraint(kind: BasicConstraint, algebra: Algebra) -> Any:
 def screw_stages(algebra: Algebra, body_axes: Any | None) -> dict[Any, Any]:
     """The angle of the screw from the components of f_j across its axis, H = R_z(theta), and what it varies with.
 
-    ``theta = atan2(g_i . f_j, f_i . f_j)``, and ``theta_axis = (h_i - z f_j) / (1 - z^2)`` with ``z = h_i . f_j``, which is
-    ``h_i`` on the manifold.
+    ``theta = atan2(g_i . f_j, f_i . f_j)``, and ``theta_axis = (h_i - z f_j) / (1 - z^2)`` with ``z = h_i . f_j``,
+    which is ``h_i`` on the manifold.
 
     Args:
         algebra: normal form in force.

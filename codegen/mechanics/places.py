@@ -1,7 +1,7 @@
 """Which frames a formulation has, and in which of them its symbols, rows and virtual displacements are written.
 
-Frames: ``world``, bodies ``i`` and ``j``, their joint frames ``joint i`` and ``joint j``, and in the exact parametric form
-``star``, the joint frame on body i turned by H(alpha). In the substituted form H joins the two joint frames.
+Frames: ``world``, bodies ``i`` and ``j``, their joint frames ``joint i`` and ``joint j``, and in the exact parametric
+form ``star``, the joint frame on body i turned by H(alpha). In the substituted form H joins the two joint frames.
 """
 
 from __future__ import annotations
@@ -71,6 +71,7 @@ def places(form: Formulation, variant: Variant, is_substituted: bool) -> Places:
         rows=_row_frames(form),
         axis_names={frame: names for frame, names in _AXES.items() if frame in used},
         whole=frozenset({across}),
+        is_raw=variant.matrices == "raw",
         vector_names={symbol: symbol.name for symbol in (d_ij, e_ij) if symbol in form.stages},
     )
 

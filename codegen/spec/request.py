@@ -19,6 +19,7 @@ REALS = ("double", "float")
 BATCHES = (2, 4, 8, 16)
 """Joints in a group of the batch routines."""
 GEOMETRIES = ("runtime", "prepared")
+MATRICES = ("orthonormal", "raw")
 
 QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
 """What the fused routine of the library evaluates."""
@@ -44,6 +45,7 @@ class Variant:
         derivative: ``exact``, or ``substituted`` (S1: the joint relation is inserted before differentiating again).
         variation: axes of the virtual rotations: ``body`` or ``world``.
         geometry: ``runtime``, or ``prepared``: what depends on it alone is computed once.
+        matrices: ``orthonormal``: ``A^T A = I`` is taken for granted; ``raw``: ``phi`` takes the matrices as they are.
     """
 
     joint: str
@@ -52,6 +54,7 @@ class Variant:
     derivative: str = "exact"
     variation: str = "body"
     geometry: str = "runtime"
+    matrices: str = "orthonormal"
 
     @property
     def stem(self) -> str:
@@ -60,6 +63,7 @@ class Variant:
         words += [self.rows] if self.rows not in (None, "regular") else []
         words += [self.derivative] if self.derivative != "exact" else []
         words += [self.variation] if self.variation != "body" else []
+        words += [self.matrices] if self.matrices != "orthonormal" else []
         words += [self.geometry] if self.geometry != "runtime" else []
         return "_".join(str(word) for word in words)
 
@@ -89,6 +93,7 @@ class Options:
         batch: joints in a group of the batch routines; none means that there are none.
         fma: whether products and sums are fused, explicitly and alike with every compiler.
         geometry: see `Variant`.
+        matrices: see `Variant`.
     """
 
     joints: tuple[str, ...] = ()
@@ -101,6 +106,7 @@ class Options:
     batch: int | None = None
     fma: bool = False
     geometry: str = "runtime"
+    matrices: str = "orthonormal"
 
 
 def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
@@ -198,7 +204,7 @@ def selected_variants(
             mistakes += problems
     if mistakes and (options.joints or not variants):
         raise SpecificationError(dict.fromkeys(mistakes))
-    return tuple(replace(variant, geometry=options.geometry) for variant in variants)
+    return tuple(replace(variant, geometry=options.geometry, matrices=options.matrices) for variant in variants)
 
 
 def _unknown_values(options: Options) -> list[Mistake]:
@@ -209,6 +215,7 @@ def _unknown_values(options: Options) -> list[Mistake]:
         ("--variation", options.variation, VARIATIONS),
         ("--real", options.real, REALS),
         ("--geometry", options.geometry, GEOMETRIES),
+        ("--matrices", options.matrices, MATRICES),
         *(("--outputs", output, OUTPUTS) for output in options.outputs),
     )
     return _unknown_batch(options.batch) + [

@@ -10,10 +10,11 @@ The one place of ``ir`` that knows sympy. Its stages:
 """
 
 from codegen.ir.lower.alternatives import Prices
-from codegen.ir.lower.lowering import Part, Places, lower
+from codegen.ir.lower.lowering import Part, lower
 from codegen.ir.lower.notation import definition_notation, notation
 from codegen.ir.lower.operators import Dot, Tilde
 from codegen.ir.lower.outputs import Block, SymbolicOutput
+from codegen.ir.lower.places import Places
 
 __all__ = [
     "Block",

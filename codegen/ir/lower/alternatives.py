@@ -1,12 +1,11 @@
 """Nodes and alternatives: what has to be known, and the ways to know it.
 
 A node is a quantity at a place: a vector in a frame, a scalar, a block between two frames. An alternative computes it
-from other nodes. The graph of both is laid out on demand.
+from other nodes. `codegen.ir.lower.layout` lays out the graph of both.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -57,26 +56,6 @@ class Prices:
     add: float = 1.0
     mul: float = 1.0
     div: float = 1.0
-
-
-Layout = Callable[[Key], tuple[Alternative, ...]]
-"""Lays out the alternatives of a node."""
-
-
-class Nodes:
-    """All nodes of a graph, numbered."""
-
-    def __init__(self) -> None:
-        self.nodes: list[Node] = []
-        self._numbers: dict[Key, int] = {}
-
-    def number(self, key: Key, classes: Callable[[], tuple[int, ...]]) -> int:
-        """Give the number of a node; its classes are asked for once."""
-        known = self._numbers.get(key)
-        if known is None:
-            known = self._numbers[key] = len(self.nodes)
-            self.nodes.append(Node(key, classes()))
-        return known
 
 
 def product_class(a: int, b: int) -> int:

@@ -1,7 +1,7 @@
 """The ways to know a map between two frames: sums of outer products, grouped one way or another, beside the identity.
 
-``a~ b~`` has become ``b a^T - (a . b) I`` by now (`codegen.ir.lower.space`), so a block is a matrix of low rank, a scalar
-times the rotation between its two frames, and the skew map of a vector.
+``a~ b~`` has become ``b a^T - (a . b) I`` by now (`codegen.ir.lower.space`), so a block is a matrix of low rank, a
+scalar times the rotation between its two frames, and the skew map of a vector.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from codegen.ir.lower.alternatives import GENERAL, Alternative, inner_cost
 from codegen.ir.lower.collect import common_coefficient
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, total
-from codegen.ir.lower.space import Axis, Dyadic, Vector
+from codegen.ir.lower.quantities import Axis, Dyadic, Vector
 
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout
@@ -196,7 +196,7 @@ def rotation_alternatives(layout: Layout, factor: Polynomial, rows: str, columns
 
 
 def tilde_alternatives(layout: Layout, vector: Vector, rows: str, columns: str) -> tuple[Alternative, ...]:
-    """``w~ R`` or ``R w~``, column by column: cross products of the vector with the axes of one frame seen in the other."""
+    """``w~ R`` by columns, ``R w~`` by rows: cross products of the vector with axes of one frame seen in the other."""
     found = []
     for by in ("columns", "rows"):
         axes = layout.axes_between(columns, rows, by)

@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Iterable
 
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.space import Cross, Space, Vector
+from codegen.ir.lower.quantities import Cross, Vector
+from codegen.ir.lower.space import Space
 
 Product = tuple[Vector, Vector]
 """Two vectors that are multiplied."""

@@ -15,8 +15,9 @@ from codegen.ir.lower.naming import Naming
 from codegen.ir.lower.outputs import Block, SymbolicOutput
 from codegen.ir.lower.places import Places
 from codegen.ir.lower.polynomial import Polynomial
+from codegen.ir.lower.quantities import Axis, Vector
 from codegen.ir.lower.read import Reader, Symbols, is_matrix, transposed_factor
-from codegen.ir.lower.space import Axis, Space, Vector
+from codegen.ir.lower.space import Space
 
 Demand = tuple[int, int, str, Any]
 """Row, column, how its entries lie (``scalar``, ``row``, ``column``, ``matrix``) and what `Layout` gave."""

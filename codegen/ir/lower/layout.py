@@ -6,12 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from itertools import pairwise
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
 from codegen.ir.lower.frames import Component, FrameTree
 from codegen.ir.lower.polynomial import Polynomial
-from codegen.ir.lower.space import Axis, Cross, Dyadic, Given, Named, Space, Vector
+from codegen.ir.lower.quantities import Axis, Cross, Dyadic, Given, Named, Vector
+from codegen.ir.lower.space import Space
 
 Signed = tuple[int, int]
 """Sign and number of a node."""
@@ -110,7 +112,7 @@ class Layout:
         return self._map("block", dyadic, rows, columns)
 
     def pairs(self, pairs: Dyadic, rows: str, columns: str) -> Turned:
-        """A sum of outer products between two frames: sign, node, and whether it is the transpose of the node's value."""
+        """A sum of outer products between two frames, as for `block`."""
         sign, node, turned = self._map("pairs", pairs, rows, columns)
         key = self.nodes[node].key
         known = self.blocks.setdefault(key[2:], [])
@@ -139,8 +141,8 @@ class Layout:
     def lay_out(self) -> list[tuple[Alternative, ...]]:
         """Give the alternatives of every node that the demands may need.
 
-        Vectors with raw matrices are laid out first, so that others find them. What takes known sums, products or blocks is
-        added at the end, when all of these are known.
+        Vectors with raw matrices are laid out first, so that others find them. What takes known sums, products or
+        blocks is added at the end, when all of these are known.
         """
         self._extend(self._is_raw)
         self._extend(lambda key: True)
@@ -258,7 +260,7 @@ class Layout:
             )
         known = self._home_classes(description)
         path = self.tree.path(description.frame, frame)
-        for inner, outer in zip(path, path[1:], strict=False):
+        for inner, outer in pairwise(path):
             matrix = self.tree.matrix(outer, inner)
             if matrix is None:
                 raise InternalError(f"no rotation from {inner} to {outer}")

@@ -1,7 +1,7 @@
 """Names and definitions for readers of the emitted code: ``h_j_in_i``, ``A_ij``, ``d_ij_world``, ``M_0``.
 
-A value is named after what it is and the frame it is written in; sums that have no name in the papers are numbered in the
-order in which they are computed, with their definition in the legend.
+A value is named after what it is and the frame it is written in; sums that have no name in the papers are numbered in
+the order in which they are computed, with their definition in the legend.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from collections.abc import Mapping
 
 from codegen.ir.lower.alternatives import Key
 from codegen.ir.lower.polynomial import Polynomial
-from codegen.ir.lower.space import Axis, Cross, Dyadic, Given, Named, Space, Vector
+from codegen.ir.lower.quantities import Axis, Cross, Dyadic, Given, Named, Vector
+from codegen.ir.lower.space import Space
 
 _LONGEST = 96
 

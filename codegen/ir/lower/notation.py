@@ -51,29 +51,3 @@ def chain_notation(factors: Factors, aliases: Mapping[Factors, str]) -> str:
         words.append(aliases[factors[position:end]] if ends else notation(factors[position], aliases))
         position = end
     return " ".join(words)
-
-
-def product_name(factors: Factors, aliases: Mapping[Factors, str]) -> str:
-    """Name a product of at most three symbols and named products, or give "" where no short name reads well."""
-    words: list[str] = []
-    position = 0
-    while position < len(factors):
-        for end in range(len(factors), position, -1):
-            word = aliases.get(factors[position:end]) or (
-                _symbol_name(factors[position]) if end == position + 1 else ""
-            )
-            if word:
-                break
-        if not word or len(words) == 3:
-            return ""
-        words.append(word)
-        position = end
-    return "_".join(words)
-
-
-def _symbol_name(factor: Any) -> str:
-    if isinstance(factor, sympy.Transpose) and isinstance(factor.arg, sympy.MatrixSymbol):
-        return f"{factor.arg.name}t"
-    if isinstance(factor, Tilde):
-        return _symbol_name(factor.vector) and f"{_symbol_name(factor.vector)}_cross"
-    return factor.name if isinstance(factor, sympy.MatrixSymbol) else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import Alternative, inner_cost
-from codegen.ir.lower.space import Cross, Given, Named, Vector
+from codegen.ir.lower.quantities import Cross, Given, Named, Vector
 from codegen.ir.lower.vector_forms import given, read, sums
 
 if TYPE_CHECKING:
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple[Alternative, ...]:
     """Lay out the ways to know a vector with raw matrices.
 
-    ``pushed``: products of the given matrices from the inside out. ``pulled``: the transposed matrix of ``frame`` times the
-    vector in the frame around it.
+    ``pushed``: products of the given matrices from the inside out. ``pulled``: the transposed matrix of ``frame`` times
+    the vector in the frame around it.
     """
     found: list[Alternative] = []
     if kind == "pulled":

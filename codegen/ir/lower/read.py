@@ -1,7 +1,7 @@
 """Read the matrix expressions of the symbolic model free of frames.
 
-Rotations only say in which frame a vector is written, so they drop out: ``A_ij h_j`` is h_j, ``A_i s_i~`` is s_i~ between
-the world and body i. What is left are vectors, their products, and scalars.
+Rotations only say in which frame a vector is written, so they drop out: ``A_ij h_j`` is h_j, ``A_i s_i~`` is s_i~
+between the world and body i. What is left are vectors, their products, and scalars.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from codegen.errors import InternalError
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.operators import Dot, Tilde
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, number
-from codegen.ir.lower.space import Axis, Dyadic, Given, Named, Space, Vector, combined
+from codegen.ir.lower.quantities import Axis, Dyadic, Given, Named, Vector, combined
+from codegen.ir.lower.space import Space
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Choices on record: what a long search found is kept, so that generating is quick and does not depend on luck.
 
-A record belongs to one graph, told by its fingerprint; where the graph has changed the record is not found and the search
-runs anew. It lists the alternatives in the order in which a walk from the outputs meets their nodes.
+A record belongs to one graph, told by its fingerprint; where the graph has changed the record is not found and the
+search runs anew. It lists the alternatives in the order in which a walk from the outputs meets their nodes.
 """
 
 from __future__ import annotations

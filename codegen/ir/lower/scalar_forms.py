@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from codegen.ir.lower.alternatives import GENERAL, Alternative, Prices, inner_cost
 from codegen.ir.lower.collect import scalar_products
 from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
-from codegen.ir.lower.space import Cross, Vector
+from codegen.ir.lower.quantities import Cross, Vector
 
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout, Signed
@@ -182,7 +182,8 @@ def plan_of(value: Polynomial) -> Sum:
         return Sum(())
     content = value.content
     rest = value.without(content)
-    common: Coefficient = abs(rest.terms[0][1])
+    first = rest.terms[0][1]
+    common: Coefficient = first if first > 0 else -first
     if common != 1 and all(abs(c) == common for _, c in rest.terms):
         rest = rest * number(Fraction(1, common))
     else:

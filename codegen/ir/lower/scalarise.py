@@ -216,7 +216,7 @@ class Scalariser:
         values = [self._plan(f, atoms) if isinstance(f, Sum) else atoms[f] for f in factors]
         sign = 1 if coefficient > 0 else -1
         if abs(coefficient) != 1 or not values:
-            values.insert(0, self._builder.constant(abs(coefficient)))
+            values.insert(0, self._builder.constant(coefficient if coefficient > 0 else -coefficient))
         result = values[0]
         for value in values[1:]:
             result = self._times(result, value)

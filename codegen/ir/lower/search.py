@@ -1,9 +1,9 @@
 """The cheapest way to compute the outputs: choose one alternative for every node that is needed.
 
-A node that several others use is paid once, so the choice is made over the whole graph. It starts from the cheapest tree
-of each output and is improved by moves that are kept when the total falls: another alternative for a node, with
-everything that profits from what it brings switched to it; a node closed, with everything that used it switched away. A
-seed changes where the search starts; from the same seed it always ends the same.
+A node that several others use is paid once, so the choice is made over the whole graph. It starts from the cheapest
+tree of each output and is improved by moves that are kept when the total falls: another alternative for a node, with
+everything that profits from what it brings switched to it; a node closed, with everything that used it switched away.
+A seed changes where the search starts; from the same seed it always ends the same.
 """
 
 from __future__ import annotations
@@ -236,13 +236,15 @@ class _Search:
             self._release(child)
 
     def _is_acyclic(self, roots: Sequence[int]) -> bool:
-        """Whether nothing below the roots depends on itself."""
+        """Whether nothing below the roots depends on itself; a cycle that nothing else needs has gone altogether."""
         done: set[int] = set()
         on_path: set[int] = set()
         stack = list(roots)
         graph, choice = self._graph, self.choice
         while stack:
             node = stack[-1]
+            if node not in choice:
+                return False
             if node in done:
                 stack.pop()
             elif node in on_path:

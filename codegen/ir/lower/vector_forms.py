@@ -11,7 +11,7 @@ from codegen.ir.lower.alternatives import GENERAL, UNIT, Alternative, inner_cost
 from codegen.ir.lower.collect import cross_products
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.space import Axis, Cross, Given, Named, Vector
+from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Vector
 
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout, Signed
@@ -107,7 +107,8 @@ def crosses(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]
     else:
         products = cross_products(layout.space, vector)
         if len(products) == 1:
-            yield cross(layout, *(layout.vector(side, frame) for side in products[0]))
+            first, second = products[0]
+            yield cross(layout, layout.vector(first, frame), layout.vector(second, frame))
     for key, sign in ((vector, 1), (-vector, -1)):
         for left, right in layout.space.cross_hints.get(key, ()):
             yield cross(layout, layout.vector(left, frame), layout.vector(right, frame), sign)

@@ -1,0 +1,1 @@
+"""A long search for the cheapest evaluation of every routine of the library; ``make search``."""

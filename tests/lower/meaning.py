@@ -15,8 +15,9 @@ import numpy as np
 from codegen.ir.lower.alternatives import Key
 from codegen.ir.lower.frames import Component, FrameTree
 from codegen.ir.lower.polynomial import Polynomial
+from codegen.ir.lower.quantities import Axis, Cross, Dyadic, Given, Vector
 from codegen.ir.lower.read import Definitions
-from codegen.ir.lower.space import Axis, Cross, Dyadic, Given, Space, Vector
+from codegen.ir.lower.space import Space
 
 from .numbers import Inputs, Numbers, arc_tangent, cosine, sine, skew
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from codegen.ir.lower.frames import FrameTree, Matrix
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, number
-from codegen.ir.lower.space import Axis, Dyadic, Given, Named, Space, Vector, combined
+from codegen.ir.lower.quantities import Axis, Dyadic, Given, Named, Vector, combined
+from codegen.ir.lower.space import Space
 
 from .meaning import Meaning
 from .numbers import Numbers, rotation, skew, vector

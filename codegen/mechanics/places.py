@@ -48,7 +48,7 @@ def places(form: Formulation, variant: Variant, is_substituted: bool) -> Places:
     has_rotation = H in form.stages and not isinstance(form.stages[H], sympy.Identity)
     joint_j = JOINT_J
     turning: dict[Any, Any] = {}
-    if has_rotation and _is_rotation(form):
+    if has_rotation and (is_substituted or _is_rotation(form)):
         turning = {H: (JOINT_I, JOINT_J if is_substituted else STAR)}
     elif is_substituted and form.stages[H].is_Identity:
         joint_j = JOINT_I

@@ -111,7 +111,7 @@ def relative_rotation(rot: int, angles: Array) -> Array:
     if len(angles) == 4:
         return from_euler_parameters(angles)
     if rot == 0:
-        return np.eye(3)
+        return np.eye(3, dtype=int)
     if rot == 1:
         return Rz(angles[0])
     if rot == 2:

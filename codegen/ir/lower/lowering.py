@@ -81,13 +81,14 @@ class _Searched:
         naming = self._demands.naming
         nodes = self._demands.layout.nodes
         places = {symbol.name: place for symbol, place in inputs.items() if isinstance(symbol, sympy.Symbol)}
+        taken = frozenset(legend)
 
         def read(name: str) -> int:
             return builder.constant(Constant(Fraction(1), 1)) if name == "pi" else builder.input(*places[name])
 
         def finished(node: int, entries: Entries) -> None:
             named = naming.of(nodes[node].key)
-            if named is not None:
+            if named is not None and named[0] not in taken:  # by another part, for another value
                 name, definition, first = named
                 legend.setdefault(name, definition)
                 for position, entry in enumerate(entries):

@@ -113,7 +113,13 @@ class Reader:
             return self._chain(rest, self._turn(first)[1])  # type: ignore[index]
         if first.shape[1] == 1:
             raise InternalError("a column inside a product that is a vector")
-        return self.space.apply(self.map(first, frame, frame), self._chain(rest, frame))
+        inner = self._frame_within(rest, frame)
+        return self.space.apply(self.map(first, frame, inner), self._chain(rest, inner))
+
+    def _frame_within(self, rest: Sequence[Any], frame: str | None) -> str | None:
+        """The frame that a written-out matrix turns from: that of a rotation behind it, else its own."""
+        turn = self._turn(rest[0]) if rest else None
+        return frame if turn is None else turn[0]
 
     def _explicit(self, entries: list[Any], frame: str | None) -> Vector:
         if frame is None:
@@ -170,21 +176,23 @@ class Reader:
             return Dyadic({}, ONE)
         if isinstance(expression, sympy.Transpose):
             return self.map(expression.arg, columns, rows).transposed
+        if expression in self._symbols.stages:
+            return self.map(self._symbols.stages[expression], rows, columns)
         if isinstance(expression, Tilde):
             return self.space.tilde(self.vector(expression.vector, rows or columns))
         if isinstance(expression, sympy.ZeroMatrix):
             return Dyadic({})
         if isinstance(expression, MatrixBase):
-            return self._explicit_map(expression, rows or columns)
+            return self._explicit_map(expression, rows or columns, columns or rows)
         raise InternalError(f"no reading of {type(expression).__name__}")
 
-    def _explicit_map(self, matrix: Any, frame: str | None) -> Dyadic:
-        if frame is None:
+    def _explicit_map(self, matrix: Any, rows: str | None, columns: str | None) -> Dyadic:
+        if rows is None or columns is None:
             raise InternalError("in which frame is an explicit matrix?")
-        if (matrix + matrix.T).is_zero_matrix:
-            return self.space.tilde(self._explicit([matrix[2, 1], matrix[0, 2], matrix[1, 0]], frame))
-        axes = [self.space.primitive(Axis(frame, k)) for k in range(3)]
-        return Dyadic({(axes[k], axes[n]): self.scalar(matrix[k, n]) for k in range(3) for n in range(3)})
+        if rows == columns and (matrix + matrix.T).is_zero_matrix:
+            return self.space.tilde(self._explicit([matrix[2, 1], matrix[0, 2], matrix[1, 0]], rows))
+        left, right = ([self.space.primitive(Axis(frame, k)) for k in range(3)] for frame in (rows, columns))
+        return Dyadic({(left[k], right[n]): self.scalar(matrix[k, n]) for k in range(3) for n in range(3)})
 
     def _map_chain(self, factors: Sequence[Any], rows: str | None, columns: str | None) -> Dyadic:
         for k, factor in enumerate(factors[:-1]):
@@ -194,13 +202,15 @@ class Reader:
                 return self.space.outer(self._chain(left, rows), self.vector(right, columns))
         result = Dyadic({}, ONE)
         frame = rows
-        for factor in factors:
+        for k, factor in enumerate(factors):
             turn = self._turn(factor)
             if turn is not None:
                 frame = turn[1]
             else:
                 frame = frame or self.frame_of(factor)
-                result = self.space.compose(result, self.map(factor, frame, frame))
+                inner = self._frame_within(factors[k + 1 :], frame)
+                result = self.space.compose(result, self.map(factor, frame, inner))
+                frame = inner
         return result
 
     # --- scalars

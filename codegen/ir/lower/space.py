@@ -178,11 +178,11 @@ class Space:
         left, right = self.primitives[p], self.primitives[q]
         if p == q:
             return Vector({})
+        if isinstance(left, Cross) and (not isinstance(right, Cross) or p > q):
+            return -self._cross(q, p)
         if isinstance(right, Cross):
             b, c = right.left, right.right
             return Vector({b: self._dot(p, c)}) - Vector({c: self._dot(p, b)})
-        if isinstance(left, Cross):
-            return -self._cross(q, p)
         axis = self._axis_product(p, q)
         if axis is not None:
             return axis

@@ -16,7 +16,11 @@ from .numbers import EXACT, random_inputs
 from .truth import exact_truth
 
 
-@each(*(Variant(joint, "conventional", None, matrices="raw") for joint in ("revolute", "translational", "screw")))
+@each(
+    *(Variant(joint, "conventional", None, matrices="raw") for joint in ("revolute", "translational", "screw")),
+    Variant("cylindrical", "parametric", "regular", matrices="raw"),
+    Variant("universal", "parametric", "table4", "substituted", matrices="raw"),
+)
 def test_phi_takes_raw_matrices_as_they_are(variant: Variant) -> None:
     parts, source = laid_out(variant, ("phi",)), random.Random(4)
     covered: list[Covered] = [set() for _ in parts]

@@ -99,12 +99,13 @@ class Demands:
             vector = self._reader.vector(_transposed(expression), columns[block.column])
             return [(*place, "row", self.layout.vector(vector, columns[block.column]))] if vector else []
         if expression.shape == (3, 1):
-            vector = self._reader.vector(expression, rows.get(block.row))
             frame = rows.get(block.row) or self._reader.frame_of(expression)
             if frame is None:
                 raise InternalError(f"in which frame is {expression}?")
-            place_vector = self._raw_vector if self._reader.raw else self.layout.vector
-            return [(*place, "column", place_vector(vector, frame))] if vector else []
+            if self._reader.raw:
+                return [(*place, "column", self._raw_column(expression, frame))]
+            vector = self._reader.vector(expression, frame)
+            return [(*place, "column", self.layout.vector(vector, frame))] if vector else []
         row_frame = rows.get(block.row) or self._reader.frame_of(expression)
         column_frame = columns[block.column] if width > 3 else self._reader.frame_of(_transposed(expression))
         if row_frame is None or column_frame is None:
@@ -112,9 +113,19 @@ class Demands:
         dyadic = self._reader.map(expression, row_frame, column_frame)
         return [(*place, "matrix", self.layout.block(dyadic, row_frame, column_frame))] if dyadic else []
 
-    def _raw_vector(self, vector: Vector, frame: str) -> tuple[int, int]:
-        outermost = self.layout.tree.frames[0]
-        return self.layout.pushed(vector, frame) if frame == outermost else self.layout.pulled(vector, frame)
+    def _raw_column(self, expression: Any, frame: str) -> tuple[int, int]:
+        """A vector of ``phi`` with raw matrices; what does not come through a stage is in its frame already."""
+        terms = expression.args if isinstance(expression, sympy.MatAdd) else (expression,)
+        through, plain = Vector({}), Vector({})
+        for term in terms:
+            vector = self._reader.vector(term, frame)
+            if term.atoms(sympy.MatrixSymbol) & self._places.stages.keys():
+                through += vector
+            else:
+                plain += vector
+        if frame == self.layout.tree.frames[0]:
+            return self.layout.pushed(through + plain, frame)
+        return self.layout.offset(through, plain, frame) if plain else self.layout.pulled(through, frame)
 
 
 def _transposed(expression: Any) -> Any:

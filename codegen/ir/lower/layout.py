@@ -82,6 +82,10 @@ class Layout:
         sign = vector.sign or 1
         return sign, self._number(("pulled", vector if sign > 0 else -vector, frame))
 
+    def offset(self, pulled: Vector, plain: Vector, frame: str) -> Signed:
+        """The sum of a pulled vector and of one that is in the frame already."""
+        return 1, self._number(("offset", pulled, frame, plain))
+
     def scalar(self, value: Polynomial) -> Signed:
         """A scalar."""
         sign = value.sign or 1
@@ -177,7 +181,7 @@ class Layout:
     def _is_raw(self, key: Key) -> bool:
         """Whether a node leads to vectors turned with raw matrices."""
         if key[0] != "scalar":
-            return key[0] in ("pushed", "pulled")
+            return key[0] in ("pushed", "pulled", "offset")
         return any(self.space.atoms[a].kind in ("raw", "stage") for monomial, _ in key[1].terms for a in monomial)
 
     def _alternatives(self, key: Key) -> tuple[Alternative, ...]:
@@ -188,6 +192,8 @@ class Layout:
                 return vector_forms.alternatives(self, key[1], key[2])
             case "pushed" | "pulled":
                 return raw_forms.alternatives(self, *key)
+            case "offset":
+                return raw_forms.offset_alternatives(self, *key[1:])
             case "scalar":
                 return scalar_forms.alternatives(self, key[1])
             case "outer":
@@ -224,6 +230,8 @@ class Layout:
         match key[0]:
             case "vector" | "pushed" | "pulled":
                 return self.vector_classes(key[1], key[2])
+            case "offset":
+                return (GENERAL,) * 3
             case "scalar":
                 return (scalar_class(key[1]),)
             case "outer":

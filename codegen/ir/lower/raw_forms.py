@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import Alternative, inner_cost
-from codegen.ir.lower.quantities import Cross, Given, Named, Vector
+from codegen.ir.lower.polynomial import ONE
+from codegen.ir.lower.quantities import Cross, Named, Vector
 from codegen.ir.lower.vector_forms import given, read, sums
 
 if TYPE_CHECKING:
@@ -38,6 +39,14 @@ def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple
     return tuple(found)
 
 
+def offset_alternatives(layout: Layout, pulled: Vector, frame: str, plain: Vector) -> tuple[Alternative, ...]:
+    """Lay out the sum of a pulled vector and of one in the frame itself."""
+    _, one = layout.scalar(ONE)
+    (pulled_sign, first), (plain_sign, second) = layout.pulled(pulled, frame), layout.pushed(plain, frame)
+    cost = layout.prices.add * sum(c > 0 for c in layout.classes(second))
+    return (Alternative("sum", (one, first, one, second), cost, ((pulled_sign, 1), (plain_sign, 1))),)
+
+
 def inside(layout: Layout, vector: Vector, frame: str) -> str | None:
     """The frame next inside ``frame`` that all parts of a vector come through, if there is one."""
     through: set[str] = set()
@@ -61,6 +70,3 @@ def _turned(layout: Layout, inner: tuple[int, int], start: str, end: str) -> Alt
     components = layout.classes(inner[1])
     cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
     return Alternative("turned", (inner[1], *axes), cost, (by, inner[0]))
-
-
-__all__ = ["Given", "alternatives", "inside"]

@@ -23,10 +23,10 @@ def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple
     if kind == "pulled":
         outer = layout.tree.outward(frame)[1]
         found.append(_turned(layout, layout.pushed(vector, outer), outer, frame))
-        if len(vector.terms) > 1:
+        if vector.single is None:
             found += sums(layout, vector, frame, "pulled")
         return tuple(found)
-    if len(vector.terms) > 1:
+    if vector.single is None:
         found += sums(layout, vector, frame, "pushed")
     inner = inside(layout, vector, frame)
     description = layout.space.primitives[vector.terms[0][0]]

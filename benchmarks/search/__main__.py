@@ -34,10 +34,12 @@ class Job:
     Attributes:
         variant: form and options.
         starts: how many starts each search has.
+        routines: names of the routines; none means all of them.
     """
 
     variant: Variant
     starts: int
+    routines: tuple[str, ...] = ()
 
 
 def search(job: Job) -> tuple[dict[str, str], str]:
@@ -46,6 +48,8 @@ def search(job: Job) -> tuple[dict[str, str], str]:
     records: dict[str, str] = {}
     words = []
     for name, quantities in _routines(job.variant):
+        if job.routines and name not in job.routines:
+            continue
         found: list[tuple[Graph, Sequence[int], list[Choice]]] = []
 
         def choose(
@@ -77,14 +81,17 @@ def _routines(variant: Variant) -> Iterator[tuple[str, Sequence[str]]]:
 
 @click.command()
 @click.option("--starts", default=12, show_default=True, help="Starts of each search.")
-def main(starts: int) -> None:
-    """Search long, and write codegen/records.json."""
+@click.option("--routines", default="", help="Comma-separated outputs, or derivatives; everything if left out.")
+def main(starts: int, routines: str) -> None:
+    """Search long, and write codegen/records.json; what a partial run leaves out stays on record."""
+    names = tuple(name for name in routines.split(",") if name)
     screw = [Variant("screw", "conventional", None, "substituted", variation) for variation in ("body", "world")]
-    jobs = [Job(variant, starts) for variant in (*build.variants(build.LIBRARY), *screw)]
+    jobs = [Job(variant, starts, names) for variant in (*build.variants(build.LIBRARY), *screw)]
     with Progress(transient=True) as progress:
         task = progress.add_task("search", total=len(jobs))
         results = parallel(search, jobs, lambda job: progress.advance(task))
-    records = {key: record for found, _ in results for key, record in found.items()}
+    records = dict(build.records()) if names else {}
+    records |= {key: record for found, _ in results for key, record in found.items()}
     FILE.write_text(json.dumps(dict(sorted(records.items())), indent=0) + "\n", encoding="utf-8")
     for _, line in results:
         click.echo(line)

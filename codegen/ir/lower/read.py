@@ -132,10 +132,18 @@ class Reader:
         components = tuple(value if sign > 0 else -value for value in values)
         name = next((n for (f, n), known in self.given.items() if f == frame and known == components), None)
         if name is None:
-            name = f"explicit_{len(self.given)}"
+            name = self._name_of(components)
             self.given[frame, name] = components
         vector = self.space.vector(Given(frame, name))
         return vector if sign > 0 else -vector
+
+    def _name_of(self, components: Sequence[Polynomial]) -> str:
+        """Name a written-out vector after its components: ``lambda_0_1_2``."""
+        atoms = [self.space.atoms[m[0]].key[0] for c in components for m, _ in c.terms if len(c.terms) == len(m) == 1]
+        prefixes = {str(atom).rpartition("_")[0] for atom in atoms}
+        if len(atoms) == 3 and len(prefixes) == 1 and min(prefixes):
+            return "_".join([*prefixes, *(str(atom).rpartition("_")[2] for atom in atoms)])
+        return f"vector_{len(self.given)}"
 
     def _turn(self, factor: Any) -> tuple[str, str] | None:
         """Frames that a rotation leads to and from."""

@@ -17,6 +17,7 @@
 #ifdef JG_REAL_IS_FLOAT
 typedef float jg_real;
 #define JG_REAL(literal) literal##f
+#define jg_fma fmaf
 #define jg_sqrt sqrtf
 #define jg_sin sinf
 #define jg_cos cosf
@@ -24,6 +25,7 @@ typedef float jg_real;
 #else
 typedef double jg_real;
 #define JG_REAL(literal) literal
+#define jg_fma fma
 #define jg_sqrt sqrt
 #define jg_sin sin
 #define jg_cos cos

@@ -18,8 +18,9 @@ import codegen
 from codegen import build
 from codegen.ir.lower.record import fingerprint, recorded, replayed
 from codegen.ir.lower.search import Choice, Graph, searched
+from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.parallel import parallel
-from codegen.spec.request import Variant
+from codegen.spec.request import Options, Variant
 from flopcount.count import count
 
 FILE = Path(codegen.__file__).with_name("records.json")
@@ -79,6 +80,15 @@ def _routines(variant: Variant) -> Iterator[tuple[str, Sequence[str]]]:
         yield "phi_q + second", DERIVATIVES[1:]
 
 
+def _on_request() -> list[Variant]:
+    """Variants outside the library: world variation and quaternion rows of the parametric form, and all pairs."""
+    world = Options(tuple(JOINTS), "parametric", variation="world")
+    quaternion = Options(("ball", "trn3_rot3"), "parametric", "quaternion")
+    turned = Options(("ball",), "parametric", "quaternion", "exact", "world")
+    pairs = Options(tuple(PAIRS), "parametric")
+    return [variant for options in (world, quaternion, turned, pairs) for variant in build.variants(options)]
+
+
 @click.command()
 @click.option("--starts", default=12, show_default=True, help="Starts of each search.")
 @click.option("--routines", default="", help="Comma-separated outputs, or derivatives; everything if left out.")
@@ -87,6 +97,7 @@ def main(starts: int, routines: str) -> None:
     names = tuple(name for name in routines.split(",") if name)
     screw = [Variant("screw", "conventional", None, "substituted", variation) for variation in ("body", "world")]
     jobs = [Job(variant, starts, names) for variant in (*build.variants(build.LIBRARY), *screw)]
+    jobs += [Job(variant, max(starts // 8, 1), names) for variant in _on_request()]
     with Progress(transient=True) as progress:
         task = progress.add_task("search", total=len(jobs))
         results = parallel(search, jobs, lambda job: progress.advance(task))

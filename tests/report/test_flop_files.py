@@ -70,9 +70,7 @@ def test_what_the_paper_leaves_out_is_counted_apart(table_7):
         left_out = row_of(table_7, joint, "phi_q")["left_out"]
         angles = {"revolute": 1, "screw": 1, "cylindrical": 1, "planar": 1, "universal": 2, "ball": 3}.get(joint, 0)
         assert left_out["A_ij(alpha)"]["sincos"] == angles
-        assert left_out["A_ij"]["total"] == 39, (
-            "two columns of the product, 15 each, and their cross product, 9"
-        )
+        assert left_out["A_ij"]["total"] == 39, "two columns of the product, 15 each, and their cross product, 9"
         assert left_out["d_ij"]["total"] == 39, "two products of matrix and vector, and three sums of three"
         assert (left_out["dA_ij/dalpha"]["total"] > 0) == (angles > 0)
 

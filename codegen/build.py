@@ -112,7 +112,7 @@ class Model:
         self,
         outputs: tuple[SymbolicOutput, ...],
         is_substituted: bool | None = None,
-        choose: Choose = lambda graph, nodes: choices_for(graph, nodes),
+        choose: Choose | None = None,
     ) -> Program:
         """Lower any outputs in the stages of this model to one simplified program, the cheapest that is found.
 
@@ -122,7 +122,8 @@ class Model:
                 derivative is substituted, but never in ``phi``.
             choose: among the ways to evaluate them; what is on record, or a search.
         """
-        return min(self.programs(outputs, is_substituted, choose), key=lambda program: count(program).total)
+        programs = self.programs(outputs, is_substituted, choose or choices_for)
+        return min(programs, key=lambda program: count(program).total)
 
     def programs(
         self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose

@@ -145,7 +145,13 @@ def fingerprint() -> str:
     """Content hash of the generator and of the committed package."""
     sources = sorted(
         path
-        for folder, pattern in (("codegen", "*.py"), ("flopcount", "*.py"), ("templates", "*.j2"), ("generated", "*.c"))
+        for folder, pattern in (
+            ("codegen", "*.py"),
+            ("codegen", "*.json"),
+            ("flopcount", "*.py"),
+            ("templates", "*.j2"),
+            ("generated", "*.c"),
+        )
         for path in (ROOT / folder).rglob(pattern)
     )
     names = (str(path.relative_to(ROOT)) for path in sources)

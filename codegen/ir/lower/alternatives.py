@@ -7,9 +7,13 @@ from other nodes. `codegen.ir.lower.layout` lays out the graph of both.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 Key = tuple[Any, ...]
+
+Classes = tuple[int, ...]
+"""Class of each entry."""
 
 ZERO, UNIT, GENERAL = 0, 1, 2
 """What is known of an entry: it is zero, plus or minus one, or anything."""
@@ -68,6 +72,26 @@ def inner_cost(pairs: list[tuple[int, int]], prices: Prices) -> float:
     products = [product for product in pairs if product[0] and product[1]]
     multiplied = sum(1 for a, b in products if a == b == GENERAL)
     return prices.mul * multiplied + prices.add * max(len(products) - 1, 0)
+
+
+@cache
+def dot_cost(a: Classes, b: Classes, prices: Prices) -> float:
+    """Price of a scalar product, from the classes of the two vectors."""
+    return inner_cost(list(zip(a, b, strict=True)), prices)
+
+
+@cache
+def cross_cost(a: Classes, b: Classes, prices: Prices) -> float:
+    """Price of a cross product, from the classes of the two vectors."""
+    places = [((k + 1) % 3, (k + 2) % 3) for k in range(3)]
+    return sum(inner_cost([(a[p], b[q]), (a[q], b[p])], prices) for p, q in places)
+
+
+@cache
+def turn_cost(axes: tuple[Classes, ...], by: str, components: Classes, prices: Prices) -> float:
+    """Price of a rotation, given by its columns or its rows, times a vector, from their classes."""
+    rows = zip(*axes, strict=True) if by == "columns" else axes
+    return sum(dot_cost(tuple(row), components, prices) for row in rows)
 
 
 def inner_class(pairs: list[tuple[int, int]]) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from codegen.ir.lower.alternatives import GENERAL, Alternative, inner_cost
+from codegen.ir.lower.alternatives import GENERAL, Alternative, cross_cost
 from codegen.ir.lower.collect import common_coefficient
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, total
 from codegen.ir.lower.quantities import Axis, Dyadic, Vector
@@ -201,14 +201,7 @@ def tilde_alternatives(layout: Layout, vector: Vector, rows: str, columns: str) 
     for by in ("columns", "rows"):
         axes = layout.axes_between(columns, rows, by)
         sign, node = layout.vector(vector, rows if by == "columns" else columns)
-        w = layout.classes(node)
-        cost = 0.0
-        for axis in axes:
-            a = layout.classes(axis)
-            cost += sum(
-                inner_cost([(w[(k + 1) % 3], a[(k + 2) % 3]), (w[(k + 2) % 3], a[(k + 1) % 3])], layout.prices)
-                for k in range(3)
-            )
+        cost = sum(cross_cost(layout.classes(node), layout.classes(axis), layout.prices) for axis in axes)
         found.append(Alternative("skewed", (node, *axes), cost, (by, sign)))
     return tuple(found)
 

@@ -106,8 +106,10 @@ class Demands:
                 return [(*place, "column", self._raw_column(expression, frame))]
             vector = self._reader.vector(expression, frame)
             return [(*place, "column", self.layout.vector(vector, frame))] if vector else []
-        row_frame = rows.get(block.row) or self._reader.frame_of(expression)
-        column_frame = columns[block.column] if width > 3 else self._reader.frame_of(_transposed(expression))
+        if width > 3:
+            row_frame, column_frame = rows.get(block.row), columns.get(block.column)
+        else:
+            row_frame, column_frame = self._reader.frame_of(expression), self._reader.frame_of(_transposed(expression))
         if row_frame is None or column_frame is None:
             raise InternalError(f"between which frames is {expression}?")
         dyadic = self._reader.map(expression, row_frame, column_frame)

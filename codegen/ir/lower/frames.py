@@ -62,6 +62,14 @@ class FrameTree:
             chain.append(before)
         return chain[::-1]
 
+    @cached_property
+    def _connected(self) -> dict[str, tuple[str, ...]]:
+        return {frame: tuple(other for other in self.frames if self.path(other, frame)) for frame in self.frames}
+
+    def connected(self, frame: str) -> tuple[str, ...]:
+        """The frames from which rotations lead to a frame, itself among them, in the order of `frames`."""
+        return self._connected[frame]
+
     def outward(self, frame: str) -> list[str]:
         """The frame and those around it, up to the outermost."""
         return self.path(frame, self.frames[0])

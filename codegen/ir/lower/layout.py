@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
 
 from codegen.errors import InternalError
-from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Key, Node, Prices, inner_class
+from codegen.ir.lower.alternatives import GENERAL, UNIT, ZERO, Alternative, Classes, Key, Node, Prices, inner_class
 from codegen.ir.lower.frames import Component, FrameTree
 from codegen.ir.lower.polynomial import Polynomial
 from codegen.ir.lower.quantities import Axis, Cross, Dyadic, Given, Named, Vector
@@ -53,6 +53,7 @@ class Layout:
         self.traces: dict[Polynomial, list[Signed]] = {}
         self._numbers: dict[Key, int] = {}
         self._axes_between: dict[tuple[str, str, str], tuple[int, ...]] = {}
+        self._classes_between: dict[tuple[str, str, str], tuple[Classes, ...]] = {}
         self._axis_classes: dict[tuple[int, str], tuple[int, ...]] = {}
 
     # --- nodes
@@ -71,6 +72,13 @@ class Layout:
             of, seen = (start, end) if by == "columns" else (end, start)
             self._axes_between[key] = tuple(self.vector(self.space.vector(Axis(of, k)), seen)[1] for k in range(3))
         return self._axes_between[key]
+
+    def axis_classes(self, start: str, end: str, by: str) -> tuple[Classes, ...]:
+        """Classes of `axes_between`."""
+        key = start, end, by
+        if key not in self._classes_between:
+            self._classes_between[key] = tuple(self.nodes[node].classes for node in self.axes_between(*key))
+        return self._classes_between[key]
 
     def pushed(self, vector: Vector, frame: str) -> Signed:
         """A vector in a frame around its own, the rotation matrices taken as they are."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 
 Coefficient = int | Fraction
 """Integers stay integers: their arithmetic is fast."""
@@ -82,11 +82,12 @@ class Polynomial:
     @cached_property
     def content(self) -> Monomial:
         """The atoms that every monomial has."""
-        common: Counter[int] | None = None
-        for monomial, _ in self.terms:
-            atoms = Counter(monomial)
-            common = atoms if common is None else common & atoms
-        return tuple(sorted((common or Counter()).elements()))
+        if len(self.terms) == 1:
+            return self.terms[0][0]
+        if not self.terms or not all(monomial for monomial, _ in self.terms):
+            return ()
+        common = reduce(lambda a, b: a & b, (Counter(monomial) for monomial, _ in self.terms))
+        return tuple(sorted(common.elements()))
 
     def without(self, factor: Monomial) -> Polynomial:
         """Divide by a monomial that every term has."""

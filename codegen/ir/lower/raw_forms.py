@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from codegen.ir.lower.alternatives import Alternative, inner_cost
+from codegen.ir.lower.alternatives import Alternative, turn_cost
 from codegen.ir.lower.polynomial import ONE
 from codegen.ir.lower.quantities import Cross, Named, Vector
 from codegen.ir.lower.vector_forms import given, read, sums
@@ -65,8 +65,5 @@ def _turned(layout: Layout, inner: tuple[int, int], start: str, end: str) -> Alt
     """The given matrix between neighbouring frames times a vector; its columns are given nodes."""
     by = "columns" if layout.tree.outward(start)[1:2] == [end] else "rows"
     axes = layout.axes_between(start, end, by)
-    entries = [layout.classes(node) for node in axes]
-    rows = list(zip(*entries, strict=True)) if by == "columns" else entries
-    components = layout.classes(inner[1])
-    cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
+    cost = turn_cost(layout.axis_classes(start, end, by), by, layout.classes(inner[1]), layout.prices)
     return Alternative("turned", (inner[1], *axes), cost, (by, inner[0]))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from codegen.ir.lower.alternatives import GENERAL, Alternative, Prices, inner_cost
+from codegen.ir.lower.alternatives import GENERAL, Alternative, Prices, dot_cost
 from codegen.ir.lower.collect import scalar_products
 from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
 from codegen.ir.lower.quantities import Cross, Vector
@@ -112,11 +112,9 @@ def dots(layout: Layout, left: Vector, right: Vector, sign: int) -> Iterator[Alt
 
 
 def _dot(layout: Layout, left: Signed, right: Signed, sign: int) -> Alternative:
-    classes = list(zip(layout.classes(left[1]), layout.classes(right[1]), strict=True))
+    cost = dot_cost(layout.classes(left[1]), layout.classes(right[1]), layout.prices)
     family = f"dot {layout.nodes[left[1]].key[2]}"
-    return Alternative(
-        "dot", (left[1], right[1]), inner_cost(classes, layout.prices), sign * left[0] * right[0], family
-    )
+    return Alternative("dot", (left[1], right[1]), cost, sign * left[0] * right[0], family)
 
 
 def _collected(layout: Layout, value: Polynomial) -> Iterator[Alternative]:
@@ -152,7 +150,7 @@ def _sum(layout: Layout, parts: tuple[Polynomial, ...], sign: int) -> Alternativ
 
 def _product(layout: Layout, left: Polynomial, right: Polynomial, sign: int) -> Alternative:
     (left_sign, a), (right_sign, b) = layout.scalar(left), layout.scalar(right)
-    cost = inner_cost([(layout.classes(a)[0], layout.classes(b)[0])], layout.prices)
+    cost = dot_cost(layout.classes(a), layout.classes(b), layout.prices)
     return Alternative("product", (a, b), cost, sign * left_sign * right_sign)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import reduce
 from typing import TYPE_CHECKING
 
-from codegen.ir.lower.alternatives import GENERAL, UNIT, Alternative, inner_cost
+from codegen.ir.lower.alternatives import GENERAL, UNIT, Alternative, cross_cost, turn_cost
 from codegen.ir.lower.collect import cross_products
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.polynomial import ONE, Polynomial
@@ -42,7 +42,7 @@ def alternatives(layout: Layout, vector: Vector, frame: str) -> tuple[Alternativ
     found += crosses(layout, vector, frame)
     if frame in layout.axes and not (isinstance(description, Axis) and description.frame == frame):
         found.append(_components(layout, vector, frame))
-    for other in layout.tree.frames:
+    for other in layout.tree.connected(frame):
         if other != frame:
             found += turned(layout, vector, other, frame, description)
     return tuple(dict.fromkeys(found))
@@ -116,11 +116,7 @@ def crosses(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]
 
 def cross(layout: Layout, left: Signed, right: Signed, sign: int = 1) -> Alternative:
     """The cross product of two nodes."""
-    a, b = layout.classes(left[1]), layout.classes(right[1])
-    cost = sum(
-        inner_cost([(a[(k + 1) % 3], b[(k + 2) % 3]), (a[(k + 2) % 3], b[(k + 1) % 3])], layout.prices)
-        for k in range(3)
-    )
+    cost = cross_cost(layout.classes(left[1]), layout.classes(right[1]), layout.prices)
     return Alternative(
         "cross", (left[1], right[1]), cost, sign * left[0] * right[0], f"cross {layout.nodes[left[1]].key[2]}"
     )
@@ -128,8 +124,6 @@ def cross(layout: Layout, left: Signed, right: Signed, sign: int = 1) -> Alterna
 
 def turned(layout: Layout, vector: Vector, start: str, end: str, description: object) -> Iterator[Alternative]:
     """``R v`` with R by its columns (axes of ``start`` seen in ``end``) or by its rows."""
-    if not layout.tree.path(start, end):
-        return
     is_axis_of_start = isinstance(description, Axis) and description.frame == start
     inner = layout.vector(vector, start)
     for by in ("columns", "rows"):
@@ -138,10 +132,7 @@ def turned(layout: Layout, vector: Vector, start: str, end: str, description: ob
         axes = layout.axes_between(start, end, by)
         if inner[1] in axes:
             continue
-        entries = [layout.classes(node) for node in axes]
-        components = layout.classes(inner[1])
-        rows = list(zip(*entries, strict=True)) if by == "columns" else entries
-        cost = sum(inner_cost(list(zip(row, components, strict=True)), layout.prices) for row in rows)
+        cost = turn_cost(layout.axis_classes(start, end, by), by, layout.classes(inner[1]), layout.prices)
         yield Alternative("turned", (inner[1], *axes), cost, (by, inner[0]), f"{by} {start} {end}")
 
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import casadi
 
-from codegen.emit.literals import nearest_double
 from codegen.ir.evaluate import Domain, evaluate
+from codegen.ir.nearest import nearest_double
 from codegen.ir.ops import Constant
 from codegen.ir.program import Argument, Output, Program
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from codegen.errors import InternalError
 from codegen.ir.fused import fused_multiply_add, fused_multiply_add_arrays
+from codegen.ir.nearest import nearest_double
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Program
 
@@ -48,10 +49,6 @@ class Domain:
     fma: Callable[[Number, Number, Number], Number] = _product_and_sum
 
 
-def _float_constant(constant: Constant) -> float:
-    return float(constant.rational) * math.pi**constant.pi_power if constant.pi_power else float(constant.rational)
-
-
 def _fraction_constant(constant: Constant) -> Fraction:
     if constant.pi_power:
         raise ArithmeticError("pi is not rational")
@@ -64,7 +61,7 @@ def _not_rational(*_: Number) -> Number:
 
 def float_domain() -> Domain:
     """Python floats (IEEE double)."""
-    return Domain("float", _float_constant, math.sqrt, math.sin, math.cos, math.atan2, fused_multiply_add)
+    return Domain("float", nearest_double, math.sqrt, math.sin, math.cos, math.atan2, fused_multiply_add)
 
 
 def fraction_domain() -> Domain:
@@ -77,7 +74,7 @@ def numpy_domain() -> Domain:
     import numpy
 
     functions = (numpy.sqrt, numpy.sin, numpy.cos, numpy.arctan2)
-    return Domain("numpy", _float_constant, *functions, fused_multiply_add_arrays)
+    return Domain("numpy", nearest_double, *functions, fused_multiply_add_arrays)
 
 
 def arb_domain() -> Domain:

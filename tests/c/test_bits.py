@@ -24,7 +24,7 @@ from codegen.spec.request import Options, library_variants
 from tests.harness.library import Library, compile_library
 from tests.truth.cases import SPOTS, inputs_at
 
-from .packages import have, only_one
+from .packages import STRICT, Package, have, only_one
 
 pytestmark = pytest.mark.skipif(not have("gcc"), reason="needs gcc")
 DOCUMENTED = ("-ffp-contract=off", "-fno-tree-slp-vectorize")
@@ -94,6 +94,21 @@ def test_single_precision_has_the_bits_of_the_program_too(joint: str, fma: bool,
             for library, build_ in zip(libraries, builds, strict=True):
                 found = {name: bits(values) for name, values in library.call(routine.symbol, inputs).items()}
                 assert found == expected, (routine.symbol, build_)
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_a_fused_package_compiles_silently_with_its_externals(real: str, shared: Path) -> None:
+    root = shared / f"fused-{real}"
+    with only_one(shared / f"{root.name}.lock"):
+        if not root.exists():
+            output.replace(root, build.generate(Options(("screw",), outputs=("phi", "all"), fma=True, real=real)))
+    (shared / "objects").mkdir(exist_ok=True)
+    fused = Package(root, None, shared / "objects")
+    for flags in (("-O1", "-fPIC"), ("-O0", "-DJG_REAL_IS_DOUBLE"), ("-O0", "-DJG_REAL_IS_FLOAT")):
+        fused.objects(*STRICT, *flags)
+    externals = fused.objects(*STRICT, "-O0", "-fPIC", externals=True)
+    assert bool(externals) == (real == "double")
+    assert all("jg_fma(" in path.read_text() for path in (*fused.sources, *fused.externals))
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)

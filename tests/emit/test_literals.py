@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen.emit.literals import literal, nearest_double
+from codegen.emit.literals import literal
+from codegen.ir.nearest import nearest_double
 from codegen.ir.ops import Constant
 from tests.ir.programs import RANDOM
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import GENERAL, Alternative, cross_cost
 from codegen.ir.lower.collect import common_coefficient
-from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, total
+from codegen.ir.lower.polynomial import ONE, Polynomial, total
 from codegen.ir.lower.quantities import Axis, Dyadic, Vector
 
 if TYPE_CHECKING:
@@ -204,6 +204,3 @@ def tilde_alternatives(layout: Layout, vector: Vector, rows: str, columns: str) 
         cost = sum(cross_cost(layout.classes(node), layout.classes(axis), layout.prices) for axis in axes)
         found.append(Alternative("skewed", (node, *axes), cost, (by, sign)))
     return tuple(found)
-
-
-__all__ = ["ZERO", "alternatives", "groupings"]

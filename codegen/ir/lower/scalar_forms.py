@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from codegen.ir.lower.alternatives import GENERAL, Alternative, Prices, dot_cost
+from codegen.ir.lower.alternatives import Alternative, Prices, dot_cost
 from codegen.ir.lower.collect import scalar_products
 from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
-from codegen.ir.lower.quantities import Cross, Vector
+from codegen.ir.lower.quantities import Vector
 
 if TYPE_CHECKING:
     from codegen.ir.lower.layout import Layout, Signed
@@ -213,6 +213,3 @@ def _cost(plan: Sum, prices: Prices) -> float:
         cost += prices.mul * max(factors - 1, 0)
         cost += sum(_cost(factor, prices) for factor in term.factors if isinstance(factor, Sum))
     return cost
-
-
-__all__ = ["GENERAL", "Cross", "Product", "Sum", "alternatives", "dots", "plan_of"]

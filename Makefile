@@ -21,7 +21,6 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current lock bench-batch bench-flags clean help
 .PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
@@ -60,6 +59,7 @@ bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results
 
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
+
 bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
 	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)
 

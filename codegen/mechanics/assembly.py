@@ -24,8 +24,8 @@ from codegen.mechanics.arrays import PLANAR, SPATIAL, Arrays
 from codegen.mechanics.derivation import Derivation, is_matrix
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
-from codegen.mechanics.placed import Ends, Placed
 from codegen.mechanics.merged import merged
+from codegen.mechanics.placed import Ends, Placed
 from codegen.mechanics.places import WORLD, places
 from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
@@ -187,9 +187,7 @@ class Assembly:
 
     def _part(self, placed: Sequence[Placed], names: Iterable[str], is_substituted: bool) -> Part:
         outputs = tuple(self._quantity(name, placed) for name in names)
-        parts = [
-            p.places(places(p.form, self.forms[p.joint.name], is_substituted, self.translations)) for p in placed
-        ]
+        parts = [p.places(places(p.form, self.forms[p.joint.name], is_substituted, self.translations)) for p in placed]
         columns = {column: frame for p in placed for column, frame in p.column_frames(self.translations).items()}
         return Part(merged(parts, columns), outputs)
 
@@ -216,5 +214,3 @@ def _sum(parts: list[Any]) -> Any:
     if len(parts) == 1:
         return parts[0]
     return sympy.MatAdd(*parts) if is_matrix(parts[0]) else sympy.Add(*parts)
-
-

@@ -25,6 +25,7 @@ from codegen.spec.scene import Joint, Marker, Matrix
 
 ORIGIN = sympy.ImmutableDenseMatrix([0, 0, 0])
 
+
 @dataclass(frozen=True)
 class Ends:
     """Where a joint of a scene stands.

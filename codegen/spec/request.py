@@ -58,7 +58,7 @@ class Variant:
 
     @property
     def translations(self) -> str:
-        """Axes of the virtual translations: ``body`` (``delta r' = A^T delta r``) in S1's parametric form, ``world``."""
+        """Axes of the virtual translations: ``body`` (``delta r' = A^T delta r``) or ``world``."""
         return "body" if self.form == "parametric" and self.variation == "body" else "world"
 
     @property

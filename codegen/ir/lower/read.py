@@ -102,7 +102,7 @@ class Reader:
         return self._vectors[symbol]
 
     def _known(self, symbol: Any) -> Vector:
-        """A vector whose components are numbers or scalar symbols; a sum of axes where they are numbers, or one only."""
+        """A vector of numbers or scalar symbols; a sum of axes where all are numbers, or where there is one only."""
         frame = self._symbols.frames[symbol]
         values = [self.scalar(entry) for entry in self._symbols.constants[symbol]]
         if all(value.constant is not None for value in values) or sum(map(bool, values)) == 1:

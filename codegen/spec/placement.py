@@ -103,14 +103,15 @@ def frame(third: Vector, preferred: Iterable[Vector] = IDENTITY) -> Matrix:
     """
     h = unit(third)
     directions = [unit(direction) for direction in preferred]
-    across = [direction for direction in directions if not dot(direction, h)]
-    if across:
-        f = across[0]
-    else:
-        least = min(directions, key=lambda direction: abs(dot(direction, h)))
-        along = dot(least, h)
-        f = unit(_three(x - along * y for x, y in zip(least, h, strict=True)))
+    across = next((direction for direction in directions if abs(dot(direction, h)) <= NEARLY), None)
+    f = perpendicular(across or min(directions, key=lambda direction: abs(dot(direction, h))), h)
     return columns(f, unit(cross(h, f)), h)
+
+
+def perpendicular(direction: Vector, h: Vector) -> Vector:
+    """Unit vector nearest to a direction among those that are perpendicular to a unit vector."""
+    along = dot(direction, h)
+    return unit(_three(x - along * y for x, y in zip(direction, h, strict=True))) if along else unit(direction)
 
 
 def columns(f: Vector, g: Vector, h: Vector) -> Matrix:
@@ -128,6 +129,7 @@ def marker(point: Vector, axes: Matrix, position: Vector, attitude: Matrix) -> M
         attitude: [3, 3] of the body, body to world.
     """
     f, _, h = (unit(turned_back(attitude, axis)) for axis in transposed(axes))
+    f = perpendicular(f, h)
     return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, unit(cross(h, f)), h))
 
 

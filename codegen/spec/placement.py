@@ -52,7 +52,7 @@ def transposed(matrix: Matrix) -> Matrix:
 
 def dot(a: Sequence[Fraction], b: Sequence[Fraction]) -> Fraction:
     """Scalar product."""
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+    return sum((x * y for x, y in zip(a, b, strict=True) if x and y), Fraction(0))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -81,8 +81,7 @@ def length(vector: Sequence[Fraction]) -> Fraction:
 
 def unit(vector: Vector) -> Vector:
     """Direction of a vector that is not zero; components that are nearly 0 are 0."""
-    size = length(vector)
-    kept = _three(x / size if abs(x) > NEARLY * size else Fraction(0) for x in vector)
+    kept = on_axes(vector)
     size = length(kept)
     return _three(x / size for x in kept)
 

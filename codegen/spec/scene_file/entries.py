@@ -165,7 +165,7 @@ class SceneEntry(Entry):
     motion: str = key(choice(MOTIONS), "planar: reduced to the plane across the joint axes", "spatial")
     assemble: bool = key(FLAG, "whether the pose at t = 0 is a guess and joints may be open in it", False)
     copies: CopiesEntry | None = key(table_of(CopiesEntry), "the mechanism several times")
-    body: tuple[BodyEntry, ...] = key(tables(BodyEntry), "bodies", (), is_required=True)
+    body: tuple[BodyEntry, ...] = key(tables(BodyEntry, 1), "bodies", (), is_required=True)
     joint: tuple[JointEntry, ...] = key(tables(JointEntry), "joints", ())
     spring: tuple[SpringEntry, ...] = key(tables(SpringEntry), "springs and dampers between points", ())
     torque: tuple[TorqueEntry, ...] = key(tables(TorqueEntry), "constant torques on bodies", ())

@@ -90,19 +90,19 @@ def load(table: type[E]) -> Kind[E]:
     return Kind(read, {"anyOf": [none.schema, kind.schema]})
 
 
-def tables(table: type[E]) -> Kind[tuple[E, ...]]:
+def tables(table: type[E], least: int = 0) -> Kind[tuple[E, ...]]:
     """Tables under double brackets, each named in mistakes by its name, or by its number where it has none."""
 
     def read(value: object, place: str, mistakes: list[Mistake]) -> tuple[E, ...] | None:
         file, _, label = place.rpartition(": ")
-        if not isinstance(value, list):
-            mistakes.append(Mistake(place, f"is {described(value)}", f"write [[{label}]] above each {label}"))
+        if not isinstance(value, list) or len(value) < least:
+            mistakes.append(Mistake(place, f"is {described(value) if value else 'empty'}", f"write [[{label}]] above each {label}"))
             return None
         places = (f"{file}: {label} {_called(item, k)}" for k, item in enumerate(value, 1))
         entries = [read_entry(table, item, where, mistakes) for item, where in zip(value, places, strict=True)]
         return tuple(entry for entry in entries if entry is not None)
 
-    return Kind(read, {"type": "array", "items": {"table": table}})
+    return Kind(read, {"type": "array", "minItems": least, "items": {"table": table}})
 
 
 def _called(table: object, number_: int) -> str:

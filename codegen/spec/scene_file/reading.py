@@ -52,8 +52,6 @@ def _part_mistakes(entry: SceneEntry) -> Iterator[Mistake]:
     bodies = _poses(entry)
     if entry.name is not None:
         yield from scene_name_mistakes(entry.name, f"{entry.place}: name")
-    if "body" in entry.given and not entry.body:
-        yield Mistake(f"{entry.place}: body", "there is none", "write [[body]] above each body")
     yield from name_mistakes(entry.body)
     for body in entry.body:
         yield from body_mistakes(body, _needs_mass(entry))

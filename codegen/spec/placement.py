@@ -81,9 +81,7 @@ def length(vector: Sequence[Fraction]) -> Fraction:
 
 def unit(vector: Vector) -> Vector:
     """Direction of a vector that is not zero; components that are nearly 0 are 0."""
-    kept = on_axes(vector)
-    size = length(kept)
-    return _three(x / size for x in kept)
+    return _normalised(on_axes(vector))
 
 
 def on_axes(vector: Vector) -> Vector:
@@ -104,13 +102,13 @@ def frame(third: Vector, preferred: Iterable[Vector] = IDENTITY) -> Matrix:
     directions = [unit(direction) for direction in preferred]
     across = next((direction for direction in directions if abs(dot(direction, h)) <= NEARLY), None)
     f = perpendicular(across or min(directions, key=lambda direction: abs(dot(direction, h))), h)
-    return columns(f, unit(cross(h, f)), h)
+    return columns(f, cross(h, f), h)
 
 
 def perpendicular(direction: Vector, h: Vector) -> Vector:
     """Unit vector nearest to a direction among those that are perpendicular to a unit vector."""
     along = dot(direction, h)
-    return unit(_three(x - along * y for x, y in zip(direction, h, strict=True))) if along else unit(direction)
+    return _normalised(_three(x - along * y for x, y in zip(direction, h, strict=True)) if along else direction)
 
 
 def columns(f: Vector, g: Vector, h: Vector) -> Matrix:
@@ -129,7 +127,12 @@ def marker(point: Vector, axes: Matrix, position: Vector, attitude: Matrix) -> M
     """
     f, _, h = (unit(turned_back(attitude, axis)) for axis in transposed(axes))
     f = perpendicular(f, h)
-    return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, unit(cross(h, f)), h))
+    return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, cross(h, f), h))
+
+
+def _normalised(vector: Vector) -> Vector:
+    size = length(vector)
+    return _three(x / size for x in vector)
 
 
 def _three(values: Iterable[Fraction]) -> Vector:

@@ -96,7 +96,8 @@ def tables(table: type[E], least: int = 0) -> Kind[tuple[E, ...]]:
     def read(value: object, place: str, mistakes: list[Mistake]) -> tuple[E, ...] | None:
         file, _, label = place.rpartition(": ")
         if not isinstance(value, list) or len(value) < least:
-            mistakes.append(Mistake(place, f"is {described(value) if value else 'empty'}", f"write [[{label}]] above each {label}"))
+            what = f"is {described(value)}" if value else "is empty"
+            mistakes.append(Mistake(place, what, f"write [[{label}]] above each {label}"))
             return None
         places = (f"{file}: {label} {_called(item, k)}" for k, item in enumerate(value, 1))
         entries = [read_entry(table, item, where, mistakes) for item, where in zip(value, places, strict=True)]

@@ -71,7 +71,7 @@ def _world_axes(axis: Vector, axis2: Vector | None, poses: tuple[Pose, Pose]) ->
         return frame(axis, (*transposed(poses[0].attitude), *transposed(poses[1].attitude)))
     h = unit(axis)
     f = perpendicular(unit(axis2), h)
-    return columns(f, unit(cross(h, f)), h)
+    return columns(f, cross(h, f), h)
 
 
 def _body_markers(entry: JointEntry, points: tuple[Vector, Vector]) -> tuple[Marker, Marker]:
@@ -83,7 +83,7 @@ def _body_markers(entry: JointEntry, points: tuple[Vector, Vector]) -> tuple[Mar
 def _frame_on(first: Vector) -> Matrix:
     """``[f g h]`` with a given first axis; h is laid as `frame` lays f."""
     h, _, f = transposed(frame(first))
-    return columns(f, unit(cross(h, f)), h)
+    return columns(f, cross(h, f), h)
 
 
 def _geometry_mistakes(entry: JointEntry) -> Iterator[Mistake]:

@@ -9,7 +9,18 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from codegen.errors import Mistake
-from codegen.spec.placement import columns, cross, frame, marker, on_axes, perpendicular, times, transposed, unit
+from codegen.spec.placement import (
+    IDENTITY,
+    columns,
+    cross,
+    frame,
+    marker,
+    on_axes,
+    perpendicular,
+    times,
+    transposed,
+    unit,
+)
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Joint, Marker, Matrix, Vector
 from codegen.spec.scene_file.axes import axis_mistakes, perpendicular_mistakes
 from codegen.spec.scene_file.bodies import GROUND_POSE, Pose
@@ -81,8 +92,9 @@ def _body_markers(entry: JointEntry, points: tuple[Vector, Vector]) -> tuple[Mar
 
 
 def _frame_on(first: Vector) -> Matrix:
-    """``[f g h]`` with a given first axis; h is laid as `frame` lays f."""
-    h, _, f = transposed(frame(first))
+    """``[f g h]`` with a given first axis; h is laid along the third axis of the body rather than the first."""
+    x, y, z = IDENTITY
+    h, _, f = transposed(frame(first, (z, x, y)))
     return columns(f, cross(h, f), h)
 
 

@@ -95,13 +95,13 @@ def frame(third: Vector, preferred: Iterable[Vector] = IDENTITY) -> Matrix:
 
     Args:
         third: direction of h, any length.
-        preferred: directions for f, in order; the first that is perpendicular to h is taken, else what is across h of
+        preferred: unit vectors for f, in order; the first that is perpendicular to h is taken, else what is across h of
             the one that is least along it.
     """
     h = unit(third)
-    directions = [unit(direction) for direction in preferred]
-    across = next((direction for direction in directions if abs(dot(direction, h)) <= NEARLY), None)
-    f = perpendicular(across or min(directions, key=lambda direction: abs(dot(direction, h))), h)
+    along = [(abs(dot(direction, h)), direction) for direction in preferred]
+    across = (direction for size, direction in along if size <= NEARLY)
+    f = perpendicular(unit(next(across, None) or min(along, key=lambda pair: pair[0])[1]), h)
     return columns(f, cross(h, f), h)
 
 

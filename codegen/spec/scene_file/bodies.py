@@ -32,8 +32,8 @@ GROUND_POSE = Pose(ZERO_VECTOR, IDENTITY)
 
 
 def pose_of(entry: BodyEntry) -> Pose | None:
-    """The pose of a body; None if its quaternion is none."""
-    if not any(entry.quaternion):
+    """The pose of a body; None where it cannot be read."""
+    if {"position", "quaternion"} & entry.wrong or not any(entry.quaternion):
         return None
     return Pose(entry.position, rotation(entry.quaternion))
 

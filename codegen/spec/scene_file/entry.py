@@ -35,10 +35,12 @@ class Entry:
     Attributes:
         place: as mistakes name it.
         given: keys that stand in it and are known.
+        wrong: keys of which a mistake has been reported, also those that are missing.
     """
 
     place: str
     given: frozenset[str]
+    wrong: frozenset[str]
 
 
 E = TypeVar("E", bound=Entry)
@@ -64,14 +66,17 @@ def read_entry(table: type[E], value: object, place: str, mistakes: list[Mistake
     for name in value:
         if name not in keys:
             mistakes.append(Mistake(place, f"there is no key {quoted(name)}", nearest_known(name, keys)))
-    found = {}
+    found: dict[str, Any] = {}
+    wrong: set[str] = set()
     for name, key in keys.items():
+        before = len(mistakes)
         if name in value:
             read = key.kind.read(value[name], f"{place}: {name}", mistakes)
             found.update({name: read} if read is not None else {})
         elif key.is_required:
             mistakes.append(Mistake(f"{place}: {name}", "is missing", f"give {name}: {key.about}"))
-    return table(place, frozenset(name for name in value if name in keys), **found)
+        wrong.update({name} if len(mistakes) > before else {})
+    return table(place, frozenset(name for name in value if name in keys), frozenset(wrong), **found)
 
 
 def table_of(table: type[E]) -> Kind[E]:

@@ -20,6 +20,9 @@ from codegen.spec.scene_file.text import escaped
 
 _MOST_MISTAKES = 100
 
+_Sound = tuple[JointEntry, Joint, tuple[Pose, Pose]]
+"""A joint without mistakes of its own, with its entry and the poses of its bodies."""
+
 
 def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
     """Read a scene file.
@@ -38,18 +41,18 @@ def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
     assert entry is not None
     if copies is not None and not 1 <= copies <= MOST_COPIES:
         mistakes.append(Mistake("--copies", "is out of range", f"give a whole number from 1 to {MOST_COPIES}"))
-    mistakes += _part_mistakes(entry)
-    joints = _sound_joints(entry)
+    poses = {body.name: pose_of(body) for body in entry.body if body.name is not None}
+    mistakes += _part_mistakes(entry, poses)
+    joints = _sound_joints(entry, poses)
     mistakes += _pose_mistakes(entry, joints)
     if mistakes:
         raise SpecificationError(_bounded(mistakes, file))
-    repeated = entry.copies or CopiesEntry(file, frozenset())
+    repeated = entry.copies or CopiesEntry(file, frozenset(), frozenset())
     return copied(_scene(entry, joints), copies or repeated.count, repeated.offset)
 
 
-def _part_mistakes(entry: SceneEntry) -> Iterator[Mistake]:
+def _part_mistakes(entry: SceneEntry, bodies: Mapping[str, Pose | None]) -> Iterator[Mistake]:
     """Check bodies, joints and forces, each by itself."""
-    bodies = _poses(entry)
     if entry.name is not None:
         yield from scene_name_mistakes(entry.name, f"{entry.place}: name")
     yield from name_mistakes(entry.body)
@@ -64,9 +67,7 @@ def _part_mistakes(entry: SceneEntry) -> Iterator[Mistake]:
         yield from torque_mistakes(torque, bodies)
 
 
-def _pose_mistakes(
-    entry: SceneEntry, joints: Sequence[tuple[JointEntry, Joint, tuple[Pose, Pose]]]
-) -> Iterator[Mistake]:
+def _pose_mistakes(entry: SceneEntry, joints: Sequence[_Sound]) -> Iterator[Mistake]:
     """Check the mechanism in its pose at t = 0, as far as its joints are sound."""
     if not entry.assemble:
         for part, joint, poses in joints:
@@ -74,22 +75,18 @@ def _pose_mistakes(
     if entry.motion == "planar":
         axes: list[Placed] = [placed(joint, poses, part.place) for part, joint, poses in joints]
         yield from planar_mistakes(axes)
-        moving = [(make_body(body), pose, body.place) for body in entry.body if (pose := pose_of(body)) is not None]
+        moving = [
+            (make_body(body), pose, body.place) for body in entry.body if (pose := pose_of(body)) and not body.wrong
+        ]
         yield from out_of_plane_mistakes(moving, axes)
 
 
-def _poses(entry: SceneEntry) -> Mapping[str, Pose | None]:
-    return {body.name: pose_of(body) for body in entry.body if body.name is not None}
-
-
-def _sound_joints(entry: SceneEntry) -> list[tuple[JointEntry, Joint, tuple[Pose, Pose]]]:
-    """The joints that have no mistakes of their own and hold bodies with a pose, with their entries and poses."""
-    bodies = _poses(entry)
+def _sound_joints(entry: SceneEntry, bodies: Mapping[str, Pose | None]) -> list[_Sound]:
+    """The joints that have no mistakes of their own and hold bodies with a pose."""
     found = []
     for part in entry.joint:
         poses = poses_of(part, bodies)
-        is_read = part.type is not None and (part.point is not None or part.points is not None)
-        if is_read and poses is not None and not any(joint_mistakes(part, bodies)):
+        if poses is not None and not part.wrong and not any(joint_mistakes(part, bodies)):
             found.append((part, make_joint(part, poses), poses))
     return found
 
@@ -102,7 +99,7 @@ def _needs_mass(entry: SceneEntry) -> bool:
     return not quantities or not set(quantities) <= set(KINEMATIC_QUANTITIES)
 
 
-def _scene(entry: SceneEntry, joints: Sequence[tuple[JointEntry, Joint, tuple[Pose, Pose]]]) -> Scene:
+def _scene(entry: SceneEntry, joints: Sequence[_Sound]) -> Scene:
     output = entry.output
     return Scene(
         entry.name or "",

@@ -125,14 +125,15 @@ def marker(point: Vector, axes: Matrix, position: Vector, attitude: Matrix) -> M
         position: [3] m of the body, world.
         attitude: [3, 3] of the body, body to world.
     """
-    f, _, h = (unit(turned_back(attitude, axis)) for axis in transposed(axes))
-    f = perpendicular(f, h)
+    f, _, h = transposed(axes)
+    h = unit(turned_back(attitude, h))
+    f = perpendicular(unit(turned_back(attitude, f)), h)
     return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, cross(h, f), h))
 
 
 def _normalised(vector: Vector) -> Vector:
     size = length(vector)
-    return _three(x / size for x in vector)
+    return vector if size == 1 else _three(x / size for x in vector)
 
 
 def _three(values: Iterable[Fraction]) -> Vector:

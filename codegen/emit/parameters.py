@@ -67,7 +67,7 @@ def geometry_members(joint: JointType) -> _Members:
 
 def _velocity(argument: Argument, variant: Variant) -> _Members:
     turning = "body axes" if variant.variation == "body" else "world axes"
-    moving = "body axes (A^T rdot)" if translations_in_body_axes(variant) else "world axes"
+    moving = "body axes (A^T rdot)" if variant.translations == "body" else "world axes"
     members: _Members = (
         ("v_i", 0, (3, 1), f"velocity of body i, {moving}, m/s"),
         ("omega_i", 3, (3, 1), f"angular velocity of body i, {turning}, rad/s"),
@@ -78,16 +78,10 @@ def _velocity(argument: Argument, variant: Variant) -> _Members:
     return (*members, ("alphadot", 12, (count, 1), "rates of alpha, m/s or rad/s")) if count else members
 
 
-def translations_in_body_axes(variant: Variant) -> bool:
-    """Whether ``delta r`` stands for ``delta r' = A^T delta r``: the parametric form in body variation."""
-    return variant.form == "parametric" and variant.variation == "body"
-
-
 def axes(variant: Variant) -> str:
     """Axes of virtual displacements and velocities, in words."""
     turning = "body" if variant.variation == "body" else "world"
-    moving = "body" if translations_in_body_axes(variant) else "world"
-    return f"translations in {moving} axes, rotations in {turning} axes"
+    return f"translations in {variant.translations} axes, rotations in {turning} axes"
 
 
 def _alpha_unit(joint: JointType, variant: Variant) -> str:

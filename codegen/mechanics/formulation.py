@@ -82,9 +82,16 @@ def height(row: Any) -> int:
     return 3 if isinstance(row, sympy.matrices.expressions.matexpr.MatrixExpr) else 1
 
 
-def formulation(joint: JointType, variant: Variant) -> Formulation:
-    """Formulate a joint in the form and with the options of a variant."""
-    return _conventional(joint, variant) if variant.form == "conventional" else _parametric(joint, variant)
+def formulation(joint: JointType, variant: Variant, translations: str | None = None) -> Formulation:
+    """Formulate a joint in the form and with the options of a variant.
+
+    Args:
+        joint: its type.
+        variant: form and options.
+        translations: axes of the virtual translations, ``world`` or ``body``; those of the variant if left out.
+    """
+    axes = translations or variant.translations
+    return _conventional(joint, variant, axes) if variant.form == "conventional" else _parametric(joint, variant, axes)
 
 
 RELATIVE_REDUCTION = {dp_ij: sympy.MatAdd(ep_ij, sympy.MatMul(-1, s_i))}
@@ -138,10 +145,10 @@ def _world_reduction(stages: dict[Any, Any]) -> dict[Any, Any]:
     return {d_ij: stages[d_ij]}
 
 
-def _conventional(joint: JointType, variant: Variant) -> Formulation:
+def _conventional(joint: JointType, variant: Variant, translations: str) -> Formulation:
     algebra, stages, aliases = relative_algebra() if variant.variation == "body" else world_algebra()
-    virtual = _body_motion(frames.BODY_DISPLACEMENTS, variant.variation)
-    rates = _body_motion(frames.BODY_VELOCITIES, variant.variation)
+    virtual = _body_motion(frames.BODY_DISPLACEMENTS, variant.variation, translations)
+    rates = _body_motion(frames.BODY_VELOCITIES, variant.variation, translations)
     if joint.is_screw:
         in_body = variant.variation == "body"
         stages |= screw_stages(algebra, A_i if in_body else None)
@@ -159,6 +166,7 @@ def _conventional(joint: JointType, variant: Variant) -> Formulation:
         virtual,
         rates,
         frames.BODY_VELOCITIES,
+        _turning_axes() if translations == "body" else {},
         partials=SCREW_PARTIALS if joint.is_screw else {},
         reduction=RELATIVE_REDUCTION if variant.variation == "body" else _world_reduction(stages),
     )
@@ -170,15 +178,18 @@ def _relative_turn(turn_i: Any, turn_j: Any, variation: str) -> Any:
     return sympy.MatAdd(sympy.MatMul(A_j, turn_j), sympy.MatMul(-1, A_i, turn_i))
 
 
-def _body_motion(bodies: tuple[Any, ...], variation: str) -> dict[Any, Any]:
-    """Variation of positions and rotations, translations in world axes (SPEC S0).
+def _body_motion(bodies: tuple[Any, ...], variation: str, translations: str) -> dict[Any, Any]:
+    """Variation of positions and rotations (SPEC S0).
 
     Args:
         bodies: translation and rotation of body i, then of body j.
         variation: axes of the rotations.
+        translations: axes of the translations; in ``body`` axes ``delta r = A delta r'``.
     """
     move_i, turn_i, move_j, turn_j = bodies
     motion: dict[Any, Any] = {r_i: move_i, r_j: move_j}
+    if translations == "body":
+        motion = {r_i: sympy.MatMul(A_i, move_i), r_j: sympy.MatMul(A_j, move_j)}
     for A, turn in ((A_i, turn_i), (A_j, turn_j)):
         motion[A] = sympy.MatMul(A, Tilde(turn)) if variation == "body" else sympy.MatMul(Tilde(turn), A)
     return motion
@@ -196,7 +207,7 @@ def coordinate_count(joint: JointType, rows: str | None) -> int:
     return joint.translations + (4 if rows == "quaternion" else joint.rotations)
 
 
-def _parametric(joint: JointType, variant: Variant) -> Formulation:
+def _parametric(joint: JointType, variant: Variant, translations: str) -> Formulation:
     algebra, stages, aliases = relative_algebra()
     count = coordinate_count(joint, variant.rows)
     algebra = replace(algebra, displacements=frozenset((*frames.delta_alpha(count), *frames.alpha_dot(count))))
@@ -224,31 +235,25 @@ def _parametric(joint: JointType, variant: Variant) -> Formulation:
         aliases,
         rows,
         _displacements(count),
-        _mixed_motion(frames.BODY_DISPLACEMENTS, frames.delta_alpha(count), alphas, rotation, variant.variation),
-        _mixed_motion(frames.BODY_VELOCITIES, frames.alpha_dot(count), alphas, rotation, variant.variation),
+        _body_motion(frames.BODY_DISPLACEMENTS, variant.variation, translations)
+        | _joint_motion(frames.delta_alpha(count), alphas, rotation),
+        _body_motion(frames.BODY_VELOCITIES, variant.variation, translations)
+        | _joint_motion(frames.alpha_dot(count), alphas, rotation),
         (*frames.BODY_VELOCITIES, *frames.alpha_dot(count)),
-        _turning_axes() if variant.variation == "body" else {},
+        _turning_axes() if translations == "body" else {},
         substitution={A_ij: rotation_of_alpha, dp_ij: d_of_alpha} if substituted else {},
         reduction=RELATIVE_REDUCTION,
         coordinates=count,
     )
 
 
-def _mixed_motion(
-    bodies: tuple[Any, ...],
-    changes: tuple[Any, ...],
-    alphas: tuple[Any, ...],
-    rotation: mixed.RelativeRotation,
-    variation: str,
+def _joint_motion(
+    changes: tuple[Any, ...], alphas: tuple[Any, ...], rotation: mixed.RelativeRotation
 ) -> dict[Any, Any]:
-    """Variation in the mixed coordinates; translations in body axes, ``delta r = A delta r'``, in body variation."""
-    motion = _body_motion(bodies, variation)
-    if variation == "body":
-        motion |= {r_i: sympy.MatMul(A_i, bodies[0]), r_j: sympy.MatMul(A_j, bodies[2])}
-    motion |= dict(zip(alphas, changes, strict=True))
-    change_of = dict(zip(alphas, changes, strict=True))
+    """Variation of the joint coordinates and of H."""
+    motion: dict[Any, Any] = dict(zip(alphas, changes, strict=True))
     turns = [
-        sympy.MatMul(change_of[coordinate], rate)
+        sympy.MatMul(motion[coordinate], rate)
         for coordinate, rate in zip(rotation.coordinates, rotation.rates, strict=True)
     ]
     if turns:

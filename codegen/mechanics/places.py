@@ -26,22 +26,24 @@ _AXES = {
 }
 
 
-def displacement_frames(variant: Variant) -> tuple[str, str, str, str]:
+def displacement_frames(variant: Variant, translations: str | None = None) -> tuple[str, str, str, str]:
     """Frames of ``delta r_i``, ``delta pi_i``, ``delta r_j``, ``delta pi_j`` and of the velocities."""
-    if variant.variation == "world":
-        return (WORLD,) * 4
-    return (BODY_I, BODY_I, BODY_J, BODY_J) if variant.form == "parametric" else (WORLD, BODY_I, WORLD, BODY_J)
+    in_body = (translations or variant.translations) == "body"
+    moves = (BODY_I, BODY_J) if in_body else (WORLD, WORLD)
+    turns = (WORLD, WORLD) if variant.variation == "world" else (BODY_I, BODY_J)
+    return moves[0], turns[0], moves[1], turns[1]
 
 
-def places(form: Formulation, variant: Variant, is_substituted: bool) -> Places:
+def places(form: Formulation, variant: Variant, is_substituted: bool, translations: str | None = None) -> Places:
     """Describe the frames of a formulation.
 
     Args:
         form: rows and stages.
         variant: for the axes of displacements.
         is_substituted: whether the joint relation takes the place of the rotation matrices.
+        translations: as in `codegen.mechanics.formulation.formulation`.
     """
-    motion = displacement_frames(variant)
+    motion = displacement_frames(variant, translations)
     homes: dict[Any, str] = {r_i: WORLD, r_j: WORLD, s_i: BODY_I, s_j: BODY_J}
     homes |= dict(zip(frames.BODY_VELOCITIES, motion, strict=True))
     rotations = {A_i: (WORLD, BODY_I), A_j: (WORLD, BODY_J), A_ij: (BODY_I, BODY_J)}

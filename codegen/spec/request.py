@@ -57,6 +57,11 @@ class Variant:
     matrices: str = "orthonormal"
 
     @property
+    def translations(self) -> str:
+        """Axes of the virtual translations: ``body`` (``delta r' = A^T delta r``) or ``world``."""
+        return "body" if self.form == "parametric" and self.variation == "body" else "world"
+
+    @property
     def stem(self) -> str:
         """Start of the C symbols: ``jg_<joint>_<form>[_<variant>]``."""
         words = ["jg", self.joint, self.form]

@@ -10,7 +10,7 @@ The one place of ``ir`` that knows sympy. Its stages:
 """
 
 from codegen.ir.lower.alternatives import Prices
-from codegen.ir.lower.lowering import Part, lower
+from codegen.ir.lower.lowering import Part, lower, structural_rows
 from codegen.ir.lower.notation import definition_notation, notation
 from codegen.ir.lower.operators import Dot, Tilde
 from codegen.ir.lower.outputs import Block, SymbolicOutput
@@ -27,4 +27,5 @@ __all__ = [
     "definition_notation",
     "lower",
     "notation",
+    "structural_rows",
 ]

@@ -13,9 +13,9 @@ from codegen.ir.lower.frames import FrameTree, Matrix
 from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.naming import Naming
 from codegen.ir.lower.outputs import Block, SymbolicOutput
-from codegen.ir.lower.places import Places
-from codegen.ir.lower.polynomial import Polynomial
-from codegen.ir.lower.quantities import Axis, Vector
+from codegen.ir.lower.places import Places, stand_in
+from codegen.ir.lower.polynomial import ZERO, Polynomial
+from codegen.ir.lower.quantities import Axis, Given, Vector
 from codegen.ir.lower.read import Reader, Symbols, is_matrix, transposed_factor
 from codegen.ir.lower.space import Space
 
@@ -41,15 +41,25 @@ class Demands:
         self._inputs = inputs
         self._reader = Reader(
             Space(self._relation),
-            Symbols(places.rotations, places.frames, places.stages, places.axes, places.whole),
+            Symbols(
+                places.rotations,
+                places.frames,
+                places.stages,
+                places.axes,
+                places.whole,
+                places.constants,
+                places.same_axes,
+            ),
         )
         self._tree_rotations: dict[tuple[str, str], Matrix] = {}
         for symbol in places.given:
             self._tree_rotations[places.rotations[symbol]] = self._matrix(symbol)
         for symbol, frame in places.frames.items():
+            if symbol in places.constants:
+                continue
             name, offset = inputs[symbol]
             self._reader.given[frame, symbol.name] = tuple((name, offset + k) for k in range(3))
-        tree = FrameTree(self._tree_rotations, self._reader.given, places.bodies)
+        tree = FrameTree(self._tree_rotations, self._reader.given, places.bodies, places.near)
         self.layout = Layout(self._reader.space, tree, self._reader.definitions, prices, places.axes)
         names = {self._reader.vector(symbol): name for symbol, name in places.vector_names.items()}
         self.naming = Naming(self._reader.space, places.axis_names, names)
@@ -70,15 +80,30 @@ class Demands:
         self._reader.definitions[name] = ("same", (value,))
         return self._reader.space.scalar("stage", name)
 
-    def _relation(self, left: Axis, right: Axis) -> Polynomial | None:
-        """Entries of a written-out rotation are scalar products of axes."""
+    def _relation(self, left: Axis | Given, right: Axis | Given) -> Polynomial | None:
+        """Entries of a written-out rotation are scalar products of axes; a given component may be zero."""
+        if isinstance(left, Given) or isinstance(right, Given):
+            found = self._zero_component(left, right)
+            return self._zero_component(right, left) if found is None else found
         for symbol in self._places.explicit:
             a, b = self._places.rotations[symbol]
             for first, second in ((left, right), (right, left)):
                 if (first.frame, second.frame) == (a, b):
                     entry = self._tree_rotations[a, b][second.k][first.k]
                     return entry if isinstance(entry, Polynomial) else None
-        return None
+        return ZERO if self._is_across(left, right) or self._is_across(right, left) else None
+
+    def _is_across(self, axis: Axis, other: Axis) -> bool:
+        """Whether the other axis stands for one of the two that are perpendicular to this one."""
+        same = self._places.same_axes
+        stand_ins = (stand_in(same, axis.frame, k)[1:] for k in range(3) if k != axis.k)
+        return (other.frame, other.k) in stand_ins
+
+    def _zero_component(self, vector: Axis | Given, axis: Axis | Given) -> Polynomial | None:
+        if not (isinstance(vector, Given) and isinstance(axis, Axis) and vector.frame == axis.frame):
+            return None
+        component = self._reader.given[vector.frame, vector.name][axis.k]
+        return ZERO if component == ZERO else None
 
     # --- demands
 

@@ -26,11 +26,13 @@ class FrameTree:
         rotations: (a, b) -> columns of the matrix that turns components in b to components in a.
         given: (frame, name) -> components of a given vector.
         bodies: frame -> the body it is fixed in; the first frame is the outermost.
+        near: sets of frames; vectors are turned between frames of one set only. One set of all frames if left out.
     """
 
     rotations: Mapping[tuple[str, str], Matrix]
     given: Mapping[tuple[str, str], Components]
     bodies: Mapping[str, str]
+    near: tuple[frozenset[str], ...] = ()
 
     @cached_property
     def frames(self) -> tuple[str, ...]:
@@ -64,10 +66,16 @@ class FrameTree:
 
     @cached_property
     def _connected(self) -> dict[str, tuple[str, ...]]:
-        return {frame: tuple(other for other in self.frames if self.path(other, frame)) for frame in self.frames}
+        return {
+            frame: tuple(other for other in self.frames if self._is_near(other, frame) and self.path(other, frame))
+            for frame in self.frames
+        }
+
+    def _is_near(self, a: str, b: str) -> bool:
+        return not self.near or a == b or any(a in frames and b in frames for frames in self.near)
 
     def connected(self, frame: str) -> tuple[str, ...]:
-        """The frames from which rotations lead to a frame, itself among them, in the order of `frames`."""
+        """The near frames from which rotations lead to a frame, itself among them, in the order of `frames`."""
         return self._connected[frame]
 
     def outward(self, frame: str) -> list[str]:

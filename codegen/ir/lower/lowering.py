@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +16,7 @@ from codegen.ir.lower.outputs import SymbolicOutput
 from codegen.ir.lower.places import Places
 from codegen.ir.lower.scalarise import Entries, Scalariser
 from codegen.ir.lower.search import Choice, Graph
-from codegen.ir.ops import Constant
+from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
 
@@ -48,7 +48,8 @@ def lower(
     Args:
         arguments: the arrays of the signature, in order.
         inputs: where symbols are read.
-        parts: the outputs, by the frames they are written in; they come in this order.
+        parts: the outputs, by the frames they are written in; they come in this order. An output that several parts
+            have is the sum of theirs.
         prices: of operations.
         choose: gives the choices for a graph; what they share as scalars is only seen in the program.
 
@@ -60,9 +61,32 @@ def lower(
     for k in range(max(len(found.choices) for found in searched)):
         builder = Builder()
         legend: dict[str, str] = {}
-        outputs = [output for found in searched for output in found.written(k, builder, inputs, legend)]
-        programs.append(builder.freeze(arguments, tuple(outputs), legend))
+        written = [output for found in searched for output in found.written(k, builder, inputs, legend)]
+        programs.append(builder.freeze(arguments, _added(written, builder), legend))
     return programs
+
+
+def _added(written: Sequence[Output], builder: Builder) -> tuple[Output, ...]:
+    """Add up the outputs of one name."""
+    zero = builder.constant(0)
+    found: dict[str, Output] = {}
+    for output in written:
+        first = found.setdefault(output.name, output)
+        if first is not output:
+            pairs = zip(first.values, output.values, strict=True)
+            values = (a if b == zero else b if a == zero else builder.emit(Op.ADD, a, b) for a, b in pairs)
+            found[output.name] = replace(first, values=tuple(values))
+    return tuple(found.values())
+
+
+def structural_rows(part: Part, inputs: Inputs) -> set[int]:
+    """The rows of the first output of a part that are not identically zero, from the entries known to be zero."""
+    demands = Demands(part.places, inputs, Prices())
+    found = set()
+    for row, _, kind, (_, node, *_) in demands.of(part.outputs[0]):
+        classes = demands.layout.classes(node)
+        found |= {row + (k if kind == "column" else 0) for k, c in enumerate(classes) if c}
+    return found
 
 
 class _Searched:

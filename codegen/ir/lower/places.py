@@ -3,8 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
+
+SameAxes = Mapping[tuple[str, int], tuple[int, str, int]]
+"""Axis -> sign and axis that stands for it."""
+
+
+def stand_in(same_axes: SameAxes, frame: str, k: int) -> tuple[int, str, int]:
+    """Sign, frame and number of the axis that stands for an axis in the end; itself where none does."""
+    sign = 1
+    while (frame, k) in same_axes:
+        turn, frame, k = same_axes[frame, k]
+        sign *= turn
+    return sign, frame, k
 
 
 @dataclass(frozen=True)
@@ -25,6 +37,9 @@ class Places:
         vector_names: stage symbol -> name.
         whole: stages that are vectors of their own, not the sums that define them.
         is_raw: whether ``phi`` takes the rotation matrices as they are, orthonormal or not.
+        constants: vector symbol -> its components, where these are numbers or scalar symbols.
+        near: sets of frames; vectors are turned between frames of one set only. One set of all frames if left out.
+        same_axes: (frame, k) -> sign, frame and k of an axis that is the same direction, so that it stands for it.
     """
 
     rotations: Mapping[Any, tuple[str, str]]
@@ -40,3 +55,6 @@ class Places:
     vector_names: Mapping[Any, str]
     whole: frozenset[Any] = frozenset()
     is_raw: bool = False
+    constants: Mapping[Any, Any] = field(default_factory=dict)
+    same_axes: SameAxes = field(default_factory=dict)
+    near: tuple[frozenset[str], ...] = ()

@@ -7,8 +7,9 @@ between the world and body i. What is left are vectors, their products, and scal
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import sympy
@@ -18,6 +19,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from codegen.errors import InternalError
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.operators import Dot, Tilde
+from codegen.ir.lower.places import SameAxes, stand_in
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, number
 from codegen.ir.lower.quantities import Axis, Dyadic, Given, Named, Vector, combined
 from codegen.ir.lower.space import Space
@@ -33,6 +35,8 @@ class Symbols:
         stages: symbol -> definition.
         axes: frames whose axes have a meaning, so that a vector written in them is a sum of axes.
         whole: stages that are vectors of their own, not the sums that define them.
+        constants: vector symbol -> its components, where these are numbers or scalar symbols.
+        same_axes: axis -> sign and axis that stands for it.
     """
 
     rotations: Mapping[Any, tuple[str, str]]
@@ -40,6 +44,8 @@ class Symbols:
     stages: Mapping[Any, Any]
     axes: frozenset[str]
     whole: frozenset[Any] = frozenset()
+    constants: Mapping[Any, Any] = field(default_factory=dict)
+    same_axes: SameAxes = field(default_factory=dict)
 
 
 Definitions = dict[str, tuple[str, tuple[Polynomial, ...]]]
@@ -89,9 +95,20 @@ class Reader:
         if symbol not in self._vectors:
             if symbol in self._symbols.stages:
                 self._vectors[symbol] = self._of_stage(symbol)
+            elif symbol in self._symbols.constants:
+                self._vectors[symbol] = self._known(symbol)
             else:
                 self._vectors[symbol] = self.space.vector(Given(self._symbols.frames[symbol], symbol.name))
         return self._vectors[symbol]
+
+    def _known(self, symbol: Any) -> Vector:
+        """A vector of numbers or scalar symbols; a sum of axes where all are numbers, or where there is one only."""
+        frame = self._symbols.frames[symbol]
+        values = [self.scalar(entry) for entry in self._symbols.constants[symbol]]
+        if all(value.constant is not None for value in values) or sum(map(bool, values)) == 1:
+            return combined((value, self._axis(frame, k)) for k, value in enumerate(values))
+        self.given[frame, symbol.name] = tuple(values)
+        return self.space.vector(Given(frame, symbol.name))
 
     def _of_stage(self, symbol: Any) -> Vector:
         definition = self.vector(self._symbols.stages[symbol])
@@ -125,7 +142,7 @@ class Reader:
         if frame is None:
             raise InternalError(f"in which frame are {entries}?")
         values = [self.scalar(entry) for entry in entries]
-        axes = [self.space.vector(Axis(frame, k)) for k in range(3)]
+        axes = [self._axis(frame, k) for k in range(3)]
         if frame in self._symbols.axes or all(value.constant is not None for value in values):
             return combined(zip(values, axes, strict=True))
         sign = next(value.sign for value in values if value)
@@ -136,6 +153,12 @@ class Reader:
             self.given[frame, name] = components
         vector = self.space.vector(Given(frame, name))
         return vector if sign > 0 else -vector
+
+    def _axis(self, frame: str, k: int) -> Vector:
+        """An axis of a frame, or what stands for it."""
+        sign, frame, k = stand_in(self._symbols.same_axes, frame, k)
+        axis = self.space.vector(Axis(frame, k))
+        return axis if sign > 0 else -axis
 
     def _name_of(self, components: Sequence[Polynomial]) -> str:
         """Name a written-out vector after its components: ``lambda_0_1_2``."""
@@ -199,8 +222,11 @@ class Reader:
             raise InternalError("in which frame is an explicit matrix?")
         if rows == columns and (matrix + matrix.T).is_zero_matrix:
             return self.space.tilde(self._explicit([matrix[2, 1], matrix[0, 2], matrix[1, 0]], rows))
-        left, right = ([self.space.primitive(Axis(frame, k)) for k in range(3)] for frame in (rows, columns))
-        return Dyadic({(left[k], right[n]): self.scalar(matrix[k, n]) for k in range(3) for n in range(3)})
+        result = Dyadic({})
+        for k, n in product(range(3), repeat=2):
+            outer = self.space.outer(self._axis(rows, k), self._axis(columns, n))
+            result += outer.times(self.scalar(matrix[k, n]))
+        return result
 
     def _map_chain(self, factors: Sequence[Any], rows: str | None, columns: str | None) -> Dyadic:
         for k, factor in enumerate(factors[:-1]):

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from typing import Any
 
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, atom, total
-from codegen.ir.lower.quantities import Atom, Axis, Cross, Dyadic, Named, Primitive, Vector
+from codegen.ir.lower.quantities import Atom, Axis, Cross, Dyadic, Given, Named, Primitive, Vector
 
-Relation = Callable[[Axis, Axis], Polynomial | None]
-"""Scalar product of two axes where the frames know it."""
+Relation = Callable[[Axis | Given, Axis | Given], Polynomial | None]
+"""Scalar product of two axes or given vectors where the frames know it."""
 
 
 class Space:
@@ -130,9 +130,9 @@ class Space:
             return self._triple(left, q) if not isinstance(right, Cross) else self._quadruple(left, right)
         if isinstance(right, Cross):
             return self._triple(right, p)
-        if isinstance(left, Axis) and isinstance(right, Axis):
-            if left.frame == right.frame:
-                return ONE if left.k == right.k else ZERO
+        if isinstance(left, Axis) and isinstance(right, Axis) and left.frame == right.frame:
+            return ONE if left.k == right.k else ZERO
+        if not (isinstance(left, Named) or isinstance(right, Named)):
             known = self._relation(left, right)
             if known is not None:
                 return known

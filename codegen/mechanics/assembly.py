@@ -1,0 +1,216 @@
+"""A scene as one system of constraints: the rows of its joints over the displacements of its bodies.
+
+Every joint is formulated as in the library, between bodies i and j, and then written for its own two bodies
+(`codegen.mechanics.placed`). Blocks of several joints at one place are added up before anything is evaluated.
+
+Generalised displacements: ``delta r`` and ``delta pi`` (body axes) of each body in the order of the scene, then the
+coordinates alpha of the joints in parametric form. Translations are in world axes, or in body axes where a derivative
+is substituted, since S1 substitutes in these coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import sympy
+
+from codegen.ir.lower import Block, Part, SymbolicOutput
+from codegen.ir.program import Argument
+from codegen.mechanics import frames
+from codegen.mechanics.arrays import PLANAR, SPATIAL, Arrays
+from codegen.mechanics.derivation import Derivation, is_matrix
+from codegen.mechanics.formulation import Formulation, formulation
+from codegen.mechanics.joints import JOINTS
+from codegen.mechanics.merged import merged
+from codegen.mechanics.placed import Ends, Placed
+from codegen.mechanics.places import WORLD, places
+from codegen.spec.identifiers import identifiers
+from codegen.spec.request import Variant
+from codegen.spec.scene import GROUND, Scene
+
+_KINDS = {
+    "phi": ("constraints", "one"),
+    "phi_q": ("constraints", "displacements"),
+    "phi_q_t_lambda_q": ("displacements", "displacements"),
+    "gamma": ("constraints", "one"),
+    "phi_q_v": ("constraints", "one"),
+    "phi_q_t_lambda": ("displacements", "one"),
+}
+"""What the rows and columns of a quantity are."""
+
+
+@cache
+def _derived(variant: Variant, translations: str) -> tuple[Formulation, Derivation]:
+    """A joint between bodies i and j, once for all scenes."""
+    form = formulation(JOINTS[variant.joint], variant, translations)
+    return form, Derivation(form)
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A scene whose joints have their forms.
+
+    Attributes:
+        scene: the mechanism; in planar motion one that lies in the plane of world x and y, see
+            `codegen.spec.plane.flattened`.
+        forms: joint name -> form, rows and derivative.
+        dropped: rows of the joints that are left out.
+    """
+
+    scene: Scene
+    forms: Mapping[str, Variant]
+    dropped: frozenset[int] = frozenset()
+
+    @cached_property
+    def arrays(self) -> Arrays:
+        """Layout of the bodies in the arrays."""
+        return PLANAR if self.scene.motion == "planar" else SPATIAL
+
+    @cached_property
+    def translations(self) -> str:
+        """Axes of the virtual translations."""
+        return "body" if any(variant.derivative == "substituted" for variant in self.forms.values()) else "world"
+
+    @cached_property
+    def bodies(self) -> dict[str, str]:
+        """Identifiers of the bodies, and of the ground."""
+        names = identifiers((WORLD, *(body.name for body in self.scene.bodies)))
+        return {GROUND: WORLD} | {body.name: names[body.name] for body in self.scene.bodies}
+
+    @cached_property
+    def placed(self) -> tuple[Placed, ...]:
+        """The joints with their rows and columns."""
+        numbers = {GROUND: None} | {body.name: k for k, body in enumerate(self.scene.bodies)}
+        names = identifiers(joint.name for joint in self.scene.joints)
+        found, row, alpha = [], 0, 0
+        for joint in self.scene.joints:
+            form, _ = _derived(self.forms[joint.name], self.translations)
+            i, j = joint.bodies
+            ends = Ends(
+                names[joint.name],
+                (self.bodies[i], self.bodies[j]),
+                (numbers[i], numbers[j]),
+                row,
+                alpha,
+                self.arrays.derived * len(self.scene.bodies),
+                self.arrays,
+                self.dropped,
+            )
+            found.append(Placed(joint, form, ends))
+            row += form.row_count
+            alpha += form.coordinates
+        return tuple(found)
+
+    @cached_property
+    def all_rows(self) -> int:
+        """Rows of all joints."""
+        return sum(placed.form.row_count for placed in self.placed)
+
+    @cached_property
+    def rows(self) -> tuple[int, ...]:
+        """The rows that the system has, among those of all joints."""
+        return tuple(row for row in range(self.all_rows) if row not in self.dropped)
+
+    @cached_property
+    def coordinates(self) -> int:
+        """Joint coordinates of all joints in parametric form."""
+        return sum(placed.form.coordinates for placed in self.placed)
+
+    @cached_property
+    def columns(self) -> tuple[int, ...]:
+        """The displacements that the system has, among those that are derived."""
+        arrays, bodies = self.arrays, len(self.scene.bodies)
+        moving = [arrays.derived * body + k for body in range(bodies) for k in arrays.kept]
+        first = arrays.derived * bodies
+        return (*moving, *range(first, first + self.coordinates))
+
+    # --- arguments
+
+    def arguments(self) -> tuple[Argument, ...]:
+        """Arrays of the signature: positions, attitudes, joint coordinates, velocities, multipliers."""
+        bodies = len(self.scene.bodies)
+        return (
+            Argument("r", (self.arrays.position * bodies, 1)),
+            Argument("A", (self.arrays.attitude * bodies, 1)),
+            Argument("alpha", (self.coordinates, 1)),
+            Argument("revolutions", (len(self._counting), 1)),
+            Argument("velocity", (len(self.columns), 1)),
+            Argument("lambda", (len(self.rows), 1)),
+        )
+
+    @cached_property
+    def _counting(self) -> list[Placed]:
+        """Joints whose whole turns are an input: conventional screws."""
+        return [p for p in self.placed if p.joint.type == "screw" and not p.form.coordinates]
+
+    def inputs(self) -> dict[Any, tuple[str, int]]:
+        """Say for each symbol which argument it is read from, and at which offset."""
+        found: dict[Any, tuple[str, int]] = {}
+        for k, body in enumerate(self.scene.bodies):
+            found |= self.arrays.inputs(self.bodies[body.name], k)
+        count = self.coordinates
+        found |= {symbol: ("alpha", k) for k, symbol in enumerate(frames.alpha(count))}
+        first = self.arrays.displacements * len(self.scene.bodies)
+        found |= {symbol: ("velocity", first + k) for k, symbol in enumerate(frames.alpha_dot(count))}
+        multipliers = frames.multipliers(self.all_rows)
+        found |= {multipliers[row]: ("lambda", k) for k, row in enumerate(self.rows)}
+        turns = [placed.symbols[frames.revolutions] for placed in self._counting]
+        return found | {symbol: ("revolutions", k) for k, symbol in enumerate(turns)}
+
+    # --- outputs
+
+    def parts(self, names: Iterable[str]) -> list[Part]:
+        """Derive quantities of the constraints, in the groups that are evaluated together.
+
+        Conventional joints are one group: they share vectors of their bodies. Each joint in parametric form is one of
+        its own, since it shares little but its joint frames; two where its derivative is substituted, because ``phi``
+        never is.
+        """
+        names = tuple(names)
+        conventional = [p for p in self.placed if not p.form.coordinates and not self._is_substituted(p)]
+        groups = [(conventional, names, False)]
+        substituted = [placed for placed in self.placed if self._is_substituted(placed)]
+        groups.append((substituted, tuple(name for name in names if name == "phi"), False))
+        for placed in self.placed:
+            if placed in substituted:
+                groups.append(([placed], tuple(name for name in names if name != "phi"), True))
+            elif placed not in conventional:
+                groups.append(([placed], names, False))
+        return [self._part(*group) for group in groups if group[0] and group[1]]
+
+    def _is_substituted(self, placed: Placed) -> bool:
+        variant = self.forms[placed.joint.name]
+        return variant.form == "parametric" and variant.derivative == "substituted"
+
+    def _part(self, placed: Sequence[Placed], names: Iterable[str], is_substituted: bool) -> Part:
+        outputs = tuple(self._quantity(name, placed) for name in names)
+        parts = [p.places(places(p.form, self.forms[p.joint.name], is_substituted, self.translations)) for p in placed]
+        columns = {column: frame for p in placed for column, frame in p.column_frames(self.translations).items()}
+        return Part(merged(parts, columns), outputs)
+
+    def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """The rows and columns of a derived quantity that the system has."""
+        chosen = {"constraints": self.rows, "displacements": self.columns, "one": (0,)}
+        rows, columns = _KINDS[name]
+        return chosen[rows], chosen[columns]
+
+    def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
+        rows, columns = _KINDS[name]
+        derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates
+        sizes = {"constraints": self.all_rows, "displacements": derived, "one": 1}
+        found: dict[tuple[int, int], list[Any]] = {}
+        for placed in joints:
+            _, derivation = _derived(self.forms[placed.joint.name], self.translations)
+            for block in placed.blocks(rows, columns, derivation.quantity(name).blocks):
+                found.setdefault((block.row, block.column), []).append(block.expression)
+        blocks = tuple(Block(*place, _sum(parts)) for place, parts in found.items())
+        return SymbolicOutput(name, (sizes[rows], sizes[columns]), blocks)
+
+
+def _sum(parts: list[Any]) -> Any:
+    if len(parts) == 1:
+        return parts[0]
+    return sympy.MatAdd(*parts) if is_matrix(parts[0]) else sympy.Add(*parts)

@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -32,6 +32,10 @@ generate: $(STAMP) ## regenerate generated/
 
 flops: $(STAMP) ## print the comparison of operation counts
 	$(BIN)/jointgen flops
+
+schema: $(STAMP) ## write the JSON schema of scene files anew
+	$(BIN)/python -c 'from codegen.spec.scene_file.schema import schema_text; print(schema_text(), end="")' \
+		> codegen/spec/scene.schema.json
 
 check: lint types imports test current ## run every check, stop at the first that fails
 

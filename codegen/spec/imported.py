@@ -9,6 +9,11 @@ from fractions import Fraction
 
 from codegen.spec.scene import Limit, Scene
 
+LONGEST_NAME = 60
+"""Signs in the name of a body or joint."""
+
+_LONGEST_SCENE_NAME = 40
+
 REMEDY = "pip install 'jointgen[import]'"
 """Brings the parsers of the importers."""
 
@@ -66,7 +71,7 @@ class ImportOptions:
 
     Attributes:
         stops: soft stops at the limits of the joints; None leaves the limits out.
-        keep_fixed: a link that is fixed to another one stays a body, with a rigid joint; otherwise the two are one body.
+        keep_fixed: a link that is fixed to another stays a body, with a rigid joint; otherwise the two are one body.
         free_base: the first link of a URDF moves freely; otherwise it is fixed to the ground.
         right_angle: an attitude that is this near to quarter turns is made of quarter turns, rad. Files with 1.5708 for
             a right angle ask for 1e-5.
@@ -80,10 +85,11 @@ class ImportOptions:
 
 def quoted(name: str) -> str:
     """A name of a file in a message: in quotes, on one line whatever it holds."""
-    return json.dumps(name, ensure_ascii=not name.isprintable())
+    cut = name if len(name) <= LONGEST_NAME else f"{name[:LONGEST_NAME]}..."
+    return json.dumps(cut, ensure_ascii=not cut.isprintable())
 
 
 def scene_name(name: str | None) -> str:
     """A C identifier out of the name of a robot or model."""
     word = re.sub(r"[^A-Za-z0-9]+", "_", name or "").strip("_")
-    return word if word[:1].isalpha() else f"scene_{word}".rstrip("_")
+    return (word if word[:1].isalpha() else f"scene_{word}")[:_LONGEST_SCENE_NAME].rstrip("_")

@@ -1,7 +1,7 @@
 """From links that hang on each other, as files of robots have them, to a scene: bodies and joints at t = 0.
 
 Links that are fixed to each other become one rigid body with the axes of the first of them; what is fixed to the world
-becomes part of the ground. Everything is exact: a joint frame is set up in the axes of a link, never by way of the world.
+becomes part of the ground. Everything is exact: a joint frame is laid in the axes of a link, never by way of the world.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from codegen.errors import Mistake, SpecificationError
-from codegen.spec.imported import Imported, LeftOut, quoted
-from codegen.spec.placement import NEARLY, IDENTITY, columns, frame, length, marker, times, transposed, turned_back
+from codegen.spec.imported import LONGEST_NAME, Imported, LeftOut, quoted
+from codegen.spec.placement import IDENTITY, NEARLY, columns, frame, length, marker, times, transposed, turned_back
 from codegen.spec.pose import MassProperties, Pose, composed, is_inertia, moved, normalised, plus, scaled, seen_from
 from codegen.spec.pose import together as rigidly_together
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Joint, Marker, Matrix, Scene, Vector
@@ -124,7 +124,9 @@ def assembled(tree: LinkTree) -> Imported:
             are taken.
     """
     carriers = _Carriers(tree)
-    mistakes, joints, fixed_to_ground = [], [], []
+    mistakes: list[Mistake] = []
+    joints: list[tuple[Link, str, Pose]] = []
+    fixed_to_ground: list[Link] = []
     for link in tree.links:
         carrier, pose = carriers.pose[link.parent]
         pose = composed(pose, link.pose)
@@ -140,6 +142,7 @@ def assembled(tree: LinkTree) -> Imported:
     bodies = [_body(name, carriers, mistakes) for name in carriers.world if name != GROUND]
     made = [_joint(link, carrier, pose, carriers) for link, carrier, pose in joints if not _is_free(link)]
     made += [_loop(loop, carriers, mistakes) for loop in tree.loops]
+    mistakes += [mistake for joint in made for mistake in _name_mistakes(joint.name, f"{tree.place}: joint")]
     if mistakes:
         raise SpecificationError(mistakes)
     why = "is fixed to the ground, where a mass has no effect"
@@ -160,6 +163,7 @@ def _body(name: str, carriers: _Carriers, mistakes: list[Mistake]) -> Body:
     place = f"{carriers.tree.place}: {carriers.tree.kind} {quoted(name)}"
     if name == GROUND:
         mistakes.append(Mistake(place, f"moves, and {GROUND} is the name of what does not", "give it another name"))
+    mistakes += _name_mistakes(name, f"{carriers.tree.place}: {carriers.tree.kind}")
     if masses.mass <= 0:
         mistakes.append(Mistake(place, "moves and has no mass", "give it a mass and an inertia, or fix its joint"))
     elif not is_inertia(masses.inertia):
@@ -168,6 +172,13 @@ def _body(name: str, carriers: _Carriers, mistakes: list[Mistake]) -> Body:
     carriers.centre[name] = masses.centre
     world = carriers.world[name]
     return Body(name, masses.mass, masses.inertia, world.point(masses.centre), normalised(world.quaternion))
+
+
+def _name_mistakes(name: str, place: str) -> list[Mistake]:
+    if name.strip() and name.isprintable() and len(name) <= LONGEST_NAME:
+        return []
+    what = "is blank, holds signs that do not print, or is too long"
+    return [Mistake(f"{place} {quoted(name)}: name", what, f"use 1 to {LONGEST_NAME} signs that print")]
 
 
 def _joint(link: Link, carrier: str, pose: Pose, carriers: _Carriers) -> Joint:
@@ -209,11 +220,9 @@ def _loop(loop: Loop, carriers: _Carriers, mistakes: list[Mistake]) -> Joint:
     closing = seen_from(carriers.world[carrier_j], composed(carriers.world[carrier_i], frame_i))
     if loop.frames[1] is not None:
         mistakes += _gap(loop, closing, composed(pose_j, loop.frames[1]), place)
-    markers = (
-        _marker(pose.position, transposed(pose.attitude), carriers.centre[carrier])
-        for pose, carrier in ((frame_i, carrier_i), (closing, carrier_j))
-    )
-    return Joint(loop.name, loop.type, (carrier_i, carrier_j), *markers)
+    marker_i = _marker(frame_i.position, transposed(frame_i.attitude), carriers.centre[carrier_i])
+    marker_j = _marker(closing.position, transposed(closing.attitude), carriers.centre[carrier_j])
+    return Joint(loop.name, loop.type, (carrier_i, carrier_j), marker_i, marker_j)
 
 
 def _gap(loop: Loop, closing: Pose, given: Pose, place: str) -> list[Mistake]:

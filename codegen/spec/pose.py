@@ -152,8 +152,11 @@ def together(parts: Iterable[MassProperties]) -> MassProperties:
 
 
 def is_inertia(matrix: Matrix) -> bool:
-    """Whether a symmetric matrix is the inertia of a body: positive definite, no principal value above the sum of the
-    two others. The second test admits a part in 1e-9, for the digits that files leave out."""
+    """Whether a symmetric matrix is the inertia of a body.
+
+    It is positive definite, and no principal value is above the sum of the two others; that admits a part in 1e-9, for
+    the digits that files leave out.
+    """
     trace = matrix[0][0] + matrix[1][1] + matrix[2][2]
     if not all(minor > 0 for minor in _minors(matrix)):
         return False

@@ -102,7 +102,9 @@ class _Reader:
     # ------------------------------------------------------------------------------------------------
     # numbers
 
-    def _numbers(self, element: Element | None, key: str, place: str, default: Sequence[Fraction]) -> Sequence[Fraction]:
+    def _numbers(
+        self, element: Element | None, key: str, place: str, default: Sequence[Fraction]
+    ) -> Sequence[Fraction]:
         text = None if element is None else element.get(key)
         if element is None or text is None:
             return default
@@ -175,7 +177,8 @@ class _Reader:
             self._mistake(f"{place}: {side}", "is missing", f'add <{side} link="..."/>')
         elif name not in known:
             self._mistake(f"{place}: {side}", f"there is no link {quoted(name)}", nearest(name, known))
-        return name if name in known else None
+            return None
+        return name
 
     def _axis(self, joint: Element, place: str) -> Vector:
         x, y, z = self._numbers(self._child(joint, "axis", place), "xyz", place, _X)
@@ -248,6 +251,8 @@ class _Reader:
         if len(ordered) < len(masses):
             reached = {link.name for link in ordered}
             circle = ", ".join(quoted(name) for name in masses if name not in reached)
-            self._mistake(self.place, f"has links that hang on each other in a circle: {circle}", "hang one on the base")
+            self._mistake(
+                self.place, f"has links that hang on each other in a circle: {circle}", "hang one on the base"
+            )
             return ()
         return tuple(ordered)

@@ -54,7 +54,7 @@ def left_out(robot: Element, place: str, has_stops: bool) -> list[LeftOut]:
 
 def _unread(element: Element, place: str, has_stops: bool) -> Iterator[LeftOut]:
     attributes, children = _READ[element.tag]
-    for key in element.keys():  # noqa: SIM118: an element is a list of its children
+    for key in element.attrib:
         if key not in attributes:
             yield LeftOut(f"{tag(element)}: {key}", place, "is not known here")
     if element.tag == "joint":
@@ -71,11 +71,11 @@ def _unread(element: Element, place: str, has_stops: bool) -> Iterator[LeftOut]:
 def _of_joint(joint: Element, place: str, has_stops: bool) -> Iterator[LeftOut]:
     kind = joint.get("type", "")
     for limit in joint.findall("limit"):
-        if not has_stops and {"lower", "upper"} & set(limit.keys()) and kind in ("revolute", "prismatic"):
+        if not has_stops and {"lower", "upper"} & set(limit.attrib) and kind in ("revolute", "prismatic"):
             yield LeftOut("limit: lower, upper", place, "the joint has no stops; ask for soft ones")
-        elif {"lower", "upper"} & set(limit.keys()) and kind not in ("revolute", "prismatic"):
+        elif {"lower", "upper"} & set(limit.attrib) and kind not in ("revolute", "prismatic"):
             yield LeftOut("limit: lower, upper", place, f"have no meaning for a joint that is {kind}")
-        strength = [key for key in ("effort", "velocity") if key in limit.keys()]  # noqa: SIM118
+        strength = [key for key in ("effort", "velocity") if key in limit.attrib]
         if strength:
             yield LeftOut(f"limit: {', '.join(strength)}", place, "actuators are not modelled")
     for dynamics in joint.findall("dynamics"):

@@ -123,6 +123,9 @@ def assembled(tree: LinkTree) -> Imported:
         SpecificationError: bodies without mass, or with what is no inertia, loops that are open at t = 0, names that
             are taken.
     """
+    if any(link.name == GROUND and _is_body(link, tree) for link in tree.links):
+        what = f"moves, and {GROUND} is the name of what does not"
+        raise SpecificationError([Mistake(f"{tree.place}: {tree.kind} {quoted(GROUND)}", what, "give it another name")])
     carriers = _Carriers(tree)
     mistakes: list[Mistake] = []
     joints: list[tuple[Link, str, Pose]] = []
@@ -161,8 +164,6 @@ def _is_free(link: Link) -> bool:
 def _body(name: str, carriers: _Carriers, mistakes: list[Mistake]) -> Body:
     masses = rigidly_together(carriers.masses[name])
     place = f"{carriers.tree.place}: {carriers.tree.kind} {quoted(name)}"
-    if name == GROUND:
-        mistakes.append(Mistake(place, f"moves, and {GROUND} is the name of what does not", "give it another name"))
     mistakes += _name_mistakes(name, f"{carriers.tree.place}: {carriers.tree.kind}")
     if masses.mass <= 0:
         mistakes.append(Mistake(place, "moves and has no mass", "give it a mass and an inertia, or fix its joint"))

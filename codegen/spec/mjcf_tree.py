@@ -181,9 +181,9 @@ class _Reader:
         if model.dof_armature[dof]:
             self._leave_out("armature", place, "the inertia of a rotor is not modelled; add it to a body")
         for key, values in (("stiffness", "jnt_stiffnesspoly"), ("springyield", "jnt_springyield")):
-            if _holds(model, values, joint):
+            if any(getattr(model, values)[joint : joint + 1].flat):
                 self._leave_out(key, place, "only the linear part of a spring is modelled")
-        if _holds(model, "dof_dampingpoly", dof):
+        if any(model.dof_dampingpoly[dof]):
             self._leave_out("damping", place, "only the linear part of a damper is modelled")
 
     # ------------------------------------------------------------------------------------------------
@@ -229,11 +229,6 @@ def _free_name(name: str, taken: set[str]) -> str:
     while name in taken:
         name += "_"
     return name
-
-
-def _holds(model: Any, key: str, row: int) -> bool:
-    """Whether a row of an array is not 0; older MuJoCo has not all arrays."""
-    return hasattr(model, key) and bool((getattr(model, key)[row] != 0).any())
 
 
 def _vector(values: Sequence[float]) -> Vector:

@@ -6,12 +6,13 @@ shortest decimal of its double: the one in the file, where MuJoCo takes it over 
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from codegen.errors import Mistake, SpecificationError
-from codegen.spec.imported import REMEDY, Imported, ImportOptions
+from codegen.spec.imported import REMEDY, Imported, ImportOptions, LeftOut
 from codegen.spec.link_tree import assembled
 from codegen.spec.mjcf_left_out import left_out
 from codegen.spec.mjcf_mechanism import missing_meshes, reduce_to_mechanism
@@ -38,14 +39,16 @@ def read_mjcf(
         SpecificationError: with what MuJoCo finds first, or with all that a scene cannot take.
     """
     parts = parts_of(text, place, files or {})
-    specification, model = _compiled(text, place, files or {}, set(parts))
+    specification, model, warned = _compiled(text, place, files or {}, set(parts))
     tree = link_tree(specification, model, place, options or ImportOptions())
     listed = (item for part, root in parts.items() for item in left_out(root, part))
-    return assembled(replace(tree, left_out=(*listed, *tree.left_out)))
+    return assembled(replace(tree, left_out=(*listed, *tree.left_out, *warned)))
 
 
-def _compiled(text: str | bytes, place: str, files: Mapping[str, bytes], included: set[str]) -> tuple[Any, Any]:
-    """The specification without what a scene does not need, and the model that MuJoCo makes of it."""
+def _compiled(
+    text: str | bytes, place: str, files: Mapping[str, bytes], included: set[str]
+) -> tuple[Any, Any, list[LeftOut]]:
+    """The specification without what a scene does not need, the model of it, and what MuJoCo warns of."""
     try:
         import mujoco
     except ImportError:
@@ -53,24 +56,25 @@ def _compiled(text: str | bytes, place: str, files: Mapping[str, bytes], include
         raise SpecificationError([Mistake(place, what, REMEDY)]) from None
     parts = {name: content for name, content in files.items() if name in included}
     assets = {name: content for name, content in files.items() if name not in included}
-    previous = mujoco.get_mju_user_warning()
-    warnings: list[str] = []
-    mujoco.set_mju_user_warning(warnings.append)  # otherwise a log is written into the current folder
+    previous, told = mujoco.get_mju_user_warning(), list[str]()
+    mujoco.set_mju_user_warning(told.append)  # otherwise a log is written into the current folder
     try:
         written = text if isinstance(text, str) else text.decode()
         specification = mujoco.MjSpec.from_string(written, include=parts, assets=assets)
         reduce_to_mechanism(specification, mujoco)
         missing = missing_meshes(specification, files, place)
-        model = None if missing else specification.compile()
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            model = None if missing else specification.compile()
     except (ValueError, TypeError, MemoryError, mujoco.FatalError) as error:
         what = " ".join(str(error).split())
         raise SpecificationError([Mistake(place, f"MuJoCo refuses it: {what}", _remedy(what))]) from None
     finally:
         mujoco.set_mju_user_warning(previous)
-    missing += [Mistake(place, f"MuJoCo warns: {' '.join(what.split())}", "correct it") for what in warnings]
     if missing:
         raise SpecificationError(missing)
-    return specification, model
+    told += [str(warning.message) for warning in caught]
+    return specification, model, [LeftOut("warning", place, f"MuJoCo says: {' '.join(what.split())}") for what in told]
 
 
 def _remedy(what: str) -> str:

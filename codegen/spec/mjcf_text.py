@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.spec.imported import quoted
-from codegen.spec.xml_text import number, read_xml
+from codegen.spec.xml_text import GREATEST, number, read_xml
 
 MOST_COPIES = 10_000
 """Copies that ``replicate`` may make of an element."""
@@ -21,8 +21,6 @@ _REFUSED = {
     "plugin": "take it out: what it does is not modelled",
 }
 """Elements that make a part of the mechanism out of other files, in bulk or by programs."""
-
-_NO_NUMBERS = {"nan", "inf", "infinity"}
 
 
 def parts_of(text: str | bytes, place: str, files: Mapping[str, bytes]) -> dict[str, Element]:
@@ -49,10 +47,19 @@ def _unreadable(root: Element, place: str, files: Mapping[str, bytes], parts: di
         if element.tag in _REFUSED or (element.tag == "model" and element.get("file")):
             yield Mistake(f"{place}: {element.tag}", "is not read", _REFUSED.get(element.tag, _REFUSED["attach"]))
         for key, value in element.items():
-            if value not in names and _NO_NUMBERS & {word.lstrip("+-") for word in value.lower().split()}:
-                yield Mistake(f"{place}: {element.tag}: {key}", f"{quoted(value)} is no number", "write numbers")
+            if value not in names and not all(map(_is_usable, value.split())):
+                what = f"{quoted(value)} is no number, or beyond {GREATEST:g}"
+                yield Mistake(f"{place}: {element.tag}: {key}", what, "write numbers")
         if element.tag == "include":
             yield from _included(element.get("file", ""), place, files, parts)
+
+
+def _is_usable(word: str) -> bool:
+    """Whether a word is no number, or one that a scene may have."""
+    try:
+        return abs(float(word)) <= GREATEST
+    except ValueError:
+        return True
 
 
 def _included(name: str, place: str, files: Mapping[str, bytes], parts: dict[str, Element]) -> Iterator[Mistake]:

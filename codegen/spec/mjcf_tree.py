@@ -145,6 +145,9 @@ class _Reader:
         self._list_unmodelled(joint, place)
         coordinate = self._coordinate(joint, kind, place)
         axis, point = _vector(self.model.jnt_axis[joint]), _vector(self.model.jnt_pos[joint])
+        if kind in ("hinge", "slide") and not any(axis):
+            self.mistakes.append(Mistake(f"{self.place}: {place}: axis", "has no direction", "write a vector near 1"))
+            axis = (Fraction(0), Fraction(0), Fraction(1))
         return Simple(self.joint_names[joint], kind, ZERO_VECTOR if kind == "free" else point, axis, coordinate)
 
     def _coordinate(self, joint: int, kind: str, place: str) -> Coordinate:

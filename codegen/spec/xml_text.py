@@ -16,6 +16,9 @@ from codegen.spec.imported import REMEDY
 DEEPEST = 400
 """Elements inside each other; programs that recurse over them stand this much."""
 
+LEAST, GREATEST = 1e-30, 1e30
+"""Sizes within which numbers are taken, besides 0."""
+
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 
 
@@ -65,11 +68,11 @@ def tag(element: Element) -> str:
 
 
 def number(word: str) -> Fraction | None:
-    """The exact value of a decimal; None if it is none, or beyond the range of doubles."""
+    """The exact value of a decimal; None if it is none, or neither 0 nor between `LEAST` and `GREATEST`."""
     if len(word) > 100 or not _NUMBER.fullmatch(word):
         return None
     size = abs(float(word))
-    return Fraction(word) if size == 0 or 1e-300 < size < 1e300 else None
+    return Fraction(word) if size == 0 or LEAST <= size <= GREATEST else None
 
 
 def numbers(text: str, count: int) -> tuple[Fraction, ...] | None:

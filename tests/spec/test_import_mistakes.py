@@ -10,6 +10,7 @@ import pytest
 from codegen.errors import SpecificationError
 from codegen.spec.mjcf import read_mjcf
 from codegen.spec.urdf import read_urdf
+from tests.spec.test_mjcf import FOUR_BAR
 from tests.spec.test_urdf import ARM, HINGE, LINK, robot
 
 pytest.importorskip("mujoco")
@@ -192,16 +193,18 @@ def test_nothing_is_written_beside_the_model(tmp_path, monkeypatch, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize("seed", range(300))
-def test_a_damaged_robot_is_read_or_refused(seed):
+WORDS = ['"', "<", "0", "e9", "-", " ", "\u0661", ">", "1e300", "nan", '"h"', "joint"]
+
+
+@pytest.mark.parametrize("read", [read_urdf, read_mjcf])
+@pytest.mark.parametrize("seed", range(150))
+def test_a_damaged_file_is_read_or_refused(read, seed):
     generator = random.Random(seed)
-    signs = list(ARM)
-    for _ in range(generator.randint(1, 6)):
+    signs = list(ARM if read is read_urdf else FOUR_BAR)
+    for _ in range(generator.randint(1, 4)):
         where = generator.randrange(len(signs))
-        signs[where : where + generator.randint(0, 3)] = generator.choice(
-            ['"', "<", "0", "e9", "-", " ", "\u0661", ">"]
-        )
+        signs[where : where + generator.randint(0, 3)] = generator.choice(WORDS)
     try:
-        read_urdf("".join(signs), "x")
+        read("".join(signs), "x")
     except SpecificationError as error:
-        assert all(mistake.remedy for mistake in error.mistakes)
+        assert all(mistake.remedy and "\n" not in str(mistake) for mistake in error.mistakes)

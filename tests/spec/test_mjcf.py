@@ -87,9 +87,10 @@ def test_a_stack_of_joints_moves_as_the_joint_that_it_becomes(kind):
         '<joint name="t" type="slide" axis="0 1 0"/>',
     ],
 )
-def test_a_stack_that_is_no_joint_is_refused(joints):
+def test_a_stack_that_is_no_joint_is_refused(joints, recwarn):
     with pytest.raises(SpecificationError, match="put a body with a mass between them"):
         read_mjcf(model_of(body(joints)), "x")
+    assert not recwarn.list
 
 
 def random_model(generator: np.random.Generator, depth: int, name: str = "b") -> str:

@@ -132,25 +132,30 @@ class ConstraintSystem:
         """Evaluate ``phi`` [m] and ``phi_q`` [m, 6 nb + na]."""
         phi = np.zeros(self.row_count)
         phi_q = np.zeros((self.row_count, self.column_count))
-        start = 6 * len(self.bodies)
-        for joint, rows, columns in zip(self.joints, self.row_ranges(), self.coordinate_ranges(), strict=True):
-            alpha = pose.alpha[columns.start - start : columns.stop - start]
-            i, j = joint.bodies
-            own, block = joint.evaluate(*pose.body(i), *pose.body(j), alpha)
+        columns = self.coordinate_ranges()
+        for joint, rows, alphas in zip(self.joints, self.row_ranges(), columns, strict=True):
+            own, block = self._joint_values(joint, alphas, pose)
             phi[rows.start : rows.stop] = own
-            for body, part in ((i, block[:, :6]), (j, block[:, 6:12])):
+            for body, part in zip(joint.bodies, (block[:, :6], block[:, 6:12]), strict=True):
                 if body is not None:
                     phi_q[rows.start : rows.stop, 6 * body : 6 * body + 6] += part
-            phi_q[rows.start : rows.stop, columns.start : columns.stop] = block[:, 12:]
+            phi_q[rows.start : rows.stop, alphas.start : alphas.stop] = block[:, 12:]
         return phi, phi_q
 
     def phi(self, pose: Pose) -> Array:
         """Evaluate the constraints, [m]."""
-        return self.values(pose)[0]
+        columns = self.coordinate_ranges()
+        own = [self._joint_values(joint, part, pose)[0] for joint, part in zip(self.joints, columns, strict=True)]
+        return np.concatenate(own) if own else np.zeros(0)
 
     def phi_q(self, pose: Pose) -> Array:
         """Evaluate the Jacobian, [m, 6 nb + na]."""
         return self.values(pose)[1]
+
+    def _joint_values(self, joint: JointConstraint, columns: range, pose: Pose) -> tuple[Array, Array]:
+        start = 6 * len(self.bodies)
+        i, j = joint.bodies
+        return joint.evaluate(*pose.body(i), *pose.body(j), pose.alpha[columns.start - start : columns.stop - start])
 
 
 def _ranges(counts: Sequence[int], start: int) -> tuple[range, ...]:

@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from codegen.measure.assembly import Gap, assemble
+from codegen.measure.assembly import assemble
 from codegen.measure.constraints import ConstraintSystem, Pose, scales
+from codegen.measure.gaps import Gap
 from codegen.measure.loops import Group, group, loops
 from codegen.measure.motion import consistent_poses, finite_freedoms, implied_rows
 from codegen.measure.parts import Part, likeness, parts
 from codegen.measure.rank import Rank, independent_rows, rank
 from codegen.measure.replacements import Suggestion, suggestions
+from codegen.measure.threads import one_thread
 
 _NEAR_SINGULAR = 0.03
 """Near a singular pose the smallest singular value that counts is below this part of what it is at the best pose."""
@@ -140,12 +142,13 @@ def mobility(system: ConstraintSystem, pose: Pose) -> Mobility:
     known: dict[object, _Found] = {}
     judged, kept = [], []
     ranges = system.row_ranges()
-    for part in parts(system):
-        found = _judged(part, part.pose(pose), known)
-        rows = [row for position in part.joints for row in ranges[position]]
-        redundant = found.verdict.redundant if found.verdict else ()
-        kept += [row for position, row in enumerate(rows) if position not in redundant]
-        judged.append(found)
+    with one_thread():
+        for part in parts(system):
+            found = _judged(part, part.pose(pose), known)
+            rows = [row for position in part.joints for row in ranges[position]]
+            redundant = found.verdict.redundant if found.verdict else ()
+            kept += [row for position, row in enumerate(rows) if position not in redundant]
+            judged.append(found)
     return Mobility(tuple(judged), tuple(sorted(kept)))
 
 

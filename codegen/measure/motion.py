@@ -6,12 +6,11 @@ constraints, arrives somewhere else. A shaky structure comes back to where it wa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from codegen.measure.assembly import project, turned_over
+from codegen.measure.assembly import project
 from codegen.measure.constraints import Array, ConstraintSystem, Pose, Scales
+from codegen.measure.gaps import turned_over
 from codegen.measure.rank import null_space
 
 POSES = 6
@@ -27,8 +26,17 @@ _FRUITLESS = 3
 
 _SEED = 1
 
-_PROBE = 0.02
+_DIRECTIONS = 3
+"""Random directions that are probed."""
+
+_PROBE = 0.005
 """Length of a step that tells finite from infinitesimal motion."""
+
+_STRIDE = 0.2
+"""Length of a step that tells whether rows are implied."""
+
+_LOST = 0.03
+"""Part of a probing step that may be lost to the curvature of the motion."""
 
 _FOLLOWED = 0.3
 """Part of a probing step that is left of it, from which the direction counts as followed."""
@@ -79,32 +87,42 @@ def _walked(system: ConstraintSystem, pose: Pose, units: Scales, direction: Arra
 
 
 def finite_freedoms(system: ConstraintSystem, pose: Pose, units: Scales) -> int:
-    """Count the independent directions in which a mechanism can be moved at a regular pose."""
+    """Count the independent directions in which a mechanism can be moved at a regular pose.
+
+    Random directions have a part along every other; if they can be followed, all can. Else each is tried alone.
+    """
     basis = null_space(units.values(system, pose)[1])
-    arrivals = [basis.T @ travel for travel in _probes(system, pose, units, basis)]
-    if not arrivals:
-        return 0
+    count = int(basis.shape[1])
+    some = _random_directions(count)
+    lost = (float(np.linalg.norm(_followed(system, pose, units, basis, part) - part)) for part in some)
+    if all(part <= _LOST for part in lost):
+        return count
+    arrivals = [_followed(system, pose, units, basis, part) for part in np.eye(count)]
     return int(np.sum(np.linalg.svd(np.array(arrivals), compute_uv=False) > _FOLLOWED))
 
 
-def _probes(system: ConstraintSystem, pose: Pose, units: Scales, basis: Array) -> Iterator[Array]:
-    """For each direction, what is left of a short step along it; in parts of its length."""
-    for direction in basis.T:
-        size = _PROBE / np.max(np.abs(direction))
-        found = project(system, pose.moved(size * direction * units.columns), units)
-        if found.is_closed:
-            yield pose.step_to(found.pose) / units.columns / size
+def _random_directions(count: int) -> Array:
+    """A few directions of length 1 in a null space, [k, count]."""
+    some = np.random.default_rng(_SEED).normal(size=(min(_DIRECTIONS, count), count))
+    return np.asarray(some / np.linalg.norm(some, axis=1, keepdims=True))
+
+
+def _followed(system: ConstraintSystem, pose: Pose, units: Scales, basis: Array, part: Array) -> Array:
+    """What is left, in parts of its length and in the basis, of a short step once it is back on the constraints."""
+    found = project(system, pose.moved(_PROBE * (basis @ part) * units.columns), units)
+    travel = pose.step_to(found.pose) / units.columns
+    return np.asarray(basis.T @ travel / _PROBE) if found.is_closed else np.zeros(len(part))
 
 
 def implied_rows(system: ConstraintSystem, pose: Pose, units: Scales, kept: tuple[int, ...]) -> tuple[int, ...]:
-    """Say which of the other rows stay met while the mechanism moves under the kept ones alone."""
+    """Say which of the other rows stay met while the mechanism moves, here and there, under the kept ones alone."""
     others = [row for row in range(system.row_count) if row not in kept]
+    if not others:
+        return ()
     basis = null_space(units.values(system, pose)[1])
     largest = np.zeros(len(others))
-    for direction in basis.T:
-        size = 5 * _PROBE / np.max(np.abs(direction))
-        found = project(system, pose.moved(size * direction * units.columns), units, rows=list(kept))
+    for part in _random_directions(basis.shape[1]):
+        found = project(system, pose.moved(_STRIDE * (basis @ part) * units.columns), units, rows=list(kept))
         if found.is_closed:
-            phi = system.phi(found.pose) / units.rows
-            largest = np.maximum(largest, np.abs(phi[others]))
+            largest = np.maximum(largest, np.abs(system.phi(found.pose) / units.rows)[others])
     return tuple(row for row, value in zip(others, largest, strict=True) if value <= _IMPLIED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -56,12 +57,12 @@ def parts(system: ConstraintSystem) -> tuple[Part, ...]:
         moving = [body for body in joint.bodies if body is not None]
         label = labels[moving[0]] if moving else -1 - position
         joints.setdefault(label, []).append(position)
-    return tuple(_part(system, bodies.get(label, []), joints[label]) for label in joints)
-
-
-def _part(system: ConstraintSystem, bodies: list[int], joints: list[int]) -> Part:
-    place: dict[int | None, int | None] = {None: None} | {body: k for k, body in enumerate(bodies)}
     ranges = system.coordinate_ranges()
+    return tuple(_part(system, ranges, bodies.get(label, []), joints[label]) for label in joints)
+
+
+def _part(system: ConstraintSystem, ranges: Sequence[range], bodies: list[int], joints: list[int]) -> Part:
+    place: dict[int | None, int | None] = {None: None} | {body: k for k, body in enumerate(bodies)}
     start = 6 * len(system.bodies)
     own = [system.joints[position] for position in joints]
     renumbered = tuple(replace(joint, bodies=(place[joint.bodies[0]], place[joint.bodies[1]])) for joint in own)

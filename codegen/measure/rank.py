@@ -63,10 +63,10 @@ def rank(matrix: Array) -> Rank:
 
 def null_space(matrix: Array) -> Array:
     """Give an orthonormal basis [n, d] of the directions in which nothing changes, by `TOLERANCE`."""
-    count = rank(matrix).rank
-    if not matrix.shape[1] or not count:
+    if not matrix.size or not matrix.any():
         return np.eye(matrix.shape[1])
-    return np.asarray(scipy.linalg.svd(matrix)[2][count:].T)
+    _, sigma, rows = scipy.linalg.svd(matrix)
+    return np.asarray(rows[int(np.sum(sigma > TOLERANCE * sigma[0])) :].T)
 
 
 class _Kept:

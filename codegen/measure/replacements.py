@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, islice
 
 import numpy as np
 
@@ -90,8 +90,10 @@ def suggestions(system: ConstraintSystem, poses: Sequence[Pose], units: Scales, 
     Returns:
         At most `MOST`; those that leave redundant rows only where no other is found.
     """
+    if not count:
+        return ()
     model = _stresses(system, poses, units)
-    if not count or any(stress.shape[1] != count for stress in model.stresses):
+    if any(stress.shape[1] != count for stress in model.stresses):
         return ()
     candidates = [
         (position, freer, model.released(position, freer))
@@ -99,12 +101,12 @@ def suggestions(system: ConstraintSystem, poses: Sequence[Pose], units: Scales, 
         if _is_free_to_move(system, position)
         for freer in FREER.get(system.joints[position].type, ())
     ]
-    found = [
+    found = (
         _suggestion(system, chosen, 0)
         for chosen in sorted(_complete(candidates, count), key=_merit)
         if _is_confirmed(model, chosen, 0)
-    ]
-    return tuple(found[:MOST]) or _one_by_one(system, model, candidates, count)
+    )
+    return tuple(islice(found, MOST)) or _one_by_one(system, model, candidates, count)
 
 
 def _merit(chosen: Sequence[Candidate]) -> tuple[int, float]:
@@ -142,16 +144,12 @@ def _complete(candidates: Sequence[Candidate], count: int) -> Iterator[tuple[Can
             tried += 1
             if tried > _TRIED:
                 return
-            if len({position for position, _, _ in chosen}) == number and _released(chosen) == count:
+            is_apart = len({position for position, _, _ in chosen}) == number
+            if is_apart and len(_labels(chosen)) == count and _release(chosen) > _RELEASES:
                 is_found = True
                 yield chosen
         if is_found:
             return
-
-
-def _released(chosen: Sequence[Candidate]) -> int:
-    """Count the stresses that replacements take off; 0 unless every force released is a stress less, at all poses."""
-    return len(_labels(chosen)) if _release(chosen) > _RELEASES else 0
 
 
 def _release(chosen: Sequence[Candidate]) -> float:
@@ -169,9 +167,9 @@ def _one_by_one(
 ) -> tuple[Suggestion, ...]:
     """Replace joint after joint as long as each takes stresses off and sets nothing free."""
     chosen: list[Candidate] = []
-    for candidate in sorted(candidates, key=lambda candidate: -len(candidate[1].released)):
+    for candidate in sorted(candidates, key=lambda candidate: _merit([candidate])[0] - len(candidate[1].released)):
         is_new = all(candidate[0] != position for position, _, _ in chosen)
-        if is_new and _released([*chosen, candidate]) > len(_labels(chosen)):
+        if is_new and _release([*chosen, candidate]) > _RELEASES:
             chosen.append(candidate)
     chosen.sort(key=lambda candidate: candidate[0])
     left = count - len(_labels(chosen))
@@ -186,9 +184,8 @@ def _is_confirmed(model: _Stresses, chosen: Sequence[Candidate], left: int) -> b
     """Compare ranks without the released rows: as many as before, less what remains redundant."""
     released = set(_labels(chosen))
     kept = [row for row, label in enumerate(model.labels) if label not in released]
-    return all(
-        rank(matrix[kept]).rank == rank(matrix).rank and len(kept) - rank(matrix).rank == left for matrix in model.rows
-    )
+    left_over = len(kept) - left
+    return all(rank(matrix[kept]).rank == rank(matrix).rank == left_over for matrix in model.rows)
 
 
 def _suggestion(system: ConstraintSystem, chosen: Sequence[Candidate], left: int) -> Suggestion:

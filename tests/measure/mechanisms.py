@@ -220,7 +220,7 @@ def bricard(edge: float = 1.0) -> Drawing:
 
 
 def spatial_slider_crank(at_slider: str = "universal") -> Drawing:
-    """Haug's spatial slider-crank: revolute at the crank, ball, universal joint (or ball), translational at the slider."""
+    """Haug's spatial slider-crank: revolute, ball, universal (or ball) and translational joint, from the crank on."""
     pin, slider = np.array([0.0, 0.1, 0.2]), np.array([0.2, 0.0, 0.0])
     drawing = Drawing()
     drawing.body("crank", (0.0, 0.1, 0.16))

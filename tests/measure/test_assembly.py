@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from codegen.measure.assembly import assemble, project_velocity
+from codegen.measure.assembly import assemble
 from codegen.measure.constraints import ConstraintSystem, Pose
+from codegen.measure.velocities import project_velocity
 from tests.measure.mechanisms import (
     bars_that_are_too_short,
     bricard,

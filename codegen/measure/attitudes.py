@@ -21,9 +21,3 @@ def turns(A: Array, other: Array) -> Array:
     if not len(A):
         return np.zeros((0, 3))
     return np.asarray(Rotation.from_matrix(np.swapaxes(A, 1, 2) @ other).as_rotvec())
-
-
-def skew(a: Array) -> Array:
-    """``a~`` [3, 3] with ``a~ b = a x b``."""
-    x, y, z = a
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

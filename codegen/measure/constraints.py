@@ -180,11 +180,7 @@ class Scales:
     def values(self, system: ConstraintSystem, pose: Pose) -> tuple[Array, Array]:
         """Evaluate ``phi`` and ``phi_q`` without dimension."""
         phi, phi_q = system.values(pose)
-        return phi / self.rows, self.jacobian(phi_q)
-
-    def jacobian(self, phi_q: Array) -> Array:
-        """Take the dimensions off a Jacobian."""
-        return np.asarray(phi_q / self.rows[:, None] * self.columns)
+        return phi / self.rows, phi_q / self.rows[:, None] * self.columns
 
 
 def scales(system: ConstraintSystem) -> Scales:

@@ -14,15 +14,16 @@ def lines(found: Mobility) -> tuple[str, ...]:
     """Write a report, one statement a line; equal parts are told once."""
     total = f"{found.rows} rows, {found.columns} coordinates, rank {found.rank}, {_freedoms(found.freedoms)}"
     told = [total] if found.is_closed else []
-    alike: dict[Verdict, list[JudgedPart]] = {}
+    alike: dict[int, list[JudgedPart]] = {}
     for part in found.parts:
         if part.verdict:
-            alike.setdefault(part.verdict, []).append(part)
+            alike.setdefault(id(part.verdict), []).append(part)
         else:
             told += [f"{_title([part])} does not close:", *(f"  {gap}" for gap in part.open_joints)]
-    for verdict, parts in alike.items():
-        told.append(f"{_title(parts)}: {_count(verdict)}")
-        told += [f"  {line}" for line in _part_lines(parts[0], verdict)]
+    for parts in alike.values():
+        if verdict := parts[0].verdict:
+            told.append(f"{_title(parts)}: {_count(verdict)}")
+            told += [f"  {line}" for line in _part_lines(parts[0], verdict)]
     return tuple(told)
 
 
@@ -75,7 +76,7 @@ def _states(verdict: Verdict) -> Iterator[str]:
     if verdict.infinitesimal:
         yield (
             f"shaky: {verdict.infinitesimal} direction{'s' if verdict.infinitesimal > 1 else ''} of motion cannot be"
-            " followed any finite way; the rank is that of this pose, and forces grow without bound"
+            " followed any finite way, and forces against it grow without bound"
         )
     if verdict.columns and not verdict.freedoms:
         yield "locked: it does not move"

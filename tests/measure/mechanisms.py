@@ -257,3 +257,16 @@ def bars_that_are_too_short() -> Drawing:
     drawing = polygon(points | {"end": (0.6, 0, 0)}, {"left": ("O1", "A"), "right": ("A", "end")})
     drawing.joint("O2", "revolute", ("right", None), (0.6, 0, 0), point_j=(1, 0, 0))
     return drawing
+
+
+def shaky_arm() -> Drawing:
+    """A pendulum that carries two bars in line between two of its points."""
+    drawing = Drawing()
+    drawing.bar("arm", (0, 0, 0), (1, 0, 0))
+    drawing.bar("left", (0.2, 0, 0), (0.5, 0, 0))
+    drawing.bar("right", (0.5, 0, 0), (0.9, 0, 0))
+    drawing.joint("O", "revolute", (None, "arm"), (0, 0, 0))
+    drawing.joint("A", "revolute", ("arm", "left"), (0.2, 0, 0))
+    drawing.joint("B", "revolute", ("left", "right"), (0.5, 0, 0))
+    drawing.joint("C", "revolute", ("right", "arm"), (0.9, 0, 0))
+    return drawing

@@ -23,6 +23,7 @@ from tests.measure.mechanisms import (
     pendulum,
     polygon,
     program,
+    shaky_arm,
     slider_crank,
     spatial_slider_crank,
     triangle,
@@ -88,6 +89,12 @@ class TestTheInLineSliderCrank:
         found = verdict(judged(slider_crank(0.4, 0.4, 0.7)))
         assert (found.rank, found.is_singular, found.freedoms) == (17, False, 1)
 
+    def test_is_the_same_where_the_pose_is_given_to_five_digits(self):
+        system, pose = slider_crank().mechanism()
+        rounded = replace(pose, r=np.round(pose.r, 5))
+        assert np.max(np.abs(system.phi(rounded))) > 1e-6
+        assert mobility(system, rounded).redundant == mobility(system, pose).redundant
+
     @pytest.mark.parametrize("unit", [1e-3, 1e3])
     def test_is_the_same_in_other_units(self, unit):
         assert judged(slider_crank(unit=unit)).redundant == judged(slider_crank()).redundant
@@ -113,7 +120,7 @@ class TestTheInLineSliderCrank:
         assert (found.ranks[0].rank, found.rank, found.is_singular) == (18, 21, True)
 
 
-def exact_slider_crank() -> sympy.Matrix:
+def exact_slider_crank() -> "RationalMatrix":
     """phi_q of the slider-crank with crank 5/8 and rod 13/10 at cos = 3/5, in rationals."""
     q = Fraction
     crank_pin, piston = (q(3, 8), q(1, 2), q(0)), (q(3, 8) + q(6, 5), q(0), q(0))
@@ -252,6 +259,18 @@ class TestKnownMechanisms:
         found = judged(two_bars_in_line(), form, rows)
         assert (found.freedoms, verdict(found).infinitesimal, len(found.redundant)) == (0, 1, 3)
         assert any("shaky" in line for line in lines(found))
+
+    @each_form
+    def test_a_shaky_part_of_a_mechanism_that_moves_is_told_from_its_motion(self, form, rows):
+        found = judged(shaky_arm(), form, rows)
+        assert (found.freedoms, verdict(found).infinitesimal, len(found.redundant)) == (1, 1, 3)
+        assert not verdict(found).is_singular
+
+    def test_a_welded_body_adds_no_freedom(self):
+        drawing = pendulum()
+        drawing.body("bob", (0.7, -0.9, 0.1))
+        drawing.joint("weld", "rigid", ("bar", "bob"), (0.6, -0.8, 0), (0.6, 0.0, 0.8))
+        assert (judged(drawing).freedoms, judged(drawing).redundant) == (1, ())
 
     def test_a_parallelogram_is_singular_where_it_is_flat(self):
         points = {"O1": (0, 0, 0), "A": (0.5, 0, 0), "B": (1.5, 0, 0), "O2": (1, 0, 0)}

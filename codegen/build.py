@@ -21,9 +21,9 @@ from importlib import resources
 from typing import Any
 
 import codegen
+from codegen.emit.joint_subject import JointSubject
 from codegen.emit.package import Unit, package, specification_hash, unit
 from codegen.emit.prepared import prepare_geometry
-from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text

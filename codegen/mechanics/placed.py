@@ -123,9 +123,7 @@ class Placed:
         """
         names, symbols = self.frame_names, self.symbols
         rotations = {symbols[old]: (names[a], names[b]) for old, (a, b) in generic.rotations.items()}
-        given = [
-            symbols[old] for old in generic.given if old not in (C_i, C_j, H) and rotations[symbols[old]][1] != WORLD
-        ]
+        given = [symbols[old] for old in self._attitudes_of(generic) if rotations[symbols[old]][1] != WORLD]
         same, explicit = self._constant_frames(generic, rotations)
         explicit |= {symbol: matrix for symbol, matrix in self._attitudes.items() if symbol in given}
         if self.ends.arrays.is_planar:
@@ -151,6 +149,16 @@ class Placed:
             constants=self._constants(frames_of),
             same_axes=same,
         )
+
+    def _attitudes_of(self, generic: Places) -> list[Any]:
+        """The attitudes among the given rotations.
+
+        Where the joint relation takes the place of ``A_j`` and body j is the ground, ``A_i`` would lead there again, on
+        another way than the joint.
+        """
+        if A_j not in generic.given and self.ends.numbers[1] is None:
+            return []
+        return [symbol for symbol in generic.given if symbol in (A_i, A_j)]
 
     def _constants(self, known: Mapping[Any, str]) -> dict[Any, Any]:
         """Attachments, what does not move, and what does not leave the plane."""

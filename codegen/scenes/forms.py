@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
-from codegen.scenes.programs import program, without_zero_rows
+from codegen.scenes.programs import estimate, program, without_zero_rows
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint, Scene
-from flopcount.counts import Counts
 from flopcount.count import count
+from flopcount.counts import Counts
 
 TRIGONOMETRY = 20
 """Price of a sine and cosine of one angle, in additions: about what the C library takes on current processors."""
@@ -68,10 +69,14 @@ def _prices(scene: Scene, joint: Joint, known: dict[tuple[object, ...], dict[str
     key = (joint.type, joint.marker_i, joint.marker_j, joint.pitch, sides)
     if key not in known:
         known[key] = {
-            form: price(count(program(alone(scene, joint, _variant(scene, joint, form)), constraint_quantities(scene))))
+            form: price(count(_estimated(scene, joint, _variant(scene, joint, form))))
             for form in ("conventional", "parametric")
         }
     return known[key]
+
+
+def _estimated(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return program(alone(scene, joint, variant), constraint_quantities(scene), estimate)
 
 
 def alone(scene: Scene, joint: Joint, variant: Variant) -> Assembly:

@@ -17,7 +17,7 @@ from codegen.ir.program import Program
 from codegen.measure.constraints import Array, ConstraintSystem, Evaluate, Frame, JointConstraint, Pose, Row
 from codegen.measure.row_names import conventional_rows, coordinate_units, parametric_rows
 from codegen.mechanics.joints import JOINTS
-from codegen.mechanics.placed import axes_of_form
+from codegen.spec.markers import markers
 from codegen.spec.placement import IDENTITY, rotation
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Joint, Marker, Matrix, Scene, Vector
@@ -78,8 +78,7 @@ def _constraint(
     joint: Joint, variant: Variant, bodies: tuple[int | None, int | None], kept: Sequence[int]
 ) -> JointConstraint:
     rows = rows_of(variant)
-    axes = axes_of_form(joint, variant.form)
-    constants = [float(x) for x in (*joint.marker_i.point, *_columns(axes[0]), *joint.marker_j.point, *_columns(axes[1]))]
+    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
     constants += [float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else []
     return JointConstraint(
         joint.name,
@@ -96,7 +95,8 @@ def _constraint(
 def _in_plane(name: str, body: int) -> JointConstraint:
     """The rows that hold a body in the plane of world x and y."""
     variant = Variant("planar", "conventional", None)
-    joint = Joint(f"plane of {name}", "planar", (GROUND, name), Marker(ZERO_VECTOR, IDENTITY), Marker(ZERO_VECTOR, IDENTITY))
+    origin = Marker(ZERO_VECTOR, IDENTITY)
+    joint = Joint(f"plane of {name}", "planar", (GROUND, name), origin, origin)
     return _constraint(joint, variant, (None, body), range(3))
 
 

@@ -21,6 +21,9 @@ from codegen.spec.markers import markers
 from codegen.spec.placement import IDENTITY, rotation
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Joint, Marker, Matrix, Scene, Vector
+from codegen.spec.scene_file.bodies import GROUND_POSE
+from codegen.spec.scene_file.bodies import Pose as BodyPose
+from codegen.spec.scene_file.gaps import closure
 
 _QUANTITIES = ("phi", "phi_q")
 
@@ -59,13 +62,19 @@ def plane_rows(scene: Scene) -> int:
 
 
 def initial_pose(scene: Scene, forms: Mapping[str, Variant]) -> Pose:
-    """The pose at t = 0; joint coordinates start at zero."""
-    units = sum(len(coordinates(forms[joint.name])) for joint in scene.joints)
+    """The pose at t = 0; joint coordinates have the values at which the joints are closed there, or least open."""
+    poses = {GROUND: GROUND_POSE} | {b.name: BodyPose(b.position, rotation(b.quaternion)) for b in scene.bodies}
+    alpha = [
+        value
+        for joint in scene.joints
+        if coordinates(forms[joint.name])
+        for value in closure(joint, (poses[joint.bodies[0]], poses[joint.bodies[1]])).coordinates
+    ]
     attitudes = [_array(rotation(body.quaternion)) for body in scene.bodies]
     return Pose(
         np.array([[float(x) for x in body.position] for body in scene.bodies]).reshape(-1, 3),
         np.array(attitudes).reshape(-1, 3, 3),
-        np.zeros(units),
+        np.array(alpha),
     )
 
 

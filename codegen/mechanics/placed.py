@@ -21,6 +21,7 @@ from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
 from codegen.mechanics.places import BODY_I, BODY_J, JOINT_I, JOINT_J, STAR, WORLD
+from codegen.spec.markers import markers
 from codegen.spec.scene import Joint, Marker, Matrix
 
 ORIGIN = sympy.ImmutableDenseMatrix([0, 0, 0])
@@ -99,13 +100,8 @@ class Placed:
 
     @cached_property
     def markers(self) -> tuple[Marker, Marker]:
-        """Joint frames as the form has them: the conventional universal joint has its axes h_i and h_j."""
-        first, second = self.joint.marker_i, self.joint.marker_j
-        if self.joint.type == "universal" and not self.form.coordinates:
-            f_j, g_j, h_j = zip(*second.axes, strict=True)
-            a, b, c = zip(g_j, h_j, f_j, strict=True)
-            second = replace(second, axes=(a, b, c))
-        return first, second
+        """Joint frames as the form has them."""
+        return markers(self.joint, "parametric" if self.form.coordinates else "conventional")
 
     # --- frames
 

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from codegen.mechanics.assembly import Assembly
-from codegen.spec.scene import GROUND, Joint, Marker
+from codegen.spec.markers import markers
+from codegen.spec.scene import GROUND, Joint
 from tests.reference.constraints import Geometry, Pose, phi
 from tests.reference.derivatives import EYE, infinitesimals, substitute
 from tests.reference.rotations import skew
@@ -51,16 +52,12 @@ def moved(assembly: Assembly, bodies: Moving, q: Array) -> Moving:
     return Moving(r, A, bodies.alpha + q[6 * len(assembly.scene.bodies) :])
 
 
-def geometry(joint: Joint, is_cross: bool, turns: Any, like: Any) -> Geometry:
-    """Geometry of a joint; of the conventional universal joint the axes are h_i and h_j."""
-
-    def of(marker: Marker) -> tuple[Array, Array]:
-        C = np.array(marker.axes, dtype=object)
-        return cast(np.array(marker.point, dtype=float), like), cast(np.array(C, dtype=float), like)
-
-    (s_i, C_i), (s_j, C_j) = of(joint.marker_i), of(joint.marker_j)
-    if is_cross:
-        C_j = C_j[:, [1, 2, 0]]
+def geometry(joint: Joint, form: str, turns: Any, like: Any) -> Geometry:
+    """Geometry of a joint, in the frames that its form takes."""
+    (s_i, C_i), (s_j, C_j) = (
+        (cast(np.array(m.point, dtype=float), like), cast(np.array(m.axes, dtype=float), like))
+        for m in markers(joint, form)
+    )
     return Geometry(s_i, C_i, s_j, C_j, cast(float(joint.pitch), like)[()], cast(0.0, like)[()], turns)
 
 
@@ -76,9 +73,9 @@ def tensors(assembly: Assembly, inputs: Mapping[str, Any]) -> tuple[Array, Array
     alpha = 0
     for joint in assembly.scene.joints:
         variant = assembly.forms[joint.name]
-        is_conventional = variant.form == "conventional"
-        counted = next(turns) if joint.type == "screw" and is_conventional else cast(0.0, like)[()]
-        data = geometry(joint, joint.type == "universal" and is_conventional, counted, like)
+        is_counting = joint.type == "screw" and variant.form == "conventional"
+        counted = next(turns) if is_counting else cast(0.0, like)[()]
+        data = geometry(joint, variant.form, counted, like)
         own = slice(alpha, alpha + coordinates_of(variant))
         alpha = own.stop
 

@@ -77,8 +77,7 @@ class Assembly:
     @cached_property
     def bodies(self) -> dict[str, str]:
         """Identifiers of the bodies, and of the ground."""
-        names = identifiers((WORLD, *(body.name for body in self.scene.bodies)))
-        return {GROUND: WORLD} | {body.name: names[body.name] for body in self.scene.bodies}
+        return {GROUND: WORLD} | identifiers((body.name for body in self.scene.bodies), reserved=(WORLD,))
 
     @cached_property
     def placed(self) -> tuple[Placed, ...]:

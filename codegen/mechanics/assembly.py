@@ -30,7 +30,7 @@ from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Scene
 
-_KINDS = {
+KINDS = {
     "phi": ("constraints", "one"),
     "phi_q": ("constraints", "displacements"),
     "phi_q_t_lambda_q": ("displacements", "displacements"),
@@ -194,11 +194,11 @@ class Assembly:
     def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """The rows and columns of a derived quantity that the system has."""
         chosen = {"constraints": self.rows, "displacements": self.columns, "one": (0,)}
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         return chosen[rows], chosen[columns]
 
     def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates
         sizes = {"constraints": self.all_rows, "displacements": derived, "one": 1}
         blocks: list[Block] = []

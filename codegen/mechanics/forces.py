@@ -30,8 +30,12 @@ from codegen.mechanics.spring import BALL, SpringLaw, spring_law
 from codegen.spec.placement import IDENTITY
 from codegen.spec.scene import GROUND, Body, Joint, Marker, Spring, Vector
 
-FORCES = ("force", "force_q", "force_v")
-"""Names of the quantities."""
+FORCES = {
+    "force": ("displacements", "one"),
+    "force_q": ("displacements", "displacements"),
+    "force_v": ("displacements", "displacements"),
+}
+"""What the rows and columns of a quantity are."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +89,8 @@ class Forces:
         i, j = spring.bodies
         name = f"spring_{k}"
         law = spring_law(spring.stiffness, spring.damping, spring.length, assembly.translations)
-        joint = Joint(name, "spring", (i, j), *(Marker(point, IDENTITY) for point in spring.points))
+        first, second = (Marker(point, IDENTITY) for point in spring.points)
+        joint = Joint(name, "spring", (i, j), first, second)
         bodies = (assembly.bodies[i], assembly.bodies[j])
         ends = Ends(name, bodies, (numbers[i], numbers[j]), 0, 0, self._alpha_column, assembly.arrays)
         return Placed(joint, law.form, ends), law
@@ -146,7 +151,7 @@ class Forces:
         arrays = self.assembly.arrays
         A = body_symbol("A", body)
         written = arrays.attitude_matrix(body)
-        return _places(
+        return scalar_places(
             rotations={A: (WORLD, body)},
             given=(A,),
             explicit={} if written is None else {A: written},
@@ -195,10 +200,10 @@ class Forces:
 
     @cached_property
     def _scalar_places(self) -> Places:
-        loads = (*(load for _, load in self._coordinate_loads), *(moment for _, moment in self._gyroscopics))
-        stages = {symbol: definition for load in loads for symbol, definition in load.stages.items()}
+        stages = {symbol: value for _, load in self._coordinate_loads for symbol, value in load.stages.items()}
+        stages |= {symbol: value for _, moment in self._gyroscopics for symbol, value in moment.stages.items()}
         sums = frozenset(s for s, definition in stages.items() if not isinstance(definition, sympy.Pow))
-        return _places(bodies={WORLD: WORLD}, stages=stages, whole=sums)
+        return scalar_places(stages=stages, whole=sums)
 
 
 def omega(body: str) -> tuple[Any, Any, Any]:
@@ -207,10 +212,12 @@ def omega(body: str) -> tuple[Any, Any, Any]:
     return x, y, z
 
 
-def _places(**known: Any) -> Places:
-    """Places of which most say nothing."""
-    nothing = {name: {} for name in ("rotations", "explicit", "frames", "stages", "rows", "axis_names", "vector_names")}
-    return Places(**{"given": (), "axes": frozenset(), "columns": (), **nothing, **known})
+def scalar_places(**known: Any) -> Places:
+    """Places of scalars: all that is not said is nothing."""
+    nothing: dict[str, Any] = {
+        name: {} for name in ("rotations", "explicit", "frames", "stages", "rows", "axis_names", "vector_names")
+    }
+    return Places(**{"given": (), "bodies": {WORLD: WORLD}, "axes": frozenset(), "columns": (), **nothing, **known})
 
 
 def _column(vector: Vector) -> Any:

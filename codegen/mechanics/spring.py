@@ -8,7 +8,6 @@ derivative is ``-density grad w - w slope^T``, where ``slope = grad density`` fo
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
@@ -16,7 +15,6 @@ from typing import Any
 
 import sympy
 
-from codegen.errors import InternalError
 from codegen.ir.lower import Block, Dot
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import is_zero

@@ -214,9 +214,8 @@ def omega(body: str) -> tuple[Any, Any, Any]:
 
 def scalar_places(**known: Any) -> Places:
     """Places of scalars: all that is not said is nothing."""
-    nothing: dict[str, Any] = {
-        name: {} for name in ("rotations", "explicit", "frames", "stages", "rows", "axis_names", "vector_names")
-    }
+    mappings = ("rotations", "explicit", "frames", "stages", "rows", "axis_names", "vector_names")
+    nothing: dict[str, Any] = {name: {} for name in mappings}
     return Places(**{"given": (), "bodies": {WORLD: WORLD}, "axes": frozenset(), "columns": (), **nothing, **known})
 
 

@@ -1,8 +1,8 @@
 """Attitudes from the state: Euler parameters in space, an angle in the plane.
 
-``A(p)`` is the rotation of ``p / |p|``, so that it is a rotation for every ``p`` but 0: ``A = I - s(...)`` with ``s = 2
-/ (p . p)``. Its derivative is ``delta A = A delta pi~`` with ``delta pi = s G(p) delta p``, ``G = [-e, p_0 I - e~]``, also
-where ``p`` is not of norm 1.
+``A(p)`` is the rotation of ``p / |p|``, so that it is a rotation for every ``p`` but 0. With ``s = 2 / (p . p)`` its
+derivative is ``delta A = A delta pi~``, ``delta pi = s G(p) delta p``, ``G = [-e, p_0 I - e~]``, also where ``p`` is
+not of norm 1.
 """
 
 from __future__ import annotations

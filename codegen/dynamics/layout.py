@@ -66,7 +66,8 @@ def layout(system: System, form: str) -> Layout:
     ends += [len(entries)] * (4 - len(ends))
     names, units = zip(*entries, strict=True)
     starts = (0, *ends)
-    return Layout(*(range(starts[k], ends[k]) for k in range(4)), names, units)
+    positions, velocities, multipliers, corrections = (range(starts[k], ends[k]) for k in range(4))
+    return Layout(positions, velocities, multipliers, corrections, names, units)
 
 
 Entry = tuple[str, str]

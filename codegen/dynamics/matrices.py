@@ -59,8 +59,3 @@ def transposed(matrix: Entries) -> Entries:
 def moved(matrix: Entries, row: int, column: int) -> Entries:
     """The same entries further down and to the right."""
     return {(row + i, column + k): value for (i, k), value in matrix.items()}
-
-
-def rows_of(matrix: Entries, rows: range) -> Entries:
-    """Some rows, counted from the first of them."""
-    return {(i - rows.start, k): value for (i, k), value in matrix.items() if i in rows}

@@ -2,8 +2,8 @@
 
 Rows as the entries of `codegen.dynamics.layout.Layout`, with ``c = phi_q^T mu``:
 
-- positions: ``rdot - v - c_r``, ``pdot - G(p)^T (omega + c_pi) / 2 - NORM_DAMPING (1 - p . p) p``, in the plane ``angle' -
-  omega - c_pi``, ``alphadot - w - c_alpha``
+- positions: ``rdot - v - c_r``, ``pdot - G(p)^T (omega + c_pi) / 2 - NORM_DAMPING (1 - p . p) p`` (in the plane
+  ``angle' - omega - c_pi``), ``alphadot - w - c_alpha``
 - velocities: ``M a + phi_q^T lambda - force``
 - multipliers: ``phi`` (index 2) or ``phi_q a - gamma + 2 beta (phi_q v + phi_t) + beta^2 phi`` (index 1, without ``c``)
 - corrections: ``phi_q v + phi_t`` (index 2)

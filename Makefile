@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -32,6 +32,10 @@ generate: $(STAMP) ## regenerate generated/
 
 flops: $(STAMP) ## print the comparison of operation counts
 	$(BIN)/jointgen flops
+
+schema: $(STAMP) ## write the JSON schema of scene files anew
+	$(BIN)/python -c 'from codegen.spec.scene_file.schema import schema_text; print(schema_text(), end="")' \
+		> codegen/spec/scene.schema.json
 
 check: lint types imports test current ## run every check, stop at the first that fails
 
@@ -65,7 +69,7 @@ bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; ma
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
-		--extra measure --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
+		--extra measure --extra import --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
 	@for lock in $(LOCK) $(BENCH_LOCK); do \

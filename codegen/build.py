@@ -21,6 +21,7 @@ from importlib import resources
 from typing import Any
 
 import codegen
+from codegen.emit.joint_subject import JointSubject
 from codegen.emit.package import Unit, package, specification_hash, unit
 from codegen.emit.prepared import prepare_geometry
 from codegen.emit.routine import Routine
@@ -196,7 +197,7 @@ def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -
     for name, quantities in quantities_of(outputs).items():
         program = contracted(symbolic.program(quantities), fma)
         words = equations(symbolic.joint, variant, name)
-        built.append(Routine(symbolic.joint, variant, name, program, count(program), words))
+        built.append(Routine(JointSubject(symbolic.joint, variant), name, program, count(program), words))
     return prepare_geometry(built) if variant.geometry == "prepared" else tuple(built)
 
 
@@ -265,7 +266,7 @@ def _emit_unit(job: _Job) -> Unit:
         )
         for routine in built
     }
-    return unit(built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch)
+    return unit(job.variant, built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch)
 
 
 def variants(options: Options) -> tuple[Variant, ...]:

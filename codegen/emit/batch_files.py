@@ -40,9 +40,10 @@ class BatchUnit:
         return f"{self.variant.joint}_batch{self.lanes}"
 
 
-def batch_unit(entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int) -> BatchUnit:
+def batch_unit(
+    variant: Variant, entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int
+) -> BatchUnit:
     """Emit the batch routines of one variant: those of its functions that store nonzeros or vectors."""
-    variant = entries[0].routine.variant
     emitted = tuple(
         batch_routine(entry.routine, entry.parameters, lanes) for entry in entries if entry.storage != "dense"
     )

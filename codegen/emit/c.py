@@ -43,7 +43,7 @@ class Entry:
 
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
-    stored = parameters(routine.joint, routine.variant, routine.program, False, routine.prepared_members)
+    stored = parameters(routine, dense=False)
     text, temporaries = definition(routine.symbol, stored, routine.program)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
@@ -60,7 +60,7 @@ def definition(symbol: str, declared: Sequence[Parameter], program: Program) -> 
 
 def sparsity_symbol(routine: Routine, output: Output) -> str:
     """Name of the function that gives the pattern of an output."""
-    return f"{routine.variant.stem}_{output.name}_sparsity"
+    return f"{routine.subject.stem}_{output.name}_sparsity"
 
 
 def sparsity_functions(routine: Routine) -> tuple[tuple[str, str, Sparsity], ...]:
@@ -86,7 +86,7 @@ def _pattern_rows(pattern: Sparsity) -> list[str]:
 
 
 def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
-    dense = parameters(routine.joint, routine.variant, routine.program, True, routine.prepared_members)
+    dense = parameters(routine, dense=True)
     matrices = [p for p in stored if p.layout == "compressed-columns"]
     text = render(
         "c/dense.c.j2",

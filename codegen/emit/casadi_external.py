@@ -18,7 +18,6 @@ from codegen.ir.program import Argument, Output, Program, Sparsity
 from codegen.passes import simplify
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.differentiate import differentiate
-from codegen.spec.request import Variant
 
 EXTERNALS = ("phi", "phi_q_v", "phi_q_t_lambda")
 """The quantities that residuals are made of: those that a solver differentiates."""
@@ -68,25 +67,27 @@ class External:
         return max(port.length for port in self.inputs)
 
 
-def external_name(variant: Variant, output: str) -> str:
+def external_name(stem: str, output: str) -> str:
     """Name of the external of a routine."""
-    return f"{variant.stem}_{output}_external"
+    return f"{stem}_{output}_external"
 
 
-def external_source(routines: Sequence[Routine], header: str, banner: str, options: str, specification: str) -> str:
-    """Write the externals of a variant as one C source."""
+def external_source(
+    routines: Sequence[Routine], file: str, header: str, banner: str, options: str, specification: str
+) -> str:
+    """Write the externals of the routines of a file as one C source."""
     jacobians, externals = [], []
     for routine in routines:
         if routine.output in EXTERNALS:
             jacobian = simplify(differentiate(routine.program))
             jacobian = contract_fma(jacobian) if routine.counts.fma else jacobian
             symbol = f"{routine.symbol}_jacobian"
-            declared = parameters(routine.joint, routine.variant, jacobian, False, routine.prepared_members)
+            declared = parameters(routine, False, jacobian)
             jacobians.append(definition(symbol, declared, jacobian)[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(
         "casadi/external.c.j2",
-        file=f"{routines[0].variant.file_stem}.c",
+        file=file,
         banner=banner,
         options=options,
         specification=specification,
@@ -100,7 +101,7 @@ def _function(routine: Routine) -> External:
     inputs = _inputs(routine.program)
     outputs = tuple(_output(output) for output in routine.program.outputs)
     return External(
-        external_name(routine.variant, routine.output), routine.symbol, inputs, tuple(range(len(inputs))), outputs
+        external_name(routine.subject.stem, routine.output), routine.symbol, inputs, tuple(range(len(inputs))), outputs
     )
 
 
@@ -114,7 +115,9 @@ def _jacobian(routine: Routine, jacobian: Program, symbol: str) -> External:
     names = [port.name for port in inputs]
     called = tuple(names.index(argument.name) for argument in jacobian.used_arguments())
     outputs = tuple(_output(output) for output in jacobian.outputs)
-    return External(f"jac_{external_name(routine.variant, routine.output)}", symbol, inputs + nominal, called, outputs)
+    return External(
+        f"jac_{external_name(routine.subject.stem, routine.output)}", symbol, inputs + nominal, called, outputs
+    )
 
 
 def _inputs(program: Program) -> tuple[Port, ...]:

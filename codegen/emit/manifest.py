@@ -21,19 +21,13 @@ def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str,
         source: path of its source, from the folder of the manifest.
         real: number type of the package.
     """
-    routine, variant = entry.routine, entry.routine.variant
+    routine = entry.routine
     matrices = [output for output in routine.program.outputs if output.sparsity.ncol > 1]
     record: dict[str, Any] = {
         "symbol": entry.symbol,
         "header": header,
         "source": source,
-        "joint": variant.joint,
-        "form": variant.form,
-        "rows": variant.rows,
-        "derivative": variant.derivative,
-        "variation": variant.variation,
-        "geometry": variant.geometry,
-        "matrices": variant.matrices,
+        **routine.subject.record(),
         "real": real,
         "output": routine.output,
         "storage": entry.storage,

@@ -70,6 +70,7 @@ def specification_hash(
 
 
 def unit(
+    variant: Variant,
     routines: Sequence[Routine],
     version: str,
     real: str,
@@ -79,7 +80,6 @@ def unit(
     batch: int | None = None,
 ) -> Unit:
     """Emit the routines of one variant; ``fma`` says whether their programs are contracted."""
-    variant = routines[0].variant
     header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
     options = _options_line(variant, real, fma)
     patterns = _patterns(routines)
@@ -107,8 +107,10 @@ def unit(
         tuple(declarations),
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
-        "" if real == "float" else external_source(routines, header, banner(version), options, specification),
-        batch_unit(emitted, banner(version), options, specification, batch) if batch else None,
+        ""
+        if real == "float"
+        else external_source(routines, f"{variant.file_stem}.c", header, banner(version), options, specification),
+        batch_unit(variant, emitted, banner(version), options, specification, batch) if batch else None,
     )
 
 
@@ -183,7 +185,7 @@ def _casadi_record(emitted: Unit, output: str) -> dict[str, Any]:
     record = {"name": name, "file": _casadi_file(variant, output), **asdict(variant), "output": output}
     if output in EXTERNALS and emitted.external:
         record["external"] = {
-            "name": external_name(variant, output),
+            "name": external_name(variant.stem, output),
             "source": f"casadi/external/{variant.file_stem}.c",
         }
     return record

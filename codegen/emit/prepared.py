@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from codegen.emit.parameters import geometry_members
 from codegen.emit.routine import Member, Preparation, Routine
 from codegen.ir.program import Instruction, Program
 from codegen.passes.split_geometry import split_geometry
@@ -30,9 +29,10 @@ def prepare_geometry(routines: Sequence[Routine]) -> tuple[Routine, ...]:
     if not split.prepare.outputs[0].values:
         return tuple(routines)
     first = routines[0]
+    geometry = first.subject.argument(next(a for a in first.program.arguments if a.name == "geometry"))
     counts = count(split.prepare)
     preparation = Preparation(
-        first.variant.routine_stem(PREPARE), counts, tuple(_members(split.prepare, geometry_members(first.joint)))
+        first.subject.routine_stem(PREPARE), counts, tuple(_members(split.prepare, geometry.members))
     )
     prepare = replace(routines[-1], output=PREPARE, program=split.prepare, counts=counts, preparation=preparation)
     steps = (

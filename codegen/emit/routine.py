@@ -1,15 +1,16 @@
 """`Routine`: one emitted function, with everything a caller must know of it.
 
-The same data feed the C comment, the CasADi function and the manifest.
+The same data feed the C comment, the CasADi function and the manifest. What it is a routine of, a joint in one variant
+or a scene, is its `Subject`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Protocol
 
-from codegen.ir.program import Program
-from codegen.spec.joints import JointType
-from codegen.spec.request import Variant
+from codegen.ir.program import Argument, Output, Program
 from flopcount.counts import Counts
 
 Member = tuple[str, int, tuple[int, int], str]
@@ -57,12 +58,52 @@ class Parameter:
 
 
 @dataclass(frozen=True, slots=True)
+class Words:
+    """What is said of an argument or output.
+
+    Attributes:
+        frame: axes of its components.
+        unit: unit of its components.
+        members: parts of a compound array.
+    """
+
+    frame: str
+    unit: str
+    members: tuple[Member, ...] = ()
+
+
+class Subject(Protocol):
+    """What routines are of."""
+
+    @property
+    def stem(self) -> str:
+        """Start of the symbols."""
+
+    def routine_stem(self, output: str) -> str:
+        """The symbol of a routine without its storage ending."""
+
+    def argument(self, argument: Argument) -> Words:
+        """Axes, unit and parts of an argument."""
+
+    def output(self, output: Output) -> Words:
+        """Axes, unit and parts of an output."""
+
+    def brief(self, output: str) -> str:
+        """What a routine does, in a line."""
+
+    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+        """What a user must know besides, sentence by sentence."""
+
+    def record(self) -> dict[str, Any]:
+        """What the manifest says of the subject."""
+
+
+@dataclass(frozen=True, slots=True)
 class Routine:
     """One program under one name.
 
     Attributes:
-        joint: its type.
-        variant: form and options.
+        subject: what it is a routine of.
         output: a quantity, ``all``, or ``prepare``.
         program: what it evaluates.
         counts: operations of the program.
@@ -70,8 +111,7 @@ class Routine:
         preparation: what the routine takes, or computes, in the place of the geometry; None for run-time geometry.
     """
 
-    joint: JointType
-    variant: Variant
+    subject: Subject
     output: str
     program: Program
     counts: Counts
@@ -91,10 +131,10 @@ class Routine:
     @property
     def symbol(self) -> str:
         """The C symbol of the entry that stores nonzeros (or the vector)."""
-        stem = self.variant.routine_stem(self.output)
+        stem = self.subject.routine_stem(self.output)
         return f"{stem}_nz" if self.is_matrix and self.output != "all" else stem
 
     @property
     def dense_symbol(self) -> str:
         """The C symbol of the entry that stores dense matrices."""
-        return f"{self.variant.stem}_{self.output}_dense"
+        return f"{self.subject.stem}_{self.output}_dense"

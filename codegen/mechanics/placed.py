@@ -21,6 +21,7 @@ from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
 from codegen.mechanics.frames import A_i, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
 from codegen.mechanics.places import BODY_I, BODY_J, JOINT_I, JOINT_J, STAR, WORLD
+from codegen.spec.markers import markers
 from codegen.spec.scene import Joint, Marker, Matrix
 
 ORIGIN = sympy.ImmutableDenseMatrix([0, 0, 0])
@@ -98,13 +99,8 @@ class Placed:
 
     @cached_property
     def markers(self) -> tuple[Marker, Marker]:
-        """Joint frames as the form has them: the conventional universal joint has its axes h_i and h_j."""
-        first, second = self.joint.marker_i, self.joint.marker_j
-        if self.joint.type == "universal" and not self.form.coordinates:
-            f_j, g_j, h_j = zip(*second.axes, strict=True)
-            a, b, c = zip(g_j, h_j, f_j, strict=True)
-            second = replace(second, axes=(a, b, c))
-        return first, second
+        """Joint frames as the form has them."""
+        return markers(self.joint, "parametric" if self.form.coordinates else "conventional")
 
     # --- frames
 
@@ -123,9 +119,7 @@ class Placed:
         """
         names, symbols = self.frame_names, self.symbols
         rotations = {symbols[old]: (names[a], names[b]) for old, (a, b) in generic.rotations.items()}
-        given = [
-            symbols[old] for old in generic.given if old not in (C_i, C_j, H) and rotations[symbols[old]][1] != WORLD
-        ]
+        given = [symbols[old] for old in self._attitudes_of(generic) if rotations[symbols[old]][1] != WORLD]
         same, explicit = self._constant_frames(generic, rotations)
         explicit |= {symbol: matrix for symbol, matrix in self._attitudes.items() if symbol in given}
         if self.ends.arrays.is_planar:
@@ -151,6 +145,16 @@ class Placed:
             constants=self._constants(frames_of),
             same_axes=same,
         )
+
+    def _attitudes_of(self, generic: Places) -> list[Any]:
+        """The attitudes among the given rotations.
+
+        Where the joint relation takes the place of ``A_j`` and body j is the ground, ``A_i`` would lead there again, on
+        another way than the joint.
+        """
+        if A_j not in generic.given and self.ends.numbers[1] is None:
+            return []
+        return [symbol for symbol in generic.given if symbol in (A_i, A_j)]
 
     def _constants(self, known: Mapping[Any, str]) -> dict[Any, Any]:
         """Attachments, what does not move, and what does not leave the plane."""

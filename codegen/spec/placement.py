@@ -52,7 +52,7 @@ def transposed(matrix: Matrix) -> Matrix:
 
 def dot(a: Sequence[Fraction], b: Sequence[Fraction]) -> Fraction:
     """Scalar product."""
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+    return sum((x * y for x, y in zip(a, b, strict=True) if x and y), Fraction(0))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -81,10 +81,7 @@ def length(vector: Sequence[Fraction]) -> Fraction:
 
 def unit(vector: Vector) -> Vector:
     """Direction of a vector that is not zero; components that are nearly 0 are 0."""
-    size = length(vector)
-    kept = _three(x / size if abs(x) > NEARLY * size else Fraction(0) for x in vector)
-    size = length(kept)
-    return _three(x / size for x in kept)
+    return _normalised(on_axes(vector))
 
 
 def on_axes(vector: Vector) -> Vector:
@@ -98,19 +95,20 @@ def frame(third: Vector, preferred: Iterable[Vector] = IDENTITY) -> Matrix:
 
     Args:
         third: direction of h, any length.
-        preferred: directions for f, in order; the first that is perpendicular to h is taken, else what is across h of
+        preferred: unit vectors for f, in order; the first that is perpendicular to h is taken, else what is across h of
             the one that is least along it.
     """
     h = unit(third)
-    directions = [unit(direction) for direction in preferred]
-    across = [direction for direction in directions if not dot(direction, h)]
-    if across:
-        f = across[0]
-    else:
-        least = min(directions, key=lambda direction: abs(dot(direction, h)))
-        along = dot(least, h)
-        f = unit(_three(x - along * y for x, y in zip(least, h, strict=True)))
-    return columns(f, unit(cross(h, f)), h)
+    along = [(abs(dot(direction, h)), direction) for direction in preferred]
+    across = (direction for size, direction in along if size <= NEARLY)
+    f = perpendicular(unit(next(across, None) or min(along, key=lambda pair: pair[0])[1]), h)
+    return columns(f, cross(h, f), h)
+
+
+def perpendicular(direction: Vector, h: Vector) -> Vector:
+    """Unit vector nearest to a direction among those that are perpendicular to a unit vector."""
+    along = dot(direction, h)
+    return _normalised(_three(x - along * y for x, y in zip(direction, h, strict=True)) if along else direction)
 
 
 def columns(f: Vector, g: Vector, h: Vector) -> Matrix:
@@ -127,8 +125,15 @@ def marker(point: Vector, axes: Matrix, position: Vector, attitude: Matrix) -> M
         position: [3] m of the body, world.
         attitude: [3, 3] of the body, body to world.
     """
-    f, _, h = (unit(turned_back(attitude, axis)) for axis in transposed(axes))
-    return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, unit(cross(h, f)), h))
+    f, _, h = transposed(axes)
+    h = unit(turned_back(attitude, h))
+    f = perpendicular(unit(turned_back(attitude, f)), h)
+    return Marker(on_axes(turned_back(attitude, difference(point, position))), columns(f, cross(h, f), h))
+
+
+def _normalised(vector: Vector) -> Vector:
+    size = length(vector)
+    return vector if size == 1 else _three(x / size for x in vector)
 
 
 def _three(values: Iterable[Fraction]) -> Vector:

@@ -24,6 +24,18 @@ GROUND = "ground"
 SCENE_JOINTS = ("revolute", "translational", "screw", "cylindrical", "universal", "planar", "ball", "rigid")
 """Joint types of a scene file."""
 
+COORDINATE_UNITS = {
+    "revolute": ("rad",),
+    "translational": ("m",),
+    "screw": ("rad",),
+    "cylindrical": ("m", "rad"),
+    "universal": ("rad", "rad"),
+    "planar": ("m", "m", "rad"),
+    "ball": ("rad", "rad", "rad"),
+    "rigid": (),
+}
+"""Units of the coordinates of each joint type, one for each degree of freedom; translations first."""
+
 SCENE_FORMS = ("auto", "conventional", "parametric", "relative")
 """Forms of a joint in a scene file."""
 
@@ -41,6 +53,12 @@ SCENE_QUANTITIES = (
 """What a scene may ask for. ``force`` is the right-hand side of ``M a + phi_q^T lambda = force``; ``residual`` is that
 of an implicit integrator, with its Jacobian."""
 
+KINEMATIC_QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma", "phi_q_v", "phi_q_t_lambda")
+"""Those that need no mass."""
+
+MOTIONS = ("spatial", "planar")
+"""Motions of a scene."""
+
 ZERO_VECTOR: Vector = (Fraction(0), Fraction(0), Fraction(0))
 
 
@@ -50,8 +68,8 @@ class Body:
 
     Attributes:
         name: unique, not ``ground``.
-        mass: kg.
-        inertia: [3, 3] kg m^2 about the centre of mass, body axes.
+        mass: kg; 0 where only kinematic quantities are asked for and the file names none.
+        inertia: [3, 3] kg m^2 about the centre of mass, body axes; 0 where the file names none, as for the mass.
         position: [3] m, centre of mass at t = 0, world.
         quaternion: attitude at t = 0, of norm 1 within 1e-9.
         velocity: [3] m/s at t = 0, world.
@@ -208,8 +226,9 @@ class Scene:
         joints: in the order of the file.
         springs: between points.
         torques: on bodies.
-        motion: ``spatial`` or ``planar``.
+        motion: one of `MOTIONS`.
         wanted: what is generated.
+        assemble: whether the pose at t = 0 is a guess, from which joints that do not close are to be closed.
     """
 
     name: str
@@ -220,6 +239,7 @@ class Scene:
     torques: tuple[Torque, ...] = ()
     motion: str = "spatial"
     wanted: Wanted = field(default_factory=Wanted)
+    assemble: bool = False
 
     def body(self, name: str) -> Body | None:
         """Find a body; None for the ground."""

@@ -17,10 +17,11 @@ import numpy as np
 import pytest
 
 from codegen import build, output
+from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import Options, library_variants
+from codegen.spec.request import Options, Variant, library_variants
 from tests.harness.library import Library, compile_library
 from tests.truth.cases import SPOTS, inputs_at
 
@@ -57,7 +58,12 @@ def routines(joint: str, fma: bool) -> tuple[Routine, ...]:
 
 def situations(routine: Routine, real: type[Any]) -> Iterator[dict[str, Any]]:
     for spot in SPOTS:
-        yield {name: np.asarray(value).astype(real) for name, value in inputs_at(routine.variant, spot).items()}
+        yield {name: np.asarray(value).astype(real) for name, value in inputs_at(variant_of(routine), spot).items()}
+
+
+def variant_of(routine: Routine) -> Variant:
+    assert isinstance(routine.subject, JointSubject)
+    return routine.subject.variant
 
 
 def bits(values: Any) -> bytes:
@@ -86,7 +92,7 @@ def test_single_precision_has_the_bits_of_the_program_too(joint: str, fma: bool,
     libraries = [compiled(package(joint, fma, shared), *build_) for build_ in builds]
     for library in libraries:
         library.entries = {symbol: {**entry, "real": "float"} for symbol, entry in library.entries.items()}
-    for routine in (r for r in routines(joint, fma) if r.variant.form == "conventional"):
+    for routine in (r for r in routines(joint, fma) if variant_of(r).form == "conventional"):
         for inputs in situations(routine, np.float32):
             flat = {name: list(np.ravel(value, order="F")) for name, value in inputs.items()}
             values = evaluate(routine.program, flat, numpy_domain())

@@ -14,6 +14,7 @@ from hypothesis import given
 
 from codegen import build
 from codegen.emit.c import entries
+from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
 from codegen.ir.ops import LEAVES, Op
 from codegen.ir.program import Program
@@ -95,7 +96,7 @@ def test_counts_of_contracted_routines_agree_by_kind(joint: str) -> None:
 def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
     symbolic = build.model(Variant(pair, "parametric", "regular"))
     program = symbolic.program(QUANTITIES)
-    routine = Routine(symbolic.joint, symbolic.variant, "all", program, count(program), "")
+    routine = Routine(JointSubject(symbolic.joint, symbolic.variant), "all", program, count(program), "")
     assert count_c(entries(routine)[0].text)[routine.symbol] == count(program)
 
 

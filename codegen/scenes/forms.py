@@ -1,0 +1,97 @@
+"""Which form each joint of a scene takes: the one asked for, the one its loads need, or the cheaper one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from codegen.ir.program import Program
+from codegen.mechanics.assembly import Assembly
+from codegen.scenes.programs import estimate, program, without_zero_rows
+from codegen.spec.request import Variant
+from codegen.spec.scene import GROUND, Joint, Scene
+from flopcount.count import count
+from flopcount.counts import Counts
+
+TRIGONOMETRY = 20
+"""Price of a sine and cosine of one angle, in additions: about what the C library takes on current processors."""
+
+_CONSTRAINTS = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma", "phi_q_v", "phi_q_t_lambda")
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """The form of a joint and why it has it.
+
+    Attributes:
+        variant: form, rows and derivative.
+        why: in words.
+        prices: form -> price of the joint alone, where both were weighed.
+    """
+
+    variant: Variant
+    why: str
+    prices: Mapping[str, int]
+
+
+def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
+    """Choose the form of every joint.
+
+    Args:
+        scene: the mechanism.
+        form: for all joints that may have it, in the place of what the scene says.
+    """
+    known: dict[tuple[object, ...], dict[str, int]] = {}
+    return {joint.name: _choice(scene, joint, form, known) for joint in scene.joints}
+
+
+def _choice(scene: Scene, joint: Joint, form: str | None, known: dict[tuple[object, ...], dict[str, int]]) -> Choice:
+    asked = joint.form if form is None else form
+    if joint.needs_coordinates:
+        return Choice(_variant(scene, joint, "parametric"), "something acts on its coordinates", {})
+    if asked in ("conventional", "parametric"):
+        return Choice(_variant(scene, joint, asked), "asked for", {})
+    prices = _prices(scene, joint, known)
+    chosen = min(prices, key=lambda name: prices[name])
+    words = " against ".join(f"{prices[name]} ({name})" for name in sorted(prices, key=lambda name: prices[name]))
+    return Choice(_variant(scene, joint, chosen), f"cheaper: {words}", prices)
+
+
+def _variant(scene: Scene, joint: Joint, form: str) -> Variant:
+    if form == "conventional":
+        return Variant(joint.type, form, None)
+    return Variant(joint.type, form, scene.wanted.rows, scene.wanted.derivative)
+
+
+def _prices(scene: Scene, joint: Joint, known: dict[tuple[object, ...], dict[str, int]]) -> dict[str, int]:
+    """Price of a joint alone in both forms; equal joints are weighed once."""
+    sides = tuple(name == GROUND for name in joint.bodies)
+    key = (joint.type, joint.marker_i, joint.marker_j, joint.pitch, sides)
+    if key not in known:
+        known[key] = {
+            form: price(count(_estimated(scene, joint, _variant(scene, joint, form))))
+            for form in ("conventional", "parametric")
+        }
+    return known[key]
+
+
+def _estimated(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return program(alone(scene, joint, variant), constraint_quantities(scene), estimate)
+
+
+def alone(scene: Scene, joint: Joint, variant: Variant) -> Assembly:
+    """A joint of a scene with its two bodies and nothing else."""
+    bodies = tuple(body for body in scene.bodies if body.name in joint.bodies)
+    only = replace(scene, bodies=bodies, joints=(joint,), springs=(), torques=())
+    return without_zero_rows(Assembly(only, {joint.name: variant}))
+
+
+def constraint_quantities(scene: Scene) -> tuple[str, ...]:
+    """The quantities of the constraints that a scene asks for."""
+    asked = tuple(name for name in _CONSTRAINTS if name in scene.wanted.quantities)
+    return asked or _CONSTRAINTS[:3]
+
+
+def price(counts: Counts) -> int:
+    """Operations, with sines and cosines at their price."""
+    return counts.total + (TRIGONOMETRY - 1) * counts.sincos

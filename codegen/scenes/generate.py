@@ -1,0 +1,187 @@
+"""From a scene to the files of its package."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import codegen
+from codegen.emit.routine import Routine
+from codegen.emit.scene_package import ScenePackage, scene_files
+from codegen.emit.scene_subject import SceneSubject
+from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.ir.ops import Constant
+from codegen.ir.program import Program
+from codegen.measure.assembly import assemble
+from codegen.measure.constraints import Pose
+from codegen.measure.mobility import Mobility, mobility
+from codegen.measure.mobility_text import lines
+from codegen.mechanics.assembly import Assembly
+from codegen.parallel import parallel
+from codegen.scenes.bill import bill
+from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
+from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
+from codegen.scenes.programs import program, without_zero_rows
+from codegen.scenes.readme import readme
+from codegen.spec.request import REALS
+from codegen.spec.scene import SCENE_FORMS, Scene
+from flopcount.count import count
+
+Progress = Callable[[str], None]
+"""Told what is finished."""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A scene whose joints have their forms and whose rows are chosen.
+
+    Attributes:
+        choices: joint name -> its form and why.
+        undropped: the scene with all rows that are not identically zero.
+        assembly: the scene with independent rows.
+        mobility: what was found of its rows.
+        pose: at t = 0, all joints closed.
+    """
+
+    choices: Mapping[str, Choice]
+    undropped: Assembly
+    assembly: Assembly
+    mobility: Mobility
+    pose: Pose
+
+
+def judge(scene: Scene, form: str | None = None) -> Judged:
+    """Give the joints their forms and choose the rows.
+
+    Args:
+        scene: the mechanism.
+        form: of all joints that may have it, in the place of what the scene says.
+
+    Raises:
+        SpecificationError: a joint cannot be closed.
+    """
+    choices = choose_forms(scene, form)
+    forms = {name: choice.variant for name, choice in choices.items()}
+    undropped = without_zero_rows(Assembly(scene, forms))
+    system = constraint_system(scene, forms, undropped.dropped)
+    assembled = assemble(system, initial_pose(scene, forms))
+    if not assembled.is_closed:
+        raise SpecificationError(
+            Mistake(f'joint "{gap.joint}"', f"cannot be closed: {gap}", "correct the dimensions of its loop")
+            for gap in assembled.open_joints
+        )
+    found = mobility(system, assembled.pose)
+    first = plane_rows(scene)
+    kept = {undropped.rows[row - first] for row in found.kept if row >= first}
+    redundant = frozenset(undropped.rows) - kept
+    assembly = replace(undropped, dropped=undropped.dropped | redundant)
+    return Judged(choices, undropped, assembly, found, assembled.pose)
+
+
+def wanted(scene: Scene) -> dict[str, tuple[str, ...]]:
+    """Say which quantities each routine of a scene evaluates."""
+    names = constraint_quantities(scene)
+    return {name: (name,) for name in names} | ({"all": names} if len(names) > 1 else {})
+
+
+def generate_scene(
+    scene: Scene, form: str | None = None, real: str = "double", progress: Progress = lambda _: None
+) -> dict[str, bytes]:
+    """Generate the package of a scene in memory.
+
+    Args:
+        scene: the mechanism.
+        form: of all joints that may have it, in the place of what the scene says.
+        real: ``double`` or ``float``.
+        progress: told each routine as it is done.
+
+    Returns:
+        Path below the package's folder -> content.
+
+    Raises:
+        SpecificationError: a joint cannot be closed.
+    """
+    judged = judge(scene, form)
+    progress("rows")
+    assembly = judged.assembly
+    subject = SceneSubject(assembly, _row_names(assembly))
+    jobs = [_Job(scene, assembly, name, names) for name, names in wanted(scene).items()]
+    built = parallel(_built, jobs, lambda job: progress(job.output))
+    routines = tuple(
+        Routine(subject, job.output, found, count(found), "S1 Tables 1 to 5, for this scene")
+        for job, (found, _) in zip(jobs, built, strict=True)
+    )
+    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
+    items = bill(assembly, judged.undropped, routines[-1].counts.total)
+    text = readme(subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification)
+    casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
+    return scene_files(
+        ScenePackage(scene.name, routines, codegen.__version__, specification, real, casadi, start(judged), text)
+    )
+
+
+def steps(scene: Scene) -> int:
+    """Number of times that progress is told."""
+    return 1 + len(wanted(scene))
+
+
+def check_options(form: str | None, real: str) -> None:
+    """Refuse options that there are not.
+
+    Raises:
+        SpecificationError: all of them at once.
+    """
+    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS))
+    mistakes = [
+        Mistake(name, f'there is no "{value}"', nearest(value, known))
+        for name, value, known in asked
+        if value is not None and value not in known
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+
+
+@dataclass(frozen=True)
+class _Job:
+    scene: Scene
+    assembly: Assembly
+    output: str
+    names: tuple[str, ...]
+
+
+def _built(job: _Job) -> tuple[Program, bytes]:
+    from codegen.emit import casadi
+
+    assembly = Assembly(job.scene, job.assembly.forms, job.assembly.dropped)
+    found = program(assembly, job.names)
+    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.scene.name}_{job.output}", found))
+
+
+def _row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+    return tuple(
+        (joint.name, row.name) for joint in assembly.scene.joints for row in rows_of(assembly.forms[joint.name])
+    )
+
+
+def start(judged: Judged) -> dict[str, Sequence[Constant]]:
+    """Arguments at t = 0; multipliers are 1, so that what they multiply shows."""
+    assembly, pose = judged.assembly, judged.pose
+    size = assembly.arrays.position
+    moving = [
+        (body.velocity[:size], body.angular_velocity if size == 3 else body.angular_velocity[2:])
+        for body in assembly.scene.bodies
+    ]
+    velocity = [x for v, omega in moving for x in (*v, *omega)]
+    velocity += [Fraction(0)] * (len(assembly.columns) - len(velocity))
+    turns = next(a.length for a in assembly.arguments() if a.name == "revolutions")
+    numbers: dict[str, Sequence[float | Fraction]] = {
+        "r": pose.r[:, :size].ravel().tolist(),
+        "A": [x for attitude in pose.A for x in attitude[:size, :size].ravel(order="F").tolist()],
+        "alpha": pose.alpha.tolist(),
+        "revolutions": [0.0] * turns,
+        "velocity": velocity,
+        "lambda": [1.0] * len(assembly.rows),
+    }
+    return {name: [Constant(Fraction(x)) for x in values] for name, values in numbers.items()}

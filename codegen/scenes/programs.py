@@ -1,0 +1,47 @@
+"""The pipeline for scenes: scene -> assembly -> program -> C, CasADi, manifest.
+
+The stages are those of `codegen.build`; before them the joints get their forms and redundant rows are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from codegen.build import PRICES, choices_for
+from codegen.ir.lower import lower, structural_rows
+from codegen.ir.lower.lowering import Choose
+from codegen.ir.lower.search import Choice, Graph, cheapest
+from codegen.ir.program import Program
+from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.system import System
+from codegen.passes import simplify
+from codegen.passes.select import select
+from flopcount.count import count
+
+
+def estimate(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
+    """Choose among the ways to evaluate nodes in a hurry: to compare forms, not to emit."""
+    return [cheapest(graph, outputs, sweeps=1)]
+
+
+def without_zero_rows(assembly: Assembly) -> Assembly:
+    """Leave out the rows that are identically zero, as those across the plane of a planar mechanism are."""
+    inputs = assembly.inputs()
+    rows = set().union(*(structural_rows(part, inputs) for part in assembly.parts(("phi",))))
+    return replace(assembly, dropped=assembly.dropped | (frozenset(range(assembly.all_rows)) - rows))
+
+
+def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = choices_for) -> Program:
+    """Lower quantities of the constraints of a scene to one simplified program, the cheapest that is found.
+
+    Args:
+        assembly: the scene with the forms of its joints; a `System` has its drives and forces too.
+        names: ``phi``, ``phi_q``, ``phi_q_t_lambda_q``, ``gamma``, ``phi_q_v``, ``phi_q_t_lambda``.
+        choose: among the ways to evaluate them.
+    """
+    names = tuple(names)
+    chosen = {name: assembly.selection(name) for name in names}
+    parts = assembly.parts(names)
+    programs = lower(assembly.arguments(), assembly.inputs(), parts, PRICES, choose)
+    return min((simplify(select(found, chosen)) for found in programs), key=lambda found: count(found).total)

@@ -1,0 +1,76 @@
+"""The JSON schema of scene files, made from the keys that the reader knows.
+
+``codegen/spec/scene.schema.json`` holds it for editors and other programs; ``make schema`` writes it anew.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from codegen.spec.scene_file.entries import SceneEntry, kinds_of_tables
+from codegen.spec.scene_file.entry import Entry, Key, keys_of
+from codegen.spec.scene_file.names import IDENTIFIER, LONGEST_NAME
+
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def schema() -> dict[str, Any]:
+    """The schema as JSON values: one definition for each table, named after it."""
+    definitions = {_name(table): _table(table) for table in kinds_of_tables() if table is not SceneEntry}
+    return {"$schema": _DIALECT, "title": "jointgen scene", **_table(SceneEntry), "$defs": definitions}
+
+
+def schema_text() -> str:
+    """The schema as the text of its file."""
+    return json.dumps(schema(), indent=1) + "\n"
+
+
+def _name(table: type[Entry]) -> str:
+    return table.__name__.removesuffix("Entry").lower()
+
+
+def _table(table: type[Entry]) -> dict[str, Any]:
+    keys = keys_of(table)
+    required = [name for name, key in keys.items() if key.is_required]
+    return {
+        "description": (table.__doc__ or "").splitlines()[0],
+        "type": "object",
+        "properties": {name: _key(table, name, key) for name, key in keys.items()},
+        "additionalProperties": False,
+        **({"required": required} if required else {}),
+    }
+
+
+def _key(table: type[Entry], name: str, key: Key) -> dict[str, Any]:
+    names = {"pattern": f"^{IDENTIFIER}$"} if table is SceneEntry else {"minLength": 1, "maxLength": LONGEST_NAME}
+    default = key.default if key.default not in (None, ()) else None
+    return {
+        "description": key.about,
+        **_resolved(key.kind.schema),
+        **(names if name == "name" else {}),
+        **({"default": _plain(default)} if default is not None else {}),
+    }
+
+
+def _resolved(fragment: Mapping[str, object]) -> dict[str, Any]:
+    """A fragment of the schema with references to definitions in place of tables."""
+    if "table" in fragment:
+        table: Any = fragment["table"]
+        return {"$ref": f"#/$defs/{_name(table)}"}
+    return {key: _resolved_value(value) for key, value in fragment.items()}
+
+
+def _resolved_value(value: object) -> Any:
+    if isinstance(value, Mapping):
+        return _resolved(value)
+    return [_resolved_value(item) for item in value] if isinstance(value, list) else value
+
+
+def _plain(default: object) -> Any:
+    """A default as JSON; a tuple of one number is the number itself."""
+    if isinstance(default, tuple):
+        return _plain(default[0]) if len(default) == 1 else [_plain(value) for value in default]
+    return float(default) if isinstance(default, Fraction) else default

@@ -120,12 +120,13 @@ class Forces:
             if load.is_zero_matrix:
                 continue
             seen = sympy.MatMul(sympy.Transpose(A), load) if is_seen_from_body else load
+            turning = A if place != row else None
             if name == "force":
-                yield Block(place, 0, self._in_motion(seen, place != row, False))
+                yield Block(place, 0, self._in_motion(seen, turning, None))
             elif name == "force_q" and is_seen_from_body:
-                yield Block(place, row + 3, self._in_motion(Tilde(seen), place != row, True))
+                yield Block(place, row + 3, self._in_motion(Tilde(seen), turning, A))
 
-    def _in_motion(self, expression: Any, rows: bool, columns: bool) -> Any:
+    def _in_motion(self, expression: Any, rows: Any | None, columns: Any | None) -> Any:
         return about_normal(expression, rows, columns) if self.assembly.arrays.is_planar else expression
 
     def _weight(self, body: Body) -> Any:

@@ -6,9 +6,11 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from fractions import Fraction
 
+from codegen.build import choices_for
 from codegen.dynamics import jacobian, residual
 from codegen.dynamics.directions import by_motion
 from codegen.dynamics.layout import Layout, layout
+from codegen.ir.lower.lowering import Choose
 from codegen.ir.program import Program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
@@ -34,7 +36,13 @@ class Dae:
     jacobian: Program
 
 
-def dae(system: System, form: str = "index2", left_out: Collection[str] = (), beta: Fraction = BETA) -> Dae:
+def dae(
+    system: System,
+    form: str = "index2",
+    left_out: Collection[str] = (),
+    beta: Fraction = BETA,
+    choose: Choose = choices_for,
+) -> Dae:
     """Compose the equations of motion.
 
     Args:
@@ -42,14 +50,15 @@ def dae(system: System, form: str = "index2", left_out: Collection[str] = (), be
         form: ``index2``, stabilised after Gear, Gupta and Leimkuhler, or ``index1`` after Baumgarte.
         left_out: terms of the Jacobian that are left out, of `codegen.dynamics.jacobian.SECOND`.
         beta: of Baumgarte's stabilisation, 1/s.
+        choose: among the ways to evaluate the programs of the system.
     """
     state = layout(system, form)
     is_index2 = form == "index2"
     assembly = system.assembly
     inertia = mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
-    values = program(system, residual.INDEX2 if is_index2 else residual.INDEX1)
-    slopes = program(system, jacobian.INDEX2)
-    gamma = None if is_index2 else simplify(by_motion(program(system, ("gamma",)), system))
+    values = program(system, residual.INDEX2 if is_index2 else residual.INDEX1, choose)
+    slopes = program(system, jacobian.INDEX2, choose)
+    gamma = None if is_index2 else simplify(by_motion(program(system, ("gamma",), choose), system))
     return Dae(
         state,
         simplify(residual.residual(system, state, values, inertia, beta)),

@@ -27,8 +27,10 @@ from codegen.scenes.bill import bill
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
 from codegen.scenes.motion import dae
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
+from codegen.scenes.plane_notes import motion_notes
 from codegen.scenes.programs import program, without_zero_rows
 from codegen.scenes.readme import readme
+from codegen.spec.plane import flattened
 from codegen.spec.request import REALS
 from codegen.spec.scene import SCENE_FORMS, Scene
 from flopcount.count import count
@@ -116,6 +118,8 @@ def generate_scene(
     Raises:
         SpecificationError: a joint cannot be closed.
     """
+    notes = motion_notes(scene)
+    scene = flattened(scene) if scene.motion == "planar" else scene
     judged = judge(scene, form)
     progress("rows")
     assembly = judged.assembly
@@ -129,7 +133,9 @@ def generate_scene(
     )
     specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
     items = bill(assembly, judged.undropped, routines[-1].counts.total)
-    text = readme(subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification)
+    text = readme(
+        subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification, notes
+    )
     casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
     return scene_files(
         ScenePackage(scene.name, routines, codegen.__version__, specification, real, casadi, start(judged), text)

@@ -137,9 +137,8 @@ def _start(system: System, judged: Judged) -> Motion:
         v = np.array(body.velocity, dtype=np.float64)
         v = judged.pose.A[k].T @ v if system.assembly.translations == "body" else v
         velocity[first : first + size] = v[:size]
-        velocity[first + size : first + arrays.displacements] = body.angular_velocity[
-            3 - (arrays.displacements - size) :
-        ]
+        turns = body.angular_velocity if size == 3 else body.angular_velocity[2:]
+        velocity[first + size : first + arrays.displacements] = turns
     phi_t = np.array(system.phi_t, dtype=np.float64)
     return consistent_motion(values, inertia, program_arrays(system, judged.pose), velocity, phi_t)
 
@@ -195,7 +194,10 @@ def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: N
     states, rates, reached = [prepared.y], [prepared.ydot], [0.0]
     failure = ""
     start = time.perf_counter()
-    with Ida(prepared.equations, 0.0, prepared.y, prepared.ydot, layout.is_differential, tolerances) as ida:
+    with (
+        one_thread(),
+        Ida(prepared.equations, 0.0, prepared.y, prepared.ydot, layout.is_differential, tolerances) as ida,
+    ):
         for t in times[1:]:
             now, code = ida.advance(float(t))
             if code:

@@ -194,10 +194,7 @@ def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: N
     states, rates, reached = [prepared.y], [prepared.ydot], [0.0]
     failure = ""
     start = time.perf_counter()
-    with (
-        one_thread(),
-        Ida(prepared.equations, 0.0, prepared.y, prepared.ydot, layout.is_differential, tolerances) as ida,
-    ):
+    with Ida(prepared.equations, 0.0, prepared.y, prepared.ydot, layout.is_differential, tolerances) as ida:
         for t in times[1:]:
             now, code = ida.advance(float(t))
             if code:

@@ -124,7 +124,7 @@ def generate_scene(
     progress("rows")
     assembly = judged.assembly
     system = System(assembly)
-    subject = SceneSubject(system, layout(system, "index2"), _row_names(assembly))
+    subject = SceneSubject(system, layout(system, "index2"), row_names(assembly))
     jobs = [_Job(scene, assembly, name, names) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
     routines = tuple(
@@ -190,7 +190,8 @@ def _program(system: System, job: _Job) -> Program:
     return program(system, job.names)
 
 
-def _row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+def row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+    """Joint and name of each row of all joints."""
     return tuple(
         (joint.name, row.name) for joint in assembly.scene.joints for row in rows_of(assembly.forms[joint.name])
     )

@@ -77,8 +77,7 @@ class Assembly:
     @cached_property
     def bodies(self) -> dict[str, str]:
         """Identifiers of the bodies, and of the ground."""
-        names = identifiers((WORLD, *(body.name for body in self.scene.bodies)))
-        return {GROUND: WORLD} | {body.name: names[body.name] for body in self.scene.bodies}
+        return {GROUND: WORLD} | identifiers((body.name for body in self.scene.bodies), reserved=(WORLD,))
 
     @cached_property
     def placed(self) -> tuple[Placed, ...]:
@@ -165,19 +164,19 @@ class Assembly:
     def parts(self, names: Iterable[str]) -> list[Part]:
         """Derive quantities of the constraints, in the groups that are evaluated together.
 
-        Conventional joints are one group: they share vectors of their bodies. Each joint in parametric form is one of
-        its own, since it shares little but its joint frames; two where its derivative is substituted, because ``phi``
-        never is.
+        Joints whose frames are axes of their bodies are evaluated together where they hang together: they share
+        vectors. Any other joint is a group of its own, since it shares little but its joint frames; two where its
+        derivative is substituted, because ``phi`` never is.
         """
         names = tuple(names)
-        conventional = [p for p in self.placed if not p.form.coordinates and not self._is_substituted(p)]
-        groups = [(conventional, names, False)]
+        sharing = [p for p in self.placed if not (p.form.coordinates or self._is_substituted(p) or p.has_own_frames)]
+        groups = [(group, names, False) for group in connected(sharing)]
         substituted = [placed for placed in self.placed if self._is_substituted(placed)]
         groups.append((substituted, tuple(name for name in names if name == "phi"), False))
         for placed in self.placed:
             if placed in substituted:
                 groups.append(([placed], tuple(name for name in names if name != "phi"), True))
-            elif placed not in conventional:
+            elif placed not in sharing:
                 groups.append(([placed], names, False))
         return [self._part(*group) for group in groups if group[0] and group[1]]
 
@@ -206,3 +205,24 @@ class Assembly:
             _, derivation = _derived(self.forms[placed.joint.name], self.translations)
             blocks += placed.blocks(rows, columns, derivation.quantity(name).blocks)
         return gathered(name, (sizes[rows], sizes[columns]), blocks)
+
+
+_LARGEST_GROUP = 12
+"""Joints that are evaluated together at most."""
+
+
+def connected(joints: Sequence[Placed]) -> list[list[Placed]]:
+    """Group joints that hang together by bodies, in the order of their first joints; large groups are cut."""
+    groups: list[list[Placed]] = []
+    for joint in joints:
+        touching = [group for group in groups if any(_touch(joint, other) for other in group)]
+        groups = [group for group in groups if group not in touching]
+        groups.append(sorted([joint, *(p for group in touching for p in group)], key=lambda p: p.ends.first_row))
+    groups.sort(key=lambda group: group[0].ends.first_row)
+    size = _LARGEST_GROUP
+    return [group[k : k + size] for group in groups for k in range(0, len(group), size)]
+
+
+def _touch(first: Placed, second: Placed) -> bool:
+    bodies = {number for number in first.ends.numbers if number is not None}
+    return not bodies.isdisjoint(second.ends.numbers)

@@ -19,7 +19,7 @@ from codegen.mechanics import frames
 from codegen.mechanics.arrays import BODY_SYMBOLS, NORMAL, Arrays, body_symbol
 from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
-from codegen.mechanics.frames import A_i, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
 from codegen.mechanics.places import BODY_I, BODY_J, JOINT_I, JOINT_J, STAR, WORLD
 from codegen.spec.markers import markers
 from codegen.spec.scene import Joint, Marker, Matrix
@@ -78,6 +78,7 @@ class Placed:
         count = self.form.coordinates
         own = [*self.form.stages, s_i, s_j, C_i, C_j, *([H] if H in self.form.stages else [])]
         found |= {symbol: _renamed(symbol, f"{symbol.name}_{self.ends.name}") for symbol in own}
+        found[A_ij] = frames.matrix(f"A_ij of {self.ends.name}")  # never written; no body "ij ..." has this name
         for series in (frames.alpha, frames.alpha_dot):
             last = series(self.ends.first_alpha + count)
             found |= dict(zip(series(count), last[self.ends.first_alpha :], strict=True))
@@ -101,6 +102,11 @@ class Placed:
     def markers(self) -> tuple[Marker, Marker]:
         """Joint frames as the form has them."""
         return markers(self.joint, "parametric" if self.form.coordinates else "conventional")
+
+    @property
+    def has_own_frames(self) -> bool:
+        """Whether a joint frame has axes that are none of its body's."""
+        return any(len(aligned_axes(_matrix(marker.axes))) < 3 for marker in self.markers)
 
     # --- frames
 

@@ -18,6 +18,7 @@ from codegen.build import model
 from codegen.ir.evaluate import Domain, evaluate
 from codegen.ir.program import Output, Program
 from codegen.mechanics.assembly import Assembly
+from codegen.spec.markers import markers
 from codegen.spec.request import QUANTITIES, Variant
 from codegen.spec.scene import GROUND, Joint, Marker
 from tests.lower.numbers import Numbers, skew
@@ -97,10 +98,9 @@ class System:
         return self.inputs["revolutions"][counting.index(name)] if name in counting else self.number(0)
 
     def geometry(self, joint: int) -> list[Any]:
-        """Geometry of a joint as the library has it; the conventional universal joint has its axes h_i and h_j."""
+        """Geometry of a joint as the library has it."""
         data = self.assembly.scene.joints[joint]
-        is_cross = data.type == "universal" and self.assembly.forms[data.name].form == "conventional"
-        exact = [*_laid(data.marker_i, (0, 1, 2)), *_laid(data.marker_j, (1, 2, 0) if is_cross else (0, 1, 2))]
+        exact = [x for marker in markers(data, self.assembly.forms[data.name].form) for x in _laid(marker)]
         values = [self.number(x) for x in exact]
         return [*values, self.number(data.pitch), self.number(0), self.turns(joint)] if data.type == "screw" else values
 
@@ -132,9 +132,8 @@ def rows_of(variant: Variant) -> int:
     return next(a.length for a in routine(variant).arguments if a.name == "lambda")
 
 
-def _laid(marker: Marker, order: tuple[int, int, int]) -> list[Any]:
-    columns = list(zip(*marker.axes, strict=True))
-    return [*marker.point, *(x for k in order for x in columns[k])]
+def _laid(marker: Marker) -> list[Any]:
+    return [*marker.point, *(x for column in zip(*marker.axes, strict=True) for x in column)]
 
 
 def assembled(system: System, domain: Domain) -> dict[str, Numbers]:
@@ -148,7 +147,7 @@ def assembled(system: System, domain: Domain) -> dict[str, Numbers]:
     size, rows = 6 * bodies + len(system.inputs["alpha"]), len(multipliers)
     phi, gamma = np.full((rows, 1), zero, dtype=object), np.full((rows, 1), zero, dtype=object)
     phi_q, second = np.full((rows, size), zero, dtype=object), np.full((size, size), zero, dtype=object)
-    for number, joint in enumerate(assembly.scene.joints):
+    for number in range(len(assembly.scene.joints)):
         found = _of_joint(system, number, multipliers, domain)
         here = system.rows(number)
         phi[here], gamma[here] = found["phi"], found["gamma"]

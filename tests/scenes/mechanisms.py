@@ -26,6 +26,9 @@ FORMS = ("conventional", "regular", "table4")
 TURN = np.array([[3, -4, 0], [4, 3, 0], [0, 0, 5]], dtype=object) * Fraction(1, 5)
 """About the third axis, by the angle of 3 : 4 : 5."""
 
+ASKEW = np.array([[-15, 52, 36], [-20, -39, 48], [60, 0, 25]], dtype=object) * Fraction(1, 65)
+"""A rotation of which no column lies along an axis; what is across its third is rational too, see `placement.frame`."""
+
 
 @dataclass(frozen=True, slots=True)
 class Link:
@@ -52,8 +55,10 @@ def determinant(matrix: Numbers) -> Any:
 
 def axes(source: random.Random, kind: str) -> Matrix:
     """Axes of a marker: ``aligned``, ``h along`` or ``f along`` an axis of the body, or ``any``."""
-    matrix = rotation(source) if kind == "any" else aligned(source)
-    if kind == "h along":
+    matrix = aligned(source)
+    if kind == "any":
+        matrix = matrix @ ASKEW
+    if kind in ("h along", "any"):
         matrix = matrix @ TURN
     if kind == "f along":
         about_f = np.roll(TURN, (1, 1), (0, 1))
@@ -119,9 +124,7 @@ def drawn(seed: int, bodies: int, joints: int, forms: Sequence[str] = FORMS, der
 def pose(assembly: Assembly, seed: int) -> Inputs:
     """Draw inputs; attitudes are exactly orthonormal, in planar motion turns about the normal."""
     source = random.Random(seed)
-    inputs = {
-        argument.name: [fraction(source) for _ in range(argument.length)] for argument in assembly.arguments()
-    }
+    inputs = {argument.name: [fraction(source) for _ in range(argument.length)] for argument in assembly.arguments()}
     inputs["revolutions"] = [Fraction(source.choice((-2, -1, 1, 2))) for _ in inputs["revolutions"]]
     inputs["A"] = []
     for _ in assembly.scene.bodies:

@@ -162,7 +162,8 @@ class Reader:
 
     def _name_of(self, components: Sequence[Polynomial]) -> str:
         """Name a written-out vector after its components: ``lambda_0_1_2``."""
-        atoms = [self.space.atoms[m[0]].key[0] for c in components for m, _ in c.terms if len(c.terms) == len(m) == 1]
+        terms = [term for component in components for term in component.terms if len(component.terms) == 1]
+        atoms = [self.space.atoms[m[0]].key[0] for m, factor in terms if len(m) == 1 and factor == 1]
         prefixes = {str(atom).rpartition("_")[0] for atom in atoms}
         if len(atoms) == 3 and len(prefixes) == 1 and min(prefixes):
             return "_".join([*prefixes, *(str(atom).rpartition("_")[2] for atom in atoms)])

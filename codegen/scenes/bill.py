@@ -38,6 +38,19 @@ class Item:
         return sum((count(found) for found in self.programs), Counts(add=self.additions))
 
 
+@dataclass(frozen=True, slots=True)
+class Bill:
+    """What a scene saves.
+
+    Attributes:
+        items: step by step; empty where no quantity of the constraints is asked for.
+        in_plane: operations if the motion were reduced to the plane; None where it is, or where there is no plane.
+    """
+
+    items: tuple[Item, ...]
+    in_plane: Counts | None = None
+
+
 def bill(assembly: Assembly, undropped: Assembly, emitted: Program, has_drives: bool) -> tuple[Item, ...]:
     """Evaluate the constraints of a scene before and after each simplification.
 
@@ -74,7 +87,8 @@ _MOVING = "the ground, moving"
 def _each(words: str, scene: Scene, forms: Mapping[str, Variant], evaluate: _Evaluate) -> Item:
     """Evaluate joint by joint; equal joints have one program."""
     known: dict[tuple[object, ...], Program] = {}
-    programs, places = [], []
+    programs: list[Program] = []
+    places: list[tuple[object, ...]] = []
     for joint in scene.joints:
         variant, moving = forms[joint.name], _moving(scene, joint)
         order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)

@@ -114,6 +114,36 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, target: P
     click.echo(f"{target}: {functions} functions in {len(files)} files")
 
 
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
+@click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
+@click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")
+@click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
+@click.option("--index", type=int, default=2, show_default=True, help="2: stabilised index 2; 1: Baumgarte.")
+@click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def simulate(file: Path, copies: int | None, target: Path, **options: Any) -> None:
+    """Integrate a mechanism: trajectory.csv and summary.json."""
+    from codegen import output, scenes
+    from codegen.scenes.run import Settings
+    from codegen.scenes.simulate import check_settings, simulated
+
+    settings = Settings(**options)
+    check_settings(settings)
+    output.check_target(target)
+    read, left_out = scenes.read(file, copies)
+    for line in left_out:
+        click.echo(line, err=True)
+    with _progress(settings.outputs, "simulating") as advance:
+        result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
+    output.replace(target, result.files)
+    click.echo(f"{target}: {result.words}")
+    if result.failure:
+        click.echo(f"{file}: {result.failure}", err=True)
+        raise click.exceptions.Exit(1)
+
+
 def _flop_files() -> dict[str, bytes]:
     from codegen import comparison
     from codegen.emit.package import banner

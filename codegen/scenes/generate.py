@@ -133,7 +133,7 @@ def generate_scene(
     progress("rows")
     system = System(judged.assembly)
     state = layout(system, "index2")
-    subject = SceneSubject(system, state, _row_names(judged.assembly))
+    subject = SceneSubject(system, state, row_names(judged.assembly))
     jobs = [_Job(scene, judged.assembly, name, names) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
     routines = tuple(
@@ -221,7 +221,8 @@ def _program(system: System, job: _Job) -> Program:
     return program(system, job.names)
 
 
-def _row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+def row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+    """Joint and name of each row of all joints."""
     return tuple(
         (joint.name, row.name) for joint in assembly.scene.joints for row in rows_of(assembly.forms[joint.name])
     )

@@ -87,8 +87,6 @@ def _constraint(
     joint: Joint, variant: Variant, bodies: tuple[int | None, int | None], kept: Sequence[int]
 ) -> JointConstraint:
     rows = rows_of(variant)
-    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
-    constants += [float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else []
     return JointConstraint(
         joint.name,
         joint.type,
@@ -96,9 +94,15 @@ def _constraint(
         tuple(rows[k] for k in kept),
         coordinates(variant),
         (_frame(joint.marker_i), _frame(joint.marker_j)),
-        _evaluate(variant, constants, kept),
+        _evaluate(variant, geometry_of(joint, variant), kept),
         (float(joint.pitch),) if joint.type == "screw" else (),
     )
+
+
+def geometry_of(joint: Joint, variant: Variant) -> list[float]:
+    """The argument ``geometry`` of the library's routine of a joint."""
+    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
+    return constants + ([float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else [])
 
 
 def _in_plane(name: str, body: int) -> JointConstraint:

@@ -137,9 +137,8 @@ def _start(system: System, judged: Judged) -> Motion:
         v = np.array(body.velocity, dtype=np.float64)
         v = judged.pose.A[k].T @ v if system.assembly.translations == "body" else v
         velocity[first : first + size] = v[:size]
-        velocity[first + size : first + arrays.displacements] = body.angular_velocity[
-            3 - (arrays.displacements - size) :
-        ]
+        turns = body.angular_velocity if size == 3 else body.angular_velocity[2:]
+        velocity[first + size : first + arrays.displacements] = turns
     phi_t = np.array(system.phi_t, dtype=np.float64)
     return consistent_motion(values, inertia, program_arrays(system, judged.pose), velocity, phi_t)
 

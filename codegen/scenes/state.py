@@ -87,7 +87,7 @@ def bodies_of(system: System, layout: Layout, y: Array, ydot: Array) -> Bodies:
     return Bodies(
         r,
         A,
-        *(part[..., :3] for part in lifted[:1]),
+        lifted[0][..., :3],
         lifted[0][..., 3:],
         lifted[1][..., :3],
         lifted[1][..., 3:],
@@ -114,22 +114,25 @@ def attitudes(p: Array) -> Array:
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    found: Array = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return found
 
 
 def _plane_attitudes(angle: Array) -> Array:
     c, s, o, e = np.cos(angle), np.sin(angle), np.zeros_like(angle), np.ones_like(angle)
-    return np.moveaxis(np.array([[c, -s, o], [s, c, o], [o, o, e]]), (0, 1), (-2, -1))
+    found: Array = np.moveaxis(np.array([[c, -s, o], [s, c, o], [o, o, e]]), (0, 1), (-2, -1))
+    return found
 
 
 def euler_parameters(A: Array) -> Array:
     """Euler parameters [..., 4] of rotation matrices [..., 3, 3]; neighbours along the first axis keep their sign."""
     from scipy.spatial.transform import Rotation
 
-    flat = Rotation.from_matrix(A.reshape(-1, 3, 3)).as_quat()[:, [3, 0, 1, 2]].reshape(*A.shape[:-2], 4)
+    flat: Array = Rotation.from_matrix(A.reshape(-1, 3, 3)).as_quat()[:, [3, 0, 1, 2]].reshape(*A.shape[:-2], 4)
     turns = np.sum(flat[1:] * flat[:-1], axis=-1, keepdims=True) < 0
     signs = np.concatenate([np.ones((1, *turns.shape[1:])), np.cumprod(np.where(turns, -1.0, 1.0), axis=0)])
-    return flat * signs
+    found: Array = flat * signs
+    return found
 
 
 def program_arrays(system: System, pose: Pose) -> Mapping[str, Sequence[float]]:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from codegen.errors import InternalError
 from codegen.simulate.compiled import Compiled
@@ -92,6 +93,7 @@ class Ida:
         revolutions: Array | None = None,
     ) -> None:
         self._library = sundials()
+        self._threads = threadpool_limits(limits=1)  # two that wait for each other take a hundred times as long
         self._equations = equations
         self.y, self.ydot = np.array(y, dtype=np.float64), np.array(ydot, dtype=np.float64)
         self._absolute = np.array(tolerances.absolute, dtype=np.float64)
@@ -151,6 +153,7 @@ class Ida:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._threads.restore_original_limits()
         library: Any = self._library
         library.IDAFree(byref(self._memory))
         library.SUNLinSolFree(self._solver)

@@ -87,7 +87,7 @@ class Sundials:
                 continue
         raise SpecificationError([Mistake("SUNDIALS", f"its libraries have no {name}", REMEDY)])
 
-    def statistic(self, name: str, memory: int) -> int:
+    def statistic(self, name: str, memory: c_void_p) -> int:
         """Read a counter of a run."""
         value = c_long()
         getattr(self, name)(memory, byref(value))

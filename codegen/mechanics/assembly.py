@@ -164,13 +164,13 @@ class Assembly:
     def parts(self, names: Iterable[str]) -> list[Part]:
         """Derive quantities of the constraints, in the groups that are evaluated together.
 
-        Conventional joints are one group: they share vectors of their bodies. Each joint in parametric form is one of
-        its own, since it shares little but its joint frames; two where its derivative is substituted, because ``phi``
-        never is.
+        Conventional joints that hang together by moving bodies are one group: they share vectors of their bodies. Each
+        joint in parametric form is one of its own, since it shares little but its joint frames; two where its
+        derivative is substituted, because ``phi`` never is.
         """
         names = tuple(names)
         conventional = [p for p in self.placed if not p.form.coordinates and not self._is_substituted(p)]
-        groups = [(conventional, names, False)]
+        groups = [(together, names, False) for together in _hanging_together(conventional)]
         substituted = [placed for placed in self.placed if self._is_substituted(placed)]
         groups.append((substituted, tuple(name for name in names if name == "phi"), False))
         for placed in self.placed:
@@ -207,6 +207,17 @@ class Assembly:
                 found.setdefault((block.row, block.column), []).append(block.expression)
         blocks = tuple(Block(*place, _sum(parts)) for place, parts in found.items())
         return SymbolicOutput(name, (sizes[rows], sizes[columns]), blocks)
+
+
+def _hanging_together(joints: Sequence[Placed]) -> list[list[Placed]]:
+    """Part joints into those that a moving body leads from one to the other, in order."""
+    groups: list[tuple[set[int], list[Placed]]] = []
+    for placed in joints:
+        bodies = {number for number in placed.ends.numbers if number is not None}
+        near = [group for group in groups if group[0] & bodies]
+        groups = [group for group in groups if group not in near]
+        groups.append((bodies.union(*(group[0] for group in near)), [p for group in near for p in group[1]] + [placed]))
+    return [sorted(group, key=lambda placed: placed.ends.first_row) for _, group in groups]
 
 
 def _sum(parts: list[Any]) -> Any:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -42,8 +43,8 @@ _TAKES_PART = 0.1
 class Part:
     """A connected part whose joints close loops; rows among those kept, columns among all."""
 
-    rows: Array
-    columns: Array
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
 
 
 class Watch:
@@ -63,8 +64,8 @@ class Watch:
         scene, assembly = judged.undropped.scene, judged.undropped
         self._length = characteristic_length(constraint_system(scene, assembly.forms, assembly.dropped))
         own = set(judged.assembly.rows)
-        is_kept = [row in own for row in assembly.rows] + [True] * len(self.system.drives)
-        self.kept, self.dropped = np.flatnonzero(is_kept), np.flatnonzero(np.invert(is_kept))
+        is_kept = np.array([row in own for row in assembly.rows] + [True] * len(self.system.drives), dtype=bool)
+        self.kept, self.dropped = np.flatnonzero(is_kept), np.flatnonzero(~is_kept)
 
     # --- values
 
@@ -147,7 +148,7 @@ class Watch:
                 found.append(own)
         return tuple(found)
 
-    def _is_of_joints(self, rows: Array) -> bool:
+    def _is_of_joints(self, rows: NDArray[np.intp]) -> bool:
         return bool(np.all(self.kept[rows] < len(self.system.assembly.rows)))
 
     def conditions(self, t: Array, y: Array) -> tuple[Array, Array]:
@@ -210,11 +211,11 @@ class Watch:
             return row_names(self.system.assembly)[rows[row]]
         return self.system.drives[row - len(rows)].joint, "drive"
 
-    def _joints(self, rows: Array) -> list[str]:
+    def _joints(self, rows: NDArray[np.intp]) -> list[str]:
         """Names of the joints that rows, among those kept, belong to."""
         return list(dict.fromkeys(self._name(int(row))[0] for row in self.kept[rows]))
 
-    def _bodies(self, columns: Array) -> list[str]:
+    def _bodies(self, columns: NDArray[np.intp]) -> list[str]:
         """Names of the bodies that displacements belong to."""
         names = [body.name for body in self.system.assembly.scene.bodies]
         numbers = np.unique(columns // self.system.assembly.arrays.displacements)

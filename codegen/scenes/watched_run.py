@@ -255,7 +255,7 @@ class _Watcher:
             values = least[:, part]
             for k in range(1, len(looked)):
                 is_minimum = values[k] <= values[k - 1] and k + 1 < len(looked) and values[k] <= values[k + 1]
-                if values[k] < SINGULAR or is_minimum and values[k] < NEAR * self._seen.largest[part]:
+                if values[k] < SINGULAR or (is_minimum and values[k] < NEAR * self._seen.largest[part]):
                     stop = self._nearest(looked, k, part)
                     if stop is not None:
                         yield stop

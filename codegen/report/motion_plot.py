@@ -88,9 +88,11 @@ def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
         figure.text(0.1 / width, 0.1 / height, "\n".join(notes), ha="left", va="bottom", fontsize=8)
         _legend(figure, 1 - 0.32 / height)
         if blocks:
-            _draw_blocks(figure, trajectory.t, blocks, columns)
             bottom = (_BOTTOM - 0.2 + 0.16 * len(notes)) / height
-            figure.subplots_adjust(_LEFT / width, bottom, 1 - 0.15 / width, 1 - _TOP / height, wspace=0.32, hspace=0.22)
+            edges = {"left": _LEFT / width, "bottom": bottom, "right": 1 - 0.15 / width, "top": 1 - _TOP / height}
+            ratios = [1.0] * len(blocks[0]) + ([0.4] + [1.0] * len(blocks[1]) if len(blocks) > 1 else [])
+            grid = figure.add_gridspec(len(ratios), columns, height_ratios=ratios, wspace=0.32, hspace=0.22, **edges)
+            _draw_blocks(figure, grid, trajectory.t, blocks)
 
     return drawn(draw, width, height, layout=None)
 
@@ -99,7 +101,8 @@ def body_rows(trajectory: Trajectory) -> list[Row]:
     """Give the components that move, body by body; bodies at rest have no row."""
     r, w = trajectory.r, trajectory.w
     travels, turns = np.ptp(r, axis=0), np.max(np.abs(w), axis=0)
-    moving = {"translations": travels > _STILL * np.max(travels), "turns": turns > _STILL * np.max(turns)}
+    moving = {"translations": travels > _STILL * np.max(travels, initial=0.0)}
+    moving["turns"] = turns > _STILL * np.max(turns, initial=0.0)
     rows = []
     for k, body in enumerate(trajectory.bodies):
         panels = {}
@@ -175,10 +178,8 @@ def _sizes(block: list[Row], duration: float) -> dict[str, float]:
     return sizes
 
 
-def _draw_blocks(figure: Figure, t: Array, blocks: list[list[Row]], columns: int) -> None:
+def _draw_blocks(figure: Figure, grid: Any, t: Array, blocks: list[list[Row]]) -> None:
     """Draw the panels; a line that is left empty parts bodies from joints."""
-    ratios = [1.0] * len(blocks[0]) + ([0.4] + [1.0] * len(blocks[1]) if len(blocks) > 1 else [])
-    grid = figure.add_gridspec(len(ratios), columns, height_ratios=ratios)
     first = None
     line = 0
     for block in blocks:
@@ -219,11 +220,10 @@ def _draw_panel(axis: Any, t: Array, panel: Panel, size: float, is_last: bool) -
 
 def _label(figure: Figure, cell: Any, name: str) -> None:
     """Write the name of a row left of its panels."""
-    axis = figure.add_subplot(cell, frameon=False)
-    axis.set_axis_off()
+    box = cell.get_position(figure)
     lines = [name[k : k + 15] for k in range(0, len(name), 15)]
-    where = {"xy": (0, 0.5), "xycoords": "axes fraction", "xytext": (-_LEFT * 72 + 7, 0), "textcoords": "offset points"}
-    axis.annotate("\n".join(lines), **where, ha="left", va="center", fontweight="bold", fontsize=8)
+    x = box.x0 - (_LEFT - 0.1) / figure.get_figwidth()
+    figure.text(x, (box.y0 + box.y1) / 2, "\n".join(lines), ha="left", va="center", fontweight="bold", fontsize=8)
 
 
 def _legend(figure: Figure, y: float) -> None:

@@ -75,10 +75,19 @@ def records() -> Records:
     return found
 
 
+_FOUND: dict[str, list[Choice]] = {}
+"""Choices that this process has searched: equal joints of a scene have equal graphs."""
+
+
 def choices_for(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
     """Choose among the ways to evaluate nodes: what is on record, or the best that a short search finds."""
-    record = records().get(fingerprint(graph, outputs))
-    return [replayed(graph, outputs, record)] if record is not None else searched(graph, outputs, STARTS)
+    key = fingerprint(graph, outputs)
+    record = records().get(key)
+    if record is not None:
+        return [replayed(graph, outputs, record)]
+    if key not in _FOUND:
+        _FOUND[key] = searched(graph, outputs, STARTS)
+    return _FOUND[key]
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,12 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
-import sympy
-
 from codegen.ir.lower import Block, Part, SymbolicOutput
 from codegen.ir.program import Argument
 from codegen.mechanics import frames
 from codegen.mechanics.arrays import PLANAR, SPATIAL, Arrays
-from codegen.mechanics.derivation import Derivation, is_matrix
+from codegen.mechanics.blocks import gathered
+from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.merged import merged
@@ -31,12 +30,13 @@ from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Scene
 
-_KINDS = {
+KINDS = {
     "phi": ("constraints", "one"),
     "phi_q": ("constraints", "displacements"),
     "phi_q_t_lambda_q": ("displacements", "displacements"),
     "gamma": ("constraints", "one"),
     "phi_q_v": ("constraints", "one"),
+    "phi_q_v_q": ("constraints", "displacements"),
     "phi_q_t_lambda": ("displacements", "one"),
 }
 """What the rows and columns of a quantity are."""
@@ -164,19 +164,19 @@ class Assembly:
     def parts(self, names: Iterable[str]) -> list[Part]:
         """Derive quantities of the constraints, in the groups that are evaluated together.
 
-        Conventional joints that hang together by moving bodies are one group: they share vectors of their bodies. Each
-        joint in parametric form is one of its own, since it shares little but its joint frames; two where its
+        Joints whose frames are axes of their bodies are evaluated together where they hang together: they share
+        vectors. Any other joint is a group of its own, since it shares little but its joint frames; two where its
         derivative is substituted, because ``phi`` never is.
         """
         names = tuple(names)
-        conventional = [p for p in self.placed if not p.form.coordinates and not self._is_substituted(p)]
-        groups = [(together, names, False) for together in _hanging_together(conventional)]
+        sharing = [p for p in self.placed if not (p.form.coordinates or self._is_substituted(p) or p.has_own_frames)]
+        groups = [(group, names, False) for group in connected(sharing)]
         substituted = [placed for placed in self.placed if self._is_substituted(placed)]
         groups.append((substituted, tuple(name for name in names if name == "phi"), False))
         for placed in self.placed:
             if placed in substituted:
                 groups.append(([placed], tuple(name for name in names if name != "phi"), True))
-            elif placed not in conventional:
+            elif placed not in sharing:
                 groups.append(([placed], names, False))
         return [self._part(*group) for group in groups if group[0] and group[1]]
 
@@ -193,34 +193,36 @@ class Assembly:
     def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """The rows and columns of a derived quantity that the system has."""
         chosen = {"constraints": self.rows, "displacements": self.columns, "one": (0,)}
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         return chosen[rows], chosen[columns]
 
     def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates
         sizes = {"constraints": self.all_rows, "displacements": derived, "one": 1}
-        found: dict[tuple[int, int], list[Any]] = {}
+        blocks: list[Block] = []
         for placed in joints:
             _, derivation = _derived(self.forms[placed.joint.name], self.translations)
-            for block in placed.blocks(rows, columns, derivation.quantity(name).blocks):
-                found.setdefault((block.row, block.column), []).append(block.expression)
-        blocks = tuple(Block(*place, _sum(parts)) for place, parts in found.items())
-        return SymbolicOutput(name, (sizes[rows], sizes[columns]), blocks)
+            blocks += placed.blocks(rows, columns, derivation.quantity(name).blocks)
+        return gathered(name, (sizes[rows], sizes[columns]), blocks)
 
 
-def _hanging_together(joints: Sequence[Placed]) -> list[list[Placed]]:
-    """Part joints into those that a moving body leads from one to the other, in order."""
-    groups: list[tuple[set[int], list[Placed]]] = []
-    for placed in joints:
-        bodies = {number for number in placed.ends.numbers if number is not None}
-        near = [group for group in groups if group[0] & bodies]
-        groups = [group for group in groups if group not in near]
-        groups.append((bodies.union(*(group[0] for group in near)), [p for group in near for p in group[1]] + [placed]))
-    return [sorted(group, key=lambda placed: placed.ends.first_row) for _, group in groups]
+_LARGEST_GROUP = 12
+"""Joints that are evaluated together at most."""
 
 
-def _sum(parts: list[Any]) -> Any:
-    if len(parts) == 1:
-        return parts[0]
-    return sympy.MatAdd(*parts) if is_matrix(parts[0]) else sympy.Add(*parts)
+def connected(joints: Sequence[Placed]) -> list[list[Placed]]:
+    """Group joints that hang together by bodies, in the order of their first joints; large groups are cut."""
+    groups: list[list[Placed]] = []
+    for joint in joints:
+        touching = [group for group in groups if any(_touch(joint, other) for other in group)]
+        groups = [group for group in groups if group not in touching]
+        groups.append(sorted([joint, *(p for group in touching for p in group)], key=lambda p: p.ends.first_row))
+    groups.sort(key=lambda group: group[0].ends.first_row)
+    size = _LARGEST_GROUP
+    return [group[k : k + size] for group in groups for k in range(0, len(group), size)]
+
+
+def _touch(first: Placed, second: Placed) -> bool:
+    bodies = {number for number in first.ends.numbers if number is not None}
+    return not bodies.isdisjoint(second.ends.numbers)

@@ -104,6 +104,11 @@ class Placed:
         """Joint frames as the form has them."""
         return markers(self.joint, "parametric" if self.form.coordinates else "conventional")
 
+    @property
+    def has_own_frames(self) -> bool:
+        """Whether a joint frame has axes that are none of its body's."""
+        return any(len(aligned_axes(_matrix(marker.axes))) < 3 for marker in self.markers)
+
     # --- frames
 
     @cached_property

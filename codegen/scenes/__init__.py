@@ -9,3 +9,7 @@ Stages, each a pure function of the one before:
 5. `bill`      what each simplification saves
 6. `generate`  C, CasADi, manifest, README and an example
 """
+
+from codegen.scenes.read import read
+
+__all__ = ["read"]

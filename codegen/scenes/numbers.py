@@ -21,6 +21,9 @@ from codegen.spec.markers import markers
 from codegen.spec.placement import IDENTITY, rotation
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Joint, Marker, Matrix, Scene, Vector
+from codegen.spec.scene_file.bodies import GROUND_POSE
+from codegen.spec.scene_file.bodies import Pose as BodyPose
+from codegen.spec.scene_file.gaps import closure
 
 _QUANTITIES = ("phi", "phi_q")
 
@@ -59,13 +62,19 @@ def plane_rows(scene: Scene) -> int:
 
 
 def initial_pose(scene: Scene, forms: Mapping[str, Variant]) -> Pose:
-    """The pose at t = 0; joint coordinates start at zero."""
-    units = sum(len(coordinates(forms[joint.name])) for joint in scene.joints)
+    """The pose at t = 0; joint coordinates have the values at which the joints are closed there, or least open."""
+    poses = {GROUND: GROUND_POSE} | {b.name: BodyPose(b.position, rotation(b.quaternion)) for b in scene.bodies}
+    alpha = [
+        value
+        for joint in scene.joints
+        if coordinates(forms[joint.name])
+        for value in closure(joint, (poses[joint.bodies[0]], poses[joint.bodies[1]])).coordinates
+    ]
     attitudes = [_array(rotation(body.quaternion)) for body in scene.bodies]
     return Pose(
         np.array([[float(x) for x in body.position] for body in scene.bodies]).reshape(-1, 3),
         np.array(attitudes).reshape(-1, 3, 3),
-        np.zeros(units),
+        np.array(alpha),
     )
 
 
@@ -78,8 +87,6 @@ def _constraint(
     joint: Joint, variant: Variant, bodies: tuple[int | None, int | None], kept: Sequence[int]
 ) -> JointConstraint:
     rows = rows_of(variant)
-    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
-    constants += [float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else []
     return JointConstraint(
         joint.name,
         joint.type,
@@ -87,9 +94,15 @@ def _constraint(
         tuple(rows[k] for k in kept),
         coordinates(variant),
         (_frame(joint.marker_i), _frame(joint.marker_j)),
-        _evaluate(variant, constants, kept),
+        _evaluate(variant, geometry_of(joint, variant), kept),
         (float(joint.pitch),) if joint.type == "screw" else (),
     )
+
+
+def geometry_of(joint: Joint, variant: Variant) -> list[float]:
+    """The argument ``geometry`` of the library's routine of a joint."""
+    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
+    return constants + ([float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else [])
 
 
 def _in_plane(name: str, body: int) -> JointConstraint:

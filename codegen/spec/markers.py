@@ -6,10 +6,10 @@ the bodies, so that as many components as possible are 0 or 1.
 
 from __future__ import annotations
 
-from codegen.spec.placement import frame, transposed
+from codegen.spec.placement import IDENTITY, frame, transposed
 from codegen.spec.scene import Joint, Marker, Vector
 
-_BY_AXES = ("revolute", "cylindrical", "planar", "ball")
+_BY_AXES = ("revolute", "cylindrical", "planar")
 """Joints whose conventional form takes any f and g across their axis, on each body for itself."""
 
 
@@ -21,6 +21,8 @@ def markers(joint: Joint, form: str) -> tuple[Marker, Marker]:
         form: ``conventional`` or ``parametric``.
     """
     first, second = joint.marker_i, joint.marker_j
+    if form == "conventional" and joint.type == "ball":
+        return Marker(first.point, IDENTITY), Marker(second.point, IDENTITY)
     if form == "conventional" and joint.type == "universal":  # its cross is h_i, h_j here, and h_i, f_j in a scene
         return _about(first, transposed(first.axes)[2]), _about(second, transposed(second.axes)[0])
     if form == "conventional" and joint.type in _BY_AXES:

@@ -1,0 +1,167 @@
+"""The routines of a scene as files: one header, one source, CasADi functions, the manifest, a README and an example.
+
+Input: the routines. Output: path -> bytes; nothing is written here.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
+from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
+from codegen.emit.comments import comment
+from codegen.emit.environment import render
+from codegen.emit.literals import literal
+from codegen.emit.manifest import entry_record, manifest
+from codegen.emit.package import banner
+from codegen.emit.routine import Parameter, Routine
+from codegen.ir.ops import Constant
+
+_WIDTH = 108
+
+
+@dataclass(frozen=True, slots=True)
+class ScenePackage:
+    """Everything that goes into the files of a scene.
+
+    Attributes:
+        name: of the scene.
+        routines: single quantities first, ``all`` last.
+        version: of jointgen.
+        specification: hash of the scene and of what was asked for.
+        real: default number type, ``double`` or ``float``.
+        record: what the manifest says of the scene as a whole.
+        casadi: output -> serialised CasADi function.
+        start: argument -> its entries at t = 0, for the example.
+        readme: text of the README.
+    """
+
+    name: str
+    routines: tuple[Routine, ...]
+    version: str
+    specification: str
+    real: str
+    record: dict[str, Any]
+    casadi: Mapping[str, bytes]
+    start: Mapping[str, Sequence[Constant]]
+    readme: str
+
+
+def scene_files(package: ScenePackage) -> dict[str, bytes]:
+    """Write the files of a scene: path below its folder -> content."""
+    emitted = [entry for routine in package.routines for entry in entries(routine)]
+    files = {
+        f"{package.name}.h": _header(package, emitted),
+        f"{package.name}.c": _source(package, emitted),
+        "jg_real.h": render("c/jg_real.h.j2", banner=banner(package.version), real=package.real, fma=False, batch=None),
+        f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
+        "README.md": package.readme,
+        "manifest.json": _manifest(package, emitted),
+    }
+    if package.real == "double":
+        files["casadi/external.c"] = external_source(
+            package.routines,
+            "external.c",
+            f"{package.name}.h",
+            banner(package.version),
+            f"scene {package.name}",
+            package.specification,
+        )
+    content = {path: text.encode() for path, text in files.items()}
+    return content | {f"casadi/{output}.casadi": data for output, data in package.casadi.items()}
+
+
+def _patterns(package: ScenePackage) -> dict[str, str]:
+    return {symbol: text for routine in package.routines for symbol, text, _ in sparsity_functions(routine)}
+
+
+def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+    introduction = [
+        f"Routines of the scene {package.name}: what stands in README.md beside this file.",
+        "",
+        "Matrices are column-major. Entries ending in _nz store the structural nonzeros in compressed columns, in the",
+        "pattern given by the _sparsity function; entries ending in _dense store the whole matrix. Arrays of one call",
+        "must not overlap.",
+    ]
+    declarations: list[tuple[tuple[str, ...], str]] = [
+        (
+            (f"@brief Pattern of {symbol.removesuffix('_sparsity')}: {{nrow, ncol, colind..., row...}}.",),
+            f"const int *{symbol}(void)",
+        )
+        for symbol in _patterns(package)
+    ]
+    declarations += [(tuple(comment(entry)), entry.signature) for entry in emitted]
+    return render(
+        "c/header.h.j2",
+        name=package.name,
+        banner=banner(package.version),
+        specification=package.specification,
+        introduction=introduction,
+        guard=f"SCENE_{package.name.upper()}",
+        declarations=declarations,
+    )
+
+
+def _source(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+    return render(
+        "c/source.c.j2",
+        file=f"{package.name}.c",
+        banner=banner(package.version),
+        options=f"scene {package.name}, real {package.real}",
+        specification=package.specification,
+        header=f"{package.name}.h",
+        functions=[*_patterns(package).values(), *(entry.text for entry in emitted)],
+    )
+
+
+def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+    records = [entry_record(entry, f"{package.name}.h", f"{package.name}.c", package.real) for entry in emitted]
+    by_output = {routine.output: routine for routine in package.routines}
+    casadi = []
+    for output in package.casadi:
+        subject = by_output[output].subject
+        record = {"name": subject.routine_stem(output), "file": f"casadi/{output}.casadi", "output": output}
+        if package.real == "double" and output in EXTERNALS:
+            name = external_name(subject.stem, output)
+            record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
+        casadi.append(record)
+    return manifest(package.version, package.real, package.specification, records, casadi, scene=package.record)
+
+
+def _example(package: ScenePackage, entry: Entry) -> str:
+    """The scene as it stands, through its last routine."""
+    declared = entry.parameters
+    arrays = [
+        {"name": p.name, "rows": _rows([literal(constant) for constant in package.start[p.name]])}
+        for p in declared
+        if p.direction == "in"
+    ]
+    outputs = [
+        {"name": p.name, "length": p.length, "pattern": _pattern(entry, p)} for p in declared if p.direction == "out"
+    ]
+    call = f"{entry.symbol}({', '.join(p.name for p in declared)});"
+    return render(
+        "c/scene_example.c.j2",
+        banner=banner(package.version),
+        specification=package.specification,
+        name=package.name,
+        has_matrix=any(output["pattern"] for output in outputs),
+        has_vector=not all(output["pattern"] for output in outputs),
+        arrays=arrays,
+        outputs=outputs,
+        calls=textwrap.wrap(call, _WIDTH, subsequent_indent="        "),
+    )
+
+
+def _pattern(entry: Entry, parameter: Parameter) -> str:
+    """The function that gives the pattern of a stored matrix; none for a vector."""
+    if parameter.layout != "compressed-columns":
+        return ""
+    return sparsity_symbol(entry.routine, entry.routine.program.output(parameter.name))
+
+
+def _rows(words: Sequence[str]) -> list[str]:
+    return textwrap.wrap(", ".join(words), _WIDTH)

@@ -1,0 +1,218 @@
+"""A scene as the subject of routines: the parts of its arrays body by body and joint by joint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from codegen.dynamics.layout import Layout
+from codegen.emit.routine import Member, Preparation, Words
+from codegen.ir.program import Argument, Output, Program
+from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.system import System
+from codegen.spec.scene import COORDINATE_UNITS
+
+_OUTPUTS: dict[str, tuple[str, str, str]] = {
+    "phi": ("Constraints phi of all joints", "constraint rows", "m or 1"),
+    "phi_q": ("Jacobian phi_q by the virtual displacements", "constraint rows x virtual displacements", "1, m, 1/rad"),
+    "phi_q_t_lambda_q": (
+        "Second derivative d(phi_q^T lambda)/dq by the same virtual displacements (not symmetric)",
+        "virtual displacements x virtual displacements",
+        "N/m, N, N m",
+    ),
+    "gamma": (
+        "Right-hand side gamma of phi_q a = gamma at acceleration level",
+        "constraint rows",
+        "m/s^2 or 1/s^2",
+    ),
+    "phi_q_v": ("Product phi_q v, without forming phi_q", "constraint rows", "m/s or 1/s"),
+    "phi_q_t_lambda": ("Product phi_q^T lambda, without forming phi_q", "virtual displacements", "N, N m"),
+    "mass": ("Mass matrix M, constant", "virtual displacements x virtual displacements", "kg, kg m^2"),
+    "force": (
+        "Right-hand side of M a + phi_q^T lambda = force: applied and gyroscopic forces",
+        "virtual displacements",
+        "N, N m",
+    ),
+    "residual": (
+        "Residual F(t, y, ydot) of the equations of motion, stabilised index 2 (Gear, Gupta, Leimkuhler)",
+        "rows of the equations of motion",
+        "mixed",
+    ),
+    "jacobian": (
+        "Jacobian dF/dy + cj dF/dydot of the residual",
+        "rows of the equations of motion x state",
+        "mixed",
+    ),
+    "all": ("All constraint quantities at once, sub-expressions shared", "", ""),
+}
+
+
+@dataclass(frozen=True)
+class SceneSubject:
+    """A scene whose joints have their forms and whose rows are chosen.
+
+    Attributes:
+        system: the scene.
+        state: layout of the state of an integrator.
+        row_names: joint and name of each row of all joints.
+    """
+
+    system: System
+    state: Layout
+    row_names: tuple[tuple[str, str], ...]
+
+    @property
+    def assembly(self) -> Assembly:
+        """The scene without its forces and drives."""
+        return self.system.assembly
+
+    @property
+    def stem(self) -> str:
+        """Start of the symbols."""
+        return f"jg_{self.assembly.scene.name}"
+
+    def routine_stem(self, output: str) -> str:
+        """The symbol of a routine without its storage ending."""
+        return f"{self.stem}_{output}"
+
+    def argument(self, argument: Argument) -> Words:
+        """Axes, unit and parts of an argument."""
+        words: dict[str, tuple[str, str, Callable[[], Iterator[Member]]]] = {
+            "r": ("world", "m", self._positions),
+            "A": ("body to world", "1", self._attitudes),
+            "alpha": ("joint", "m, rad", lambda: self._coordinates("alpha")),
+            "revolutions": ("joint", "1", self._revolutions),
+            "velocity": (self.axes, "m/s, rad/s", self._velocities),
+            "lambda": ("constraint rows", "N, N m", lambda: self._rows("lambda")),
+            "t": ("time", "s", lambda: iter(())),
+            "y": ("state", "mixed", lambda: self._state("")),
+            "ydot": ("rate of the state", "mixed", lambda: self._state("dot")),
+            "cj": ("weight of dF/dydot", "1/s", lambda: iter(())),
+        }
+        frame, unit, members = words[argument.name]
+        return Words(frame, unit, tuple(members()))
+
+    def output(self, output: Output) -> Words:
+        """Axes, unit and parts of an output."""
+        _, frame, unit = _OUTPUTS.get(output.name, ("", "partial derivatives by the entries of an argument", "mixed"))
+        members: tuple[Member, ...] = ()
+        if frame == "constraint rows":
+            members = tuple(self._rows(output.name))
+        elif frame == "virtual displacements":
+            members = tuple(self.displacements(output.name))
+        return Words(frame if output.name == "phi" else f"{frame}; {self.axes}", unit, members)
+
+    def brief(self, output: str) -> str:
+        """What a routine does, in a line."""
+        return f"{_OUTPUTS[output][0]}: scene {self.assembly.scene.name}."
+
+    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+        """What a user must know besides, sentence by sentence."""
+        details = [f"Virtual displacements: {self.axes}.", "The parts of A are taken as rotations."]
+        if any(variant.derivative == "substituted" for variant in self.assembly.forms.values()):
+            details.append("Joint relations are inserted before differentiation: exact on tangent directions only.")
+        return details
+
+    def record(self) -> dict[str, Any]:
+        """What the manifest says of the scene."""
+        return {"scene": self.assembly.scene.name}
+
+    @cached_property
+    def axes(self) -> str:
+        """Axes of virtual displacements and velocities, in words."""
+        turning = "about the normal of the plane" if self.assembly.arrays.is_planar else "in body axes"
+        return f"translations in {self.assembly.translations} axes, rotations {turning}"
+
+    # --- parts of arrays
+
+    @property
+    def _bodies(self) -> Sequence[str]:
+        return [self.assembly.bodies[body.name] for body in self.assembly.scene.bodies]
+
+    def _positions(self) -> Iterator[Member]:
+        size = self.assembly.arrays.position
+        for k, body in enumerate(self._bodies):
+            yield f"r_{body}", size * k, (size, 1), "centre of mass, world axes, m"
+
+    def _attitudes(self) -> Iterator[Member]:
+        size = self.assembly.arrays.position
+        for k, body in enumerate(self._bodies):
+            yield f"A_{body}", size * size * k, (size, size), "attitude, body to world"
+
+    def _velocities(self) -> Iterator[Member]:
+        arrays, moving = self.assembly.arrays, self.assembly.translations
+        turn = arrays.displacements - arrays.position
+        for k, body in enumerate(self._bodies):
+            first = arrays.displacements * k
+            yield f"v_{body}", first, (arrays.position, 1), f"velocity of the centre of mass, {moving} axes, m/s"
+            turning = "about the normal" if arrays.is_planar else "body axes"
+            yield f"omega_{body}", first + arrays.position, (turn, 1), f"angular velocity, {turning}, rad/s"
+        first = arrays.displacements * len(self._bodies)
+        yield from ((name, first + k, shape, f"{unit}/s") for name, k, shape, unit in self._coordinates("alphadot"))
+
+    def displacements(self, word: str) -> Iterator[Member]:
+        """Parts of an array over the virtual displacements: the columns of ``phi_q``."""
+        arrays, moving = self.assembly.arrays, self.assembly.translations
+        turn = arrays.displacements - arrays.position
+        turning = "about the normal" if arrays.is_planar else "body axes"
+        for k, body in enumerate(self._bodies):
+            first = arrays.displacements * k
+            yield f"{word}_r_{body}", first, (arrays.position, 1), f"translation, {moving} axes"
+            yield f"{word}_pi_{body}", first + arrays.position, (turn, 1), f"rotation, {turning}"
+        first = arrays.displacements * len(self._bodies)
+        parts = self._coordinates(f"{word}_alpha")
+        yield from ((name, first + k, shape, unit) for name, k, shape, unit in parts)
+
+    def _coordinates(self, word: str) -> Iterator[Member]:
+        for placed in self.assembly.placed:
+            if placed.form.coordinates:
+                units = ", ".join(COORDINATE_UNITS[placed.joint.type])
+                place = placed.ends.first_alpha
+                yield f"{word}_{placed.ends.name}", place, (placed.form.coordinates, 1), units
+
+    def _state(self, ending: str) -> Iterator[Member]:
+        state = self.state
+        groups = {
+            "positions": (
+                state.positions,
+                "x, y and angle of each body, then alpha"
+                if self.assembly.arrays.is_planar
+                else "r and Euler parameters w x y z of each body, then alpha",
+            ),
+            "velocities": (state.velocities, "v (world) and omega (body axes) of each body, then alphadot"),
+            "multipliers": (state.multipliers, "lambda, row by row"),
+            "corrections": (state.corrections, "mu, row by row; 0 on solutions"),
+        }
+        for name, (places, words) in groups.items():
+            if places:
+                yield f"{name}{ending}", places.start, (len(places), 1), words
+
+    def _revolutions(self) -> Iterator[Member]:
+        screws = [p for p in self.assembly.placed if p.joint.type == "screw" and not p.form.coordinates]
+        for k, placed in enumerate(screws):
+            yield f"revolutions_{placed.ends.name}", k, (1, 1), "whole turns"
+
+    def _rows(self, word: str) -> Iterator[Member]:
+        number = {row: k for k, row in enumerate(self.assembly.rows)}
+        for placed in self.assembly.placed:
+            first = placed.ends.first_row
+            rows = [row for row in range(first, first + placed.form.row_count) if row in number]
+            if rows:
+                names = row_words(self.row_names[row][1] for row in rows)
+                yield f"{word}_{placed.ends.name}", number[rows[0]], (len(rows), 1), f"rows {names}"
+        for k, driven in enumerate(self.system.drives):
+            yield f"drive_{k}_{word}", len(number) + k, (1, 1), f"drive of coordinate {driven.alpha} of alpha"
+
+
+def row_words(names: Iterable[str]) -> str:
+    """Name rows of a joint one after the other; components of one vector together, as ``x, y of the point``."""
+    found: list[tuple[str, list[str]]] = []
+    for name in names:
+        component, _, vector = name.partition(" of ")
+        if vector and found and found[-1][0] == vector:
+            found[-1][1].append(component)
+        else:
+            found.append((vector, [component]) if vector else ("", [name]))
+    return ", ".join(", ".join(parts) + (f" of {vector}" if vector else "") for vector, parts in found)

@@ -1,0 +1,228 @@
+"""From a scene to the files of its package."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import codegen
+from codegen.dynamics.layout import layout
+from codegen.emit.routine import Routine
+from codegen.emit.scene_package import ScenePackage, scene_files
+from codegen.emit.scene_record import scene_record
+from codegen.emit.scene_subject import SceneSubject
+from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.ir.program import Program
+from codegen.measure.assembly import assemble
+from codegen.measure.constraints import Pose
+from codegen.measure.evaluations import Task, measured
+from codegen.measure.mobility import Mobility, mobility
+from codegen.measure.mobility_text import lines
+from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.mass import mass
+from codegen.mechanics.system import System
+from codegen.parallel import parallel
+from codegen.scenes.bill import Bill, bill
+from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
+from codegen.scenes.motion import dae
+from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
+from codegen.scenes.plane_notes import motion_notes
+from codegen.scenes.programs import program, without_zero_rows
+from codegen.scenes.readme import Told, readme
+from codegen.scenes.start import start
+from codegen.spec.plane import flattened, planar_normal
+from codegen.spec.request import REALS
+from codegen.spec.scene import SCENE_FORMS, Scene
+from flopcount.count import count
+
+Progress = Callable[[str], None]
+"""Told what is finished."""
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A scene whose joints have their forms and whose rows are chosen.
+
+    Attributes:
+        choices: joint name -> its form and why.
+        undropped: the scene with all rows that are not identically zero.
+        assembly: the scene with independent rows.
+        mobility: what was found of its rows.
+        pose: at t = 0, all joints closed.
+    """
+
+    choices: Mapping[str, Choice]
+    undropped: Assembly
+    assembly: Assembly
+    mobility: Mobility
+    pose: Pose
+
+
+def judge(scene: Scene, form: str | None = None) -> Judged:
+    """Give the joints their forms and choose the rows.
+
+    Args:
+        scene: the mechanism.
+        form: of all joints that may have it, in the place of what the scene says.
+
+    Raises:
+        SpecificationError: a joint cannot be closed.
+    """
+    choices = choose_forms(scene, form)
+    forms = {name: choice.variant for name, choice in choices.items()}
+    undropped = without_zero_rows(Assembly(scene, forms))
+    system = constraint_system(scene, forms, undropped.dropped)
+    assembled = assemble(system, initial_pose(scene, forms))
+    if not assembled.is_closed:
+        raise SpecificationError(
+            Mistake(f'joint "{gap.joint}"', f"cannot be closed: {gap}", "correct the dimensions of its loop")
+            for gap in assembled.open_joints
+        )
+    found = mobility(system, assembled.pose)
+    first = plane_rows(scene)
+    kept = {undropped.rows[row - first] for row in found.kept if row >= first}
+    redundant = frozenset(undropped.rows) - kept
+    assembly = replace(undropped, dropped=undropped.dropped | redundant)
+    return Judged(choices, undropped, assembly, found, assembled.pose)
+
+
+def wanted(scene: Scene) -> dict[str, tuple[str, ...]]:
+    """Say which quantities each routine of a scene evaluates; ``all``, those of the constraints, comes last.
+
+    Nothing is emitted that is not asked for: ``all`` needs two quantities of the constraints.
+    """
+    asked, fused = scene.wanted.quantities or _default(scene), constraint_quantities(scene)
+    names = [name for name in asked if name != "residual"]
+    names += ["residual", "jacobian"] if "residual" in asked else []
+    is_fused = len(fused) > 1 and set(fused) <= set(asked)
+    return {name: (name,) for name in names} | ({"all": fused} if is_fused else {})
+
+
+def _default(scene: Scene) -> tuple[str, ...]:
+    """What is generated of a scene that asks for nothing: everything for an integrator, if its bodies have mass."""
+    constraints = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
+    return (*constraints, "mass", "force", "residual") if all(body.mass for body in scene.bodies) else constraints
+
+
+def generate_scene(
+    scene: Scene,
+    form: str | None = None,
+    real: str = "double",
+    progress: Progress = lambda _: None,
+    measure: bool = False,
+) -> dict[str, bytes]:
+    """Generate the package of a scene in memory.
+
+    Args:
+        scene: the mechanism.
+        form: of all joints that may have it, in the place of what the scene says.
+        real: ``double`` or ``float``.
+        progress: told each routine as it is done.
+        measure: whether the README tells what the steps of the bill take on this machine.
+
+    Returns:
+        Path below the package's folder -> content.
+
+    Raises:
+        SpecificationError: a joint cannot be closed, or there is no compiler to measure with.
+    """
+    notes = motion_notes(scene)
+    scene = flattened(scene) if scene.motion == "planar" else scene
+    judged = judge(scene, form)
+    progress("rows")
+    system = System(judged.assembly)
+    state = layout(system, "index2")
+    subject = SceneSubject(system, state, row_names(judged.assembly))
+    jobs = [_Job(scene, judged.assembly, name, names) for name, names in wanted(scene).items()]
+    built = parallel(_built, jobs, lambda job: progress(job.output))
+    routines = tuple(
+        Routine(subject, job.output, found, count(found), "S1 Tables 1 to 5, for this scene")
+        for job, (found, _) in zip(jobs, built, strict=True)
+    )
+    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
+    made = _bill(judged, routines, form)
+    progress("bill")
+    measurement = measured([Task(item.programs, item.additions) for item in made.items], real) if measure else None
+    text = readme(
+        Told(subject, routines, judged.choices, lines(judged.mobility), len(judged.undropped.rows), made, measurement),
+        codegen.__version__,
+        specification,
+        notes,
+    )
+    casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
+    first = start(system, judged.pose, state)
+    return scene_files(
+        ScenePackage(
+            scene.name, routines, codegen.__version__, specification, real, scene_record(subject), casadi, first, text
+        )
+    )
+
+
+def _bill(judged: Judged, routines: Sequence[Routine], form: str | None) -> Bill:
+    """The bill of all constraint quantities at once, if they are emitted; with what it would be in the plane."""
+    scene = judged.assembly.scene
+    names = constraint_quantities(scene)
+    fused = [routine for routine in routines if tuple(o.name for o in routine.program.outputs) == names]
+    if not fused:
+        return Bill(())
+    items = bill(judged.assembly, judged.undropped, fused[-1].program, bool(System(judged.assembly).drives))
+    if scene.motion == "planar" or planar_normal(scene) is None:
+        return Bill(items)
+    in_plane = judge(flattened(scene), form)
+    return Bill(items, count(program(System(in_plane.assembly), names)))
+
+
+def steps(scene: Scene) -> int:
+    """Number of times that progress is told."""
+    return 2 + len(wanted(scene))
+
+
+def check_options(form: str | None, real: str) -> None:
+    """Refuse options that there are not.
+
+    Raises:
+        SpecificationError: all of them at once.
+    """
+    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS))
+    mistakes = [
+        Mistake(name, f'there is no "{value}"', nearest(value, known))
+        for name, value, known in asked
+        if value is not None and value not in known
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+
+
+@dataclass(frozen=True)
+class _Job:
+    scene: Scene
+    assembly: Assembly
+    output: str
+    names: tuple[str, ...]
+
+
+def _built(job: _Job) -> tuple[Program, bytes]:
+    from codegen.emit import casadi
+
+    system = System(Assembly(job.scene, job.assembly.forms, job.assembly.dropped))
+    found = _program(system, job)
+    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.scene.name}_{job.output}", found))
+
+
+def _program(system: System, job: _Job) -> Program:
+    match job.output:
+        case "mass":
+            return mass(job.scene, system.assembly.arrays, len(system.assembly.columns), system.arguments())
+        case "residual":
+            return dae(system).residual
+        case "jacobian":
+            return dae(system).jacobian
+    return program(system, job.names)
+
+
+def row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+    """Joint and name of each row of all joints."""
+    return tuple(
+        (joint.name, row.name) for joint in assembly.scene.joints for row in rows_of(assembly.forms[joint.name])
+    )

@@ -10,6 +10,7 @@ import numpy as np
 
 from codegen.dynamics.layout import Layout
 from codegen.errors import Mistake, SpecificationError
+from codegen.ir.program import Program
 from codegen.measure.constraints import Array
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
@@ -58,6 +59,8 @@ class Prepared:
         judged: forms and rows.
         system: joints, drives and forces.
         layout: of the state.
+        values: ``phi_q``, ``gamma`` and ``force``.
+        inertia: ``mass``.
         equations: compiled.
         motion: at the start.
         y: state at the start.
@@ -69,6 +72,8 @@ class Prepared:
     judged: Judged
     system: System
     layout: Layout
+    values: Program
+    inertia: Program
     equations: Compiled
     motion: Motion
     y: Array
@@ -111,7 +116,9 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     judged = judge(plane.scene if plane else scene, settings.form)
     system = System(judged.assembly)
     equations = dae(system, f"index{settings.index}", settings.left_out)
-    motion = _start(system, judged)
+    values = program(system, ("phi_q", "gamma", "force"), estimate)
+    inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
+    motion = _start(system, judged, values, inertia)
     y, ydot = _state(system, judged, equations.layout, motion)
     return Prepared(
         scene,
@@ -119,6 +126,8 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
         judged,
         system,
         equations.layout,
+        values,
+        inertia,
         compiled(scene.name, equations.residual, equations.jacobian),
         motion,
         y,
@@ -126,11 +135,9 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     )
 
 
-def _start(system: System, judged: Judged) -> Motion:
+def _start(system: System, judged: Judged, values: Program, inertia: Program) -> Motion:
     scene, arrays = system.assembly.scene, system.assembly.arrays
     size = arrays.position
-    values = program(system, ("phi_q", "gamma", "force"), estimate)
-    inertia = mass(scene, arrays, len(system.assembly.columns), system.arguments())
     velocity = np.zeros(len(system.assembly.columns))
     for k, body in enumerate(scene.bodies):
         first = arrays.displacements * k

@@ -122,23 +122,27 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, target: P
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--index", type=int, default=2, show_default=True, help="2: stabilised index 2; 1: Baumgarte.")
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
+@click.option("--through-singular", is_flag=True, help="Go on through singular configurations, on the smooth branch.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 def simulate(file: Path, copies: int | None, target: Path, **options: Any) -> None:
     """Integrate a mechanism: trajectory.csv and summary.json."""
     from codegen import output, scenes
     from codegen.scenes.run import Settings
-    from codegen.scenes.simulate import check_settings, simulated
+    from codegen.scenes.simulate import check_settings, check_tools, simulated
 
     settings = Settings(**options)
     check_settings(settings)
     output.check_target(target)
     read, left_out = scenes.read(file, copies)
+    check_tools()
     for line in left_out:
         click.echo(line, err=True)
     with _progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, result.files)
     click.echo(f"{target}: {result.words}")
+    for line in result.notes:
+        click.echo(f"{file}: {line}", err=True)
     if result.failure:
         click.echo(f"{file}: {result.failure}", err=True)
         raise click.exceptions.Exit(1)

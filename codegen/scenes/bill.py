@@ -1,12 +1,13 @@
-"""What each simplification of a scene saves, in operations."""
+"""What each simplification of a scene saves: its constraints before and after, as programs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen import build
+from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.scenes.forms import alone, constraint_quantities
 from codegen.scenes.programs import program
@@ -14,6 +15,7 @@ from codegen.spec.placement import IDENTITY
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Joint, Scene
 from flopcount.count import count
+from flopcount.counts import Counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,66 +24,109 @@ class Item:
 
     Attributes:
         words: what was done.
-        operations: of all constraint quantities at once, after it.
+        programs: what evaluates the constraint quantities after it, one after the other.
+        additions: by which what several joints give for the same bodies is added up.
     """
 
     words: str
-    operations: int
+    programs: tuple[Program, ...]
+    additions: int = 0
+
+    @property
+    def counts(self) -> Counts:
+        """Operations of everything."""
+        return sum((count(found) for found in self.programs), Counts(add=self.additions))
 
 
-def bill(assembly: Assembly, undropped: Assembly, operations: int) -> tuple[Item, ...]:
-    """Count a scene before and after each simplification.
+@dataclass(frozen=True, slots=True)
+class Bill:
+    """What a scene saves.
+
+    Attributes:
+        items: step by step; empty where no quantity of the constraints is asked for.
+        in_plane: operations if the motion were reduced to the plane; None where it is, or where there is no plane.
+    """
+
+    items: tuple[Item, ...]
+    in_plane: Counts | None = None
+
+
+def bill(assembly: Assembly, undropped: Assembly, emitted: Program, has_drives: bool) -> tuple[Item, ...]:
+    """Evaluate the constraints of a scene before and after each simplification.
 
     Args:
         assembly: the scene as it is emitted.
         undropped: the scene with its redundant rows.
-        operations: of the scene as it is emitted.
+        emitted: what is emitted for all constraint quantities at once.
+        has_drives: whether it has the rows of drives besides.
     """
     spatial = replace(assembly.scene, motion="spatial")
     names = constraint_quantities(assembly.scene)
-    items = [
-        Item("the library's routine of each joint", _each(spatial, assembly.forms, _in_library)),
-        Item("geometry folded as constants", _each(spatial, assembly.forms, _folded)),
-        Item("columns of the ground left out", _each(spatial, assembly.forms, _grounded)),
-    ]
-    together = Assembly(spatial, assembly.forms)
-    if len(assembly.scene.joints) > 1:
-        items.append(Item("joints evaluated together", count(program(together, names)).total))
+    steps = [("joints evaluated together", Assembly(spatial, assembly.forms))] if len(spatial.joints) > 1 else []
     if assembly.scene.motion == "planar":
-        items.append(Item("motion in the plane", count(program(undropped, names)).total))
+        steps.append(("motion in the plane", undropped))
     if undropped.dropped != assembly.dropped:
-        items.append(Item("redundant rows left out", operations))
+        steps.append(("redundant rows left out", assembly))
+    if has_drives:
+        steps.append(("rows of drives added", assembly))
+    items = [
+        _each("the library's routine of each joint", spatial, assembly.forms, _in_library),
+        _each("geometry folded as constants", spatial, assembly.forms, _folded),
+        _each("columns of the ground left out", spatial, assembly.forms, _grounded),
+        *(Item(words, (program(step, names),)) for words, step in steps[:-1]),
+        *(Item(words, (emitted,)) for words, _ in steps[-1:]),
+    ]
     return tuple(items)
 
 
-_Counted = Callable[[Scene, Joint, Variant], int]
+_Evaluate = Callable[[Scene, Joint, Variant], Program]
+
+_MOVING = "the ground, moving"
 
 
-def _each(scene: Scene, forms: Mapping[str, Variant], counted: _Counted) -> int:
-    known: dict[tuple[object, ...], int] = {}
-    return sum(_once(scene, joint, forms[joint.name], counted, known) for joint in scene.joints)
+def _each(words: str, scene: Scene, forms: Mapping[str, Variant], evaluate: _Evaluate) -> Item:
+    """Evaluate joint by joint; equal joints have one program."""
+    known: dict[tuple[object, ...], Program] = {}
+    programs: list[Program] = []
+    places: list[tuple[object, ...]] = []
+    for joint in scene.joints:
+        variant, moving = forms[joint.name], _moving(scene, joint)
+        order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)
+        key = (variant, joint.marker_i, joint.marker_j, joint.pitch, order)
+        if key not in known:
+            known[key] = evaluate(scene, joint, variant)
+        programs.append(known[key])
+        places += _places(known[key], joint.bodies if evaluate is _in_library else moving)
+    return Item(words, tuple(programs), len(places) - len(set(places)))
 
 
-def _once(scene: Scene, joint: Joint, variant: Variant, counted: _Counted, known: dict[tuple[object, ...], int]) -> int:
-    """Count a joint; equal ones once."""
-    sides = tuple(name == GROUND for name in joint.bodies)
-    key = (variant, joint.marker_i, joint.marker_j, joint.pitch, sides)
-    if key not in known:
-        known[key] = counted(scene, joint, variant)
-    return known[key]
+def _moving(scene: Scene, joint: Joint) -> tuple[str, ...]:
+    """The bodies that a joint holds, in the order of the scene."""
+    return tuple(body.name for body in scene.bodies if body.name in joint.bodies)
 
 
-def _in_library(scene: Scene, joint: Joint, variant: Variant) -> int:
-    return count(build.model(variant).program(constraint_quantities(scene))).total
+def _in_library(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return build.model(variant).program(constraint_quantities(scene))
 
 
-def _folded(scene: Scene, joint: Joint, variant: Variant) -> int:
-    """The joint between two bodies that move, the ground being one of them."""
-    moving = Body("the ground", Fraction(1), IDENTITY, ZERO_VECTOR, (Fraction(1), *ZERO_VECTOR))
+def _folded(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    """The joint between two bodies that move, the ground being the last of them."""
+    moving = Body(_MOVING, Fraction(1), IDENTITY, ZERO_VECTOR, (Fraction(1), *ZERO_VECTOR))
     i, j = (moving.name if name == GROUND else name for name in joint.bodies)
-    loose = replace(joint, bodies=(i, j))
-    return _grounded(replace(scene, bodies=(*scene.bodies, moving)), loose, variant)
+    return _grounded(replace(scene, bodies=(*scene.bodies, moving)), replace(joint, bodies=(i, j)), variant)
 
 
-def _grounded(scene: Scene, joint: Joint, variant: Variant) -> int:
-    return count(program(alone(scene, joint, variant), constraint_quantities(scene))).total
+def _grounded(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return program(alone(scene, joint, variant), constraint_quantities(scene))
+
+
+def _places(found: Program, bodies: tuple[str, ...]) -> Iterator[tuple[object, ...]]:
+    """Entries that other joints of the same bodies may have too: those over displacements of bodies that move."""
+    columns = [(name, k) if name != GROUND else None for name in bodies for k in range(6)]
+    for output in found.outputs:
+        if output.name in ("phi_q_t_lambda_q", "phi_q_t_lambda"):
+            places = columns + [None] * (output.sparsity.nrow - len(columns))
+            for row, column in output.sparsity.entries():
+                entry = (output.name, places[row], places[column] if output.sparsity.ncol > 1 else 0)
+                if None not in entry:
+                    yield entry

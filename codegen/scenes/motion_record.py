@@ -13,7 +13,8 @@ from codegen.measure.constraints import Array
 from codegen.mechanics.system import System
 from codegen.scenes.numbers import geometry_of
 from codegen.scenes.run import Prepared, Run
-from codegen.scenes.state import Bodies, Frames, bodies_of, euler_parameters, frames_of
+from codegen.scenes.settled import settled
+from codegen.scenes.state import Bodies, Frames, euler_parameters, frames_of
 from codegen.simulate.trajectory import Trajectory
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint
@@ -42,7 +43,7 @@ def record(prepared: Prepared, run: Run) -> Record:
         run: its states.
     """
     system = prepared.system
-    bodies = bodies_of(system, prepared.layout, run.y, run.ydot)
+    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.y, run.ydot)
     frames = frames_of(prepared.scene, prepared.plane)
     values = {p.joint.name: _values(system, bodies, p.joint, k) for k, p in enumerate(system.assembly.placed)}
     drift = np.max([np.max(np.abs(phi), axis=0) for phi, _ in values.values()], axis=0, initial=0.0)

@@ -10,6 +10,7 @@ import numpy as np
 
 from codegen.dynamics.layout import Layout
 from codegen.errors import Mistake, SpecificationError
+from codegen.ir.program import Program
 from codegen.measure.constraints import Array, Pose
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
@@ -60,6 +61,8 @@ class Prepared:
         judged: forms and rows.
         system: joints, drives and forces.
         layout: of the state.
+        values: ``phi_q``, ``gamma`` and ``force``.
+        inertia: ``mass``.
         equations: compiled.
         motion: at the start.
         y: state at the start.
@@ -71,6 +74,8 @@ class Prepared:
     judged: Judged
     system: System
     layout: Layout
+    values: Program
+    inertia: Program
     equations: Compiled
     motion: Motion
     y: Array
@@ -124,7 +129,9 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     judged = judge(with_forms(plane.scene if plane else scene, settings.form))
     system = System(judged.assembly)
     equations = dae(system, f"index{settings.index}", settings.left_out)
-    motion = _motion(system, judged.pose, _velocity(system))
+    values = program(system, ("phi_q", "gamma", "force"), estimate)
+    inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
+    motion = _motion(system, values, inertia, judged.pose, _velocity(system))
     y, ydot = _state(system, equations.layout, judged.pose, motion)
     return Prepared(
         scene,
@@ -132,6 +139,8 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
         judged,
         system,
         equations.layout,
+        values,
+        inertia,
         compiled(scene.name, equations.residual, equations.jacobian),
         motion,
         y,
@@ -168,11 +177,8 @@ def _velocity(system: System) -> Array:
     return velocity
 
 
-def _motion(system: System, pose: Pose, velocity: Array) -> Motion:
+def _motion(system: System, values: Program, inertia: Program, pose: Pose, velocity: Array) -> Motion:
     """The consistent motion nearest to given velocities, translations in world axes."""
-    scene, arrays = system.assembly.scene, system.assembly.arrays
-    values = program(system, ("phi_q", "gamma", "force"), estimate)
-    inertia = mass(scene, arrays, len(system.assembly.columns), system.arguments())
     phi_t = np.array(system.phi_t, dtype=np.float64)
     wanted = _turned(system, pose, velocity, is_back=True)
     found = consistent_motion(values, inertia, program_arrays(system, pose), wanted, phi_t)
@@ -193,16 +199,17 @@ def _turned(system: System, pose: Pose, values: Array, is_back: bool = False) ->
     return found
 
 
-def consistent_state(system: System, layout: Layout, pose: Pose, velocity: Array) -> tuple[Array, Array]:
+def consistent_state(prepared: Prepared, pose: Pose, velocity: Array) -> tuple[Array, Array]:
     """The state at a pose and its rate, with the consistent velocities nearest to given ones.
 
     Args:
-        system: joints, drives and forces.
-        layout: of the state.
+        prepared: the scene.
         pose: on the constraints.
         velocity: as the state has them.
     """
-    return _state(system, layout, pose, _motion(system, pose, velocity))
+    system = prepared.system
+    motion = _motion(system, prepared.values, prepared.inertia, pose, velocity)
+    return _state(system, prepared.layout, pose, motion)
 
 
 def _state(system: System, layout: Layout, pose: Pose, motion: Motion) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -42,8 +43,8 @@ _TAKES_PART = 0.1
 class Part:
     """A connected part whose joints close loops; rows among those kept, columns among all."""
 
-    rows: Array
-    columns: Array
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
 
 
 class Watch:

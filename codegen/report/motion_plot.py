@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from codegen.report.svg import drawn
 from codegen.simulate.trajectory import Array, Trajectory
@@ -232,11 +233,11 @@ def _legend(figure: Figure, y: float) -> None:
     figure.legend(handles, words, loc="upper left", bbox_to_anchor=(0, y), ncols=3, frameon=False, fontsize=8)
 
 
-def thinned(values: Array) -> Array:
+def thinned(values: Array) -> NDArray[np.intp]:
     """Numbers of the values that draw the same curve: all, or the ends and the extremes of each of `_BINS` pieces."""
     count = len(values)
     if count <= 2 * _BINS:
-        return np.arange(count)
+        return np.arange(count, dtype=np.intp)
     pieces = np.array_split(np.arange(count), _BINS)
     extremes = [piece[find(values[piece])] for piece in pieces for find in (np.argmin, np.argmax)]
-    return np.unique([0, *extremes, count - 1])
+    return np.unique(np.array([0, *extremes, count - 1], dtype=np.intp))

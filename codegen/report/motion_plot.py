@@ -237,7 +237,7 @@ def thinned(values: Array) -> NDArray[np.intp]:
     """Numbers of the values that draw the same curve: all, or the ends and the extremes of each of `_BINS` pieces."""
     count = len(values)
     if count <= 2 * _BINS:
-        return np.arange(count)
+        return np.arange(count, dtype=np.intp)
     pieces = np.array_split(np.arange(count), _BINS)
     extremes = [piece[find(values[piece])] for piece in pieces for find in (np.argmin, np.argmax)]
-    return np.unique([0, *extremes, count - 1])
+    return np.unique(np.array([0, *extremes, count - 1], dtype=np.intp))

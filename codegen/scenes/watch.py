@@ -148,7 +148,7 @@ class Watch:
                 found.append(own)
         return tuple(found)
 
-    def _is_of_joints(self, rows: Array) -> bool:
+    def _is_of_joints(self, rows: NDArray[np.intp]) -> bool:
         return bool(np.all(self.kept[rows] < len(self.system.assembly.rows)))
 
     def conditions(self, t: Array, y: Array) -> tuple[Array, Array]:
@@ -211,11 +211,11 @@ class Watch:
             return row_names(self.system.assembly)[rows[row]]
         return self.system.drives[row - len(rows)].joint, "drive"
 
-    def _joints(self, rows: Array) -> list[str]:
+    def _joints(self, rows: NDArray[np.intp]) -> list[str]:
         """Names of the joints that rows, among those kept, belong to."""
         return list(dict.fromkeys(self._name(int(row))[0] for row in self.kept[rows]))
 
-    def _bodies(self, columns: Array) -> list[str]:
+    def _bodies(self, columns: NDArray[np.intp]) -> list[str]:
         """Names of the bodies that displacements belong to."""
         names = [body.name for body in self.system.assembly.scene.bodies]
         numbers = np.unique(columns // self.system.assembly.arrays.displacements)

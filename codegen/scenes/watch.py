@@ -64,8 +64,8 @@ class Watch:
         scene, assembly = judged.undropped.scene, judged.undropped
         self._length = characteristic_length(constraint_system(scene, assembly.forms, assembly.dropped))
         own = set(judged.assembly.rows)
-        is_kept = [row in own for row in assembly.rows] + [True] * len(self.system.drives)
-        self.kept, self.dropped = np.flatnonzero(is_kept), np.flatnonzero(np.invert(is_kept))
+        is_kept = np.array([row in own for row in assembly.rows] + [True] * len(self.system.drives), dtype=bool)
+        self.kept, self.dropped = np.flatnonzero(is_kept), np.flatnonzero(~is_kept)
 
     # --- values
 

@@ -223,8 +223,8 @@ def _draw_panel(axis: Any, t: Array, panel: Panel, size: float, is_last: bool) -
 def _label(figure: Figure, cell: Any, name: str) -> None:
     """Write the name of a row left of its panels."""
     box = cell.get_position(figure)
-    x = box.x0 - (_LEFT - 0.1) / figure.get_figwidth()
-    figure.text(x, (box.y0 + box.y1) / 2, textwrap.fill(name, 15), ha="left", va="center", fontweight="bold", fontsize=8)
+    x, y = box.x0 - (_LEFT - 0.1) / figure.get_figwidth(), (box.y0 + box.y1) / 2
+    figure.text(x, y, textwrap.fill(name, 15), ha="left", va="center", fontweight="bold", fontsize=8)
 
 
 def _legend(figure: Figure, y: float) -> None:

@@ -187,7 +187,9 @@ def _floats(values: Sequence[Any]) -> Array:
 
 def _rounded(values: Any, decimals: int) -> Any:
     """Numbers as JSON has them, nested as they were; whole ones without a point."""
-    if np.ndim(values):
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    if isinstance(values, (list, tuple)):
         return [_rounded(value, decimals) for value in values]
     value = round(float(values), decimals)
     return int(value) if value.is_integer() else value

@@ -1,6 +1,10 @@
 // Runs the script of an animation page without a browser: a document that remembers, a canvas that records its lines.
-// Input on stdin: {"script", "data"}, and "presses" ([id, or null for the document; event; its fields]), "plays" and
-// "loops" (whether it plays by itself, and again), "traces" (numbers of those that are asked for), "clocks" (ms, at which pictures are asked for), "times" (s).
+// Input on stdin: {"script", "data"}, and
+//   "presses": [id, or null for the document; event; its fields],
+//   "traces": numbers of the traces that are asked for,
+//   "plays", "loops": whether it plays by itself, and again,
+//   "clocks": ms, at which pictures are asked for,
+//   "times": s, whose frames are asked for.
 // Output: what the geometry gives, and the lines of the last picture.
 "use strict";
 

@@ -122,11 +122,13 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, target: P
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--index", type=int, default=2, show_default=True, help="2: stabilised index 2; 1: Baumgarte.")
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
+@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
 @click.option("--through-singular", is_flag=True, help="Go on through singular configurations, on the smooth branch.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def simulate(file: Path, copies: int | None, target: Path, **options: Any) -> None:
-    """Integrate a mechanism: trajectory.csv and summary.json."""
+def simulate(file: Path, copies: int | None, animation: bool, target: Path, **options: Any) -> None:
+    """Integrate a mechanism: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
     from codegen import output, scenes
+    from codegen.report.run_pictures import run_pictures
     from codegen.scenes.run import Settings
     from codegen.scenes.simulate import check_settings, check_tools, simulated
 
@@ -139,7 +141,7 @@ def simulate(file: Path, copies: int | None, target: Path, **options: Any) -> No
         click.echo(line, err=True)
     with _progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
-    output.replace(target, result.files)
+    output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     click.echo(f"{target}: {result.words}")
     for line in result.notes:
         click.echo(f"{file}: {line}", err=True)

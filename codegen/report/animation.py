@@ -9,16 +9,20 @@ import base64
 import hashlib
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from codegen.emit.environment import render
 from codegen.report.joint_glyphs import GLYPHS
 from codegen.report.view import first_view
 from codegen.simulate.trajectory import Array, Trajectory
 from codegen.spec.scene import GROUND, Scene, Vector
+
+Frames = NDArray[np.intp]
+"""Numbers of output times."""
 
 MOST_FRAMES = 600
 _MOST_NUMBERS = 300_000
@@ -38,7 +42,7 @@ def page(scene: Scene, trajectory: Trajectory) -> str:
     Returns:
         An HTML document.
     """
-    script = render("report/animation_geometry.js.j2") + render("report/animation_player.js.j2")
+    script = "".join(render(f"report/animation_{part}.js.j2") for part in ("geometry", "picture", "player"))
     digest = hashlib.sha256(script.encode()).digest()
     return render(
         "report/animation.html.j2",
@@ -64,56 +68,53 @@ def page_data(scene: Scene, trajectory: Trajectory) -> dict[str, Any]:
     centre = (np.max(points, axis=0) + np.min(points, axis=0)) / 2
     radius = float(np.max(np.linalg.norm(points - centre, axis=1))) or 1.0
     decimals = DIGITS - math.floor(math.log10(radius))
-    own = {name: [_rounded(_floats(point), decimals) for body, point in ends if body == name] for name in number}
     return {
         "radius": _rounded(radius, decimals),
         "centre": _rounded(centre, decimals),
         "view": _rounded(first_view(scene), DIGITS),
         "glyph": _rounded(_glyph(ends, radius), decimals + 2),
         "t": _rounded(trajectory.t[kept], _time_decimals(trajectory.t)),
-        "bodies": [
-            {
-                "name": name,
-                "points": list(map(list, dict.fromkeys(map(tuple, own[name])))),
-                "pose": [
-                    *_columns(trajectory.r[kept, k], decimals),
-                    *_columns(_continuous(trajectory.q[kept, k]), DIGITS),
-                ],
-            }
-            for k, name in enumerate(trajectory.bodies)
-        ],
+        "bodies": [_body(trajectory, kept, k, ends, decimals) for k in range(len(trajectory.bodies))],
         "joints": [
-            {
-                "name": joint.name,
-                "type": joint.type,
-                "bodies": [number[name] for name in joint.bodies],
-                "points": [_rounded(_floats(m.point), decimals) for m in (joint.marker_i, joint.marker_j)],
-                "axes": [_rounded(_floats(m.axes), DIGITS) for m in (joint.marker_i, joint.marker_j)],
-            }
+            {"name": joint.name, "type": joint.type}
+            | _fixed(joint.bodies, (joint.marker_i.point, joint.marker_j.point), number, decimals)
+            | {"axes": _rounded([_floats(m.axes) for m in (joint.marker_i, joint.marker_j)], DIGITS)}
             for joint in scene.joints
         ],
-        "springs": [
-            {
-                "bodies": [number[name] for name in spring.bodies],
-                "points": [_rounded(_floats(point), decimals) for point in spring.points],
-            }
-            for spring in scene.springs
-        ],
-        "glyphs": {
-            kind: [
-                {"side": stroke.side, "filled": stroke.is_filled, "points": _rounded(stroke.points, 3)}
-                for stroke in GLYPHS[kind]
-            ]
-            for kind in dict.fromkeys(joint.type for joint in scene.joints)
-        },
+        "springs": [_fixed(spring.bodies, spring.points, number, decimals) for spring in scene.springs],
+        "glyphs": {kind: _glyph_strokes(kind) for kind in dict.fromkeys(joint.type for joint in scene.joints)},
     }
 
 
-def frames(trajectory: Trajectory) -> Array:
+def _body(
+    trajectory: Trajectory, kept: Frames, k: int, ends: Sequence[tuple[str, Vector]], decimals: int
+) -> dict[str, Any]:
+    name = trajectory.bodies[k]
+    own = [tuple(_rounded(_floats(point), decimals)) for body, point in ends if body == name]
+    r, q = trajectory.r[kept, k], _continuous(trajectory.q[kept, k])
+    return {"name": name, "points": list(dict.fromkeys(own)), "pose": [*_columns(r, decimals), *_columns(q, DIGITS)]}
+
+
+def _fixed(bodies: Sequence[str], points: Sequence[Vector], number: Mapping[str, int], decimals: int) -> dict[str, Any]:
+    """Where a joint or spring is fixed on its two bodies."""
+    return {
+        "bodies": [number[name] for name in bodies],
+        "points": _rounded([_floats(point) for point in points], decimals),
+    }
+
+
+def _glyph_strokes(kind: str) -> list[dict[str, Any]]:
+    return [
+        {"side": stroke.side, "filled": stroke.is_filled, "points": _rounded(stroke.points, 3)}
+        for stroke in GLYPHS[kind]
+    ]
+
+
+def frames(trajectory: Trajectory) -> Frames:
     """Numbers of the output times that are kept, evenly: at most `MOST_FRAMES`, fewer where there are many bodies."""
     most = max(_FEWEST_FRAMES, min(MOST_FRAMES, _MOST_NUMBERS // (7 * max(1, len(trajectory.bodies)))))
     count = len(trajectory.t)
-    return np.unique(np.round(np.linspace(0, count - 1, min(count, most))).astype(int))
+    return np.unique(np.round(np.linspace(0, count - 1, min(count, most))).astype(np.intp))
 
 
 def script_json(data: object) -> str:
@@ -141,7 +142,7 @@ def _ends(scene: Scene) -> Iterator[tuple[str, Vector]]:
         yield from zip(spring.bodies, spring.points, strict=True)
 
 
-def _world_points(trajectory: Trajectory, kept: Array, ends: Sequence[tuple[int, Vector]]) -> Array:
+def _world_points(trajectory: Trajectory, kept: Frames, ends: Sequence[tuple[int, Vector]]) -> Array:
     """All points and centres of mass at all frames, [., 3] m; the origin where there are none."""
     found = [trajectory.r[kept].reshape(-1, 3)]
     for body, point in ends:
@@ -186,7 +187,9 @@ def _floats(values: Sequence[Any]) -> Array:
 
 def _rounded(values: Any, decimals: int) -> Any:
     """Numbers as JSON has them, nested as they were; whole ones without a point."""
-    if np.ndim(values):
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    if isinstance(values, (list, tuple)):
         return [_rounded(value, decimals) for value in values]
     value = round(float(values), decimals)
     return int(value) if value.is_integer() else value

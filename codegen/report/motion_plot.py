@@ -6,6 +6,7 @@ without colour tells them apart.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from codegen.report.svg import drawn
 from codegen.simulate.trajectory import Array, Trajectory
@@ -74,7 +76,7 @@ def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
         scene: of the trajectory; without it the coordinates of joints have "m or rad" as their unit.
 
     Returns:
-        An SVG document; the group of a curve has the name of its column in ``trajectory.csv`` as its id.
+        An SVG document; the id of a curve's group is its column in ``trajectory.csv``, of a rate ``JOINT.alphadot1``...
     """
     bodies, joints = body_rows(trajectory), joint_rows(trajectory, scene)
     blocks = [rows[:MOST] for rows in (bodies, joints) if rows]
@@ -221,9 +223,8 @@ def _draw_panel(axis: Any, t: Array, panel: Panel, size: float, is_last: bool) -
 def _label(figure: Figure, cell: Any, name: str) -> None:
     """Write the name of a row left of its panels."""
     box = cell.get_position(figure)
-    lines = [name[k : k + 15] for k in range(0, len(name), 15)]
-    x = box.x0 - (_LEFT - 0.1) / figure.get_figwidth()
-    figure.text(x, (box.y0 + box.y1) / 2, "\n".join(lines), ha="left", va="center", fontweight="bold", fontsize=8)
+    x, y = box.x0 - (_LEFT - 0.1) / figure.get_figwidth(), (box.y0 + box.y1) / 2
+    figure.text(x, y, textwrap.fill(name, 15), ha="left", va="center", fontweight="bold", fontsize=8)
 
 
 def _legend(figure: Figure, y: float) -> None:
@@ -232,11 +233,11 @@ def _legend(figure: Figure, y: float) -> None:
     figure.legend(handles, words, loc="upper left", bbox_to_anchor=(0, y), ncols=3, frameon=False, fontsize=8)
 
 
-def thinned(values: Array) -> Array:
+def thinned(values: Array) -> NDArray[np.intp]:
     """Numbers of the values that draw the same curve: all, or the ends and the extremes of each of `_BINS` pieces."""
     count = len(values)
     if count <= 2 * _BINS:
-        return np.arange(count)
+        return np.arange(count, dtype=np.intp)
     pieces = np.array_split(np.arange(count), _BINS)
     extremes = [piece[find(values[piece])] for piece in pieces for find in (np.argmin, np.argmax)]
-    return np.unique([0, *extremes, count - 1])
+    return np.unique(np.array([0, *extremes, count - 1], dtype=np.intp))

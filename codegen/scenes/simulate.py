@@ -15,7 +15,7 @@ from codegen.scenes.run import Prepared, Progress, Settings, prepare
 from codegen.scenes.summary import as_json, summary
 from codegen.scenes.watched_run import Watched, watched_run
 from codegen.simulate.sundials import sundials
-from codegen.simulate.trajectory import as_csv
+from codegen.simulate.trajectory import Trajectory, as_csv
 from codegen.spec.scene import SCENE_FORMS, Scene
 
 
@@ -28,12 +28,14 @@ class Simulated:
         words: the run in a line.
         notes: what a user should know of the run.
         failure: why it stopped before the end; empty if it did not.
+        trajectory: of the run, for pictures.
     """
 
     files: Mapping[str, bytes]
     words: str
     notes: tuple[str, ...]
     failure: str
+    trajectory: Trajectory
 
 
 def simulated(scene: Scene, settings: Settings, progress: Progress = lambda _: None) -> Simulated:
@@ -58,7 +60,7 @@ def simulated(scene: Scene, settings: Settings, progress: Progress = lambda _: N
     }
     words = f"{numbers['time_reached']:g} s in {numbers['steps']} steps, drift {numbers['constraint_drift']:.1e}"
     encoded = {path: text.encode() for path, text in files.items()}
-    return Simulated(encoded, words, tuple(_notes(prepared, watched)), watched.run.failure)
+    return Simulated(encoded, words, tuple(_notes(prepared, watched)), watched.run.failure, told.trajectory)
 
 
 _CHANGED = 1e-9

@@ -1,6 +1,10 @@
 // Runs the script of an animation page without a browser: a document that remembers, a canvas that records its lines.
-// Input on stdin: {"script", "data"}, and "presses" ([id, or null for the document; event; its fields]), "plays" and
-// "loops" (whether it plays by itself, and again), "clocks" (ms, at which pictures are asked for), "times" (s).
+// Input on stdin: {"script", "data"}, and
+//   "presses": [id, or null for the document; event; its fields],
+//   "traces": numbers of the traces that are asked for,
+//   "plays", "loops": whether it plays by itself, and again,
+//   "clocks": ms, at which pictures are asked for,
+//   "times": s, whose frames are asked for.
 // Output: what the geometry gives, and the lines of the last picture.
 "use strict";
 
@@ -59,6 +63,12 @@ for (const [id, name, fields] of input.presses || []) {
   const target = id ? document.getElementById(id) : document;
   Object.assign(target, fields.set || {});
   target.listeners[name]({ target, preventDefault() {}, ...fields });
+  settle(0);
+}
+for (const n of input.traces || []) {
+  const box = document.getElementById("traces").children[n].children[0];
+  box.checked = true;
+  box.listeners.change();
   settle(0);
 }
 for (const clock of input.clocks || []) settle(clock);

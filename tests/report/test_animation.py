@@ -259,6 +259,19 @@ def test_the_picture_shows_the_frame_of_the_slider():
     assert result["button"] == "Play"
 
 
+def test_a_trace_is_the_path_of_its_point():
+    scene, trajectory = engine()
+    html = page(scene, trajectory)
+    data, offers = data_of(html), played(html)["offers"]
+    assert offers[:3] == [f" {body}: centre of mass" for body in trajectory.bodies]
+    pin = offers.index(" crank pin, on crank")
+    middle, scale = np.array(data["centre"][:2]), 0.44 * 600 / data["radius"]
+    paths = [np.array(line["points"]) for line in played(html, traces=[1, pin])["lines"][:2]]
+    for path, truth in zip(paths, (trajectory.r[:, 1], 2 * trajectory.r[:, 0]), strict=True):
+        x, y = (scale * (truth[:, :2] - middle)).T
+        assert np.allclose(path, np.stack([400 + x, 300 - y], axis=1), atol=0.1)
+
+
 @pytest.mark.parametrize("run", [engine, tumbling], ids=["engine", "tumbling"])
 def test_all_controls_and_keys_work(run):
     keys = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "+", "-", "0"]

@@ -1,4 +1,4 @@
-"""Mechanisms at their limits, as scenes: engines with rods of any length, parallelograms, a screw, a free body, a frame."""
+"""Mechanisms at their limits, as scenes: engines with rods of any length, a sledge on two rails, a screw, free bodies, a fixed bar."""
 
 from __future__ import annotations
 
@@ -60,19 +60,13 @@ def engine(rod: str = "0.3", speed: str = "15", piston: str = "0.5", wrong: str 
     return Scene("engine", NO_GRAVITY, (crank, link, slider), joints, motion="planar")
 
 
-def rocking() -> Scene:
-    """Two equal cranks 0.2 m long and 0.3 m apart, a coupler and a third crank in the middle: one crank too many."""
-    length, apart, w = F("0.2"), F("0.3"), F(5)
-    cranks = [
-        body(f"crank {k}", vector(apart * k, length / 2, 0), vector(w * length / 2, 0, 0), vector(0, 0, -w))
-        for k in range(3)
+def sledge() -> Scene:
+    """A sledge on two parallel rails: one rail too many."""
+    runner = body("sledge", NO_GRAVITY, vector(1, 0, 0), NO_GRAVITY)
+    rails = [
+        joint(name, "translational", (None, runner), vector(0, y, 0), X) for name, y in (("left", "0.2"), ("right", "-0.2"))
     ]
-    coupler = body("coupler", vector(apart, length, 0), vector(w * length, 0, 0), NO_GRAVITY)
-    feet = [joint(f"foot {k}", "revolute", (None, crank), vector(apart * k, 0, 0)) for k, crank in enumerate(cranks)]
-    heads = [
-        joint(f"head {k}", "revolute", (crank, coupler), vector(apart * k, length, 0)) for k, crank in enumerate(cranks)
-    ]
-    return Scene("rocking", NO_GRAVITY, (*cranks, coupler), (*feet, *heads), motion="planar")
+    return Scene("sledge", NO_GRAVITY, (runner,), tuple(rails), motion="planar")
 
 
 def screw(form: str = "auto") -> Scene:

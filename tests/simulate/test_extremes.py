@@ -28,7 +28,7 @@ SCENES = {
     "fold": lambda: mechanisms.engine(rod="0.1"),
     "light": lambda: mechanisms.engine(piston="0.000001"),
     "wrong": lambda: mechanisms.engine(wrong="0.5"),
-    "rocking": mechanisms.rocking,
+    "sledge": mechanisms.sledge,
     "screw": mechanisms.screw,
     "bar": mechanisms.bar,
 }
@@ -138,31 +138,23 @@ def test_a_run_that_stops_keeps_the_states_before_and_says_that_it_is_not_comple
 
 
 def test_rows_left_out_hold_as_long_as_the_run_stays_on_its_branch() -> None:
-    watched, _ = ran("rocking", Settings(duration=0.2, outputs=40, tolerance=1e-8))
+    watched, _ = ran("sledge", Settings(duration=0.2, outputs=40, tolerance=1e-8))
     assert not watched.run.failure
     assert watched.dropped is not None
     assert watched.dropped < 1e-8
 
 
 def test_a_row_left_out_that_fails_is_named() -> None:
-    found = prepared("rocking")
+    found = prepared("sledge")
     watch = Watch(found.judged, found.layout)
     y = found.y.copy()
-    joint = found.judged.mobility.redundant[0][0]
-    crank = int(joint[-1])
-    y[3 * crank] += 1e-3
+    (joint,) = {joint for joint, _ in found.judged.mobility.redundant if not joint.startswith("plane of")}
+    y[1] += 1e-3
     _, dropped = watch.conditions(np.zeros(1), y[None])
     assert np.max(np.abs(dropped)) > DROPPED
     words = watch.dropped_words(0.25, dropped[0])
     assert "at t = 0.25 s" in words
     assert joint in words
-
-
-def test_parallelograms_that_go_flat_stop() -> None:
-    watched, _ = ran("rocking", Settings(duration=1.0, outputs=100, tolerance=1e-6))
-    words = watched.run.failure
-    assert words.startswith("singular configuration")
-    assert float(words.split()[5]) == pytest.approx(np.pi / 2 / 5, abs=1e-4)  # they turn at 5 rad/s
 
 
 # --- screws, initial values, freedom

@@ -84,8 +84,8 @@ def manifest(
 ) -> str:
     """Write the manifest of a package.
 
-    ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines, and of a
-    scene as a whole, stands under a key of its own.
+    ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines, and
+    of a scene as a whole, stands under a key of its own.
     """
     document = {
         "schema_version": SCHEMA_VERSION,

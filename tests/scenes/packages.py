@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import pickle
 from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -15,13 +16,13 @@ import numpy as np
 
 from codegen import output
 from codegen.dynamics.layout import layout
+from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.scenes import generate
 from codegen.scenes.bill import Bill
-from codegen.scenes.generate import Judged, judge
+from codegen.scenes.generate import Judged
 from codegen.scenes.read import read
 from codegen.scenes.start import start
-from codegen.spec.plane import flattened
 from codegen.spec.scene import Scene, Wanted
 from tests.harness.library import Array, Library, digest, run_compiler
 from tests.truth.workshop import fingerprint, locked
@@ -58,19 +59,6 @@ class Case:
         scene, _ = read(EXAMPLES / self.file)
         wanted = Wanted(self.quantities, self.rows or scene.wanted.rows, scene.wanted.derivative)
         return replace(scene, motion=self.motion or scene.motion, wanted=wanted)
-
-    def judged(self) -> Judged:
-        """Forms and rows."""
-        return _judged(self)
-
-    def _judge(self) -> Judged:
-        scene = self.scene()
-        return judge(flattened(scene) if scene.motion == "planar" else scene, self.form)
-
-
-@cache
-def _judged(case: Case) -> Judged:
-    return case._judge()
 
 
 THREE = ("phi", "phi_q", "phi_q_t_lambda_q")
@@ -119,6 +107,12 @@ class Package:
     root: Path
 
     @cached_property
+    def judged(self) -> Judged:
+        """Forms and rows of its joints."""
+        forms, dropped, zero, mobility, pose, scene = pickle.loads(self.root.with_suffix(".pickle").read_bytes())
+        return Judged({}, Assembly(scene, forms, zero), Assembly(scene, forms, dropped), mobility, pose)
+
+    @cached_property
     def manifest(self) -> dict[str, Any]:
         """The manifest."""
         found: dict[str, Any] = json.loads((self.root / "manifest.json").read_text())
@@ -164,9 +158,26 @@ def package(name: str, folder: Path, cases: Mapping[str, Case] = CASES) -> Packa
     root = folder / digest(repr(case), (EXAMPLES / case.file).read_bytes())
     with locked(root.with_suffix(".lock")):
         if not root.exists():
-            with nullcontext() if case.with_bill else mock.patch.object(generate, "_bill", lambda *_: Bill(())):
-                output.replace(root, generate.generate_scene(case.scene(), case.form, case.real))
+            root.with_suffix(".pickle").write_bytes(pickle.dumps(_made(case, root)))
     return Package(case, root)
+
+
+def _made(case: Case, root: Path) -> tuple[Any, ...]:
+    """Write a package; say what its joints and rows are."""
+    found: list[Judged] = []
+
+    def judge(*arguments: Any) -> Judged:
+        found.append(generate_judge(*arguments))
+        return found[-1]
+
+    generate_judge = generate.judge
+    no_bill = nullcontext() if case.with_bill else mock.patch.object(generate, "_bill", lambda *_: Bill(()))
+    with mock.patch.object(generate, "judge", judge), no_bill:
+        files = generate.generate_scene(case.scene(), case.form, case.real)
+    output.replace(root, files)
+    judged = found[0]
+    assembly = judged.assembly
+    return assembly.forms, assembly.dropped, judged.undropped.dropped, judged.mobility, judged.pose, assembly.scene
 
 
 def kept_in(cache: Path) -> Path:
@@ -183,7 +194,7 @@ def inputs_of(made: Package, seed: int = 0) -> dict[str, list[float]]:
     """
     lengths = {a["name"]: a["length"] for e in made.entries for a in e["arguments"] if a["direction"] == "in"}
     if seed == 0:
-        judged = made.case.judged()
+        judged = made.judged
         system = System(judged.assembly)
         at_start = start(system, judged.pose, layout(system, "index2"))
         return {name: [float(entry.rational) for entry in at_start[name]] for name in lengths}
@@ -215,7 +226,7 @@ def truth(made: Package, inputs: Mapping[str, list[float]]) -> dict[str, Array]:
     A planar mechanism is taken as one in space whose bodies are in the plane; its displacements are three of the six of
     a body.
     """
-    assembly = made.case.judged().assembly
+    assembly = made.judged.assembly
     spatial = replace(assembly, scene=replace(assembly.scene, motion="spatial"))
     bodies = len(assembly.scene.bodies)
     size, coordinates = 6 * bodies, assembly.coordinates

@@ -89,7 +89,7 @@ def test_the_readme_names_exactly_the_rows_that_phi_has(made: Package) -> None:
 
 def test_rows_that_the_readme_calls_redundant_are_and_the_others_are_not(made: Package) -> None:
     """By singular values of the Jacobian of all rows at poses near by, at which the joints are closed."""
-    judged = made.case.judged()
+    judged = made.judged
     system = constraint_system(judged.assembly.scene, judged.assembly.forms, judged.undropped.dropped)
     told = set()
     for joint, rows in re.findall(r'^ +joint "(.*)": (.*)$', made.readme, re.MULTILINE):
@@ -99,7 +99,7 @@ def test_rows_that_the_readme_calls_redundant_are_and_the_others_are_not(made: P
     assert told <= left_out
     assert {name for name in names if name in told} == told, "each is a row of the mechanism"
     kept = [k for k, name in enumerate(names) if name not in told]
-    jacobian = system.evaluate(judged.pose)[1]
+    jacobian = system.values(judged.pose)[1]
     ranks = [np.linalg.matrix_rank(matrix, 1e-7) for matrix in (jacobian[kept], jacobian)]
     if made.name == "in_line_engine_parametric" and made.case.rows is None:
         assert "singular configuration: at the given pose the rank is 18, elsewhere 21" in made.readme

@@ -67,6 +67,11 @@ class External:
         return max(port.length for port in self.inputs)
 
 
+def has_external(routine: Routine) -> bool:
+    """Whether there is an external: a single quantity of the constraints that depends on something."""
+    return routine.output in EXTERNALS and bool(routine.program.used_arguments())
+
+
 def external_name(stem: str, output: str) -> str:
     """Name of the external of a routine."""
     return f"{stem}_{output}_external"
@@ -78,7 +83,7 @@ def external_source(
     """Write the externals of the routines of a file as one C source."""
     jacobians, externals = [], []
     for routine in routines:
-        if routine.output in EXTERNALS:
+        if has_external(routine):
             jacobian = simplify(differentiate(routine.program))
             jacobian = contract_fma(jacobian) if routine.counts.fma else jacobian
             symbol = f"{routine.symbol}_jacobian"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
-from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
+from codegen.emit.casadi_external import external_name, external_source, has_external
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
@@ -61,7 +61,7 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
         "README.md": package.readme,
         "manifest.json": _manifest(package, emitted),
     }
-    if package.real == "double":
+    if package.real == "double" and any(has_external(routine) for routine in package.routines):
         files["casadi/external.c"] = external_source(
             package.routines,
             "external.c",
@@ -124,7 +124,7 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
     for output in package.casadi:
         subject = by_output[output].subject
         record = {"name": subject.routine_stem(output), "file": f"casadi/{output}.casadi", "output": output}
-        if package.real == "double" and output in EXTERNALS:
+        if package.real == "double" and has_external(by_output[output]):
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from codegen.dynamics.layout import Layout
 from codegen.emit.routine import Member, Preparation, Words
 from codegen.ir.program import Argument, Output, Program
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.system import System
 from codegen.spec.scene import COORDINATE_UNITS
 
 _OUTPUTS: dict[str, tuple[str, str, str]] = {
@@ -27,7 +29,23 @@ _OUTPUTS: dict[str, tuple[str, str, str]] = {
     ),
     "phi_q_v": ("Product phi_q v, without forming phi_q", "constraint rows", "m/s or 1/s"),
     "phi_q_t_lambda": ("Product phi_q^T lambda, without forming phi_q", "virtual displacements", "N, N m"),
-    "all": ("All quantities at once, sub-expressions shared", "", ""),
+    "mass": ("Mass matrix M, constant", "virtual displacements x virtual displacements", "kg, kg m^2"),
+    "force": (
+        "Right-hand side of M a + phi_q^T lambda = force: applied and gyroscopic forces",
+        "virtual displacements",
+        "N, N m",
+    ),
+    "residual": (
+        "Residual F(t, y, ydot) of the equations of motion, stabilised index 2 (Gear, Gupta, Leimkuhler)",
+        "rows of the equations of motion",
+        "mixed",
+    ),
+    "jacobian": (
+        "Jacobian dF/dy + cj dF/dydot of the residual",
+        "rows of the equations of motion x state",
+        "mixed",
+    ),
+    "all": ("All constraint quantities at once, sub-expressions shared", "", ""),
 }
 
 
@@ -36,12 +54,19 @@ class SceneSubject:
     """A scene whose joints have their forms and whose rows are chosen.
 
     Attributes:
-        assembly: the scene.
+        system: the scene.
+        state: layout of the state of an integrator.
         row_names: joint and name of each row of all joints.
     """
 
-    assembly: Assembly
+    system: System
+    state: Layout
     row_names: tuple[tuple[str, str], ...]
+
+    @property
+    def assembly(self) -> Assembly:
+        """The scene without its forces and drives."""
+        return self.system.assembly
 
     @property
     def stem(self) -> str:
@@ -61,6 +86,10 @@ class SceneSubject:
             "revolutions": ("joint", "1", self._revolutions),
             "velocity": (self.axes, "m/s, rad/s", self._velocities),
             "lambda": ("constraint rows", "N, N m", lambda: self._rows("lambda")),
+            "t": ("time", "s", lambda: iter(())),
+            "y": ("state", "mixed", lambda: self._state("")),
+            "ydot": ("rate of the state", "mixed", lambda: self._state("dot")),
+            "cj": ("weight of dF/dydot", "1/s", lambda: iter(())),
         }
         frame, unit, members = words[argument.name]
         return Words(frame, unit, tuple(members()))
@@ -126,6 +155,21 @@ class SceneSubject:
                 place = placed.ends.first_alpha
                 yield f"{word}_{placed.ends.name}", place, (placed.form.coordinates, 1), units
 
+    def _state(self, ending: str) -> Iterator[Member]:
+        state = self.state
+        groups = {
+            "positions": (
+                state.positions,
+                "r and Euler parameters of each body (x, y, angle in the plane), alpha",
+            ),
+            "velocities": (state.velocities, "v (world) and omega (body axes) of each body, alphadot"),
+            "multipliers": (state.multipliers, "lambda, row by row"),
+            "corrections": (state.corrections, "mu, row by row; 0 on solutions"),
+        }
+        for name, (places, words) in groups.items():
+            if places:
+                yield f"{name}{ending}", places.start, (len(places), 1), words
+
     def _revolutions(self) -> Iterator[Member]:
         screws = [p for p in self.assembly.placed if p.joint.type == "screw" and not p.form.coordinates]
         for k, placed in enumerate(screws):
@@ -139,3 +183,5 @@ class SceneSubject:
             if rows:
                 names = ", ".join(self.row_names[row][1] for row in rows)
                 yield f"{word}_{placed.ends.name}", number[rows[0]], (len(rows), 1), f"rows {names}"
+        for k in range(len(self.system.drives)):
+            yield f"{word}_drive_{k}", len(number) + k, (1, 1), "drive"

@@ -15,13 +15,12 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
-import sympy
-
 from codegen.ir.lower import Block, Part, SymbolicOutput
 from codegen.ir.program import Argument
 from codegen.mechanics import frames
 from codegen.mechanics.arrays import PLANAR, SPATIAL, Arrays
-from codegen.mechanics.derivation import Derivation, is_matrix
+from codegen.mechanics.blocks import gathered
+from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.merged import merged
@@ -31,12 +30,13 @@ from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Scene
 
-_KINDS = {
+KINDS = {
     "phi": ("constraints", "one"),
     "phi_q": ("constraints", "displacements"),
     "phi_q_t_lambda_q": ("displacements", "displacements"),
     "gamma": ("constraints", "one"),
     "phi_q_v": ("constraints", "one"),
+    "phi_q_v_q": ("constraints", "displacements"),
     "phi_q_t_lambda": ("displacements", "one"),
 }
 """What the rows and columns of a quantity are."""
@@ -193,20 +193,18 @@ class Assembly:
     def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """The rows and columns of a derived quantity that the system has."""
         chosen = {"constraints": self.rows, "displacements": self.columns, "one": (0,)}
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         return chosen[rows], chosen[columns]
 
     def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
-        rows, columns = _KINDS[name]
+        rows, columns = KINDS[name]
         derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates
         sizes = {"constraints": self.all_rows, "displacements": derived, "one": 1}
-        found: dict[tuple[int, int], list[Any]] = {}
+        blocks: list[Block] = []
         for placed in joints:
             _, derivation = _derived(self.forms[placed.joint.name], self.translations)
-            for block in placed.blocks(rows, columns, derivation.quantity(name).blocks):
-                found.setdefault((block.row, block.column), []).append(block.expression)
-        blocks = tuple(Block(*place, _sum(parts)) for place, parts in found.items())
-        return SymbolicOutput(name, (sizes[rows], sizes[columns]), blocks)
+            blocks += placed.blocks(rows, columns, derivation.quantity(name).blocks)
+        return gathered(name, (sizes[rows], sizes[columns]), blocks)
 
 
 _LARGEST_GROUP = 12
@@ -228,9 +226,3 @@ def connected(joints: Sequence[Placed]) -> list[list[Placed]]:
 def _touch(first: Placed, second: Placed) -> bool:
     bodies = {number for number in first.ends.numbers if number is not None}
     return not bodies.isdisjoint(second.ends.numbers)
-
-
-def _sum(parts: list[Any]) -> Any:
-    if len(parts) == 1:
-        return parts[0]
-    return sympy.MatAdd(*parts) if is_matrix(parts[0]) else sympy.Add(*parts)

@@ -1,8 +1,9 @@
 """Derive the quantities of a routine from the rows of a formulation.
 
 ``phi``; ``phi_q``, S1 Eqs. (5) to (8), (13), (20), (32); ``phi_q_t_lambda_q`` = d(phi_q^T lambda)/dq, Eqs. (9), (14),
-(25), (36), (37); ``gamma``, the right-hand side of ``phi_q a = gamma``; and the products ``phi_q v`` and
-``phi_q^T lambda``. All of them are read off variations; no derivative is typed in.
+(25), (36), (37); ``gamma``, the right-hand side of ``phi_q a = gamma``; the products ``phi_q v`` and
+``phi_q^T lambda``; and ``phi_q_v_q`` = d(phi_q v)/dq at fixed v. All of them are read off variations; no derivative is
+typed in.
 """
 
 from __future__ import annotations
@@ -35,20 +36,23 @@ class Derivation:
         self._virtual = Variation(form.algebra, form.stages, form.virtual, form.partials)
 
     def quantity(self, name: str) -> SymbolicOutput:
-        """Derive one of the quantities of `codegen.spec.request.OUTPUTS`, except ``all``."""
+        """Derive one of the quantities of `codegen.spec.request.OUTPUTS`, except ``all``, or ``phi_q_v_q``."""
         form = self.form
         size = form.column_count
         match name:
             case "phi":
                 return self._column("phi", list(form.rows))
             case "phi_q":
-                return SymbolicOutput("phi_q", (form.row_count, size), self._jacobian())
+                return SymbolicOutput("phi_q", (form.row_count, size), self._laid(self.jacobian_blocks))
             case "phi_q_t_lambda_q":
                 return SymbolicOutput("phi_q_t_lambda_q", (size, size), self._second_derivative())
             case "gamma":
                 return self._column("gamma", self._gamma_rows())
             case "phi_q_v":
                 return self._column("phi_q_v", self.velocity_rows)
+            case "phi_q_v_q":
+                blocks = self._laid(self._derivatives(self.velocity_rows))
+                return SymbolicOutput("phi_q_v_q", (form.row_count, size), blocks)
             case "phi_q_t_lambda":
                 blocks = tuple(Block(row, 0, block) for row, block in self.force_blocks)
                 return SymbolicOutput("phi_q_t_lambda", (size, 1), blocks)
@@ -70,8 +74,12 @@ class Derivation:
     @cached_property
     def jacobian_blocks(self) -> list[tuple[int, int, Any]]:
         """Blocks of phi_q: (row, column, expression); the block of a scalar row is its gradient, to be transposed."""
+        return self._derivatives(list(self.form.rows))
+
+    def _derivatives(self, rows: list[Any]) -> list[tuple[int, int, Any]]:
+        """Blocks of the derivative of rows that stand at the places of the constraint's, as `jacobian_blocks`."""
         blocks = []
-        for start, row in self._places:
+        for (start, _), row in zip(self._places, rows, strict=True):
             varied = self._virtual.of(row)
             read = coefficient if is_matrix(row) else gradient
             for displacement, column in self.form.displacements:
@@ -80,11 +88,11 @@ class Derivation:
                     blocks.append((start, column, block))
         return blocks
 
-    def _jacobian(self) -> tuple[Block, ...]:
+    def _laid(self, derivatives: list[tuple[int, int, Any]]) -> tuple[Block, ...]:
         tall = {start for start, row in self._places if is_matrix(row)}
         return tuple(
             Block(row, column, block if row in tall or column >= 12 else sympy.Transpose(block))
-            for row, column, block in self.jacobian_blocks
+            for row, column, block in derivatives
         )
 
     def substituted(self, expression: Any) -> Any:

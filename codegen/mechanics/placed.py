@@ -248,9 +248,10 @@ class Placed:
                 continue
             expression = self.written(block.expression)
             if self.ends.arrays.is_planar:
-                expression = about_normal(
-                    expression, is_displaced[0] and block.row in (3, 9), is_displaced[1] and block.column in (3, 9)
-                )
+                turning = {3: self.symbols[A_i], 9: self.symbols[A_j]}
+                row_turn = turning.get(block.row) if is_displaced[0] else None
+                column_turn = turning.get(block.column) if is_displaced[1] else None
+                expression = about_normal(expression, row_turn, column_turn)
             yield Block(row, column, expression)
 
     def _is_dropped(self, row: int, expression: Any) -> bool:
@@ -288,21 +289,26 @@ def contracted(links: list[Link], passed: set[str], name: str) -> list[Link]:
     return links
 
 
-def about_normal(expression: Any, rows: bool, columns: bool) -> Any:
+def about_normal(expression: Any, rows: Any | None, columns: Any | None) -> Any:
     """Keep of a block the turn about the normal of the plane.
 
     Args:
         expression: matrix, vector, row or scalar.
-        rows: whether its rows are turns.
-        columns: whether its columns are turns.
+        rows: attitude of the body whose turns the rows are.
+        columns: attitude of the body whose turns the columns are.
     """
-    if columns:
+    if columns is not None:
         is_row = is_matrix(expression) and expression.shape[0] == 1
-        expression = Dot(_turned(expression), NORMAL) if is_row else sympy.MatMul(expression, NORMAL)
-    if rows:
+        expression = _along_normal(_turned(expression), columns) if is_row else sympy.MatMul(expression, NORMAL)
+    if rows is not None:
         is_column = is_matrix(expression) and expression.shape[1] == 1
-        expression = Dot(NORMAL, expression) if is_column else sympy.MatMul(sympy.Transpose(NORMAL), expression)
+        expression = _along_normal(expression, rows) if is_column else sympy.MatMul(sympy.Transpose(NORMAL), expression)
     return expression
+
+
+def _along_normal(vector: Any, attitude: Any) -> Any:
+    """Component of a vector in body axes; the attitude says which axes these are."""
+    return Dot(sympy.MatMul(attitude, vector), NORMAL)
 
 
 def _turned(row: Any) -> Any:

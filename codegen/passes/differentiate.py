@@ -1,12 +1,13 @@
-"""Differentiate a program by its inputs: forward, instruction by instruction, over structural nonzeros.
+"""Differentiate a program: forward, instruction by instruction, over structural nonzeros.
 
-The result is a program of its own. Its outputs are the blocks ``jac_<output>_<argument>``: rows are the entries of the
-output, columns the entries of the argument, both column-major and counted dense, as CasADi has them.
+The result is a program of its own. Its outputs are the blocks ``jac_<output>_<direction>``: rows are the entries of the
+output, columns the entries of the direction, both column-major and counted dense, as CasADi has them. Directions are
+the arguments, or whatever a seed says that the entries of the arguments depend on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from codegen.errors import InternalError
 from codegen.ir.builder import Builder
@@ -14,57 +15,71 @@ from codegen.ir.ops import Op
 from codegen.ir.program import Argument, Instruction, Output, Program, Sparsity
 
 _Source = tuple[str, int]
-_Gradient = dict[_Source, int]
-"""Input entry -> position of the partial derivative; what is missing is zero."""
+Gradient = dict[_Source, int]
+"""Entry of a direction -> position of the partial derivative; what is missing is zero."""
+
+Seed = Callable[[Builder, str, int], Gradient]
+"""Gradient of an entry of an argument, appended to the program that is built."""
 
 
-def differentiate(program: Program) -> Program:
-    """Give the program of all partial derivatives of all outputs; not simplified."""
-    differentiation = _Differentiation()
+def itself(builder: Builder, argument: str, index: int) -> Gradient:
+    """The seed of derivatives by the arguments themselves."""
+    return {(argument, index): builder.constant(1)}
+
+
+def differentiate(program: Program, directions: Sequence[Argument] | None = None, seed: Seed = itself) -> Program:
+    """Give the program of all partial derivatives of all outputs; not simplified.
+
+    Args:
+        program: what to differentiate.
+        directions: what by, under names and shapes; the arguments that are used, if left out.
+        seed: how the entries of arguments depend on the directions.
+    """
+    differentiation = _Differentiation(seed)
     gradients = [differentiation.advance(instruction) for instruction in program.instructions]
-    outputs = tuple(
-        _block(output, argument, gradients) for output in program.outputs for argument in program.used_arguments()
-    )
+    by = program.used_arguments() if directions is None else directions
+    outputs = tuple(_block(output, direction, gradients) for output in program.outputs for direction in by)
     return differentiation.builder.freeze(program.arguments, outputs, dict(program.legend))
 
 
-def _block(output: Output, argument: Argument, gradients: Sequence[_Gradient]) -> Output:
+def _block(output: Output, direction: Argument, gradients: Sequence[Gradient]) -> Output:
     nrow = output.sparsity.nrow
     found: dict[tuple[int, int], int] = {}
     for (row, column), value in zip(output.sparsity.entries(), output.values, strict=True):
         for (name, index), position in gradients[value].items():
-            if name == argument.name:
+            if name == direction.name:
                 found[column * nrow + row, index] = position
-    sparsity = Sparsity.of_entries(nrow * output.sparsity.ncol, argument.length, found)
+    sparsity = Sparsity.of_entries(nrow * output.sparsity.ncol, direction.length, found)
     values = tuple(found[entry] for entry in sparsity.entries())
-    return Output(f"jac_{output.name}_{argument.name}", sparsity, values)
+    return Output(f"jac_{output.name}_{direction.name}", sparsity, values)
 
 
 class _Differentiation:
     """Repeats the program's own instructions (its values are needed) and appends the derivatives."""
 
-    def __init__(self) -> None:
+    def __init__(self, seed: Seed) -> None:
         self.builder = Builder()
+        self._seed = seed
         self._places: list[int] = []
-        self._gradients: list[_Gradient] = []
+        self._gradients: list[Gradient] = []
 
-    def advance(self, instruction: Instruction) -> _Gradient:
+    def advance(self, instruction: Instruction) -> Gradient:
         """Repeat one instruction and give its gradient."""
         operands = tuple(self._places[operand] for operand in instruction.operands)
         place = self.builder.append(instruction.with_operands(operands))
         inner = [self._gradients[operand] for operand in instruction.operands]
         if instruction.op is Op.INPUT and instruction.source is not None:
-            gradient: _Gradient = {instruction.source: self.builder.constant(1)}
+            gradient = self._seed(self.builder, *instruction.source)
         else:
             gradient = self._combined(inner, self._partials(instruction.op, operands, place))
         self._places.append(place)
         self._gradients.append(gradient)
         return gradient
 
-    def _combined(self, inner: list[_Gradient], partials: list[int | None]) -> _Gradient:
+    def _combined(self, inner: list[Gradient], partials: list[int | None]) -> Gradient:
         """Chain rule: the sum of partial times inner derivative, for each input entry."""
         emit = self.builder.emit
-        combined: _Gradient = {}
+        combined: Gradient = {}
         for gradient, partial in zip(inner, partials, strict=True):
             for source, derivative in gradient.items():
                 term = derivative if partial is None else emit(Op.MULTIPLY, partial, derivative)

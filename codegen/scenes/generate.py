@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import codegen
+from codegen.dynamics.layout import layout
 from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
 from codegen.emit.scene_subject import SceneSubject
@@ -19,12 +20,17 @@ from codegen.measure.constraints import Pose
 from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.mass import mass
+from codegen.mechanics.system import System
 from codegen.parallel import parallel
 from codegen.scenes.bill import bill
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
+from codegen.scenes.motion import dae
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
+from codegen.scenes.plane_notes import motion_notes
 from codegen.scenes.programs import program, without_zero_rows
 from codegen.scenes.readme import readme
+from codegen.spec.plane import flattened
 from codegen.spec.request import REALS
 from codegen.spec.scene import SCENE_FORMS, Scene
 from flopcount.count import count
@@ -81,9 +87,18 @@ def judge(scene: Scene, form: str | None = None) -> Judged:
 
 
 def wanted(scene: Scene) -> dict[str, tuple[str, ...]]:
-    """Say which quantities each routine of a scene evaluates."""
-    names = constraint_quantities(scene)
-    return {name: (name,) for name in names} | ({"all": names} if len(names) > 1 else {})
+    """Say which quantities each routine of a scene evaluates; ``all``, those of the constraints, comes last."""
+    fused = constraint_quantities(scene)
+    names = [name for name in scene.wanted.quantities or _default(scene) if name != "residual"]
+    if "residual" in (scene.wanted.quantities or _default(scene)):
+        names += ["residual", "jacobian"]
+    return {name: (name,) for name in names} | ({"all": fused} if len(fused) > 1 else {})
+
+
+def _default(scene: Scene) -> tuple[str, ...]:
+    """What is generated of a scene that asks for nothing: everything for an integrator, if its bodies have mass."""
+    constraints = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma")
+    return (*constraints, "mass", "force", "residual") if all(body.mass for body in scene.bodies) else constraints
 
 
 def generate_scene(
@@ -103,10 +118,13 @@ def generate_scene(
     Raises:
         SpecificationError: a joint cannot be closed.
     """
+    notes = motion_notes(scene)
+    scene = flattened(scene) if scene.motion == "planar" else scene
     judged = judge(scene, form)
     progress("rows")
     assembly = judged.assembly
-    subject = SceneSubject(assembly, _row_names(assembly))
+    system = System(assembly)
+    subject = SceneSubject(system, layout(system, "index2"), _row_names(assembly))
     jobs = [_Job(scene, assembly, name, names) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
     routines = tuple(
@@ -115,7 +133,9 @@ def generate_scene(
     )
     specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
     items = bill(assembly, judged.undropped, routines[-1].counts.total)
-    text = readme(subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification)
+    text = readme(
+        subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification, notes
+    )
     casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
     return scene_files(
         ScenePackage(scene.name, routines, codegen.__version__, specification, real, casadi, start(judged), text)
@@ -154,9 +174,20 @@ class _Job:
 def _built(job: _Job) -> tuple[Program, bytes]:
     from codegen.emit import casadi
 
-    assembly = Assembly(job.scene, job.assembly.forms, job.assembly.dropped)
-    found = program(assembly, job.names)
+    system = System(Assembly(job.scene, job.assembly.forms, job.assembly.dropped))
+    found = _program(system, job)
     return found, casadi.serialised(casadi.casadi_function(f"jg_{job.scene.name}_{job.output}", found))
+
+
+def _program(system: System, job: _Job) -> Program:
+    match job.output:
+        case "mass":
+            return mass(job.scene, system.assembly.arrays, len(system.assembly.columns), system.arguments())
+        case "residual":
+            return dae(system).residual
+        case "jacobian":
+            return dae(system).jacobian
+    return program(system, job.names)
 
 
 def _row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
@@ -182,6 +213,7 @@ def start(judged: Judged) -> dict[str, Sequence[Constant]]:
         "alpha": pose.alpha.tolist(),
         "revolutions": [0.0] * turns,
         "velocity": velocity,
-        "lambda": [1.0] * len(assembly.rows),
+        "lambda": [1.0] * System(assembly).row_count,
+        "t": [0.0],
     }
     return {name: [Constant(Fraction(x)) for x in values] for name, values in numbers.items()}

@@ -14,6 +14,7 @@ from codegen.ir.lower.lowering import Choose
 from codegen.ir.lower.search import Choice, Graph, cheapest
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.system import System
 from codegen.passes import simplify
 from codegen.passes.select import select
 from flopcount.count import count
@@ -31,11 +32,11 @@ def without_zero_rows(assembly: Assembly) -> Assembly:
     return replace(assembly, dropped=assembly.dropped | (frozenset(range(assembly.all_rows)) - rows))
 
 
-def program(assembly: Assembly, names: Iterable[str], choose: Choose = choices_for) -> Program:
+def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = choices_for) -> Program:
     """Lower quantities of the constraints of a scene to one simplified program, the cheapest that is found.
 
     Args:
-        assembly: the scene with the forms of its joints.
+        assembly: the scene with the forms of its joints; a `System` has its drives and forces too.
         names: ``phi``, ``phi_q``, ``phi_q_t_lambda_q``, ``gamma``, ``phi_q_v``, ``phi_q_t_lambda``.
         choose: among the ways to evaluate them.
     """

@@ -22,6 +22,9 @@ from codegen.ir.lower.space import Space
 Demand = tuple[int, int, str, Any]
 """Row, column, how its entries lie (``scalar``, ``row``, ``column``, ``matrix``) and what `Layout` gave."""
 
+BY_DISPLACEMENT = frozenset({"phi_q_t_lambda_q", "phi_q_t_lambda", "force", "force_q", "force_v"})
+"""Outputs whose rows are displacements, not constraints."""
+
 
 class Demands:
     """Reads the outputs of one model in one set of frames, and says which nodes they take.
@@ -110,7 +113,7 @@ class Demands:
     def of(self, output: SymbolicOutput) -> list[Demand]:
         """Read an output and say which nodes it takes."""
         self._reader.raw = self._places.is_raw and output.name == "phi"
-        by_displacement = output.name in ("phi_q_t_lambda_q", "phi_q_t_lambda")
+        by_displacement = output.name in BY_DISPLACEMENT
         columns = dict(self._places.columns)
         rows: Mapping[int, str] = columns if by_displacement else self._places.rows
         return [demand for block in output.blocks for demand in self._demand(block, rows, columns, output.shape[1])]

@@ -35,7 +35,7 @@ class Places:
         rows: first row and frame of each vector among the rows of the constraint.
         axis_names: frame -> names of its axes.
         vector_names: stage symbol -> name.
-        whole: stages that are vectors of their own, not the sums that define them.
+        whole: stages that are vectors or scalars of their own, not the sums that define them.
         is_raw: whether ``phi`` takes the rotation matrices as they are, orthonormal or not.
         constants: vector symbol -> its components, where these are numbers or scalar symbols.
         near: sets of frames; vectors are turned between frames of one set only. One set of all frames if left out.

@@ -34,7 +34,7 @@ class Symbols:
         frames: vector symbol -> the frame its components are in.
         stages: symbol -> definition.
         axes: frames whose axes have a meaning, so that a vector written in them is a sum of axes.
-        whole: stages that are vectors of their own, not the sums that define them.
+        whole: stages that are vectors or scalars of their own, not the sums that define them.
         constants: vector symbol -> its components, where these are numbers or scalar symbols.
         same_axes: axis -> sign and axis that stands for it.
     """
@@ -112,7 +112,7 @@ class Reader:
 
     def _of_stage(self, symbol: Any) -> Vector:
         definition = self.vector(self._symbols.stages[symbol])
-        if symbol not in self._symbols.whole:
+        if symbol not in self._symbols.whole or len(definition.terms) < 2:
             return definition
         self.space.named[symbol.name] = definition
         return self.space.vector(Named(symbol.name))
@@ -297,12 +297,16 @@ class Reader:
 
     def _stage(self, symbol: Any) -> Polynomial:
         definition = self._symbols.stages[symbol]
-        if isinstance(definition, sympy.Pow | sympy.Function):
+        if isinstance(definition, sympy.Pow | sympy.Function) and not is_power(definition):
             return self._named(symbol.name, definition)
-        return self.scalar(definition)
+        if symbol not in self._symbols.whole:
+            return self.scalar(definition)
+        if symbol.name not in self.definitions:
+            self.definitions[symbol.name] = ("same", (self.scalar(definition),))
+        return self.space.scalar("stage", symbol.name)
 
     def _function(self, expression: Any) -> Polynomial:
-        if isinstance(expression, sympy.Pow) and expression.exp.is_Integer and expression.exp > 0:
+        if is_power(expression):
             base, result = self.scalar(expression.base), ONE
             for _ in range(int(expression.exp)):
                 result *= base
@@ -313,13 +317,23 @@ class Reader:
         """A scalar that is no polynomial, under a name."""
         if name not in self.definitions:
             if isinstance(expression, sympy.Pow):
-                if expression.exp != -1:
-                    raise InternalError(f"no reading of exponent {expression.exp}")
-                self.definitions[name] = ("ratio", (ONE, self.scalar(expression.base)))
+                self.definitions[name] = self._power(expression.exp, self.scalar(expression.base))
             else:
                 arguments = tuple(self.scalar(argument) for argument in expression.args)
                 self.definitions[name] = (type(expression).__name__, arguments)
         return self.space.scalar("stage", name)
+
+    def _power(self, exponent: Any, base: Polynomial) -> tuple[str, tuple[Polynomial, ...]]:
+        if exponent == -1:
+            return "ratio", (ONE, base)
+        if exponent == sympy.Rational(1, 2):
+            return "sqrt", (base,)
+        raise InternalError(f"no reading of exponent {exponent}")
+
+
+def is_power(expression: Any) -> bool:
+    """Whether a scalar is a product of equal factors."""
+    return isinstance(expression, sympy.Pow) and bool(expression.exp.is_Integer) and expression.exp > 0
 
 
 def is_matrix(expression: Any) -> bool:

@@ -1,0 +1,122 @@
+"""What the entries of the state vector of an implicit integrator are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from codegen.mechanics.derivation import is_matrix
+from codegen.mechanics.frames import d_ij, dp_ij, e_ij, ep_ij
+from codegen.mechanics.joints import JOINTS
+from codegen.mechanics.placed import Placed
+from codegen.mechanics.system import System
+
+FORMS = ("index2", "index1")
+"""Stabilised index 2 after Gear, Gupta and Leimkuhler; index 1 after Baumgarte."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The layout of ``y``, and of the residual's rows.
+
+    Attributes:
+        positions: of each body ``r`` (centre of mass, world) and its Euler parameters ``w x y z``, in the plane ``x``,
+            ``y`` and the angle; then the joint coordinates alpha.
+        velocities: of each body ``v`` (world) and ``omega`` (body axes), in the plane its one component; then the
+            rates of alpha.
+        multipliers: ``lambda``, in the order of the rows.
+        corrections: ``mu``, in the order of the rows; empty at index 1.
+        names: of the entries.
+        units: of the entries.
+    """
+
+    positions: range
+    velocities: range
+    multipliers: range
+    corrections: range
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of entries."""
+        return self.corrections.stop
+
+    @property
+    def is_differential(self) -> tuple[bool, ...]:
+        """Whether the derivative of an entry is in the residual: that of positions and velocities."""
+        return tuple(k < self.velocities.stop for k in range(self.size))
+
+
+def layout(system: System, form: str) -> Layout:
+    """Lay out the state of a system.
+
+    Args:
+        system: the mechanism.
+        form: one of `FORMS`.
+    """
+    entries = [*_positions(system)]
+    ends = [len(entries)]
+    groups = [_velocities(system), _multipliers(system, "lambda", "N", "N m")]
+    if form == "index2":
+        groups.append(_multipliers(system, "mu", "m/s", "1/s"))
+    for group in groups:
+        entries += group
+        ends.append(len(entries))
+    ends += [len(entries)] * (4 - len(ends))
+    names, units = zip(*entries, strict=True)
+    starts = (0, *ends)
+    positions, velocities, multipliers, corrections = (range(starts[k], ends[k]) for k in range(4))
+    return Layout(positions, velocities, multipliers, corrections, names, units)
+
+
+Entry = tuple[str, str]
+"""Name and unit."""
+
+
+def _positions(system: System) -> Iterator[Entry]:
+    is_planar = system.assembly.arrays.is_planar
+    for body in system.assembly.scene.bodies:
+        yield from ((f"{body.name}.r{axis}", "m") for axis in ("xy" if is_planar else "xyz"))
+        if is_planar:
+            yield f"{body.name}.angle", "rad"
+        else:
+            yield from ((f"{body.name}.q{axis}", "1") for axis in "wxyz")
+    yield from _coordinates(system, "alpha", "")
+
+
+def _velocities(system: System) -> Iterator[Entry]:
+    is_planar = system.assembly.arrays.is_planar
+    for body in system.assembly.scene.bodies:
+        yield from ((f"{body.name}.v{axis}", "m/s") for axis in ("xy" if is_planar else "xyz"))
+        yield from ((f"{body.name}.w{axis}", "rad/s") for axis in ("z" if is_planar else "xyz"))
+    yield from _coordinates(system, "alphadot", "/s")
+
+
+def _coordinates(system: System, word: str, per: str) -> Iterator[Entry]:
+    for placed in system.assembly.placed:
+        joint = JOINTS[placed.joint.type]
+        translations = 0 if joint.is_screw else joint.translations
+        for k in range(placed.form.coordinates):
+            unit = "m" if k < translations else "rad"
+            yield f"{placed.joint.name}.{word}{k + 1}", unit + per
+
+
+def _multipliers(system: System, word: str, of_length: str, of_angle: str) -> Iterator[Entry]:
+    """Multipliers of rows in m, and of rows that are plain numbers or rad."""
+    first = 0
+    for placed in system.assembly.placed:
+        for k, is_length in enumerate(_is_length(placed)):
+            if first + k not in system.assembly.dropped:
+                yield f"{placed.joint.name}.{word}{k + 1}", of_length if is_length else of_angle
+        first += placed.form.row_count
+    coordinates = dict(enumerate(_coordinates(system, "alpha", "")))
+    for driven in system.drives:
+        _, unit = coordinates[driven.alpha]
+        yield f"drive of {driven.joint}.{word}", of_length if unit == "m" else of_angle
+
+
+def _is_length(placed: Placed) -> Iterator[bool]:
+    for row in placed.form.rows:
+        for _ in range(3 if is_matrix(row) else 1):
+            yield is_matrix(row) or row.has(d_ij, e_ij, dp_ij, ep_ij)

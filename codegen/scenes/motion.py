@@ -1,0 +1,66 @@
+"""The equations of motion of a scene: the programs of its system put together over one state vector."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.build import choices_for
+from codegen.dynamics import jacobian, residual
+from codegen.dynamics.directions import by_motion
+from codegen.dynamics.layout import Layout, layout
+from codegen.ir.lower.lowering import Choose
+from codegen.ir.program import Program
+from codegen.mechanics.mass import mass
+from codegen.mechanics.system import System
+from codegen.passes import simplify
+from codegen.scenes.programs import program
+
+BETA = Fraction(20)
+"""1/s, of Baumgarte's stabilisation: a drift goes back as ``exp(-20 t)``."""
+
+
+@dataclass(frozen=True)
+class Dae:
+    """The equations of motion of a scene for an implicit integrator.
+
+    Attributes:
+        layout: of the state.
+        residual: ``F(t, y, ydot)``.
+        jacobian: ``dF/dy + cj dF/dydot``.
+    """
+
+    layout: Layout
+    residual: Program
+    jacobian: Program
+
+
+def dae(
+    system: System,
+    form: str = "index2",
+    left_out: Collection[str] = (),
+    beta: Fraction = BETA,
+    choose: Choose = choices_for,
+) -> Dae:
+    """Compose the equations of motion.
+
+    Args:
+        system: the scene with its joints, drives and forces.
+        form: ``index2``, stabilised after Gear, Gupta and Leimkuhler, or ``index1`` after Baumgarte.
+        left_out: terms of the Jacobian that are left out, of `codegen.dynamics.jacobian.SECOND`.
+        beta: of Baumgarte's stabilisation, 1/s.
+        choose: among the ways to evaluate the programs of the system.
+    """
+    state = layout(system, form)
+    is_index2 = form == "index2"
+    assembly = system.assembly
+    inertia = mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
+    values = program(system, residual.INDEX2 if is_index2 else residual.INDEX1, choose)
+    slopes = program(system, jacobian.INDEX2, choose)
+    gamma = None if is_index2 else simplify(by_motion(program(system, ("gamma",), choose), system))
+    return Dae(
+        state,
+        simplify(residual.residual(system, state, values, inertia, beta)),
+        simplify(jacobian.jacobian(system, state, slopes, inertia, left_out=left_out, gamma=gamma, beta=beta)),
+    )

@@ -1,0 +1,1 @@
+"""Forces and equations of motion of scenes."""

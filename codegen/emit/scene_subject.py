@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from codegen.dynamics.layout import Layout
 from codegen.emit.routine import Member, Preparation, Words
-from codegen.ir.program import Argument, Output, Program
+from codegen.errors import InternalError
+from codegen.ir.looped import Axis, Looped
+from codegen.ir.program import Argument, Program, Result
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.plan import Plan, Series
 from codegen.mechanics.system import System
 from codegen.spec.scene import COORDINATE_UNITS
 
@@ -57,11 +60,13 @@ class SceneSubject:
         system: the scene.
         state: layout of the state of an integrator.
         row_names: joint and name of each row of all joints.
+        plan: where the routines are loops, the instances.
     """
 
     system: System
     state: Layout
     row_names: tuple[tuple[str, str], ...]
+    plan: Plan | None = None
 
     @property
     def assembly(self) -> Assembly:
@@ -92,19 +97,50 @@ class SceneSubject:
             "cj": ("weight of dF/dydot", "1/s", lambda: iter(())),
         }
         frame, unit, members = words[argument.name]
-        return Words(frame, unit, tuple(members()))
+        if self.plan is None or argument.name in ("y", "ydot"):
+            return Words(frame, unit, tuple(members()))
+        found, repeats = _of_instances(
+            (series, series.argument(argument.name), subject.argument(argument).members)
+            for series, subject in self._series
+        )
+        return Words(frame, unit, found, repeats)
 
-    def output(self, output: Output) -> Words:
+    def output(self, output: Result) -> Words:
         """Axes, unit and parts of an output."""
         _, frame, unit = _OUTPUTS.get(output.name, ("", "partial derivatives by the entries of an argument", "mixed"))
-        members = tuple(self._rows(output.name)) if frame == "constraint rows" else ()
-        return Words(frame if output.name == "phi" else f"{frame}; {self.axes}", unit, members)
+        axes = frame if output.name == "phi" else f"{frame}; {self.axes}"
+        if frame != "constraint rows":
+            return Words(axes, unit)
+        if self.plan is None:
+            return Words(axes, unit, tuple(self._rows(output.name)))
+        found, repeats = _of_instances(
+            (series, series.output(output.name)[0], subject.output(output).members) for series, subject in self._series
+        )
+        return Words(axes, unit, found, repeats)
+
+    def part(self, kind: int) -> SceneSubject:
+        """The first instance of a kind, as a scene of its own.
+
+        Raises:
+            InternalError: the routines are no loops.
+        """
+        if self.plan is None:
+            raise InternalError("no instances in straight-line code")
+        return self._alone(self.plan.kinds[kind])
+
+    @cached_property
+    def _series(self) -> list[tuple[Series, SceneSubject]]:
+        return [(series, self._alone(series.first)) for series in (self.plan.series if self.plan else ())]
+
+    def _alone(self, system: System) -> SceneSubject:
+        joints = {joint.name for joint in system.assembly.scene.joints}
+        return SceneSubject(system, self.state, tuple(pair for pair in self.row_names if pair[0] in joints))
 
     def brief(self, output: str) -> str:
         """What a routine does, in a line."""
         return f"{_OUTPUTS[output][0]}: scene {self.assembly.scene.name}."
 
-    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+    def details(self, output: str, program: Program | Looped, preparation: Preparation | None) -> Sequence[str]:
         """What a user must know besides, sentence by sentence."""
         details = [f"Virtual displacements: {self.axes}.", "The parts of A are taken as rotations."]
         if any(variant.derivative == "substituted" for variant in self.assembly.forms.values()):
@@ -185,3 +221,24 @@ class SceneSubject:
                 yield f"{word}_{placed.ends.name}", number[rows[0]], (len(rows), 1), f"rows {names}"
         for k in range(len(self.system.drives)):
             yield f"{word}_drive_{k}", len(number) + k, (1, 1), "drive"
+
+
+_Repeats = dict[int, tuple[int, int]]
+
+
+def _of_instances(
+    found: Iterable[tuple[Series, Axis, Sequence[Member]]],
+) -> tuple[tuple[Member, ...], _Repeats]:
+    """The parts of an array of the first instances, at their places in the whole, and how often each comes."""
+    members: list[Member] = []
+    repeats: _Repeats = {}
+    for series, axis, own in found:
+        for name, offset, shape, meaning in own:
+            first = 0
+            for segment in axis:
+                if first <= offset < first + segment.length:
+                    place = segment.start + offset - first
+                    members.append((name, place, shape, meaning))
+                    repeats[place] = len(series.sections), segment.stride
+                first += segment.length
+    return tuple(sorted(members, key=lambda member: member[1])), repeats

@@ -13,6 +13,7 @@ from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
 from codegen.emit.scene_subject import SceneSubject
 from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.ir.looped import Looped
 from codegen.ir.ops import Constant
 from codegen.ir.program import Program
 from codegen.measure.assembly import assemble
@@ -21,10 +22,13 @@ from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.mass import mass
+from codegen.mechanics.plan import Plan, plan
 from codegen.mechanics.system import System
 from codegen.parallel import parallel
 from codegen.scenes.bill import bill
+from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
+from codegen.scenes.loops import LOOPS, decided
 from codegen.scenes.motion import dae
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
 from codegen.scenes.plane_notes import motion_notes
@@ -102,7 +106,11 @@ def _default(scene: Scene) -> tuple[str, ...]:
 
 
 def generate_scene(
-    scene: Scene, form: str | None = None, real: str = "double", progress: Progress = lambda _: None
+    scene: Scene,
+    form: str | None = None,
+    real: str = "double",
+    progress: Progress = lambda _: None,
+    loops: str = "auto",
 ) -> dict[str, bytes]:
     """Generate the package of a scene in memory.
 
@@ -111,6 +119,7 @@ def generate_scene(
         form: of all joints that may have it, in the place of what the scene says.
         real: ``double`` or ``float``.
         progress: told each routine as it is done.
+        loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
 
     Returns:
         Path below the package's folder -> content.
@@ -124,15 +133,18 @@ def generate_scene(
     progress("rows")
     assembly = judged.assembly
     system = System(assembly)
-    subject = SceneSubject(system, layout(system, "index2"), _row_names(assembly))
-    jobs = [_Job(scene, assembly, name, names) for name, names in wanted(scene).items()]
+    planned = plan(assembly)
+    jobs = [_Job(scene.name, planned, name, names, loops) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
+    is_looped = any(isinstance(found, Looped) for found, _ in built)
+    state, row_names = layout(system, "index2"), _row_names(assembly)
+    subject = SceneSubject(system, state, row_names, planned if is_looped else None)
     routines = tuple(
         Routine(subject, job.output, found, count(found), "S1 Tables 1 to 5, for this scene")
         for job, (found, _) in zip(jobs, built, strict=True)
     )
-    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
-    items = bill(assembly, judged.undropped, routines[-1].counts.total)
+    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real, loops)).encode()).hexdigest()
+    items = bill(assembly, judged.undropped, routines[-1].counts.total, is_looped)
     text = readme(
         subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification, notes
     )
@@ -147,13 +159,13 @@ def steps(scene: Scene) -> int:
     return 1 + len(wanted(scene))
 
 
-def check_options(form: str | None, real: str) -> None:
+def check_options(form: str | None, real: str, loops: str = "auto") -> None:
     """Refuse options that there are not.
 
     Raises:
         SpecificationError: all of them at once.
     """
-    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS))
+    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS), ("--loops", loops, LOOPS))
     mistakes = [
         Mistake(name, f'there is no "{value}"', nearest(value, known))
         for name, value, known in asked
@@ -165,24 +177,25 @@ def check_options(form: str | None, real: str) -> None:
 
 @dataclass(frozen=True)
 class _Job:
-    scene: Scene
-    assembly: Assembly
+    name: str
+    plan: Plan
     output: str
     names: tuple[str, ...]
+    loops: str
 
 
-def _built(job: _Job) -> tuple[Program, bytes]:
+def _built(job: _Job) -> tuple[Program | Looped, bytes]:
     from codegen.emit import casadi
 
-    system = System(Assembly(job.scene, job.assembly.forms, job.assembly.dropped))
-    found = _program(system, job)
-    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.scene.name}_{job.output}", found))
+    found = decided(compose(job.plan, lambda system: _program(system, job)), job.loops)
+    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.name}_{job.output}", found))
 
 
 def _program(system: System, job: _Job) -> Program:
+    assembly = system.assembly
     match job.output:
         case "mass":
-            return mass(job.scene, system.assembly.arrays, len(system.assembly.columns), system.arguments())
+            return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
         case "residual":
             return dae(system).residual
         case "jacobian":

@@ -45,27 +45,30 @@ class Entry:
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
     stored = parameters(routine, dense=False)
-    text, temporaries = any_definition(routine.symbol, stored, routine.program, routine.subject)
+    text, temporaries = definition(routine.symbol, stored, routine.program, routine.subject)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
     return (first, _dense_entry(routine, stored)) if routine.is_matrix else (first,)
 
 
-def definition(symbol: str, declared: Sequence[Parameter], program: Program) -> tuple[str, int]:
-    """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
+def definition(
+    symbol: str, declared: Sequence[Parameter], program: Program | Looped, subject: Subject, kind: str = "void"
+) -> tuple[str, int]:
+    """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries.
+
+    Args:
+        symbol: its name.
+        declared: its parameters.
+        program: what it evaluates; loops have static functions of their own before it.
+        subject: names the parts of arrays.
+        kind: ``void`` or ``static void``.
+    """
+    if isinstance(program, Looped):
+        return looped_definition(declaration(symbol, declared, kind=kind), symbol, program, subject)
     statements = Statements(program, views(declared))
     body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
-    text = render("c/function.c.j2", signature=declaration(symbol, declared), body=body)
+    text = render("c/function.c.j2", signature=declaration(symbol, declared, kind=kind), body=body)
     return text, statements.temporaries
-
-
-def any_definition(
-    symbol: str, declared: Sequence[Parameter], program: Program | Looped, subject: Subject
-) -> tuple[str, int]:
-    """Write the C of a program, or of loops over programs."""
-    if isinstance(program, Looped):
-        return looped_definition(symbol, declared, program, subject)
-    return definition(symbol, declared, program)
 
 
 def sparsity_symbol(routine: Routine, output: Result) -> str:

@@ -10,9 +10,9 @@ from typing import Any
 import casadi
 
 from codegen.ir.evaluate import Domain, evaluate
+from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.nearest import nearest_double
 from codegen.ir.ops import Constant
-from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.program import Argument, Output, Program
 from codegen.passes.flatten import Piece, flatten
 

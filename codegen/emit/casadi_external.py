@@ -10,7 +10,7 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from codegen.emit.c import any_definition
+from codegen.emit.c import definition
 from codegen.emit.environment import render
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Routine
@@ -84,7 +84,7 @@ def external_source(
             jacobian = _derivative(routine)
             symbol = f"{routine.symbol}_jacobian"
             declared = parameters(routine, False, jacobian)
-            jacobians.append(any_definition(symbol, declared, jacobian, routine.subject)[0])
+            jacobians.append(definition(symbol, declared, jacobian, routine.subject, "static void")[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(
         "casadi/external.c.j2",

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from codegen.emit.declarations import declaration, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
-from codegen.emit.routine import Parameter, Subject
+from codegen.emit.routine import Member, Parameter, Subject
 from codegen.emit.statements import Statements
 from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.ops import Constant
@@ -17,14 +17,12 @@ from codegen.passes.flatten import Flat, Piece, flatten
 _WIDTH = 104
 
 
-def looped_definition(
-    symbol: str, declared: Sequence[Parameter], looped: Looped, subject: Subject
-) -> tuple[str, int]:
+def looped_definition(signature: str, symbol: str, looped: Looped, subject: Subject) -> tuple[str, int]:
     """Write the C functions of loops; gives their text and the largest number of temporaries of an instance.
 
     Args:
-        symbol: of the function that runs all loops.
-        declared: its parameters.
+        signature: of the function that runs all loops.
+        symbol: its name.
         looped: what it evaluates.
         subject: names the parts of the arrays of an instance.
     """
@@ -35,11 +33,11 @@ def looped_definition(
             continue
         name = f"{symbol}_part_{number + 1}"
         text, own = _part(name, loop, flat, subject)
-        texts.append(f"static {text}")
+        texts.append(text)
         body += _run(name, loop, flat, number)
         temporaries = max(temporaries, own)
     body += [f"(void){output.name};" for output in looped.outputs if not output.sparsity.nonzeros]
-    texts.append(render("c/function.c.j2", signature=declaration(symbol, declared), body=body))
+    texts.append(render("c/function.c.j2", signature=signature, body=body))
     return "\n".join(texts), temporaries
 
 
@@ -50,7 +48,8 @@ def _part(symbol: str, loop: Loop, flat: Flat, subject: Subject) -> tuple[str, i
         declared.insert(0, _parameter(Piece(GEOMETRY, GEOMETRY, 0, len(loop.geometry[0]), 0, 0), "in"))
     statements = Statements(flat.program, views(declared))
     body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
-    return render("c/function.c.j2", signature=declaration(symbol, declared), body=body), statements.temporaries
+    signature = declaration(symbol, declared, kind="static void")
+    return render("c/function.c.j2", signature=signature, body=body), statements.temporaries
 
 
 def _input(piece: Piece, loop: Loop, subject: Subject) -> Parameter:
@@ -64,7 +63,9 @@ def _input(piece: Piece, loop: Loop, subject: Subject) -> Parameter:
     return _parameter(piece, "in", members)
 
 
-def _parameter(piece: Piece, direction: str, members: tuple[tuple[str, int, tuple[int, int], str], ...] = ()) -> Parameter:
+def _parameter(
+    piece: Piece, direction: str, members: tuple[tuple[str, int, tuple[int, int], str], ...] = ()
+) -> Parameter:
     return Parameter(piece.name, direction, (piece.length, 1), piece.length, "column-major", "", "", members)
 
 

@@ -23,9 +23,7 @@ def parameters(routine: Routine, dense: bool, program: Program | Looped | None =
 def _input(argument: Argument, subject: Subject, prepared: tuple[Member, ...]) -> Parameter:
     words = Words("body", "mixed", prepared) if argument.name == "prepared" else subject.argument(argument)
     name, shape, length = argument.name, argument.shape, argument.length
-    return Parameter(
-        name, "in", shape, length, "column-major", words.frame, words.unit, words.members, words.repeats
-    )
+    return Parameter(name, "in", shape, length, "column-major", words.frame, words.unit, words.members, words.repeats)
 
 
 def _output(output: Result, subject: Subject, dense: bool, prepared: tuple[Member, ...]) -> Parameter:

@@ -47,7 +47,7 @@ class Parameter:
         frame: axes of its components.
         unit: unit of its components.
         members: parts of a compound array.
-        repeats: offset of a part -> how often it comes, and entries from one to the next; of those that come more than once.
+        repeats: offset of a part that comes more than once -> how often, and entries from one to the next.
     """
 
     name: str
@@ -69,7 +69,7 @@ class Words:
         frame: axes of its components.
         unit: unit of its components.
         members: parts of a compound array.
-        repeats: offset of a part -> how often it comes, and entries from one to the next; of those that come more than once.
+        repeats: offset of a part that comes more than once -> how often, and entries from one to the next.
     """
 
     frame: str

@@ -118,6 +118,13 @@ class SceneSubject:
         )
         return Words(axes, unit, found, repeats)
 
+    @property
+    def parts(self) -> tuple[tuple[SceneSubject, int], ...]:
+        """What is told one by one: the whole scene, or the first instance of each series; and how often it comes."""
+        if self.plan is None:
+            return ((self, 1),)
+        return tuple((subject, len(series.sections)) for series, subject in self._series)
+
     def part(self, kind: int) -> SceneSubject:
         """The first instance of a kind, as a scene of its own.
 

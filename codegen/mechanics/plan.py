@@ -111,9 +111,7 @@ class _Planning:
         self._whole = assembly
         self._sections = sections(assembly.scene)
         self._scenes = [section.scene(assembly.scene) for section in self._sections]
-        self.parts = tuple(
-            Assembly(scene, assembly.forms, self._dropped(k)) for k, scene in enumerate(self._scenes)
-        )
+        self.parts = tuple(Assembly(scene, assembly.forms, self._dropped(k)) for k, scene in enumerate(self._scenes))
         numbers: dict[object, int] = {}
         self._kinds = [numbers.setdefault(self._key(part), len(numbers)) for part in self.parts]
         members: dict[int, list[int]] = {}
@@ -125,9 +123,9 @@ class _Planning:
         """Put everything together."""
         systems, values = [], dict[int, tuple[Constant, ...]]()
         for members in self._members:
-            varying, geometry = differing([self._scenes[k] for k in members])
+            varying, numbers = differing([self._scenes[k] for k in members])
             systems.append(System(replace(self.parts[members[0]], varying=varying)))
-            values |= {k: tuple(map(Constant, row)) for k, row in zip(members, geometry, strict=True)}
+            values |= {k: tuple(map(Constant, row)) for k, row in zip(members, numbers, strict=True)}
         lengths = [_lengths(system) for system in systems]
         starts = self._starts(lengths)
         series = []

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.ops import Constant
 from codegen.ir.program import Argument, Program
+from codegen.mechanics.plan import Plan, Series
 from codegen.mechanics.system import System
 from codegen.passes import simplify
 from codegen.passes.split_geometry import split_geometry
 from codegen.passes.unroll import with_constants
-from codegen.mechanics.plan import Plan, Series
 
 
 def compose(plan: Plan, lowered: Callable[[System], Program]) -> Looped:

@@ -10,8 +10,11 @@ from codegen.emit.package import banner
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Routine
 from codegen.emit.scene_subject import SceneSubject
+from codegen.ir.looped import Loop, Looped
+from codegen.passes.flatten import flatten
 from codegen.scenes.bill import Item
 from codegen.scenes.forms import Choice, constraint_quantities
+from flopcount.count import count
 
 
 def readme(
@@ -54,6 +57,7 @@ def readme(
             ("function", "operations"), [(f"`{routine.symbol}`", str(routine.counts)) for routine in routines]
         ),
         quantities=", ".join(f"`{name}`" for name in constraint_quantities(scene)),
+        instances=_instances(subject, routines),
         bill=_bill(items),
         measured="",
     )
@@ -69,21 +73,48 @@ def _summary(subject: SceneSubject) -> str:
 
 
 def _bodies(subject: SceneSubject) -> Iterable[tuple[str, str, str]]:
-    for body in subject.assembly.scene.bodies:
-        yield body.name, subject.assembly.bodies[body.name], f"{float(body.mass):g}"
+    for part, number in subject.parts:
+        for body in part.assembly.scene.bodies:
+            yield f"{body.name}{_again(number)}", part.assembly.bodies[body.name], f"{float(body.mass):g}"
+
+
+def _again(number: int) -> str:
+    return f" and {number - 1} more" if number > 1 else ""
+
+
+def _instances(subject: SceneSubject, routines: Sequence[Routine]) -> str:
+    """The loops of every routine: how many instances, and entries of each array from one to the next."""
+    if subject.plan is None:
+        return ""
+    lines = []
+    for routine in routines:
+        if isinstance(routine.program, Looped):
+            lines += [_loop(subject, routine, routine.program, loop) for loop in routine.program.loops]
+    return table(("function", "instance", "how many", "operations of one", "entries from one to the next"), lines)
+
+
+def _loop(subject: SceneSubject, routine: Routine, looped: Looped, loop: Loop) -> tuple[str, str, str, str, str]:
+    flat = flatten(looped, loop)
+    strides = ", ".join(f"`{piece.name}` {piece.stride}" for piece in (*flat.inputs, *flat.outputs))
+    bodies = ", ".join(body.name for body in subject.part(loop.kind).assembly.scene.bodies)
+    words = strides if loop.count > 1 else ""
+    return f"`{routine.symbol}`", bodies, str(loop.count), str(count(loop.program)), words
 
 
 def _joints(subject: SceneSubject, choices: Mapping[str, Choice]) -> str:
+    lines = [line for part, number in subject.parts for line in _joint_lines(part, choices, _again(number))]
+    return table(("joint", "type", "bodies", "form", "why", "rows"), lines)
+
+
+def _joint_lines(subject: SceneSubject, choices: Mapping[str, Choice], again: str) -> Iterable[Sequence[str]]:
     kept = set(subject.assembly.rows)
-    lines = []
     for placed in subject.assembly.placed:
         first = placed.ends.first_row
         rows = range(first, first + placed.form.row_count)
         names = ", ".join(subject.row_names[row][1] for row in rows if row in kept) or "none"
         choice = choices[placed.joint.name]
         between = " - ".join(placed.joint.bodies)
-        lines.append((placed.joint.name, placed.joint.type, between, choice.variant.form, choice.why, names))
-    return table(("joint", "type", "bodies", "form", "why", "rows"), lines)
+        yield f"{placed.joint.name}{again}", placed.joint.type, between, choice.variant.form, choice.why, names
 
 
 def _arrays(routines: Sequence[Routine]) -> str:
@@ -96,7 +127,9 @@ def _arrays(routines: Sequence[Routine]) -> str:
             lines.setdefault((parameter.name, ""), (f"`{parameter.name}`", "", shape, words))
             for name, offset, (rows, columns), meaning in parameter.members:
                 size = str(rows) if columns == 1 else f"{rows}x{columns}"
-                lines.setdefault((parameter.name, name), ("", f"`{name}` from {offset}", size, meaning))
+                number, stride = parameter.repeats.get(offset, (1, 0))
+                again = f"; {number} times, every {stride} entries" if number > 1 else ""
+                lines.setdefault((parameter.name, name), ("", f"`{name}` from {offset}", size, meaning + again))
     return table(("array", "part", "size", "what"), lines.values())
 
 

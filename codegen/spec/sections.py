@@ -66,9 +66,7 @@ def sections(scene: Scene) -> tuple[Section, ...]:
     for k, torque in enumerate(scene.torques):
         torques.setdefault(owner[numbers[torque.body]], []).append(k)
     return tuple(
-        Section(
-            range(start[0], end[0]), range(start[1], end[1]), tuple(springs.get(k, ())), tuple(torques.get(k, ()))
-        )
+        Section(range(start[0], end[0]), range(start[1], end[1]), tuple(springs.get(k, ())), tuple(torques.get(k, ())))
         for k, (start, end) in enumerate(zip(starts, ends, strict=False))
     )
 

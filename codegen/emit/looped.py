@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from codegen.emit.declarations import declaration, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
-from codegen.emit.routine import Member, Parameter, Subject
+from codegen.emit.routine import Parameter, Subject
 from codegen.emit.statements import Statements
 from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.ops import Constant

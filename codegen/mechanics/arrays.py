@@ -13,9 +13,6 @@ import sympy
 
 from codegen.mechanics import frames
 
-NORMAL = frames.vector("plane_normal")
-"""[3], the normal of the plane of motion: the third axis of the world and of every body."""
-
 
 @dataclass(frozen=True)
 class Arrays:
@@ -92,6 +89,11 @@ _PLANAR = {"r": ("x", "y"), "v": ("v_x", "v_y"), "A": ("cosine", "sine"), "omega
 def body_symbol(word: str, body: str) -> Any:
     """Symbol of a body, such as ``r_crank``: one of `BODY_SYMBOLS`."""
     return frames.matrix(f"A_{body}") if word == "A" else frames.vector(f"{word}_{body}")
+
+
+def normal_symbol(body: str) -> Any:
+    """[3], the normal of the plane of motion as an axis of a body."""
+    return frames.vector(f"plane_normal_{body}")
 
 
 def planar_symbols(word: str, body: str) -> tuple[Any, ...]:

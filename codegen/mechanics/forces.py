@@ -18,7 +18,7 @@ import sympy
 from codegen.errors import InternalError
 from codegen.ir.lower import Block, Part, Places, Tilde
 from codegen.mechanics import frames
-from codegen.mechanics.arrays import NORMAL, body_symbol
+from codegen.mechanics.arrays import body_symbol, normal_symbol
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.blocks import gathered
 from codegen.mechanics.coordinate_load import CoordinateLoad
@@ -116,18 +116,19 @@ class Forces:
 
     def _constant_loads(self, number: int, body: Body, name: str) -> Iterator[Block]:
         """Gravity and torques: constant in world axes, so that they turn as seen from the body."""
-        A = body_symbol("A", self.assembly.bodies[body.name])
+        identifier = self.assembly.bodies[body.name]
+        A, normal = body_symbol("A", identifier), normal_symbol(identifier)
         row = self.assembly.arrays.derived * number
         loads = ((row, self._weight(body), self.assembly.translations == "body"), (row + 3, self._torque(body), True))
         for place, load, is_seen_from_body in loads:
             if load.is_zero_matrix:
                 continue
             seen = sympy.MatMul(sympy.Transpose(A), load) if is_seen_from_body else load
-            turning = A if place != row else None
+            turning = normal if place != row else None
             if name == "force":
                 yield Block(place, 0, self._in_motion(seen, turning, None))
             elif name == "force_q" and is_seen_from_body:
-                yield Block(place, row + 3, self._in_motion(Tilde(seen), turning, A))
+                yield Block(place, row + 3, self._in_motion(Tilde(seen), turning, normal))
 
     def _in_motion(self, expression: Any, rows: Any | None, columns: Any | None) -> Any:
         return about_normal(expression, rows, columns) if self.assembly.arrays.is_planar else expression
@@ -159,9 +160,9 @@ class Forces:
             rotations={A: (WORLD, body)},
             given=(A,),
             explicit={} if written is None else {A: written},
-            frames={NORMAL: WORLD},
+            frames={normal_symbol(body): body},
             bodies={WORLD: WORLD, body: body},
-            constants={NORMAL: sympy.ImmutableDenseMatrix([0, 0, 1])},
+            constants={normal_symbol(body): sympy.ImmutableDenseMatrix([0, 0, 1])},
             same_axes={(body, 2): (1, WORLD, 2)} if arrays.is_planar else {},
         )
 

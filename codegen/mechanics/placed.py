@@ -16,7 +16,7 @@ import sympy
 
 from codegen.ir.lower import Block, Dot, Places
 from codegen.mechanics import frames
-from codegen.mechanics.arrays import BODY_SYMBOLS, NORMAL, Arrays, body_symbol
+from codegen.mechanics.arrays import BODY_SYMBOLS, Arrays, body_symbol, normal_symbol
 from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
@@ -25,6 +25,7 @@ from codegen.spec.markers import markers
 from codegen.spec.scene import Joint, Marker, Matrix
 
 ORIGIN = sympy.ImmutableDenseMatrix([0, 0, 0])
+THIRD_AXIS = sympy.ImmutableDenseMatrix([0, 0, 1])
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,8 @@ class Placed:
         explicit |= {symbol: matrix for symbol, matrix in self._attitudes.items() if symbol in given}
         if self.ends.arrays.is_planar:
             same |= {(body, 2): (1, WORLD, 2) for body in self.ends.bodies if body != WORLD}
-        frames_of = {symbols[old]: names[frame] for old, frame in generic.frames.items()} | {NORMAL: WORLD}
+        frames_of = {symbols[old]: names[frame] for old, frame in generic.frames.items()}
+        frames_of |= {normal_symbol(body): body for body in self.ends.bodies}
         return replace(
             generic,
             rotations=rotations,
@@ -167,7 +169,7 @@ class Placed:
     def _constants(self, known: Mapping[Any, str]) -> dict[Any, Any]:
         """Attachments, what does not move, and what does not leave the plane."""
         found = {self.symbols[s]: self._attachment(side) for side, s in enumerate((s_i, s_j))}
-        found |= {NORMAL: sympy.ImmutableDenseMatrix([0, 0, 1])}
+        found |= {normal_symbol(body): THIRD_AXIS for body in self.ends.bodies}
         for body, number in zip(self.ends.bodies, self.ends.numbers, strict=True):
             still = {body_symbol(word, body): ORIGIN for word in BODY_SYMBOLS if word != "A"}
             found |= still if number is None else self.ends.arrays.components(body)
@@ -256,11 +258,17 @@ class Placed:
                 continue
             expression = self.written(block.expression)
             if self.ends.arrays.is_planar:
-                turning = {3: self.symbols[A_i], 9: self.symbols[A_j]}
-                row_turn = turning.get(block.row) if is_displaced[0] else None
-                column_turn = turning.get(block.column) if is_displaced[1] else None
-                expression = about_normal(expression, row_turn, column_turn)
+                rows = self._normals.get(block.row) if is_displaced[0] else None
+                expression = about_normal(
+                    expression, rows, self._normals.get(block.column) if is_displaced[1] else None
+                )
             yield Block(row, column, expression)
+
+    @cached_property
+    def _normals(self) -> dict[int, Any]:
+        """Turns of the formulation -> the normal, an axis of the body that turns."""
+        body_i, body_j = self.ends.bodies
+        return {3: normal_symbol(body_i), 9: normal_symbol(body_j)}
 
     def _is_dropped(self, row: int, expression: Any) -> bool:
         height = expression.shape[0] if is_matrix(expression) else 1
@@ -300,23 +308,20 @@ def contracted(links: list[Link], passed: set[str], name: str) -> list[Link]:
 def about_normal(expression: Any, rows: Any | None, columns: Any | None) -> Any:
     """Keep of a block the turn about the normal of the plane.
 
+    The normal comes first in a scalar product: its frame is that of components that are written out in the other.
+
     Args:
         expression: matrix, vector, row or scalar.
-        rows: attitude of the body whose turns the rows are.
-        columns: attitude of the body whose turns the columns are.
+        rows: the normal, where the rows of the block are turns.
+        columns: the normal, where its columns are turns.
     """
     if columns is not None:
         is_row = is_matrix(expression) and expression.shape[0] == 1
-        expression = _along_normal(_turned(expression), columns) if is_row else sympy.MatMul(expression, NORMAL)
+        expression = Dot(columns, _turned(expression)) if is_row else sympy.MatMul(expression, columns)
     if rows is not None:
         is_column = is_matrix(expression) and expression.shape[1] == 1
-        expression = _along_normal(expression, rows) if is_column else sympy.MatMul(sympy.Transpose(NORMAL), expression)
+        expression = Dot(rows, expression) if is_column else sympy.MatMul(sympy.Transpose(rows), expression)
     return expression
-
-
-def _along_normal(vector: Any, attitude: Any) -> Any:
-    """Component of a vector in body axes; the attitude says which axes these are."""
-    return Dot(sympy.MatMul(attitude, vector), NORMAL)
 
 
 def _turned(row: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from codegen.errors import Mistake, SpecificationError
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.scenes.programs import estimate, program, without_zero_rows
@@ -41,7 +42,18 @@ def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
     Args:
         scene: the mechanism.
         form: for all joints that may have it, in the place of what the scene says.
+
+    Raises:
+        SpecificationError: a joint is to have relative coordinates, which scenes do not have yet.
     """
+    remedy = "use auto, conventional or parametric"
+    mistakes = [
+        Mistake(f'joint "{joint.name}"', "relative coordinates are not there yet", remedy)
+        for joint in scene.joints
+        if "relative" in (form, joint.form)
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
     known: dict[tuple[object, ...], dict[str, int]] = {}
     found: dict[str, Choice] = {}
     for sections in alike(scene):

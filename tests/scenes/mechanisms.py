@@ -23,6 +23,9 @@ from tests.lower.numbers import Inputs, Numbers, fraction, rotation
 
 UPRIGHT = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 FORMS = ("conventional", "regular", "table4")
+KINDS = ("aligned", "h along", "f along", "any")
+"""Of joint frames: which of their axes lie along axes of their body."""
+
 TURN = np.array([[3, -4, 0], [4, 3, 0], [0, 0, 5]], dtype=object) * Fraction(1, 5)
 """About the third axis, by the angle of 3 : 4 : 5."""
 
@@ -72,13 +75,13 @@ def as_matrix(matrix: Numbers) -> Matrix:
     return a, b, c
 
 
-def marker(source: random.Random) -> Marker:
+def marker(source: random.Random, kinds: Sequence[str] = KINDS) -> Marker:
     """A joint frame on a body."""
     point = [Fraction(0)] * 3
     for k in source.sample(range(3), source.choice((0, 1, 2, 3))):
         point[k] = fraction(source) / 4
     x, y, z = point
-    return Marker((x, y, z), axes(source, source.choice(("aligned", "h along", "f along", "any"))))
+    return Marker((x, y, z), axes(source, source.choice(kinds)))
 
 
 def mechanism(seed: int, bodies: int, links: Iterable[Link], derivative: str = "exact") -> Assembly:
@@ -97,7 +100,8 @@ def mechanism(seed: int, bodies: int, links: Iterable[Link], derivative: str = "
         name = f"{link.type} {number}"
         i, j = (names[body] if body >= 0 else GROUND for body in link.bodies)
         pitch = Fraction(source.choice((0, 2, -3)), 7) if link.type == "screw" else Fraction(0)
-        joints.append(Joint(name, link.type, (i, j), marker(source), marker(source), pitch))
+        kinds = KINDS[:3] if link.type == "universal" else KINDS  # of its cross both axes must be rational, see ASKEW
+        joints.append(Joint(name, link.type, (i, j), marker(source, kinds), marker(source, kinds), pitch))
         forms[name] = variant(link, derivative)
     still = tuple(Body(name, Fraction(1), IDENTITY, (Fraction(0),) * 3, UPRIGHT) for name in names)
     return Assembly(Scene("drawn", (Fraction(0),) * 3, still, tuple(joints)), forms)

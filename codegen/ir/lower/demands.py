@@ -164,5 +164,5 @@ def _transposed(expression: Any) -> Any:
     if isinstance(expression, sympy.MatMul):
         return sympy.MatMul(*(transposed_factor(factor) for factor in reversed(expression.as_coeff_matrices()[1])))
     if isinstance(expression, sympy.MatAdd):
-        return _transposed(expression.args[0])
+        return sympy.MatAdd(*map(_transposed, expression.args))
     return transposed_factor(expression)

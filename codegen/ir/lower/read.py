@@ -134,9 +134,11 @@ class Reader:
         return self.space.apply(self.map(first, frame, inner), self._chain(rest, inner))
 
     def _frame_within(self, rest: Sequence[Any], frame: str | None) -> str | None:
-        """The frame that a written-out matrix turns from: that of a rotation behind it, else its own."""
-        turn = self._turn(rest[0]) if rest else None
-        return frame if turn is None else turn[0]
+        """The frame that a written-out matrix turns from: that of what stands behind it, where known, or its own."""
+        if not rest:
+            return frame
+        turn = self._turn(rest[0])
+        return turn[0] if turn is not None else self._symbols.frames.get(rest[0], frame)
 
     def _explicit(self, entries: list[Any], frame: str | None) -> Vector:
         if frame is None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from codegen.emit.declarations import WIDTH, declaration, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.looped import looped_definition
+from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Parameter, Routine, Subject
 from codegen.emit.statements import Statements
@@ -95,7 +95,7 @@ def sparsity_functions(routine: Routine) -> tuple[tuple[str, str, Sparsity], ...
 
 def _pattern_rows(pattern: Sparsity) -> list[str]:
     numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
-    return textwrap.wrap(", ".join(str(number) for number in numbers), WIDTH - 8)
+    return packed([str(number) for number in numbers], WIDTH - 8)
 
 
 def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:

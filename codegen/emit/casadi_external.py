@@ -6,12 +6,12 @@ needs of the derivative is the function ``jac_NAME``, one block for each output 
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from codegen.emit.c import definition
 from codegen.emit.environment import render
+from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Routine
 from codegen.ir.looped import Looped
@@ -145,4 +145,4 @@ def _output(output: Result) -> Port:
 
 def _pattern(pattern: Sparsity) -> tuple[str, ...]:
     numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
-    return tuple(textwrap.wrap(", ".join(str(number) for number in numbers), 108))
+    return tuple(packed([str(number) for number in numbers], 108))

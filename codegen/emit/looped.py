@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 
 from codegen.emit.declarations import declaration, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
-from codegen.emit.routine import Parameter, Subject
+from codegen.emit.packed import packed
+from codegen.emit.routine import Member, Parameter, Subject
 from codegen.emit.statements import Statements
 from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.ops import Constant
@@ -63,9 +63,7 @@ def _input(piece: Piece, loop: Loop, subject: Subject) -> Parameter:
     return _parameter(piece, "in", members)
 
 
-def _parameter(
-    piece: Piece, direction: str, members: tuple[tuple[str, int, tuple[int, int], str], ...] = ()
-) -> Parameter:
+def _parameter(piece: Piece, direction: str, members: tuple[Member, ...] = ()) -> Parameter:
     return Parameter(piece.name, direction, (piece.length, 1), piece.length, "column-major", "", "", members)
 
 
@@ -94,7 +92,12 @@ def _pointer(piece: Piece, is_loop: bool) -> str:
 
 
 def _table(name: str, rows: Sequence[Sequence[Constant]]) -> list[str]:
-    words = ", ".join("{" + ", ".join(literal(value) for value in row) + "}" for row in rows)
+    words = [word for row in rows for word in _braced([literal(value) for value in row])]
     size = f"[{len(rows)}][{len(rows[0])}]"
-    lines = textwrap.wrap(words, _WIDTH, break_long_words=False, break_on_hyphens=False)
+    lines = packed(words, _WIDTH)
     return [f"static const jg_real {name}{size} = {{", *(f"    {line}" for line in lines), "};"]
+
+
+def _braced(words: list[str]) -> list[str]:
+    first, *rest = words
+    return [f"{{{first}", *rest[:-1], f"{rest[-1]}}}"] if rest else [f"{{{first}}}"]

@@ -75,7 +75,7 @@ def _mapped(name: str, looped: Looped, loop: Loop, symbols: dict[str, Any]) -> I
     if not flat.outputs:
         return
     function = casadi_function(name, flat.program).map(loop.count)
-    passed = {piece.name: symbols[piece.array][_places(piece, loop.count)] for piece in flat.inputs}
+    passed = {piece.name: _taken(symbols[piece.array], piece, loop.count) for piece in flat.inputs}
     passed[GEOMETRY] = casadi.DM([nearest_double(value) for row in loop.geometry for value in row])
     arguments = [
         casadi.reshape(passed[argument.name], argument.length, loop.count) for argument in flat.program.used_arguments()
@@ -83,6 +83,13 @@ def _mapped(name: str, looped: Looped, loop: Loop, symbols: dict[str, Any]) -> I
     results = function.call(arguments)
     for piece, result in zip(flat.outputs, results, strict=True):
         yield piece, casadi.vec(casadi.densify(result))
+
+
+def _taken(symbol: Any, piece: Piece, count: int) -> Any:
+    """The entries of a piece, instance after instance; a range of them where they follow each other."""
+    if piece.stride == piece.length:
+        return symbol[piece.start : piece.start + count * piece.length]
+    return symbol[_places(piece, count)]
 
 
 def _places(piece: Piece, count: int) -> list[int]:

@@ -20,6 +20,7 @@ from codegen.spec.scene_file.copies import copied
 from .mechanisms import Link, mechanism
 
 OFFSET = (Fraction(1, 3), Fraction(-2, 7), Fraction(1, 10))
+PLANE = (*OFFSET[:2], Fraction(0))
 CONSTRAINTS = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma", "phi_q_v", "phi_q_t_lambda")
 ALL = (*CONSTRAINTS, "force")
 
@@ -28,11 +29,6 @@ LINKS = {
         Link("revolute", "conventional", (-1, 0)),
         Link("universal", "conventional", (0, 1)),
         Link("translational", "conventional", (1, -1)),
-    ),
-    "parametric": (
-        Link("revolute", "regular", (-1, 0)),
-        Link("cylindrical", "table4", (0, 1)),
-        Link("ball", "regular", (1, -1)),
     ),
     "both": (
         Link("screw", "conventional", (-1, 0)),
@@ -68,7 +64,8 @@ def in_the_plane(count: int) -> Assembly:
     """Slider-cranks beside each other in one plane."""
     one = mechanism(6, 2, (LINKS["conventional"][0], Link("revolute", "conventional", (0, 1))))
     upright = replace(one.scene, joints=tuple(_along_z(joint) for joint in one.scene.joints), motion="planar")
-    scene = flattened(copied(upright, count, (OFFSET[0], OFFSET[1], Fraction(0))))
+    spring = Spring((upright.bodies[0].name, "ground"), (PLANE, PLANE), Fraction(9), Fraction(1, 2), Fraction(1, 4))
+    scene = flattened(copied(replace(upright, springs=(spring,)), count, PLANE))
     return without_zero_rows(with_forms(one, scene))
 
 

@@ -69,7 +69,7 @@ bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; ma
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
-		--extra measure --extra import --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
+		--extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
 	@for lock in $(LOCK) $(BENCH_LOCK); do \

@@ -98,7 +98,9 @@ def _compiled(shape: Emitted, folder: Path) -> tuple[float, int] | None:
 
 def _driver(one: Assembly, number: int, shapes: list[Emitted], folder: Path) -> Path:
     joints = library_joints(one)
-    arrays = [{"name": p.name, "direction": p.direction, "length": p.length} for p in shapes[-1].parameters]
+    arrays: list[dict[str, Any]] = [
+        {"name": p.name, "direction": p.direction, "length": p.length} for p in shapes[-1].parameters
+    ]
     template = jinja2.Template((HERE / "driver.c.j2").read_text(), undefined=jinja2.StrictUndefined, trim_blocks=True)
     prototypes = [shape.text.split(";", 1)[0].split("\n\n", 1)[1] + ";" for shape in shapes]
     text = template.render(

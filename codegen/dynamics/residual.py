@@ -52,11 +52,11 @@ def residual(system: System, layout: Layout, program: Program, mass: Program, be
     parts = [moved(_positions(state, program), layout.positions.start, 0)]
     parts.append(moved(_motion(state, found, mass), layout.velocities.start, 0))
     drift = state.matrices.total((found["phi_q_v"], _phi_t(state)))
-    if layout.corrections:
+    if "gamma" in found:
+        parts.append(moved(_accelerations(state, found, drift, beta), layout.multipliers.start, 0))
+    else:
         parts.append(moved(found["phi"], layout.multipliers.start, 0))
         parts.append(moved(drift, layout.corrections.start, 0))
-    else:
-        parts.append(moved(_accelerations(state, found, drift, beta), layout.multipliers.start, 0))
     rows = {place: value for part in parts for place, value in part.items()}
     return state.builder.freeze(arguments(system, layout), (column(state, "residual", rows),))
 

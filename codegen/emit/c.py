@@ -45,16 +45,16 @@ class Entry:
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
     stored = parameters(routine, dense=False)
-    text, temporaries = definition(routine.symbol, stored, routine.program, routine.subject)
+    text, temporaries = any_definition(routine.symbol, stored, routine.program, routine.subject)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
     return (first, _dense_entry(routine, stored)) if routine.is_matrix else (first,)
 
 
-def definition(
+def any_definition(
     symbol: str, declared: Sequence[Parameter], program: Program | Looped, subject: Subject, kind: str = "void"
 ) -> tuple[str, int]:
-    """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries.
+    """Write a C function that evaluates a program, or loops over programs.
 
     Args:
         symbol: its name.
@@ -65,6 +65,11 @@ def definition(
     """
     if isinstance(program, Looped):
         return looped_definition(declaration(symbol, declared, kind=kind), symbol, program, subject)
+    return definition(symbol, declared, program, kind)
+
+
+def definition(symbol: str, declared: Sequence[Parameter], program: Program, kind: str = "void") -> tuple[str, int]:
+    """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
     statements = Statements(program, views(declared))
     body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
     text = render("c/function.c.j2", signature=declaration(symbol, declared, kind=kind), body=body)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from codegen.emit.c import definition
+from codegen.emit.c import any_definition
 from codegen.emit.environment import render
 from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
@@ -84,7 +84,7 @@ def external_source(
             jacobian = _derivative(routine)
             symbol = f"{routine.symbol}_jacobian"
             declared = parameters(routine, False, jacobian)
-            jacobians.append(definition(symbol, declared, jacobian, routine.subject, "static void")[0])
+            jacobians.append(any_definition(symbol, declared, jacobian, routine.subject, "static void")[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(
         "casadi/external.c.j2",

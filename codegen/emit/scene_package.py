@@ -8,8 +8,9 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from codegen.emit.c import Entry, entries, sparsity_functions
+from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
@@ -17,8 +18,7 @@ from codegen.emit.literals import literal
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.package import banner
 from codegen.emit.packed import packed
-from codegen.emit.parameters import parameters
-from codegen.emit.routine import Routine
+from codegen.emit.routine import Parameter, Routine
 from codegen.ir.ops import Constant
 
 _WIDTH = 108
@@ -34,6 +34,7 @@ class ScenePackage:
         version: of jointgen.
         specification: hash of the scene and of what was asked for.
         real: default number type, ``double`` or ``float``.
+        record: what the manifest says of the scene as a whole.
         casadi: output -> serialised CasADi function.
         start: argument -> its entries at t = 0, for the example.
         readme: text of the README.
@@ -44,6 +45,7 @@ class ScenePackage:
     version: str
     specification: str
     real: str
+    record: dict[str, Any]
     casadi: Mapping[str, bytes]
     start: Mapping[str, Sequence[Constant]]
     readme: str
@@ -57,7 +59,7 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
         f"{package.name}.h": _header(package, emitted, list(patterns)),
         f"{package.name}.c": _source(package, emitted, list(patterns.values())),
         "jg_real.h": render("c/jg_real.h.j2", banner=banner(package.version), real=package.real, fma=False, batch=None),
-        "example.c": _example(package, emitted[-1] if emitted[-1].storage != "dense" else emitted[-2]),
+        f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
         "README.md": package.readme,
         "manifest.json": _manifest(package, emitted),
     }
@@ -128,21 +130,19 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
-    return manifest(package.version, package.real, package.specification, records, casadi)
+    return manifest(package.version, package.real, package.specification, records, casadi, scene=package.record)
 
 
 def _example(package: ScenePackage, entry: Entry) -> str:
-    """The scene as it stands, through the routine that evaluates everything."""
-    declared = parameters(entry.routine, dense=False)
+    """The scene as it stands, through its last routine."""
+    declared = entry.parameters
     arrays = [
         {"name": p.name, "rows": _rows([literal(constant) for constant in package.start[p.name]])}
         for p in declared
         if p.direction == "in"
     ]
     outputs = [
-        {"name": p.name, "length": p.length, "label": p.name if p.layout == "column-major" else ""}
-        for p in declared
-        if p.direction == "out"
+        {"name": p.name, "length": p.length, "pattern": _pattern(entry, p)} for p in declared if p.direction == "out"
     ]
     call = f"{entry.symbol}({', '.join(p.name for p in declared)});"
     return render(
@@ -150,10 +150,19 @@ def _example(package: ScenePackage, entry: Entry) -> str:
         banner=banner(package.version),
         specification=package.specification,
         name=package.name,
+        has_matrix=any(output["pattern"] for output in outputs),
+        has_vector=not all(output["pattern"] for output in outputs),
         arrays=arrays,
         outputs=outputs,
         calls=textwrap.wrap(call, _WIDTH, subsequent_indent="        "),
     )
+
+
+def _pattern(entry: Entry, parameter: Parameter) -> str:
+    """The function that gives the pattern of a stored matrix; none for a vector."""
+    if parameter.layout != "compressed-columns":
+        return ""
+    return sparsity_symbol(entry.routine, entry.routine.program.output(parameter.name))
 
 
 def _rows(words: Sequence[str]) -> list[str]:

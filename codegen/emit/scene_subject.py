@@ -109,10 +109,11 @@ class SceneSubject:
         """Axes, unit and parts of an output."""
         _, frame, unit = _OUTPUTS.get(output.name, ("", "partial derivatives by the entries of an argument", "mixed"))
         axes = frame if output.name == "phi" else f"{frame}; {self.axes}"
-        if frame != "constraint rows":
+        told = {"constraint rows": self._rows, "virtual displacements": self.displacements}
+        if frame not in told:
             return Words(axes, unit)
         if self.plan is None:
-            return Words(axes, unit, tuple(self._rows(output.name)))
+            return Words(axes, unit, tuple(told[frame](output.name)))
         found, repeats = _of_instances(
             (series, series.output(output.name)[0], subject.output(output).members) for series, subject in self._series
         )
@@ -124,6 +125,16 @@ class SceneSubject:
         if self.plan is None:
             return ((self, 1),)
         return tuple((subject, len(series.sections)) for series, subject in self._series)
+
+    @property
+    def parts_of_displacements(self) -> tuple[tuple[Member, ...], _Repeats]:
+        """The columns of ``phi_q``; of series those of the first instance, and how often each comes."""
+        if self.plan is None:
+            return tuple(self.displacements("delta")), {}
+        return _of_instances(
+            (series, series.axes["displacements"], tuple(subject.displacements("delta")))
+            for series, subject in self._series
+        )
 
     def part(self, kind: int) -> SceneSubject:
         """The first instance of a kind, as a scene of its own.
@@ -191,6 +202,19 @@ class SceneSubject:
         first = arrays.displacements * len(self._bodies)
         yield from ((name, first + k, shape, f"{unit}/s") for name, k, shape, unit in self._coordinates("alphadot"))
 
+    def displacements(self, word: str) -> Iterator[Member]:
+        """Parts of an array over the virtual displacements: the columns of ``phi_q``."""
+        arrays, moving = self.assembly.arrays, self.assembly.translations
+        turn = arrays.displacements - arrays.position
+        turning = "about the normal" if arrays.is_planar else "body axes"
+        for k, body in enumerate(self._bodies):
+            first = arrays.displacements * k
+            yield f"{word}_r_{body}", first, (arrays.position, 1), f"translation, {moving} axes"
+            yield f"{word}_pi_{body}", first + arrays.position, (turn, 1), f"rotation, {turning}"
+        first = arrays.displacements * len(self._bodies)
+        parts = self._coordinates(f"{word}_alpha")
+        yield from ((name, first + k, shape, unit) for name, k, shape, unit in parts)
+
     def _coordinates(self, word: str) -> Iterator[Member]:
         for placed in self.assembly.placed:
             if placed.form.coordinates:
@@ -203,9 +227,11 @@ class SceneSubject:
         groups = {
             "positions": (
                 state.positions,
-                "r and Euler parameters of each body (x, y, angle in the plane), alpha",
+                "x, y and angle of each body, then alpha"
+                if self.assembly.arrays.is_planar
+                else "r and Euler parameters w x y z of each body, then alpha",
             ),
-            "velocities": (state.velocities, "v (world) and omega (body axes) of each body, alphadot"),
+            "velocities": (state.velocities, "v (world) and omega (body axes) of each body, then alphadot"),
             "multipliers": (state.multipliers, "lambda, row by row"),
             "corrections": (state.corrections, "mu, row by row; 0 on solutions"),
         }
@@ -224,10 +250,22 @@ class SceneSubject:
             first = placed.ends.first_row
             rows = [row for row in range(first, first + placed.form.row_count) if row in number]
             if rows:
-                names = ", ".join(self.row_names[row][1] for row in rows)
+                names = row_words(self.row_names[row][1] for row in rows)
                 yield f"{word}_{placed.ends.name}", number[rows[0]], (len(rows), 1), f"rows {names}"
-        for k in range(len(self.system.drives)):
-            yield f"{word}_drive_{k}", len(number) + k, (1, 1), "drive"
+        for k, driven in enumerate(self.system.drives):
+            yield f"drive_{k}_{word}", len(number) + k, (1, 1), f"drive of coordinate {driven.alpha} of alpha"
+
+
+def row_words(names: Iterable[str]) -> str:
+    """Name rows of a joint one after the other; components of one vector together, as ``x, y of the point``."""
+    found: list[tuple[str, list[str]]] = []
+    for name in names:
+        component, _, vector = name.partition(" of ")
+        if vector and found and found[-1][0] == vector:
+            found[-1][1].append(component)
+        else:
+            found.append((vector, [component]) if vector else ("", [name]))
+    return ", ".join(", ".join(parts) + (f" of {vector}" if vector else "") for vector, parts in found)
 
 
 _Repeats = dict[int, tuple[int, int]]

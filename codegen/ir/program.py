@@ -6,7 +6,6 @@ Every stage after the symbolic model takes a program and gives one (``passes``),
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import accumulate
@@ -63,9 +62,10 @@ class Sparsity:
     def of_entries(nrow: int, ncol: int, entries: Iterable[tuple[int, int]]) -> Sparsity:
         """Build the pattern that holds the given (row, column) places."""
         ordered = sorted((column, row) for row, column in entries)
-        counts = Counter(column for column, _ in ordered)
-        ends = accumulate((counts[column] for column in range(ncol)), initial=0)
-        return Sparsity(nrow, ncol, tuple(ends), tuple(row for _, row in ordered))
+        counts = [0] * (ncol + 1)
+        for column, _ in ordered:
+            counts[column + 1] += 1
+        return Sparsity(nrow, ncol, tuple(accumulate(counts)), tuple(row for _, row in ordered))
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,15 +25,24 @@ def compiler() -> str:
     raise SpecificationError([Mistake("compiler", "there is no C compiler (cc, gcc or clang)", "install gcc")])
 
 
-def compile_program(source: Path, program: Path, flags: Sequence[str] = C_FLAGS) -> None:
-    """Compile one C source to a program.
+def compiler_version() -> str:
+    """Name and version of the compiler, as it tells them.
 
     Raises:
-        SpecificationError: the compiler refuses it.
+        SpecificationError: there is none.
     """
-    command = [compiler(), *flags, str(source), "-o", str(program), "-lm"]
+    done = subprocess.run([compiler(), "--version"], capture_output=True, text=True, check=False)
+    return next(iter(done.stdout.splitlines()), "an unknown compiler")
+
+
+def compile_sources(sources: Sequence[Path], program: Path, flags: Sequence[str] = C_FLAGS) -> None:
+    """Compile C sources to a program.
+
+    Raises:
+        SpecificationError: the compiler refuses them.
+    """
+    command = [compiler(), *flags, *map(str, sources), "-o", str(program), "-lm"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
-        raise SpecificationError(
-            [Mistake(source.name, f"does not compile: {done.stderr.strip().splitlines()[0]}", "check the compiler")]
-        )
+        said = next(iter(done.stderr.strip().splitlines()), "without a word")
+        raise SpecificationError([Mistake(sources[0].name, f"does not compile: {said}", "check the compiler")])

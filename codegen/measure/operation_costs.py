@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 from codegen.emit.environment import render
-from codegen.measure.compile import compile_program
+from codegen.measure.compile import compile_sources
 
 _EXPRESSIONS: dict[str, str] = {
     "add": "x[k] + c",
@@ -39,7 +39,7 @@ def operation_costs() -> dict[str, float]:
         folder = Path(name)
         source = folder / "operation_costs.c"
         source.write_text(render("measure/operation_costs.c.j2", expressions=_EXPRESSIONS))
-        compile_program(source, folder / "operation_costs")
+        compile_sources([source], folder / "operation_costs")
         runs = [_run(folder / "operation_costs") for _ in range(_REPETITIONS)]
     medians = {kind: statistics.median(run[kind] for run in runs) for kind in _EXPRESSIONS}
     return {kind: round(time / medians["add"], 2) for kind, time in medians.items()}

@@ -223,17 +223,14 @@ _LARGEST_GROUP = 12
 
 
 def connected(joints: Sequence[Placed]) -> list[list[Placed]]:
-    """Group joints that hang together by bodies, in the order of their first joints; large groups are cut."""
-    groups: list[list[Placed]] = []
-    for joint in joints:
-        touching = [group for group in groups if any(_touch(joint, other) for other in group)]
-        groups = [group for group in groups if group not in touching]
-        groups.append(sorted([joint, *(p for group in touching for p in group)], key=lambda p: p.ends.first_row))
-    groups.sort(key=lambda group: group[0].ends.first_row)
+    """Part joints into those that a moving body leads from one to the other, in order; large groups are cut."""
+    groups: list[tuple[set[int], list[Placed]]] = []
+    for placed in joints:
+        bodies = {number for number in placed.ends.numbers if number is not None}
+        near = [group for group in groups if group[0] & bodies]
+        groups = [group for group in groups if group not in near]
+        groups.append((bodies.union(*(group[0] for group in near)), [p for group in near for p in group[1]] + [placed]))
+    ordered = [sorted(group, key=lambda placed: placed.ends.first_row) for _, group in groups]
+    ordered.sort(key=lambda group: group[0].ends.first_row)
     size = _LARGEST_GROUP
-    return [group[k : k + size] for group in groups for k in range(0, len(group), size)]
-
-
-def _touch(first: Placed, second: Placed) -> bool:
-    bodies = {number for number in first.ends.numbers if number is not None}
-    return not bodies.isdisjoint(second.ends.numbers)
+    return [group[k : k + size] for group in ordered for k in range(0, len(group), size)]

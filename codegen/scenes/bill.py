@@ -1,12 +1,14 @@
-"""What each simplification of a scene saves, in operations."""
+"""What each simplification of a scene saves: its constraints before and after, as programs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen import build
+from codegen.ir.looped import Looped
+from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.plan import parts_of
 from codegen.scenes.forms import alone, constraint_quantities
@@ -16,6 +18,7 @@ from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Joint, Scene
 from codegen.spec.sections import attachments, likeness
 from flopcount.count import count
+from flopcount.counts import Counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,54 +27,85 @@ class Item:
 
     Attributes:
         words: what was done.
-        operations: of all constraint quantities at once, after it.
+        programs: what evaluates the constraint quantities after it, one after the other.
+        additions: by which what several joints give for the same bodies is added up.
     """
 
     words: str
-    operations: int
+    programs: tuple[Program, ...]
+    additions: int = 0
+
+    @property
+    def counts(self) -> Counts:
+        """Operations of everything."""
+        return sum((count(found) for found in self.programs), Counts(add=self.additions))
 
 
-def bill(assembly: Assembly, undropped: Assembly, operations: int, is_looped: bool = False) -> tuple[Item, ...]:
-    """Count a scene before and after each simplification.
+@dataclass(frozen=True, slots=True)
+class Bill:
+    """What a scene saves.
+
+    Attributes:
+        items: step by step; empty where no quantity of the constraints is asked for.
+        in_plane: operations if the motion were reduced to the plane; None where it is, or where there is no plane.
+    """
+
+    items: tuple[Item, ...]
+    in_plane: Counts | None = None
+
+
+def bill(assembly: Assembly, undropped: Assembly, emitted: Program | Looped, has_drives: bool) -> tuple[Item, ...]:
+    """Evaluate the constraints of a scene before and after each simplification.
 
     Args:
         assembly: the scene as it is emitted.
         undropped: the scene with its redundant rows.
-        operations: of the scene as it is emitted.
-        is_looped: whether it is emitted as loops.
+        emitted: what is emitted for all constraint quantities at once.
+        has_drives: whether it has the rows of drives besides.
     """
     spatial = replace(assembly, scene=replace(assembly.scene, motion="spatial"), dropped=frozenset())
     names = constraint_quantities(assembly.scene)
-    steps: list[tuple[str, int]] = [
-        ("the library's routine of each joint", _sum(spatial, _each(_in_library))),
-        ("geometry folded as constants", _sum(spatial, _each(_folded))),
-        ("columns of the ground left out", _sum(spatial, _each(_grounded))),
-    ]
-
-    def together(part: Assembly) -> int:
-        return count(program(part, names)).total
-
-    if len(assembly.scene.joints) > 1:
-        steps.append(("joints evaluated together", _sum(spatial, together)))
+    steps = [("joints evaluated together", spatial)] if len(assembly.scene.joints) > 1 else []
     if assembly.scene.motion == "planar":
-        steps.append(("motion in the plane", _sum(undropped, together)))
+        steps.append(("motion in the plane", undropped))
     if undropped.dropped != assembly.dropped:
-        steps.append(("redundant rows left out", _sum(assembly, together) if is_looped else operations))
-    if is_looped:
-        steps.append(("equal parts run in loops", operations))
-    return tuple(Item(*step) for step in steps)
+        steps.append(("redundant rows left out", assembly))
+    if has_drives:
+        steps.append(("rows of drives added", assembly))
+    if isinstance(emitted, Looped):
+        steps.append(("equal parts run in loops", assembly))
+
+    def together(part: Assembly) -> tuple[tuple[Program, ...], int]:
+        return (program(part, names),), 0
+
+    return (
+        _item("the library's routine of each joint", spatial, _each(_in_library)),
+        _item("geometry folded as constants", spatial, _each(_folded)),
+        _item("columns of the ground left out", spatial, _each(_grounded)),
+        *(_item(words, step, together) for words, step in steps[:-1]),
+        *(Item(words, _programs(emitted)) for words, _ in steps[-1:]),
+    )
 
 
-def _sum(assembly: Assembly, counted: Callable[[Assembly], int]) -> int:
-    """Count the sections of a scene; those that differ in numbers only are counted once."""
-    known: dict[object, int] = {}
-    total = 0
+def _programs(emitted: Program | Looped) -> tuple[Program, ...]:
+    """What is evaluated, instance by instance."""
+    if isinstance(emitted, Program):
+        return (emitted,)
+    return tuple(loop.program for loop in emitted.loops for _ in range(loop.count))
+
+
+def _item(words: str, assembly: Assembly, evaluated: Callable[[Assembly], tuple[tuple[Program, ...], int]]) -> Item:
+    """Evaluate the sections of a scene; those that differ in numbers only, once."""
+    known: dict[object, tuple[tuple[Program, ...], int]] = {}
+    programs: list[Program] = []
+    additions = 0
     for part in parts_of(assembly):
         key = likeness(part.scene), part.dropped, _special(part.scene)
         if key not in known:
-            known[key] = counted(part)
-        total += known[key]
-    return total
+            known[key] = evaluated(part)
+        programs += known[key][0]
+        additions += known[key][1]
+    return Item(words, tuple(programs), additions)
 
 
 def _special(scene: Scene) -> object:
@@ -80,40 +114,58 @@ def _special(scene: Scene) -> object:
     return tuple(x if x in (-1, 0, 1) else None for x in numbers)
 
 
-_Counted = Callable[[Scene, Joint, Variant], int]
+_Evaluate = Callable[[Scene, Joint, Variant], Program]
+
+_MOVING = "the ground, moving"
 
 
-def _each(counted: _Counted) -> Callable[[Assembly], int]:
-    """Count joint by joint."""
-    known: dict[tuple[object, ...], int] = {}
+def _each(evaluate: _Evaluate) -> Callable[[Assembly], tuple[tuple[Program, ...], int]]:
+    """Evaluate joint by joint; equal joints have one program."""
+    known: dict[tuple[object, ...], Program] = {}
 
-    def summed(part: Assembly) -> int:
-        scene, forms = part.scene, part.forms
-        return sum(_once(scene, joint, forms[joint.name], counted, known) for joint in scene.joints)
+    def evaluated(part: Assembly) -> tuple[tuple[Program, ...], int]:
+        programs: list[Program] = []
+        places: list[tuple[object, ...]] = []
+        for joint in part.scene.joints:
+            variant, moving = part.forms[joint.name], _moving(part.scene, joint)
+            order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)
+            key = (variant, joint.marker_i, joint.marker_j, joint.pitch, order)
+            if key not in known:
+                known[key] = evaluate(part.scene, joint, variant)
+            programs.append(known[key])
+            places += _places(known[key], joint.bodies if evaluate is _in_library else moving)
+        return tuple(programs), len(places) - len(set(places))
 
-    return summed
-
-
-def _once(scene: Scene, joint: Joint, variant: Variant, counted: _Counted, known: dict[tuple[object, ...], int]) -> int:
-    """Count a joint; equal ones once."""
-    sides = tuple(name == GROUND for name in joint.bodies)
-    key = (variant, joint.marker_i, joint.marker_j, joint.pitch, sides)
-    if key not in known:
-        known[key] = counted(scene, joint, variant)
-    return known[key]
-
-
-def _in_library(scene: Scene, joint: Joint, variant: Variant) -> int:
-    return count(build.model(variant).program(constraint_quantities(scene))).total
+    return evaluated
 
 
-def _folded(scene: Scene, joint: Joint, variant: Variant) -> int:
-    """The joint between two bodies that move, the ground being one of them."""
-    moving = Body("the ground", Fraction(1), IDENTITY, ZERO_VECTOR, (Fraction(1), *ZERO_VECTOR))
+def _moving(scene: Scene, joint: Joint) -> tuple[str, ...]:
+    """The bodies that a joint holds, in the order of the scene."""
+    return tuple(body.name for body in scene.bodies if body.name in joint.bodies)
+
+
+def _in_library(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return build.model(variant).program(constraint_quantities(scene))
+
+
+def _folded(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    """The joint between two bodies that move, the ground being the last of them."""
+    moving = Body(_MOVING, Fraction(1), IDENTITY, ZERO_VECTOR, (Fraction(1), *ZERO_VECTOR))
     i, j = (moving.name if name == GROUND else name for name in joint.bodies)
-    loose = replace(joint, bodies=(i, j))
-    return _grounded(replace(scene, bodies=(*scene.bodies, moving)), loose, variant)
+    return _grounded(replace(scene, bodies=(*scene.bodies, moving)), replace(joint, bodies=(i, j)), variant)
 
 
-def _grounded(scene: Scene, joint: Joint, variant: Variant) -> int:
-    return count(program(alone(scene, joint, variant), constraint_quantities(scene))).total
+def _grounded(scene: Scene, joint: Joint, variant: Variant) -> Program:
+    return program(alone(scene, joint, variant), constraint_quantities(scene))
+
+
+def _places(found: Program, bodies: tuple[str, ...]) -> Iterator[tuple[object, ...]]:
+    """Entries that other joints of the same bodies may have too: those over displacements of bodies that move."""
+    columns = [(name, k) if name != GROUND else None for name in bodies for k in range(6)]
+    for output in found.outputs:
+        if output.name in ("phi_q_t_lambda_q", "phi_q_t_lambda"):
+            places = columns + [None] * (output.sparsity.nrow - len(columns))
+            for row, column in output.sparsity.entries():
+                entry = (output.name, places[row], places[column] if output.sparsity.ncol > 1 else 0)
+                if None not in entry:
+                    yield entry

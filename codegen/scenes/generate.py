@@ -5,19 +5,19 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 import codegen
 from codegen.dynamics.layout import layout
 from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
+from codegen.emit.scene_record import scene_record
 from codegen.emit.scene_subject import SceneSubject
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir.looped import Looped
-from codegen.ir.ops import Constant
 from codegen.ir.program import Program
 from codegen.measure.assembly import assemble
 from codegen.measure.constraints import Pose
+from codegen.measure.evaluations import Task, measured
 from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
@@ -25,7 +25,7 @@ from codegen.mechanics.mass import mass
 from codegen.mechanics.plan import Plan, plan
 from codegen.mechanics.system import System
 from codegen.parallel import parallel
-from codegen.scenes.bill import bill
+from codegen.scenes.bill import Bill, bill
 from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
 from codegen.scenes.loops import LOOPS, decided
@@ -33,11 +33,14 @@ from codegen.scenes.motion import dae
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
 from codegen.scenes.plane_notes import motion_notes
 from codegen.scenes.programs import program, without_zero_rows
-from codegen.scenes.readme import readme
-from codegen.spec.plane import flattened
+from codegen.scenes.readme import Told, readme
+from codegen.scenes.start import start
+from codegen.spec.plane import flattened, planar_normal
 from codegen.spec.request import REALS
 from codegen.spec.scene import SCENE_FORMS, Scene
+from codegen.spec.sections import alike
 from flopcount.count import count
+from flopcount.counts import Counts
 
 Progress = Callable[[str], None]
 """Told what is finished."""
@@ -91,12 +94,15 @@ def judge(scene: Scene, form: str | None = None) -> Judged:
 
 
 def wanted(scene: Scene) -> dict[str, tuple[str, ...]]:
-    """Say which quantities each routine of a scene evaluates; ``all``, those of the constraints, comes last."""
-    fused = constraint_quantities(scene)
-    names = [name for name in scene.wanted.quantities or _default(scene) if name != "residual"]
-    if "residual" in (scene.wanted.quantities or _default(scene)):
-        names += ["residual", "jacobian"]
-    return {name: (name,) for name in names} | ({"all": fused} if len(fused) > 1 else {})
+    """Say which quantities each routine of a scene evaluates; ``all``, those of the constraints, comes last.
+
+    Nothing is emitted that is not asked for: ``all`` needs two quantities of the constraints.
+    """
+    asked, fused = scene.wanted.quantities or _default(scene), constraint_quantities(scene)
+    names = [name for name in asked if name != "residual"]
+    names += ["residual", "jacobian"] if "residual" in asked else []
+    is_fused = len(fused) > 1 and set(fused) <= set(asked)
+    return {name: (name,) for name in names} | ({"all": fused} if is_fused else {})
 
 
 def _default(scene: Scene) -> tuple[str, ...]:
@@ -110,6 +116,7 @@ def generate_scene(
     form: str | None = None,
     real: str = "double",
     progress: Progress = lambda _: None,
+    measure: bool = False,
     loops: str = "auto",
 ) -> dict[str, bytes]:
     """Generate the package of a scene in memory.
@@ -119,44 +126,74 @@ def generate_scene(
         form: of all joints that may have it, in the place of what the scene says.
         real: ``double`` or ``float``.
         progress: told each routine as it is done.
+        measure: whether the README tells what the steps of the bill take on this machine.
         loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
 
     Returns:
         Path below the package's folder -> content.
 
     Raises:
-        SpecificationError: a joint cannot be closed.
+        SpecificationError: a joint cannot be closed, or there is no compiler to measure with.
     """
     notes = motion_notes(scene)
     scene = flattened(scene) if scene.motion == "planar" else scene
     judged = judge(scene, form)
     progress("rows")
-    assembly = judged.assembly
-    system = System(assembly)
-    planned = plan(assembly)
+    system = System(judged.assembly)
+    planned = plan(judged.assembly)
     jobs = [_Job(scene.name, planned, name, names, loops) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
     is_looped = any(isinstance(found, Looped) for found, _ in built)
-    state, row_names = layout(system, "index2"), _row_names(assembly)
-    subject = SceneSubject(system, state, row_names, planned if is_looped else None)
+    state = layout(system, "index2")
+    subject = SceneSubject(system, state, row_names(judged.assembly), planned if is_looped else None)
     routines = tuple(
         Routine(subject, job.output, found, count(found), "S1 Tables 1 to 5, for this scene")
         for job, (found, _) in zip(jobs, built, strict=True)
     )
     specification = hashlib.sha256(repr((codegen.__version__, scene, form, real, loops)).encode()).hexdigest()
-    items = bill(assembly, judged.undropped, routines[-1].counts.total, is_looped)
+    made = _bill(judged, routines, form)
+    progress("bill")
+    measurement = measured([Task(item.programs, item.additions) for item in made.items], real) if measure else None
     text = readme(
-        subject, routines, judged.choices, lines(judged.mobility), items, codegen.__version__, specification, notes
+        Told(subject, routines, judged.choices, lines(judged.mobility), len(judged.undropped.rows), made, measurement),
+        codegen.__version__,
+        specification,
+        notes,
     )
     casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
+    first = start(system, judged.pose, state)
     return scene_files(
-        ScenePackage(scene.name, routines, codegen.__version__, specification, real, casadi, start(judged), text)
+        ScenePackage(
+            scene.name, routines, codegen.__version__, specification, real, scene_record(subject), casadi, first, text
+        )
     )
+
+
+def _bill(judged: Judged, routines: Sequence[Routine], form: str | None) -> Bill:
+    """The bill of all constraint quantities at once, if they are emitted; with what it would be in the plane."""
+    scene = judged.assembly.scene
+    names = constraint_quantities(scene)
+    fused = [routine for routine in routines if tuple(o.name for o in routine.program.outputs) == names]
+    if not fused:
+        return Bill(())
+    items = bill(judged.assembly, judged.undropped, fused[-1].program, bool(System(judged.assembly).drives))
+    if scene.motion == "planar" or planar_normal(scene) is None:
+        return Bill(items)
+    return Bill(items, _in_plane(flattened(scene), form, names))
+
+
+def _in_plane(scene: Scene, form: str | None, names: tuple[str, ...]) -> Counts:
+    """Operations in the plane; of sections that are alike one is judged."""
+    total = Counts()
+    for same in alike(scene):
+        judged = judge(same[-1].scene(scene), form)
+        total += count(program(System(judged.assembly), names)).times(len(same))
+    return total
 
 
 def steps(scene: Scene) -> int:
     """Number of times that progress is told."""
-    return 1 + len(wanted(scene))
+    return 2 + len(wanted(scene))
 
 
 def check_options(form: str | None, real: str, loops: str = "auto") -> None:
@@ -203,30 +240,8 @@ def _program(system: System, job: _Job) -> Program:
     return program(system, job.names)
 
 
-def _row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+def row_names(assembly: Assembly) -> tuple[tuple[str, str], ...]:
+    """Joint and name of each row of all joints."""
     return tuple(
         (joint.name, row.name) for joint in assembly.scene.joints for row in rows_of(assembly.forms[joint.name])
     )
-
-
-def start(judged: Judged) -> dict[str, Sequence[Constant]]:
-    """Arguments at t = 0; multipliers are 1, so that what they multiply shows."""
-    assembly, pose = judged.assembly, judged.pose
-    size = assembly.arrays.position
-    moving = [
-        (body.velocity[:size], body.angular_velocity if size == 3 else body.angular_velocity[2:])
-        for body in assembly.scene.bodies
-    ]
-    velocity = [x for v, omega in moving for x in (*v, *omega)]
-    velocity += [Fraction(0)] * (len(assembly.columns) - len(velocity))
-    turns = next(a.length for a in assembly.arguments() if a.name == "revolutions")
-    numbers: dict[str, Sequence[float | Fraction]] = {
-        "r": pose.r[:, :size].ravel().tolist(),
-        "A": [x for attitude in pose.A for x in attitude[:size, :size].ravel(order="F").tolist()],
-        "alpha": pose.alpha.tolist(),
-        "revolutions": [0.0] * turns,
-        "velocity": velocity,
-        "lambda": [1.0] * System(assembly).row_count,
-        "t": [0.0],
-    }
-    return {name: [Constant(Fraction(x)) for x in values] for name, values in numbers.items()}

@@ -17,6 +17,7 @@ from codegen.ir.program import Program
 from codegen.measure.constraints import Array, ConstraintSystem, Evaluate, Frame, JointConstraint, Pose, Row
 from codegen.measure.row_names import conventional_rows, coordinate_units, parametric_rows
 from codegen.mechanics.joints import JOINTS
+from codegen.scenes.programs import estimate
 from codegen.spec.markers import markers
 from codegen.spec.placement import IDENTITY, rotation
 from codegen.spec.request import Variant
@@ -87,8 +88,6 @@ def _constraint(
     joint: Joint, variant: Variant, bodies: tuple[int | None, int | None], kept: Sequence[int]
 ) -> JointConstraint:
     rows = rows_of(variant)
-    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
-    constants += [float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else []
     return JointConstraint(
         joint.name,
         joint.type,
@@ -96,9 +95,15 @@ def _constraint(
         tuple(rows[k] for k in kept),
         coordinates(variant),
         (_frame(joint.marker_i), _frame(joint.marker_j)),
-        _evaluate(variant, constants, kept),
+        _evaluate(variant, geometry_of(joint, variant), kept),
         (float(joint.pitch),) if joint.type == "screw" else (),
     )
+
+
+def geometry_of(joint: Joint, variant: Variant) -> list[float]:
+    """The argument ``geometry`` of the library's routine of a joint."""
+    constants = [float(x) for m in markers(joint, variant.form) for x in (*m.point, *_columns(m.axes))]
+    return constants + ([float(joint.pitch), 0.0, 0.0] if joint.type == "screw" else [])
 
 
 def _in_plane(name: str, body: int) -> JointConstraint:
@@ -110,8 +115,10 @@ def _in_plane(name: str, body: int) -> JointConstraint:
 
 
 @cache
-def _program(variant: Variant) -> Program:
-    return build.model(variant).program(_QUANTITIES)
+def constraint_program(variant: Variant) -> Program:
+    """``phi`` and ``phi_q`` of a joint, lowered in a hurry: it is evaluated here and not emitted."""
+    model = build.model(variant)
+    return model.lowered(model.outputs(_QUANTITIES), choose=estimate)
 
 
 def _evaluate(variant: Variant, constants: list[float], kept: Sequence[int]) -> Evaluate:
@@ -119,7 +126,7 @@ def _evaluate(variant: Variant, constants: list[float], kept: Sequence[int]) -> 
     rows = list(kept)
 
     def evaluated(r_i: Array, A_i: Array, r_j: Array, A_j: Array, alpha: Array) -> tuple[Array, Array]:
-        program = _program(variant)
+        program = constraint_program(variant)
         arrays = {"r_i": r_i, "A_i": A_i.ravel(order="F"), "r_j": r_j, "A_j": A_j.ravel(order="F"), "alpha": alpha}
         values = evaluate(program, {name: array.tolist() for name, array in arrays.items()} | {"geometry": constants})
         phi_q = _dense(program, values["phi_q"])

@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from random import Random
 from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
 
 from codegen.ir.evaluate import Domain, evaluate
-from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.nearest import nearest_double
 from codegen.ir.program import Program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
-from codegen.scenes.programs import program
-from tests.lower.models import random_choice
+from codegen.scenes.programs import estimate, program
 
 Array = Any
 """Array of floats or complex numbers."""
@@ -78,11 +75,6 @@ def size(system: System) -> int:
     return len(system.assembly.columns)
 
 
-def quick(graph: Graph, _: Sequence[int]) -> list[Choice]:
-    """Some way to evaluate nodes: any gives the same quantities."""
-    return [random_choice(graph, Random(0), set())]
-
-
 @dataclass(frozen=True, eq=False)
 class Machine:
     """A system with its programs."""
@@ -92,7 +84,7 @@ class Machine:
     @cache  # noqa: B019, machines live as long as the tests
     def program(self, name: str) -> Program:
         """The program of a quantity."""
-        return program(self.system, (name,), quick)
+        return program(self.system, (name,), estimate)
 
     def at(
         self, names: Sequence[str], pose: Pose, v: Array = None, multipliers: Array = None, t: float = 0.0

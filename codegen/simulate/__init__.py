@@ -1,0 +1,1 @@
+"""Integrate the equations of motion of a scene: emitted residual and Jacobian, compiled, inside SUNDIALS IDA."""

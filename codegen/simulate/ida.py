@@ -1,0 +1,168 @@
+"""IDA on compiled equations: variable-order, variable-step BDF with a sparse direct solver."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, c_double, c_void_p
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from codegen.errors import InternalError
+from codegen.simulate.compiled import Compiled
+from codegen.simulate.sundials import ADDRESSES, sundials
+
+Array = NDArray[np.float64]
+
+_CSC, _NORMAL, _ONE_STEP = 0, 1, 2
+
+FAILURES = {
+    -1: "took too many steps",
+    -2: "cannot reach the accuracy asked for",
+    -3: "the error test failed too often, or the step became too small",
+    -4: "Newton's iteration did not converge, or the step became too small",
+    -5: "the linear solver could not be set up",
+    -6: "the linear system cannot be solved: the Jacobian is singular",
+    -8: "the residual cannot be evaluated",
+    -9: "the residual is no number wherever a step leads",
+}
+"""Return codes of IDASolve in words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """What the error test asks for.
+
+    Attributes:
+        relative: of every entry.
+        absolute: [n] of each entry.
+    """
+
+    relative: float
+    absolute: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """Counters of a run."""
+
+    steps: int
+    residuals: int
+    jacobians: int
+    newton_iterations: int
+    error_test_failures: int
+    convergence_failures: int
+
+
+class _Hooks(ctypes.Structure):
+    """``struct jg_ida`` of the compiled source."""
+
+    _fields_ = [
+        *((name, c_void_p) for name in ("array", "data", "pointers", "indices")),
+        ("revolutions", c_void_p),
+    ]
+
+
+class Ida:
+    """A run of IDA; use it as a context, so that its memory is given back.
+
+    Args:
+        equations: compiled.
+        t: s, at the start.
+        y: [n] state at the start, consistent.
+        ydot: [n] its rate.
+        differential: [n] whether the rate of an entry is in the residual.
+        tolerances: of the error test; entries that are not differential are left out of it.
+        largest_step: s; 0 for none.
+        revolutions: whole turns of conventional screws.
+    """
+
+    def __init__(
+        self,
+        equations: Compiled,
+        t: float,
+        y: Array,
+        ydot: Array,
+        differential: tuple[bool, ...],
+        tolerances: Tolerances,
+        largest_step: float = 0.0,
+        revolutions: Array | None = None,
+    ) -> None:
+        self._library = sundials()
+        self._threads = threadpool_limits(limits=1)  # two that wait for each other take a hundred times as long
+        self._equations = equations
+        self.y, self.ydot = np.array(y, dtype=np.float64), np.array(ydot, dtype=np.float64)
+        self._absolute = np.array(tolerances.absolute, dtype=np.float64)
+        self._identity = np.array([1.0 if is_differential else 0.0 for is_differential in differential])
+        self._turns = np.array([0.0] if revolutions is None or not len(revolutions) else revolutions, dtype=np.float64)
+        self._hooks = _Hooks(*(self._library.address(name) for name in ADDRESSES), self._turns.ctypes.data)
+        self._context = c_void_p()
+        self._create(t, tolerances.relative, largest_step)
+
+    def _create(self, t: float, relative: float, largest_step: float) -> None:
+        library, size = self._library, self._equations.size
+        self._check(library.SUNContext_Create(0, byref(self._context)))
+        library.SUNContext_ClearErrHandlers(self._context)
+        arrays = (self.y, self.ydot, self._absolute, self._identity)
+        self._vectors = [library.N_VMake_Serial(size, array.ctypes.data, self._context) for array in arrays]
+        y, ydot, absolute, identity = self._vectors
+        self._matrix = library.SUNSparseMatrix(size, size, self._equations.nonzeros, _CSC, self._context)
+        self._solver = library.SUNLinSol_SuperLUMT(y, self._matrix, 1, self._context)
+        self._memory = c_void_p(library.IDACreate(self._context))
+        self._check(library.IDAInit(self._memory, self._equations.residual, t, y, ydot))
+        self._check(library.IDASVtolerances(self._memory, relative, absolute))
+        self._check(library.IDASetUserData(self._memory, ctypes.addressof(self._hooks)))
+        self._check(library.IDASetId(self._memory, identity))
+        self._check(library.IDASetSuppressAlg(self._memory, 1))
+        self._check(library.IDASetMaxNumSteps(self._memory, 10_000_000))
+        if largest_step:
+            self._check(library.IDASetMaxStep(self._memory, largest_step))
+        self._check(library.IDASetLinearSolver(self._memory, self._solver, self._matrix))
+        self._check(library.IDASetJacFn(self._memory, self._equations.jacobian))
+
+    def advance(self, t: float) -> tuple[float, int]:
+        """Go on to a time; ``y`` and ``ydot`` are then those at the time reached.
+
+        Returns:
+            The time reached, and 0 or one of `FAILURES`.
+        """
+        reached = c_double()
+        y, ydot = self._vectors[:2]
+        code = self._library.IDASolve(self._memory, t, byref(reached), y, ydot, _NORMAL)
+        return reached.value, min(code, 0)
+
+    def statistics(self) -> Statistics:
+        """Counters so far."""
+        names = (
+            "IDAGetNumSteps",
+            "IDAGetNumResEvals",
+            "IDAGetNumJacEvals",
+            "IDAGetNumNonlinSolvIters",
+            "IDAGetNumErrTestFails",
+            "IDAGetNumStepSolveFails",
+        )
+        return Statistics(*(self._library.statistic(name, self._memory) for name in names))
+
+    def __enter__(self) -> Ida:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._threads.restore_original_limits()
+        library: Any = self._library
+        library.IDAFree(byref(self._memory))
+        library.SUNLinSolFree(self._solver)
+        library.SUNMatDestroy(self._matrix)
+        for vector in self._vectors:
+            library.N_VDestroy(vector)
+        library.SUNContext_Free(byref(self._context))
+
+    @staticmethod
+    def _check(code: int) -> None:
+        if code:
+            raise InternalError(f"SUNDIALS refuses a setting with {code}")

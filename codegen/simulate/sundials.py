@@ -1,0 +1,114 @@
+"""The functions of SUNDIALS that a run needs, from the libraries that scikit-sundae brings.
+
+They are called through ctypes, so that IDA takes all steps up to an output time without a detour through Python.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+from ctypes import POINTER, byref, c_double, c_int, c_long, c_void_p
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from codegen.errors import Mistake, SpecificationError
+
+REMEDY = "pip install 'jointgen[simulate]'"
+
+_LIBRARIES = ("core", "nvecserial", "sunmatrixsparse", "sunlinsolsuperlumt", "ida")
+
+_SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "SUNContext_Create": (c_int, (c_int, POINTER(c_void_p))),
+    "SUNContext_Free": (c_int, (POINTER(c_void_p),)),
+    "SUNContext_ClearErrHandlers": (c_int, (c_void_p,)),
+    "N_VMake_Serial": (c_void_p, (c_int, c_void_p, c_void_p)),
+    "N_VDestroy": (None, (c_void_p,)),
+    "SUNSparseMatrix": (c_void_p, (c_int, c_int, c_int, c_int, c_void_p)),
+    "SUNMatDestroy": (None, (c_void_p,)),
+    "SUNLinSol_SuperLUMT": (c_void_p, (c_void_p, c_void_p, c_int, c_void_p)),
+    "SUNLinSolFree": (c_int, (c_void_p,)),
+    "IDACreate": (c_void_p, (c_void_p,)),
+    "IDAFree": (None, (POINTER(c_void_p),)),
+    "IDAInit": (c_int, (c_void_p, c_void_p, c_double, c_void_p, c_void_p)),
+    "IDAReInit": (c_int, (c_void_p, c_double, c_void_p, c_void_p)),
+    "IDASVtolerances": (c_int, (c_void_p, c_double, c_void_p)),
+    "IDASetUserData": (c_int, (c_void_p, c_void_p)),
+    "IDASetId": (c_int, (c_void_p, c_void_p)),
+    "IDASetSuppressAlg": (c_int, (c_void_p, c_int)),
+    "IDASetMaxNumSteps": (c_int, (c_void_p, c_long)),
+    "IDASetMaxOrd": (c_int, (c_void_p, c_int)),
+    "IDASetMaxStep": (c_int, (c_void_p, c_double)),
+    "IDASetInitStep": (c_int, (c_void_p, c_double)),
+    "IDASetStopTime": (c_int, (c_void_p, c_double)),
+    "IDASetLinearSolver": (c_int, (c_void_p, c_void_p, c_void_p)),
+    "IDASetJacFn": (c_int, (c_void_p, c_void_p)),
+    "IDASolve": (c_int, (c_void_p, c_double, POINTER(c_double), c_void_p, c_void_p, c_int)),
+    "IDAGetNumSteps": (c_int, (c_void_p, POINTER(c_long))),
+    "IDAGetNumResEvals": (c_int, (c_void_p, POINTER(c_long))),
+    "IDAGetNumJacEvals": (c_int, (c_void_p, POINTER(c_long))),
+    "IDAGetNumNonlinSolvIters": (c_int, (c_void_p, POINTER(c_long))),
+    "IDAGetNumErrTestFails": (c_int, (c_void_p, POINTER(c_long))),
+    "IDAGetNumStepSolveFails": (c_int, (c_void_p, POINTER(c_long))),
+}
+
+ADDRESSES = (
+    "N_VGetArrayPointer",
+    "SUNSparseMatrix_Data",
+    "SUNSparseMatrix_IndexPointers",
+    "SUNSparseMatrix_IndexValues",
+)
+"""Functions that compiled code calls."""
+
+
+class Sundials:
+    """The functions by their names, and addresses of those that compiled code calls."""
+
+    def __init__(self, libraries: list[ctypes.CDLL]) -> None:
+        self._libraries = libraries
+        for name, (result, arguments) in _SIGNATURES.items():
+            function = self._find(name)
+            function.restype = result
+            function.argtypes = arguments
+            setattr(self, name, function)
+
+    def address(self, name: str) -> int:
+        """Address of a function."""
+        return ctypes.cast(self._find(name), c_void_p).value or 0
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(name)
+
+    def _find(self, name: str) -> Any:
+        for library in self._libraries:
+            try:
+                return library[name]
+            except AttributeError:
+                continue
+        raise SpecificationError([Mistake("SUNDIALS", f"its libraries have no {name}", REMEDY)])
+
+    def statistic(self, name: str, memory: c_void_p) -> int:
+        """Read a counter of a run."""
+        value = c_long()
+        getattr(self, name)(memory, byref(value))
+        return value.value
+
+
+@cache
+def sundials() -> Sundials:
+    """Load the libraries.
+
+    Raises:
+        SpecificationError: scikit-sundae is not installed, or brings no libraries.
+    """
+    found = importlib.util.find_spec("sksundae")
+    if found is None or found.origin is None:
+        raise SpecificationError([Mistake("simulate", "scikit-sundae is not installed", REMEDY)])
+    importlib.import_module("sksundae.ida")  # loads what the libraries depend on
+    folder = Path(found.origin).parent.parent / "scikit_sundae.libs"
+    paths = [next(iter(sorted(folder.glob(f"libsundials_{name}-*"))), None) for name in _LIBRARIES]
+    if None in paths:
+        raise SpecificationError(
+            [Mistake("simulate", "the installed scikit-sundae brings no SUNDIALS libraries", REMEDY)]
+        )
+    return Sundials([ctypes.CDLL(str(path)) for path in paths])

@@ -64,7 +64,8 @@ def sledge() -> Scene:
     """A sledge on two parallel rails: one rail too many."""
     runner = body("sledge", NO_GRAVITY, vector(1, 0, 0), NO_GRAVITY)
     rails = [
-        joint(name, "translational", (None, runner), vector(0, y, 0), X) for name, y in (("left", "0.2"), ("right", "-0.2"))
+        joint(name, "translational", (None, runner), vector(0, y, 0), X)
+        for name, y in (("left", "0.2"), ("right", "-0.2"))
     ]
     return Scene("sledge", NO_GRAVITY, (runner,), tuple(rails), motion="planar")
 

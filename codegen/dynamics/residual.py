@@ -63,9 +63,10 @@ def residual(system: System, layout: Layout, program: Program, mass: Program, be
 
 def arguments(system: System, layout: Layout, *more: Argument) -> tuple[Argument, ...]:
     """Arguments of the programs over a state."""
-    turns = (argument for argument in system.arguments() if argument.name == "revolutions" and argument.length)
+    others = ("revolutions", "geometry")
+    kept = (argument for argument in system.arguments() if argument.name in others and argument.length)
     time, size = Argument("t", (1, 1)), (layout.size, 1)
-    return (time, Argument("y", size), Argument("ydot", size), *more, *turns)
+    return (time, Argument("y", size), Argument("ydot", size), *more, *kept)
 
 
 def column(state: State, name: str, rows: Entries) -> Output:

@@ -65,11 +65,18 @@ def geometry(theta: Array) -> tuple[list[Array], list[Array]]:
 
 
 def _acceleration(theta: Array, speed: Array) -> Array:
-    (_, slope, bend), (_, turn, turn_slope) = geometry(theta)
+    (_, slope, _), (_, turn, _) = geometry(theta)
     inertia = np.sum(MASSES[:, None] * slope**2, (-2, -1)) + np.sum(INERTIAS * turn**2, -1)
+    found: Array = -holding_torque(theta, speed) / inertia
+    return found
+
+
+def holding_torque(theta: Array, speed: Array) -> Array:
+    """N m on the crank that keeps its speed: ``m' theta'^2 / 2 + V'``."""
+    (_, slope, bend), (_, turn, turn_slope) = geometry(theta)
     half = np.sum(MASSES[:, None] * slope * bend, (-2, -1)) + np.sum(INERTIAS * turn * turn_slope, -1)
     push = np.sum(MASSES[:, None] * slope * GRAVITY, (-2, -1))
-    found: Array = (push - half * speed**2) / inertia
+    found: Array = half * speed**2 - push
     return found
 
 

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 from codegen.scenes.motion_record import Record
 
-from .preparations import prepared, told
+from . import engine
+from .preparations import EXAMPLES, prepared, told
 
 PENDULUM = """
 name = "pendulum"
@@ -100,3 +101,15 @@ def test_the_reaction_of_a_driven_pendulum_carries_weight_and_centripetal_force(
     force = found.trajectory.reaction["hinge"][:, :2]
     assert force[:, 0] == pytest.approx(-2.0 * 0.5 * 16.0 * np.cos(turned), abs=1e-5)
     assert force[:, 1] == pytest.approx(2.0 * 9.81 - 2.0 * 0.5 * 16.0 * np.sin(turned), abs=1e-5)
+
+
+def test_the_effort_of_a_driven_crank_balances_the_power_of_the_engine() -> None:
+    text = (EXAMPLES / "in_line_engine.toml").read_text()
+    bearing = 'name = "main bearing"\n'
+    text = text.replace(bearing, bearing + "drive = { position = 0.0, speed = 15.0 }\n")
+    found = told(prepared(text, "planar", "conventional"), 0.5)
+    t, effort = found.trajectory.t, found.trajectory.effort["main bearing"][:, 0]
+    assert effort == pytest.approx(engine.holding_torque(15.0 * t, np.full_like(t, 15.0)), abs=1e-4)
+    # What the drive has done is what the energy has gained.
+    work = np.concatenate([[0.0], np.cumsum(15.0 * (effort[1:] + effort[:-1]) / 2 * np.diff(t))])
+    assert found.energy - found.energy[0] == pytest.approx(work, abs=0.01 * np.ptp(work))

@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-flags bench-peers search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-engine bench-flags bench-peers search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -60,6 +60,9 @@ search: $(STAMP) ## search long for the cheapest routines, put what is found on 
 
 bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results.md and .json
 	$(BIN)/python -m benchmarks.batch $(ARGS)
+
+bench-engine: $(STAMP) ## run the in-line engine, write benchmarks/engine/results.md, .json and charts
+	$(BIN)/python -m benchmarks.engine $(ARGS)
 
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure

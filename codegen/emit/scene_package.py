@@ -17,6 +17,7 @@ from codegen.emit.environment import render
 from codegen.emit.literals import literal
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.package import banner
+from codegen.emit.packed import packed
 from codegen.emit.routine import Parameter, Routine
 from codegen.ir.ops import Constant
 
@@ -53,9 +54,10 @@ class ScenePackage:
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
     """Write the files of a scene: path below its folder -> content."""
     emitted = [entry for routine in package.routines for entry in entries(routine)]
+    patterns = _patterns(package)
     files = {
-        f"{package.name}.h": _header(package, emitted),
-        f"{package.name}.c": _source(package, emitted),
+        f"{package.name}.h": _header(package, emitted, list(patterns)),
+        f"{package.name}.c": _source(package, emitted, list(patterns.values())),
         "jg_real.h": render("c/jg_real.h.j2", banner=banner(package.version), real=package.real, fma=False, batch=None),
         f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
         "README.md": package.readme,
@@ -78,7 +80,7 @@ def _patterns(package: ScenePackage) -> dict[str, str]:
     return {symbol: text for routine in package.routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+def _header(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[str]) -> str:
     introduction = [
         f"Routines of the scene {package.name}: what stands in README.md beside this file.",
         "",
@@ -91,7 +93,7 @@ def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             (f"@brief Pattern of {symbol.removesuffix('_sparsity')}: {{nrow, ncol, colind..., row...}}.",),
             f"const int *{symbol}(void)",
         )
-        for symbol in _patterns(package)
+        for symbol in patterns
     ]
     declarations += [(tuple(comment(entry)), entry.signature) for entry in emitted]
     return render(
@@ -105,7 +107,7 @@ def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
     )
 
 
-def _source(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+def _source(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[str]) -> str:
     return render(
         "c/source.c.j2",
         file=f"{package.name}.c",
@@ -113,7 +115,7 @@ def _source(package: ScenePackage, emitted: Sequence[Entry]) -> str:
         options=f"scene {package.name}, real {package.real}",
         specification=package.specification,
         header=f"{package.name}.h",
-        functions=[*_patterns(package).values(), *(entry.text for entry in emitted)],
+        functions=[*patterns, *(entry.text for entry in emitted)],
     )
 
 
@@ -164,4 +166,4 @@ def _pattern(entry: Entry, parameter: Parameter) -> str:
 
 
 def _rows(words: Sequence[str]) -> list[str]:
-    return textwrap.wrap(", ".join(words), _WIDTH)
+    return packed(words, _WIDTH)

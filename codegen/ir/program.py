@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import accumulate
 
 from codegen.errors import InternalError
 from codegen.ir.ops import ARITY, Constant, Op
@@ -61,8 +62,10 @@ class Sparsity:
     def of_entries(nrow: int, ncol: int, entries: Iterable[tuple[int, int]]) -> Sparsity:
         """Build the pattern that holds the given (row, column) places."""
         ordered = sorted((column, row) for row, column in entries)
-        counts = [sum(1 for column, _ in ordered if column < limit) for limit in range(ncol + 1)]
-        return Sparsity(nrow, ncol, tuple(counts), tuple(row for _, row in ordered))
+        counts = [0] * (ncol + 1)
+        for column, _ in ordered:
+            counts[column + 1] += 1
+        return Sparsity(nrow, ncol, tuple(accumulate(counts)), tuple(row for _, row in ordered))
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,17 +92,26 @@ class Instruction:
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
-    """A result: a matrix of which the structural nonzeros are computed.
+class Result:
+    """A matrix of which the structural nonzeros are stored.
 
     Attributes:
         name: as in the C signature, for example ``phi_q``.
         sparsity: pattern of the nonzeros; full for vectors.
-        values: positions of the instructions that give the nonzeros, in storage order.
     """
 
     name: str
     sparsity: Sparsity
+
+
+@dataclass(frozen=True, slots=True)
+class Output(Result):
+    """A result of a program.
+
+    Attributes:
+        values: positions of the instructions that give the nonzeros, in storage order.
+    """
+
     values: tuple[int, ...]
 
 

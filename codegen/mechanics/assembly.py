@@ -11,7 +11,7 @@ is substituted, since S1 substitutes in these coordinates.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any
 
@@ -24,11 +24,12 @@ from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.merged import merged
-from codegen.mechanics.placed import Ends, Placed
+from codegen.mechanics.placed import Ends, Placed, geometry_symbol
 from codegen.mechanics.places import WORLD, places
 from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Scene
+from codegen.spec.sections import Coordinate, varying_of
 
 KINDS = {
     "phi": ("constraints", "one"),
@@ -58,11 +59,13 @@ class Assembly:
             `codegen.spec.plane.flattened`.
         forms: joint name -> form, rows and derivative.
         dropped: rows of the joints that are left out.
+        varying: coordinates of attachments that are read at run time -> number in the argument ``geometry``.
     """
 
     scene: Scene
     forms: Mapping[str, Variant]
     dropped: frozenset[int] = frozenset()
+    varying: Mapping[Coordinate, int] = field(default_factory=dict)
 
     @cached_property
     def arrays(self) -> Arrays:
@@ -85,7 +88,7 @@ class Assembly:
         numbers = {GROUND: None} | {body.name: k for k, body in enumerate(self.scene.bodies)}
         names = identifiers(joint.name for joint in self.scene.joints)
         found, row, alpha = [], 0, 0
-        for joint in self.scene.joints:
+        for number, joint in enumerate(self.scene.joints):
             form, _ = _derived(self.forms[joint.name], self.translations)
             i, j = joint.bodies
             ends = Ends(
@@ -97,6 +100,7 @@ class Assembly:
                 self.arrays.derived * len(self.scene.bodies),
                 self.arrays,
                 self.dropped,
+                varying_of(self.varying, number),
             )
             found.append(Placed(joint, form, ends))
             row += form.row_count
@@ -135,10 +139,16 @@ class Assembly:
             Argument("r", (self.arrays.position * bodies, 1)),
             Argument("A", (self.arrays.attitude * bodies, 1)),
             Argument("alpha", (self.coordinates, 1)),
-            Argument("revolutions", (len(self._counting), 1)),
+            Argument("revolutions", (self.counted, 1)),
+            Argument("geometry", (1 + max(self.varying.values(), default=-1), 1)),
             Argument("velocity", (len(self.columns), 1)),
             Argument("lambda", (len(self.rows), 1)),
         )
+
+    @property
+    def counted(self) -> int:
+        """Number of joints whose whole turns are an input."""
+        return len(self._counting)
 
     @cached_property
     def _counting(self) -> list[Placed]:
@@ -157,7 +167,8 @@ class Assembly:
         multipliers = frames.multipliers(self.all_rows)
         found |= {multipliers[row]: ("lambda", k) for k, row in enumerate(self.rows)}
         turns = [placed.symbols[frames.revolutions] for placed in self._counting]
-        return found | {symbol: ("revolutions", k) for k, symbol in enumerate(turns)}
+        found |= {symbol: ("revolutions", k) for k, symbol in enumerate(turns)}
+        return found | {geometry_symbol(k): ("geometry", k) for k in self.varying.values()}
 
     # --- outputs
 
@@ -212,17 +223,14 @@ _LARGEST_GROUP = 12
 
 
 def connected(joints: Sequence[Placed]) -> list[list[Placed]]:
-    """Group joints that hang together by bodies, in the order of their first joints; large groups are cut."""
-    groups: list[list[Placed]] = []
-    for joint in joints:
-        touching = [group for group in groups if any(_touch(joint, other) for other in group)]
-        groups = [group for group in groups if group not in touching]
-        groups.append(sorted([joint, *(p for group in touching for p in group)], key=lambda p: p.ends.first_row))
-    groups.sort(key=lambda group: group[0].ends.first_row)
+    """Part joints into those that a moving body leads from one to the other, in order; large groups are cut."""
+    groups: list[tuple[set[int], list[Placed]]] = []
+    for placed in joints:
+        bodies = {number for number in placed.ends.numbers if number is not None}
+        near = [group for group in groups if group[0] & bodies]
+        groups = [group for group in groups if group not in near]
+        groups.append((bodies.union(*(group[0] for group in near)), [p for group in near for p in group[1]] + [placed]))
+    ordered = [sorted(group, key=lambda placed: placed.ends.first_row) for _, group in groups]
+    ordered.sort(key=lambda group: group[0].ends.first_row)
     size = _LARGEST_GROUP
-    return [group[k : k + size] for group in groups for k in range(0, len(group), size)]
-
-
-def _touch(first: Placed, second: Placed) -> bool:
-    bodies = {number for number in first.ends.numbers if number is not None}
-    return not bodies.isdisjoint(second.ends.numbers)
+    return [group[k : k + size] for group in ordered for k in range(0, len(group), size)]

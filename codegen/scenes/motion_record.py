@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codegen import build
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.measure.constraints import Array
 from codegen.mechanics.system import System
-from codegen.scenes.numbers import geometry_of
+from codegen.scenes.numbers import constraint_program, geometry_of
 from codegen.scenes.run import Prepared, Run
-from codegen.scenes.state import Bodies, Frames, bodies_of, euler_parameters, frames_of
+from codegen.scenes.settled import settled
+from codegen.scenes.state import Bodies, Frames, euler_parameters, frames_of
 from codegen.simulate.trajectory import Trajectory
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint
@@ -42,7 +42,7 @@ def record(prepared: Prepared, run: Run) -> Record:
         run: its states.
     """
     system = prepared.system
-    bodies = bodies_of(system, prepared.layout, run.y, run.ydot)
+    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.y, run.ydot)
     frames = frames_of(prepared.scene, prepared.plane)
     values = {p.joint.name: _values(system, bodies, p.joint, k) for k, p in enumerate(system.assembly.placed)}
     drift = np.max([np.max(np.abs(phi), axis=0) for phi, _ in values.values()], axis=0, initial=0.0)
@@ -95,7 +95,7 @@ def _values(system: System, bodies: Bodies, joint: Joint, position: int) -> tupl
     """``phi`` [m, n] of a joint and ``phi_q`` [m, 6, n] by body j, translations in world axes, at all times."""
     placed = system.assembly.placed[position]
     variant = system.assembly.forms[joint.name]
-    program = build.model(_exact(variant)).program(("phi", "phi_q"))
+    program = constraint_program(_exact(variant))
     names = [body.name for body in system.assembly.scene.bodies]
     arrays: dict[str, list[Array]] = {}
     poses = []

@@ -17,6 +17,7 @@ from codegen.ir.program import Program
 from codegen.measure.constraints import Array, ConstraintSystem, Evaluate, Frame, JointConstraint, Pose, Row
 from codegen.measure.row_names import conventional_rows, coordinate_units, parametric_rows
 from codegen.mechanics.joints import JOINTS
+from codegen.scenes.programs import estimate
 from codegen.spec.markers import markers
 from codegen.spec.placement import IDENTITY, rotation
 from codegen.spec.request import Variant
@@ -114,8 +115,10 @@ def _in_plane(name: str, body: int) -> JointConstraint:
 
 
 @cache
-def _program(variant: Variant) -> Program:
-    return build.model(variant).program(_QUANTITIES)
+def constraint_program(variant: Variant) -> Program:
+    """``phi`` and ``phi_q`` of a joint, lowered in a hurry: it is evaluated here and not emitted."""
+    model = build.model(variant)
+    return model.lowered(model.outputs(_QUANTITIES), choose=estimate)
 
 
 def _evaluate(variant: Variant, constants: list[float], kept: Sequence[int]) -> Evaluate:
@@ -123,7 +126,7 @@ def _evaluate(variant: Variant, constants: list[float], kept: Sequence[int]) -> 
     rows = list(kept)
 
     def evaluated(r_i: Array, A_i: Array, r_j: Array, A_j: Array, alpha: Array) -> tuple[Array, Array]:
-        program = _program(variant)
+        program = constraint_program(variant)
         arrays = {"r_i": r_i, "A_i": A_i.ravel(order="F"), "r_j": r_j, "A_j": A_j.ravel(order="F"), "alpha": alpha}
         values = evaluate(program, {name: array.tolist() for name, array in arrays.items()} | {"geometry": constants})
         phi_q = _dense(program, values["phi_q"])

@@ -49,10 +49,10 @@ def consistent_motion(
     """
     M = dense(mass.output("mass"), evaluate(mass, {})["mass"])
     phi_q = _evaluated(program, arrays, velocity, "phi_q")
-    projected = _saddle(M, phi_q, M @ velocity, -phi_t)[0]
+    projected = saddle(M, phi_q, M @ velocity, -phi_t)[0]
     force = _evaluated(program, arrays, projected, "force").ravel()
     gamma = _evaluated(program, arrays, projected, "gamma").ravel()
-    acceleration, multipliers = _saddle(M, phi_q, force, gamma)
+    acceleration, multipliers = saddle(M, phi_q, force, gamma)
     moving = np.diag(M) > 0
     changed = float(np.max(np.abs(projected - velocity)[moving], initial=0.0))
     return Motion(projected, acceleration, multipliers, changed)
@@ -71,8 +71,18 @@ def _evaluated(program: Program, arrays: Mapping[str, Sequence[float]], velocity
     return dense(program.output(name), values[name])
 
 
-def _saddle(M: Array, phi_q: Array, top: Array, bottom: Array) -> tuple[Array, Array]:
-    """Solve ``M x + phi_q^T l = top``, ``phi_q x = bottom``; where it is singular, the least solution."""
+def saddle(M: Array, phi_q: Array, top: Array, bottom: Array) -> tuple[Array, Array]:
+    """Solve ``M x + phi_q^T l = top``, ``phi_q x = bottom``; where it is singular, the least solution.
+
+    Args:
+        M: [n, n].
+        phi_q: [m, n].
+        top: [n].
+        bottom: [m].
+
+    Returns:
+        ``x`` and ``l``.
+    """
     rows, size = phi_q.shape
     matrix = np.block([[M, phi_q.T], [phi_q, np.zeros((rows, rows))]])
     right = np.concatenate([top, bottom])

@@ -40,6 +40,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "IDASetMaxOrd": (c_int, (c_void_p, c_int)),
     "IDASetMaxStep": (c_int, (c_void_p, c_double)),
     "IDASetInitStep": (c_int, (c_void_p, c_double)),
+    "IDASetNonlinConvCoef": (c_int, (c_void_p, c_double)),
     "IDASetStopTime": (c_int, (c_void_p, c_double)),
     "IDASetLinearSolver": (c_int, (c_void_p, c_void_p, c_void_p)),
     "IDASetJacFn": (c_int, (c_void_p, c_void_p)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -60,6 +60,7 @@ def lower(
     programs = []
     for k in range(max(len(found.choices) for found in searched)):
         builder = Builder()
+        builder.constant(0)
         legend: dict[str, str] = {}
         written = [output for found in searched for output in found.written(k, builder, inputs, legend)]
         programs.append(builder.freeze(arguments, _added(written, builder), legend))
@@ -67,16 +68,24 @@ def lower(
 
 
 def _added(written: Sequence[Output], builder: Builder) -> tuple[Output, ...]:
-    """Add up the outputs of one name."""
+    """Add up the outputs of one name; where none has an entry it is zero."""
     zero = builder.constant(0)
-    found: dict[str, Output] = {}
+    found: dict[str, dict[tuple[int, int], int]] = {}
+    shapes = {output.name: (output.sparsity.nrow, output.sparsity.ncol) for output in written}
     for output in written:
-        first = found.setdefault(output.name, output)
-        if first is not output:
-            pairs = zip(first.values, output.values, strict=True)
-            values = (a if b == zero else b if a == zero else builder.emit(Op.ADD, a, b) for a, b in pairs)
-            found[output.name] = replace(first, values=tuple(values))
-    return tuple(found.values())
+        entries = found.setdefault(output.name, {})
+        for place, value in zip(output.sparsity.entries(), output.values, strict=True):
+            before = entries.get(place, zero)
+            entries[place] = (
+                value if before == zero else before if value == zero else builder.emit(Op.ADD, before, value)
+            )
+    return tuple(_dense(name, shapes[name], entries, zero) for name, entries in found.items())
+
+
+def _dense(name: str, shape: tuple[int, int], entries: Mapping[tuple[int, int], int], zero: int) -> Output:
+    nrow, ncol = shape
+    places = [(row, column) for column in range(ncol) for row in range(nrow)]
+    return Output(name, Sparsity.of_entries(nrow, ncol, places), tuple(entries.get(place, zero) for place in places))
 
 
 def structural_rows(part: Part, inputs: Inputs) -> set[int]:
@@ -120,20 +129,17 @@ class _Searched:
 
         choice = self.choices[min(k, len(self.choices) - 1)]
         scalariser = Scalariser(self._graph, choice, builder, read, finished)
-        return [_written(output, self._found[output.name], scalariser, builder) for output in self._outputs]
+        return [_written(output, self._found[output.name], scalariser) for output in self._outputs]
 
 
-def _written(output: SymbolicOutput, demands: list[Demand], scalariser: Scalariser, builder: Builder) -> Output:
-    nrow, ncol = output.shape
-    zero = builder.constant(0)
-    entries = [[zero] * ncol for _ in range(nrow)]
+def _written(output: SymbolicOutput, demands: list[Demand], scalariser: Scalariser) -> Output:
+    entries: dict[tuple[int, int], int] = {}
     for row, column, kind, (sign, node, *turned) in demands:
         for k, value in enumerate(_laid(scalariser.entries(node), kind, bool(turned and turned[0]))):
             i, j = {"scalar": (0, 0), "row": (0, k), "column": (k, 0), "matrix": divmod(k, 3)}[kind]
-            entries[row + i][column + j] = scalariser.signed(sign, value)
-    everything = [(row, column) for row in range(nrow) for column in range(ncol)]
-    values = tuple(entries[row][column] for column in range(ncol) for row in range(nrow))
-    return Output(output.name, Sparsity.of_entries(nrow, ncol, everything), values)
+            entries[row + i, column + j] = scalariser.signed(sign, value)
+    pattern = Sparsity.of_entries(*output.shape, entries)
+    return Output(output.name, pattern, tuple(entries[place] for place in pattern.entries()))
 
 
 def _laid(entries: Entries, kind: str, turned: bool) -> Entries:

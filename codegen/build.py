@@ -330,7 +330,7 @@ def dump(options: Options, stage: str) -> Iterator[str]:
     for variant in variants(options):
         if stage == "program":
             for routine in routines(variant, options.outputs, options.fma):
-                yield f"# {variant.routine_stem(routine.output)}\n{text.dump(routine.program)}"
+                yield f"# {variant.routine_stem(routine.output)}\n{text.dump(routine.straight)}"
             continue
         symbolic = model(variant)
         for name, quantities in quantities_of(options.outputs).items():

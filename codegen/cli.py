@@ -92,15 +92,16 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
 @click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto, always or never.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 @click.option("--measure", is_flag=True, help="Say in the README what each simplification saves on this machine.")
-def scene(file: Path, form: str | None, copies: int | None, real: str, target: Path, measure: bool) -> None:
+def scene(file: Path, form: str | None, copies: int | None, real: str, loops: str, target: Path, measure: bool) -> None:
     """Emit the routines of one mechanism: a scene file (TOML), a URDF or an MJCF."""
     from codegen import output, scenes
     from codegen.measure.compile import compiler
     from codegen.scenes.generate import check_options, generate_scene, steps
 
-    check_options(form, real)
+    check_options(form, real, loops)
     if measure:
         compiler()
     output.check_target(target)
@@ -108,7 +109,7 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, target: P
     for line in left_out:
         click.echo(line, err=True)
     with _progress(steps(read), "generating") as advance:
-        files = generate_scene(read, form, real, advance, measure)
+        files = generate_scene(read, form, real, advance, measure, loops)
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
@@ -122,23 +123,29 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, target: P
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--index", type=int, default=2, show_default=True, help="2: stabilised index 2; 1: Baumgarte.")
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
+@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
+@click.option("--through-singular", is_flag=True, help="Go on through singular configurations, on the smooth branch.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def simulate(file: Path, copies: int | None, target: Path, **options: Any) -> None:
-    """Integrate a mechanism: trajectory.csv and summary.json."""
+def simulate(file: Path, copies: int | None, animation: bool, target: Path, **options: Any) -> None:
+    """Integrate a mechanism: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
     from codegen import output, scenes
+    from codegen.report.run_pictures import run_pictures
     from codegen.scenes.run import Settings
-    from codegen.scenes.simulate import check_settings, simulated
+    from codegen.scenes.simulate import check_settings, check_tools, simulated
 
     settings = Settings(**options)
     check_settings(settings)
     output.check_target(target)
     read, left_out = scenes.read(file, copies)
+    check_tools()
     for line in left_out:
         click.echo(line, err=True)
     with _progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
-    output.replace(target, result.files)
+    output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     click.echo(f"{target}: {result.words}")
+    for line in result.notes:
+        click.echo(f"{file}: {line}", err=True)
     if result.failure:
         click.echo(f"{file}: {result.failure}", err=True)
         raise click.exceptions.Exit(1)

@@ -1,12 +1,14 @@
 """Write a package whole or not at all, and compare one with what is on disk.
 
 The files are written to a new folder beside the target, which then takes the target's place. Whatever interrupts the
-writing leaves the previous output as it was.
+writing leaves the previous output as it was. Where the system can exchange two folders in one step (Linux) that holds
+for a process that is killed too; elsewhere the previous output may then be left in the folder beside the target.
 """
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import json
 import os
 import shutil
@@ -77,12 +79,27 @@ def replace(target: Path, files: Mapping[str, bytes]) -> None:
         real.parent.mkdir(parents=True, exist_ok=True)
         with _staging(real) as folder:
             _write(folder / "new", files)
+            if real.exists() and _exchanged(folder / "new", real):
+                return
             if real.exists():
                 real.rename(folder / "previous")
             (folder / "new").rename(real)
     except OSError as error:
         what = f"cannot be written ({error.strerror or error})"
         raise OutputError([Mistake(str(target), what, "name another directory with -o")]) from error
+
+
+_HERE, _EXCHANGE = -100, 2
+"""``AT_FDCWD`` and ``RENAME_EXCHANGE`` of Linux."""
+
+
+def _exchanged(first: Path, second: Path) -> bool:
+    """Exchange two folders in one step, so that not even a killed process leaves neither; false where it cannot be."""
+    try:
+        rename = ctypes.CDLL(None).renameat2
+    except (AttributeError, OSError, TypeError):
+        return False
+    return int(rename(_HERE, os.fsencode(first), _HERE, os.fsencode(second), _EXCHANGE)) == 0
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
+from codegen.ir.looped import Looped
 from codegen.ir.ops import Op
 from codegen.ir.program import Program
 from flopcount.counts import Counts
@@ -23,7 +24,12 @@ _KIND: dict[Op, str] = {
 }
 
 
-def count(program: Program) -> Counts:
-    """Count every instruction of the program; inputs, constants and projections are free."""
+def count(program: Program | Looped) -> Counts:
+    """Count every instruction of the program; inputs, constants and projections are free.
+
+    The operations of a loop are those of an instance times the number of instances.
+    """
+    if isinstance(program, Looped):
+        return sum((count(loop.program).times(loop.count) for loop in program.loops), Counts())
     kinds = Counter(_KIND[instruction.op] for instruction in program.instructions if instruction.op in _KIND)
     return Counts(**kinds)

@@ -58,6 +58,10 @@ class Counts:
     def __add__(self, other: Counts) -> Counts:
         return Counts(*(getattr(self, kind.name) + getattr(other, kind.name) for kind in fields(self)))
 
+    def times(self, number: int) -> Counts:
+        """The same operations so many times."""
+        return Counts(*(getattr(self, kind.name) * number for kind in fields(self)))
+
     def as_dict(self) -> dict[str, int]:
         """Kind -> number, with the total."""
         return {kind.name: getattr(self, kind.name) for kind in fields(self)} | {"total": self.total}

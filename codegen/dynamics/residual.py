@@ -52,20 +52,21 @@ def residual(system: System, layout: Layout, program: Program, mass: Program, be
     parts = [moved(_positions(state, program), layout.positions.start, 0)]
     parts.append(moved(_motion(state, found, mass), layout.velocities.start, 0))
     drift = state.matrices.total((found["phi_q_v"], _phi_t(state)))
-    if layout.corrections:
+    if "gamma" in found:
+        parts.append(moved(_accelerations(state, found, drift, beta), layout.multipliers.start, 0))
+    else:
         parts.append(moved(found["phi"], layout.multipliers.start, 0))
         parts.append(moved(drift, layout.corrections.start, 0))
-    else:
-        parts.append(moved(_accelerations(state, found, drift, beta), layout.multipliers.start, 0))
     rows = {place: value for part in parts for place, value in part.items()}
     return state.builder.freeze(arguments(system, layout), (column(state, "residual", rows),))
 
 
 def arguments(system: System, layout: Layout, *more: Argument) -> tuple[Argument, ...]:
     """Arguments of the programs over a state."""
-    turns = (argument for argument in system.arguments() if argument.name == "revolutions" and argument.length)
+    others = ("revolutions", "geometry")
+    kept = (argument for argument in system.arguments() if argument.name in others and argument.length)
     time, size = Argument("t", (1, 1)), (layout.size, 1)
-    return (time, Argument("y", size), Argument("ydot", size), *more, *turns)
+    return (time, Argument("y", size), Argument("ydot", size), *more, *kept)
 
 
 def column(state: State, name: str, rows: Entries) -> Output:

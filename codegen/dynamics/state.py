@@ -188,7 +188,7 @@ class State:
                     return velocities[index]
                 case "lambda":
                     return forces[index]
-                case "t" | "revolutions":
+                case "t" | "revolutions" | "geometry":
                     return self.builder.input(argument, index)
             raise InternalError(f"no entry of the state for {argument}")
 

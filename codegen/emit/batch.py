@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.emit.c import declaration, views, wrapped
+from codegen.emit.declarations import declaration, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.routine import Parameter, Routine
 from codegen.emit.statements import Notation, Statements
@@ -75,8 +75,8 @@ def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int)
     """
     symbol = f"{routine.symbol}_batch{lanes}"
     functions = _entries(routine.symbol, symbol, declared, lanes)
-    statements = Statements(routine.program, views(declared), VECTORS)
-    is_empty = not any(output.values for output in routine.program.outputs)
+    statements = Statements(routine.straight, views(declared), VECTORS)
+    is_empty = not any(output.values for output in routine.straight.outputs)
     unused = ["(void)stride;"] if is_empty else []
     text = render(
         "c/batch_functions.c.j2",

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from codegen.emit.declarations import WIDTH, declaration, unpacking, views, wrapped
 from codegen.emit.environment import render
+from codegen.emit.looped import looped_definition
+from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
-from codegen.emit.routine import Parameter, Routine
+from codegen.emit.routine import Parameter, Routine, Subject
 from codegen.emit.statements import Statements
-from codegen.ir.program import Output, Program, Sparsity
-
-_WIDTH = 116
+from codegen.ir.looped import Looped
+from codegen.ir.program import Program, Result, Sparsity
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,21 +45,38 @@ class Entry:
 def entries(routine: Routine) -> tuple[Entry, ...]:
     """Emit the functions of a routine: vectors have one entry, matrices one for nonzeros and one for dense storage."""
     stored = parameters(routine, dense=False)
-    text, temporaries = definition(routine.symbol, stored, routine.program)
+    text, temporaries = any_definition(routine.symbol, stored, routine.program, routine.subject)
     storage = "nz" if routine.is_matrix else "vector"
     first = Entry(routine.symbol, storage, routine, stored, temporaries, text)
     return (first, _dense_entry(routine, stored)) if routine.is_matrix else (first,)
 
 
-def definition(symbol: str, declared: Sequence[Parameter], program: Program) -> tuple[str, int]:
+def any_definition(
+    symbol: str, declared: Sequence[Parameter], program: Program | Looped, subject: Subject, kind: str = "void"
+) -> tuple[str, int]:
+    """Write a C function that evaluates a program, or loops over programs.
+
+    Args:
+        symbol: its name.
+        declared: its parameters.
+        program: what it evaluates; loops have static functions of their own before it.
+        subject: names the parts of arrays.
+        kind: ``void`` or ``static void``.
+    """
+    if isinstance(program, Looped):
+        return looped_definition(declaration(symbol, declared, kind=kind), symbol, program, subject)
+    return definition(symbol, declared, program, kind)
+
+
+def definition(symbol: str, declared: Sequence[Parameter], program: Program, kind: str = "void") -> tuple[str, int]:
     """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
     statements = Statements(program, views(declared))
-    body = _unpacking(declared, statements.used_views) + wrapped(statements.lines)
-    text = render("c/function.c.j2", signature=declaration(symbol, declared), body=body)
+    body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
+    text = render("c/function.c.j2", signature=declaration(symbol, declared, kind=kind), body=body)
     return text, statements.temporaries
 
 
-def sparsity_symbol(routine: Routine, output: Output) -> str:
+def sparsity_symbol(routine: Routine, output: Result) -> str:
     """Name of the function that gives the pattern of an output."""
     return f"{routine.subject.stem}_{output.name}_sparsity"
 
@@ -82,7 +100,7 @@ def sparsity_functions(routine: Routine) -> tuple[tuple[str, str, Sparsity], ...
 
 def _pattern_rows(pattern: Sparsity) -> list[str]:
     numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
-    return textwrap.wrap(", ".join(str(number) for number in numbers), _WIDTH - 8)
+    return packed([str(number) for number in numbers], WIDTH - 8)
 
 
 def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
@@ -100,49 +118,3 @@ def _dense_entry(routine: Routine, stored: tuple[Parameter, ...]) -> Entry:
 
 def _passed(parameter: Parameter, matrices: Sequence[Parameter]) -> str:
     return f"{parameter.name}_nz" if parameter in matrices else parameter.name
-
-
-def declaration(symbol: str, declared: Sequence[Parameter], leading: Sequence[str] = (), kind: str = "void") -> str:
-    """Declaration of a function, with further parameters before; lines break between parameters only."""
-    kinds = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
-    words = [*leading, *(f"{kinds[p.direction]} {p.name}" for p in declared)]
-    lines = [f"{kind} {symbol}("]
-    for k, word in enumerate(words):
-        piece = word + (", " if k + 1 < len(words) else ")")
-        if len(lines[-1]) + len(piece.rstrip()) > _WIDTH:
-            lines.append("    ")
-        lines[-1] += piece
-    return "\n".join(line.rstrip() for line in lines)
-
-
-def views(declared: Sequence[Parameter]) -> dict[str, tuple[tuple[str, int, int], ...]]:
-    """Argument -> (name, offset, length) of the parts of compound arguments."""
-    return {
-        p.name: tuple((name, offset, shape[0] * shape[1]) for name, offset, shape, _ in p.members)
-        for p in declared
-        if p.members and p.direction == "in"
-    }
-
-
-def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
-    """Name the parts of compound arguments."""
-    lines = []
-    for parameter in declared:
-        for name, offset, shape, _ in parameter.members:
-            if name not in used or parameter.direction != "in":
-                continue
-            if shape == (1, 1):
-                lines.append(f"const jg_real {name} = {parameter.name}[{offset}];")
-            else:
-                lines.append(f"const jg_real *const {name} = {parameter.name}{f' + {offset}' if offset else ''};")
-    return lines
-
-
-def wrapped(lines: Sequence[str], indent: int = 4) -> list[str]:
-    """Break statements that are too long for a line."""
-    broken: list[str] = []
-    for line in lines:
-        broken += textwrap.wrap(
-            line, _WIDTH - indent, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
-        )
-    return broken

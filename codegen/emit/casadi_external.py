@@ -6,18 +6,20 @@ needs of the derivative is the function ``jac_NAME``, one block for each output 
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from codegen.emit.c import definition
+from codegen.emit.c import any_definition
 from codegen.emit.environment import render
+from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
 from codegen.emit.routine import Routine
-from codegen.ir.program import Argument, Output, Program, Sparsity
+from codegen.ir.looped import Looped
+from codegen.ir.program import Argument, Program, Result, Sparsity
 from codegen.passes import simplify
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.differentiate import differentiate
+from codegen.passes.differentiate_looped import differentiate_looped
 
 EXTERNALS = ("phi", "phi_q_v", "phi_q_t_lambda")
 """The quantities that residuals are made of: those that a solver differentiates."""
@@ -67,6 +69,11 @@ class External:
         return max(port.length for port in self.inputs)
 
 
+def has_external(routine: Routine) -> bool:
+    """Whether there is an external: a single quantity of the constraints that depends on something."""
+    return routine.output in EXTERNALS and bool(routine.program.used_arguments())
+
+
 def external_name(stem: str, output: str) -> str:
     """Name of the external of a routine."""
     return f"{stem}_{output}_external"
@@ -78,12 +85,11 @@ def external_source(
     """Write the externals of the routines of a file as one C source."""
     jacobians, externals = [], []
     for routine in routines:
-        if routine.output in EXTERNALS:
-            jacobian = simplify(differentiate(routine.program))
-            jacobian = contract_fma(jacobian) if routine.counts.fma else jacobian
+        if has_external(routine):
+            jacobian = _derivative(routine)
             symbol = f"{routine.symbol}_jacobian"
             declared = parameters(routine, False, jacobian)
-            jacobians.append(definition(symbol, declared, jacobian)[0])
+            jacobians.append(any_definition(symbol, declared, jacobian, routine.subject, "static void")[0])
             externals += [_function(routine), _jacobian(routine, jacobian, symbol)]
     return render(
         "casadi/external.c.j2",
@@ -97,6 +103,13 @@ def external_source(
     )
 
 
+def _derivative(routine: Routine) -> Program | Looped:
+    if isinstance(routine.program, Looped):
+        return differentiate_looped(routine.program)
+    jacobian = simplify(differentiate(routine.program))
+    return contract_fma(jacobian) if routine.counts.fma else jacobian
+
+
 def _function(routine: Routine) -> External:
     inputs = _inputs(routine.program)
     outputs = tuple(_output(output) for output in routine.program.outputs)
@@ -105,7 +118,7 @@ def _function(routine: Routine) -> External:
     )
 
 
-def _jacobian(routine: Routine, jacobian: Program, symbol: str) -> External:
+def _jacobian(routine: Routine, jacobian: Program | Looped, symbol: str) -> External:
     """CasADi passes the inputs and the nominal outputs, and wants one block for each output and input."""
     nominal = tuple(
         Port(f"out_{output.name}", 0, _pattern(Sparsity.of_entries(output.sparsity.nrow, output.sparsity.ncol, ())))
@@ -120,7 +133,7 @@ def _jacobian(routine: Routine, jacobian: Program, symbol: str) -> External:
     )
 
 
-def _inputs(program: Program) -> tuple[Port, ...]:
+def _inputs(program: Program | Looped) -> tuple[Port, ...]:
     return tuple(
         Port(argument.name, argument.length, _pattern(_dense(argument))) for argument in program.used_arguments()
     )
@@ -131,10 +144,10 @@ def _dense(argument: Argument) -> Sparsity:
     return Sparsity.of_entries(nrow, ncol, [(row, column) for row in range(nrow) for column in range(ncol)])
 
 
-def _output(output: Output) -> Port:
-    return Port(output.name, len(output.values), _pattern(output.sparsity))
+def _output(output: Result) -> Port:
+    return Port(output.name, output.sparsity.nonzeros, _pattern(output.sparsity))
 
 
 def _pattern(pattern: Sparsity) -> tuple[str, ...]:
     numbers = (pattern.nrow, pattern.ncol, *pattern.colind, *pattern.row)
-    return tuple(textwrap.wrap(", ".join(str(number) for number in numbers), 108))
+    return tuple(packed([str(number) for number in numbers], 108))

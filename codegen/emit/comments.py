@@ -31,7 +31,9 @@ def _parameter(parameter: Parameter) -> list[str]:
     )
     for name, offset, (nrow, ncol), meaning in parameter.members:
         size = f"[{nrow}]" if ncol == 1 else f"[{nrow} x {ncol}]"
-        lines += _wrapped(f"  [{offset}] {name} {size} {meaning}")
+        count, stride = parameter.repeats.get(offset, (1, 0))
+        again = f"; {count} times, every {stride} entries" if count > 1 else ""
+        lines += _wrapped(f"  [{offset}] {name} {size} {meaning}{again}")
     return lines
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from codegen.emit.routine import Member, Preparation, Words
-from codegen.ir.program import Argument, Output, Program
+from codegen.ir.looped import Looped
+from codegen.ir.program import Argument, Program, Result
 from codegen.spec.joints import JointType
 from codegen.spec.request import PREPARE, Variant
 
@@ -74,6 +75,10 @@ class JointSubject:
         """The symbol of a routine without its storage ending."""
         return self.variant.routine_stem(output)
 
+    def part(self, kind: int) -> JointSubject:
+        """A joint has one kind of instances: itself."""
+        return self
+
     def argument(self, argument: Argument) -> Words:
         """Axes, unit and parts of an argument."""
         name = argument.name
@@ -87,7 +92,7 @@ class JointSubject:
             return Words(axes(self.variant), "m/s, rad/s", self._velocity(argument))
         return Words("constraint rows", "N, N m")
 
-    def output(self, output: Output) -> Words:
+    def output(self, output: Result) -> Words:
         """Axes and unit of an output."""
         frame, unit = _OUTPUT_WORDS.get(output.name, ("partial derivatives by the entries of an argument", "mixed"))
         return Words(frame if output.name == "phi" else f"{frame}; {axes(self.variant)}", unit)
@@ -96,7 +101,7 @@ class JointSubject:
         """What a routine does, in a line."""
         return f"{_BRIEF[output]}: {self.joint.name} joint, {self.variant.form} form."
 
-    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+    def details(self, output: str, program: Program | Looped, preparation: Preparation | None) -> Sequence[str]:
         """What a user must know besides, sentence by sentence."""
         if output == PREPARE:
             return ["Call it again when the geometry changes."]

@@ -8,6 +8,9 @@ from typing import Any
 
 from codegen.emit.c import Entry, sparsity_symbol
 from codegen.emit.routine import Parameter
+from codegen.ir.looped import Loop, Looped
+from codegen.passes.flatten import flatten
+from flopcount.count import count
 
 SCHEMA_VERSION = 1
 
@@ -48,6 +51,8 @@ def entry_record(entry: Entry, header: str, source: str, real: str) -> dict[str,
         "equations": routine.equations,
         "sha256": hashlib.sha256(entry.text.encode()).hexdigest(),
     }
+    if isinstance(routine.program, Looped):
+        record["loops"] = [_loop_record(routine.program, loop) for loop in routine.program.loops]
     if routine.preparation:
         prepare = routine.preparation
         record["prepare"] = {"symbol": prepare.symbol, "operations": prepare.counts.as_dict()}
@@ -66,10 +71,25 @@ def _parameter_record(parameter: Parameter) -> dict[str, Any]:
     }
     if parameter.members:
         record["members"] = [
-            {"name": name, "offset": offset, "shape": list(shape), "meaning": meaning}
+            {"name": name, "offset": offset, "shape": list(shape), "meaning": meaning} | _repeats(parameter, offset)
             for name, offset, shape, meaning in parameter.members
         ]
     return record
+
+
+def _repeats(parameter: Parameter, offset: int) -> dict[str, int]:
+    number, stride = parameter.repeats.get(offset, (1, 0))
+    return {"count": number, "stride": stride} if number > 1 else {}
+
+
+def _loop_record(looped: Looped, loop: Loop) -> dict[str, Any]:
+    """Describe the instances of a loop: how many, and entries of every array from one to the next."""
+    flat = flatten(looped, loop)
+    pieces = [
+        {"array": p.array, "start": p.start, "length": p.length, "stride": p.stride if loop.count > 1 else 0}
+        for p in (*flat.inputs, *flat.outputs)
+    ]
+    return {"instances": loop.count, "operations": count(loop.program).as_dict(), "pieces": pieces}
 
 
 def manifest(

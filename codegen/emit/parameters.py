@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from codegen.emit.routine import Member, Parameter, Routine, Subject, Words
-from codegen.ir.program import Argument, Output, Program
+from codegen.ir.looped import Looped
+from codegen.ir.program import Argument, Program, Result
 
 
-def parameters(routine: Routine, dense: bool, program: Program | None = None) -> tuple[Parameter, ...]:
+def parameters(routine: Routine, dense: bool, program: Program | Looped | None = None) -> tuple[Parameter, ...]:
     """Describe the parameters of a routine, in the order of its signature.
 
     Args:
@@ -21,12 +22,11 @@ def parameters(routine: Routine, dense: bool, program: Program | None = None) ->
 
 def _input(argument: Argument, subject: Subject, prepared: tuple[Member, ...]) -> Parameter:
     words = Words("body", "mixed", prepared) if argument.name == "prepared" else subject.argument(argument)
-    return Parameter(
-        argument.name, "in", argument.shape, argument.length, "column-major", words.frame, words.unit, words.members
-    )
+    name, shape, length = argument.name, argument.shape, argument.length
+    return Parameter(name, "in", shape, length, "column-major", words.frame, words.unit, words.members, words.repeats)
 
 
-def _output(output: Output, subject: Subject, dense: bool, prepared: tuple[Member, ...]) -> Parameter:
+def _output(output: Result, subject: Subject, dense: bool, prepared: tuple[Member, ...]) -> Parameter:
     pattern = output.sparsity
     if output.name == "prepared":
         shape = (pattern.nrow, 1)
@@ -36,4 +36,4 @@ def _output(output: Output, subject: Subject, dense: bool, prepared: tuple[Membe
     length = pattern.nrow * pattern.ncol if stored_dense else pattern.nonzeros
     layout = "column-major" if stored_dense else "compressed-columns"
     shape = (pattern.nrow, pattern.ncol)
-    return Parameter(output.name, "out", shape, length, layout, words.frame, words.unit, words.members)
+    return Parameter(output.name, "out", shape, length, layout, words.frame, words.unit, words.members, words.repeats)

@@ -25,7 +25,7 @@ _Part = tuple[str, int]
 
 def prepare_geometry(routines: Sequence[Routine]) -> tuple[Routine, ...]:
     """Split the routines of a variant; without any use of the geometry they are left as they are."""
-    split = split_geometry([routine.program for routine in routines])
+    split = split_geometry([routine.straight for routine in routines])
     if not split.prepare.outputs[0].values:
         return tuple(routines)
     first = routines[0]

@@ -6,11 +6,13 @@ or a scene, is its `Subject`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from codegen.ir.program import Argument, Output, Program
+from codegen.errors import InternalError
+from codegen.ir.looped import Looped
+from codegen.ir.program import Argument, Program, Result
 from flopcount.counts import Counts
 
 Member = tuple[str, int, tuple[int, int], str]
@@ -45,6 +47,7 @@ class Parameter:
         frame: axes of its components.
         unit: unit of its components.
         members: parts of a compound array.
+        repeats: offset of a part that comes more than once -> how often, and entries from one to the next.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Parameter:
     frame: str
     unit: str
     members: tuple[Member, ...] = ()
+    repeats: Mapping[int, tuple[int, int]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,11 +69,13 @@ class Words:
         frame: axes of its components.
         unit: unit of its components.
         members: parts of a compound array.
+        repeats: offset of a part that comes more than once -> how often, and entries from one to the next.
     """
 
     frame: str
     unit: str
     members: tuple[Member, ...] = ()
+    repeats: Mapping[int, tuple[int, int]] = field(default_factory=dict)
 
 
 class Subject(Protocol):
@@ -82,16 +88,19 @@ class Subject(Protocol):
     def routine_stem(self, output: str) -> str:
         """The symbol of a routine without its storage ending."""
 
+    def part(self, kind: int) -> Subject:
+        """What the instances of a kind are, where the routines are loops."""
+
     def argument(self, argument: Argument) -> Words:
         """Axes, unit and parts of an argument."""
 
-    def output(self, output: Output) -> Words:
+    def output(self, output: Result) -> Words:
         """Axes, unit and parts of an output."""
 
     def brief(self, output: str) -> str:
         """What a routine does, in a line."""
 
-    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+    def details(self, output: str, program: Program | Looped, preparation: Preparation | None) -> Sequence[str]:
         """What a user must know besides, sentence by sentence."""
 
     def record(self) -> dict[str, Any]:
@@ -105,7 +114,7 @@ class Routine:
     Attributes:
         subject: what it is a routine of.
         output: a quantity, ``all``, or ``prepare``.
-        program: what it evaluates.
+        program: what it evaluates: straight-line code, or loops.
         counts: operations of the program.
         equations: where the formulas come from.
         preparation: what the routine takes, or computes, in the place of the geometry; None for run-time geometry.
@@ -113,10 +122,21 @@ class Routine:
 
     subject: Subject
     output: str
-    program: Program
+    program: Program | Looped
     counts: Counts
     equations: str
     preparation: Preparation | None = None
+
+    @property
+    def straight(self) -> Program:
+        """The program of straight-line code.
+
+        Raises:
+            InternalError: it is loops.
+        """
+        if isinstance(self.program, Looped):
+            raise InternalError(f"{self.symbol} is no straight-line code")
+        return self.program
 
     @property
     def prepared_members(self) -> tuple[Member, ...]:

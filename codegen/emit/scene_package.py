@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
-from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
+from codegen.emit.casadi_external import external_name, external_source, has_external
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.package import banner
+from codegen.emit.packed import packed
 from codegen.emit.routine import Parameter, Routine
 from codegen.ir.ops import Constant
 
@@ -53,15 +54,16 @@ class ScenePackage:
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
     """Write the files of a scene: path below its folder -> content."""
     emitted = [entry for routine in package.routines for entry in entries(routine)]
+    patterns = _patterns(package)
     files = {
-        f"{package.name}.h": _header(package, emitted),
-        f"{package.name}.c": _source(package, emitted),
+        f"{package.name}.h": _header(package, emitted, list(patterns)),
+        f"{package.name}.c": _source(package, emitted, list(patterns.values())),
         "jg_real.h": render("c/jg_real.h.j2", banner=banner(package.version), real=package.real, fma=False, batch=None),
         f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
         "README.md": package.readme,
         "manifest.json": _manifest(package, emitted),
     }
-    if package.real == "double":
+    if package.real == "double" and any(has_external(routine) for routine in package.routines):
         files["casadi/external.c"] = external_source(
             package.routines,
             "external.c",
@@ -78,7 +80,7 @@ def _patterns(package: ScenePackage) -> dict[str, str]:
     return {symbol: text for routine in package.routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+def _header(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[str]) -> str:
     introduction = [
         f"Routines of the scene {package.name}: what stands in README.md beside this file.",
         "",
@@ -91,7 +93,7 @@ def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             (f"@brief Pattern of {symbol.removesuffix('_sparsity')}: {{nrow, ncol, colind..., row...}}.",),
             f"const int *{symbol}(void)",
         )
-        for symbol in _patterns(package)
+        for symbol in patterns
     ]
     declarations += [(tuple(comment(entry)), entry.signature) for entry in emitted]
     return render(
@@ -105,7 +107,7 @@ def _header(package: ScenePackage, emitted: Sequence[Entry]) -> str:
     )
 
 
-def _source(package: ScenePackage, emitted: Sequence[Entry]) -> str:
+def _source(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[str]) -> str:
     return render(
         "c/source.c.j2",
         file=f"{package.name}.c",
@@ -113,7 +115,7 @@ def _source(package: ScenePackage, emitted: Sequence[Entry]) -> str:
         options=f"scene {package.name}, real {package.real}",
         specification=package.specification,
         header=f"{package.name}.h",
-        functions=[*_patterns(package).values(), *(entry.text for entry in emitted)],
+        functions=[*patterns, *(entry.text for entry in emitted)],
     )
 
 
@@ -124,7 +126,7 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
     for output in package.casadi:
         subject = by_output[output].subject
         record = {"name": subject.routine_stem(output), "file": f"casadi/{output}.casadi", "output": output}
-        if package.real == "double" and output in EXTERNALS:
+        if package.real == "double" and has_external(by_output[output]):
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
@@ -164,4 +166,4 @@ def _pattern(entry: Entry, parameter: Parameter) -> str:
 
 
 def _rows(words: Sequence[str]) -> list[str]:
-    return textwrap.wrap(", ".join(words), _WIDTH)
+    return packed(words, _WIDTH)

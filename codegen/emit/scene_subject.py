@@ -9,8 +9,11 @@ from typing import Any
 
 from codegen.dynamics.layout import Layout
 from codegen.emit.routine import Member, Preparation, Words
-from codegen.ir.program import Argument, Output, Program
+from codegen.errors import InternalError
+from codegen.ir.looped import Axis, Looped
+from codegen.ir.program import Argument, Program, Result
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.plan import Plan, Series
 from codegen.mechanics.system import System
 from codegen.spec.scene import COORDINATE_UNITS
 
@@ -57,11 +60,13 @@ class SceneSubject:
         system: the scene.
         state: layout of the state of an integrator.
         row_names: joint and name of each row of all joints.
+        plan: where the routines are loops, the instances.
     """
 
     system: System
     state: Layout
     row_names: tuple[tuple[str, str], ...]
+    plan: Plan | None = None
 
     @property
     def assembly(self) -> Assembly:
@@ -92,23 +97,68 @@ class SceneSubject:
             "cj": ("weight of dF/dydot", "1/s", lambda: iter(())),
         }
         frame, unit, members = words[argument.name]
-        return Words(frame, unit, tuple(members()))
+        if self.plan is None or argument.name in ("y", "ydot"):
+            return Words(frame, unit, tuple(members()))
+        found, repeats = _of_instances(
+            (series, series.argument(argument.name), subject.argument(argument).members)
+            for series, subject in self._series
+        )
+        return Words(frame, unit, found, repeats)
 
-    def output(self, output: Output) -> Words:
+    def output(self, output: Result) -> Words:
         """Axes, unit and parts of an output."""
         _, frame, unit = _OUTPUTS.get(output.name, ("", "partial derivatives by the entries of an argument", "mixed"))
-        members: tuple[Member, ...] = ()
-        if frame == "constraint rows":
-            members = tuple(self._rows(output.name))
-        elif frame == "virtual displacements":
-            members = tuple(self.displacements(output.name))
-        return Words(frame if output.name == "phi" else f"{frame}; {self.axes}", unit, members)
+        axes = frame if output.name == "phi" else f"{frame}; {self.axes}"
+        told = {"constraint rows": self._rows, "virtual displacements": self.displacements}
+        if frame not in told:
+            return Words(axes, unit)
+        if self.plan is None:
+            return Words(axes, unit, tuple(told[frame](output.name)))
+        found, repeats = _of_instances(
+            (series, series.output(output.name)[0], subject.output(output).members) for series, subject in self._series
+        )
+        return Words(axes, unit, found, repeats)
+
+    @property
+    def parts(self) -> tuple[tuple[SceneSubject, int], ...]:
+        """What is told one by one: the whole scene, or the first instance of each series; and how often it comes."""
+        if self.plan is None:
+            return ((self, 1),)
+        return tuple((subject, len(series.sections)) for series, subject in self._series)
+
+    @property
+    def parts_of_displacements(self) -> tuple[tuple[Member, ...], _Repeats]:
+        """The columns of ``phi_q``; of series those of the first instance, and how often each comes."""
+        if self.plan is None:
+            return tuple(self.displacements("delta")), {}
+        return _of_instances(
+            (series, series.axes["displacements"], tuple(subject.displacements("delta")))
+            for series, subject in self._series
+        )
+
+    def part(self, kind: int) -> SceneSubject:
+        """The first instance of a kind, as a scene of its own.
+
+        Raises:
+            InternalError: the routines are no loops.
+        """
+        if self.plan is None:
+            raise InternalError("no instances in straight-line code")
+        return self._alone(self.plan.kinds[kind])
+
+    @cached_property
+    def _series(self) -> list[tuple[Series, SceneSubject]]:
+        return [(series, self._alone(series.first)) for series in (self.plan.series if self.plan else ())]
+
+    def _alone(self, system: System) -> SceneSubject:
+        joints = {joint.name for joint in system.assembly.scene.joints}
+        return SceneSubject(system, self.state, tuple(pair for pair in self.row_names if pair[0] in joints))
 
     def brief(self, output: str) -> str:
         """What a routine does, in a line."""
         return f"{_OUTPUTS[output][0]}: scene {self.assembly.scene.name}."
 
-    def details(self, output: str, program: Program, preparation: Preparation | None) -> Sequence[str]:
+    def details(self, output: str, program: Program | Looped, preparation: Preparation | None) -> Sequence[str]:
         """What a user must know besides, sentence by sentence."""
         details = [f"Virtual displacements: {self.axes}.", "The parts of A are taken as rotations."]
         if any(variant.derivative == "substituted" for variant in self.assembly.forms.values()):
@@ -216,3 +266,24 @@ def row_words(names: Iterable[str]) -> str:
         else:
             found.append((vector, [component]) if vector else ("", [name]))
     return ", ".join(", ".join(parts) + (f" of {vector}" if vector else "") for vector, parts in found)
+
+
+_Repeats = dict[int, tuple[int, int]]
+
+
+def _of_instances(
+    found: Iterable[tuple[Series, Axis, Sequence[Member]]],
+) -> tuple[tuple[Member, ...], _Repeats]:
+    """The parts of an array of the first instances, at their places in the whole, and how often each comes."""
+    members: list[Member] = []
+    repeats: _Repeats = {}
+    for series, axis, own in found:
+        for name, offset, shape, meaning in own:
+            first = 0
+            for segment in axis:
+                if first <= offset < first + segment.length:
+                    place = segment.start + offset - first
+                    members.append((name, place, shape, meaning))
+                    repeats[place] = len(series.sections), segment.stride
+                first += segment.length
+    return tuple(sorted(members, key=lambda member: member[1])), repeats

@@ -92,17 +92,26 @@ class Instruction:
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
-    """A result: a matrix of which the structural nonzeros are computed.
+class Result:
+    """A matrix of which the structural nonzeros are stored.
 
     Attributes:
         name: as in the C signature, for example ``phi_q``.
         sparsity: pattern of the nonzeros; full for vectors.
-        values: positions of the instructions that give the nonzeros, in storage order.
     """
 
     name: str
     sparsity: Sparsity
+
+
+@dataclass(frozen=True, slots=True)
+class Output(Result):
+    """A result of a program.
+
+    Attributes:
+        values: positions of the instructions that give the nonzeros, in storage order.
+    """
+
     values: tuple[int, ...]
 
 

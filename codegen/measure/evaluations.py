@@ -16,7 +16,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from codegen.emit.c import declaration, definition
+from codegen.emit.c import definition
+from codegen.emit.declarations import declaration
 from codegen.emit.environment import render
 from codegen.emit.routine import Parameter
 from codegen.errors import SpecificationError

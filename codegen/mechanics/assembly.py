@@ -11,7 +11,7 @@ is substituted, since S1 substitutes in these coordinates.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import Any
 
@@ -24,11 +24,12 @@ from codegen.mechanics.derivation import Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.merged import merged
-from codegen.mechanics.placed import Ends, Placed
+from codegen.mechanics.placed import Ends, Placed, geometry_symbol
 from codegen.mechanics.places import WORLD, places
 from codegen.spec.identifiers import identifiers
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Scene
+from codegen.spec.sections import Coordinate, varying_of
 
 KINDS = {
     "phi": ("constraints", "one"),
@@ -58,11 +59,13 @@ class Assembly:
             `codegen.spec.plane.flattened`.
         forms: joint name -> form, rows and derivative.
         dropped: rows of the joints that are left out.
+        varying: coordinates of attachments that are read at run time -> number in the argument ``geometry``.
     """
 
     scene: Scene
     forms: Mapping[str, Variant]
     dropped: frozenset[int] = frozenset()
+    varying: Mapping[Coordinate, int] = field(default_factory=dict)
 
     @cached_property
     def arrays(self) -> Arrays:
@@ -85,7 +88,7 @@ class Assembly:
         numbers = {GROUND: None} | {body.name: k for k, body in enumerate(self.scene.bodies)}
         names = identifiers(joint.name for joint in self.scene.joints)
         found, row, alpha = [], 0, 0
-        for joint in self.scene.joints:
+        for number, joint in enumerate(self.scene.joints):
             form, _ = _derived(self.forms[joint.name], self.translations)
             i, j = joint.bodies
             ends = Ends(
@@ -97,6 +100,7 @@ class Assembly:
                 self.arrays.derived * len(self.scene.bodies),
                 self.arrays,
                 self.dropped,
+                varying_of(self.varying, number),
             )
             found.append(Placed(joint, form, ends))
             row += form.row_count
@@ -135,10 +139,16 @@ class Assembly:
             Argument("r", (self.arrays.position * bodies, 1)),
             Argument("A", (self.arrays.attitude * bodies, 1)),
             Argument("alpha", (self.coordinates, 1)),
-            Argument("revolutions", (len(self._counting), 1)),
+            Argument("revolutions", (self.counted, 1)),
+            Argument("geometry", (1 + max(self.varying.values(), default=-1), 1)),
             Argument("velocity", (len(self.columns), 1)),
             Argument("lambda", (len(self.rows), 1)),
         )
+
+    @property
+    def counted(self) -> int:
+        """Number of joints whose whole turns are an input."""
+        return len(self._counting)
 
     @cached_property
     def _counting(self) -> list[Placed]:
@@ -157,7 +167,8 @@ class Assembly:
         multipliers = frames.multipliers(self.all_rows)
         found |= {multipliers[row]: ("lambda", k) for k, row in enumerate(self.rows)}
         turns = [placed.symbols[frames.revolutions] for placed in self._counting]
-        return found | {symbol: ("revolutions", k) for k, symbol in enumerate(turns)}
+        found |= {symbol: ("revolutions", k) for k, symbol in enumerate(turns)}
+        return found | {geometry_symbol(k): ("geometry", k) for k in self.varying.values()}
 
     # --- outputs
 

@@ -29,6 +29,7 @@ from codegen.mechanics.places import WORLD, places
 from codegen.mechanics.spring import BALL, SpringLaw, spring_law
 from codegen.spec.placement import IDENTITY
 from codegen.spec.scene import GROUND, Body, Joint, Marker, Spring, Vector
+from codegen.spec.sections import varying_of
 
 FORCES = {
     "force": ("displacements", "one"),
@@ -92,7 +93,9 @@ class Forces:
         first, second = (Marker(point, IDENTITY) for point in spring.points)
         joint = Joint(name, "spring", (i, j), first, second)
         bodies = (assembly.bodies[i], assembly.bodies[j])
-        ends = Ends(name, bodies, (numbers[i], numbers[j]), 0, 0, self._alpha_column, assembly.arrays)
+        varying = varying_of(assembly.varying, len(assembly.scene.joints) + k)
+        column, arrays = self._alpha_column, assembly.arrays
+        ends = Ends(name, bodies, (numbers[i], numbers[j]), 0, 0, column, arrays, varying=varying)
         return Placed(joint, law.form, ends), law
 
     def _spring_blocks(self, placed: Placed, law: SpringLaw, name: str) -> Iterator[Block]:

@@ -7,7 +7,7 @@ constant: a joint frame whose axes are axes of its body is no frame of its own, 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -41,6 +41,7 @@ class Ends:
         alpha_column: of the first coordinate of all joints.
         arrays: layout of the bodies.
         dropped: rows of the system that are left out.
+        varying: side and number of a coordinate of an attachment -> number in the argument ``geometry``.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Ends:
     alpha_column: int
     arrays: Arrays
     dropped: frozenset[int] = frozenset()
+    varying: Mapping[tuple[int, int], int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -166,12 +168,18 @@ class Placed:
 
     def _constants(self, known: Mapping[Any, str]) -> dict[Any, Any]:
         """Attachments, what does not move, and what does not leave the plane."""
-        found = {self.symbols[s]: _column(m.point) for s, m in zip((s_i, s_j), self.markers, strict=True)}
+        found = {self.symbols[s]: self._attachment(side) for side, s in enumerate((s_i, s_j))}
         found |= {normal_symbol(body): THIRD_AXIS for body in self.ends.bodies}
         for body, number in zip(self.ends.bodies, self.ends.numbers, strict=True):
             still = {body_symbol(word, body): ORIGIN for word in BODY_SYMBOLS if word != "A"}
             found |= still if number is None else self.ends.arrays.components(body)
         return {symbol: value for symbol, value in found.items() if symbol in known}
+
+    def _attachment(self, side: int) -> Any:
+        """Numbers, and symbols where they are read at run time."""
+        varying = {k: geometry_symbol(number) for (of, k), number in self.ends.varying.items() if of == side}
+        point = self.markers[side].point
+        return sympy.ImmutableDenseMatrix([varying.get(k, rational(x)) for k, x in enumerate(point)])
 
     @cached_property
     def _attitudes(self) -> dict[Any, Any]:
@@ -330,13 +338,14 @@ def aligned_axes(matrix: Any) -> dict[int, tuple[int, int]]:
     return found
 
 
+def geometry_symbol(number: int) -> Any:
+    """An entry of the argument ``geometry``, m."""
+    return sympy.Symbol(f"geometry_{number}")
+
+
 def rational(value: Fraction) -> Any:
     """An exact number."""
     return sympy.Rational(value.numerator, value.denominator)
-
-
-def _column(vector: tuple[Fraction, ...]) -> Any:
-    return sympy.ImmutableDenseMatrix([rational(x) for x in vector])
 
 
 def _matrix(matrix: Matrix) -> Any:

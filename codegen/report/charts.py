@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from codegen.report.sheets import Document
+from codegen.report.svg import drawn
 
 _HATCHES = ("", "//", "\\\\", "xx", "--")
-_SETTINGS = {"svg.hashsalt": "jointgen", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9}
 _WIDTH, _LINE_HEIGHT, _MARGIN = 7.5, 0.28, 0.9
 
 
@@ -28,14 +26,13 @@ def bar_chart(document: Document, joint: str) -> str:
     rows = [row for row in document["rows"] if row["joint"] == joint]
     bars = [bars_of(row, document) for row in rows]
     height = sum(len(group) for group in bars) * _LINE_HEIGHT + 2 * _MARGIN
-    with matplotlib.rc_context(_SETTINGS):
-        figure = Figure(figsize=(_WIDTH, height), layout="constrained")
+
+    def draw(figure: Figure) -> None:
         axes = figure.subplots(len(rows), 1, gridspec_kw={"height_ratios": [len(group) for group in bars]})
         for axis, row, group in zip(axes, rows, bars, strict=True):
             _draw(axis, row["derivative"], group)
-        buffer = io.StringIO()
-        figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
-    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines()) + "\n"
+
+    return drawn(draw, _WIDTH, height)
 
 
 def bars_of(row: Document, document: Document) -> list[tuple[str, float]]:

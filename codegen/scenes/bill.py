@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen import build
+from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.plan import parts_of
 from codegen.scenes.forms import alone, constraint_quantities
 from codegen.scenes.programs import program
 from codegen.spec.placement import IDENTITY
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Joint, Scene
+from codegen.spec.sections import attachments, likeness
 from flopcount.count import count
 from flopcount.counts import Counts
 
@@ -51,7 +54,7 @@ class Bill:
     in_plane: Counts | None = None
 
 
-def bill(assembly: Assembly, undropped: Assembly, emitted: Program, has_drives: bool) -> tuple[Item, ...]:
+def bill(assembly: Assembly, undropped: Assembly, emitted: Program | Looped, has_drives: bool) -> tuple[Item, ...]:
     """Evaluate the constraints of a scene before and after each simplification.
 
     Args:
@@ -60,23 +63,55 @@ def bill(assembly: Assembly, undropped: Assembly, emitted: Program, has_drives: 
         emitted: what is emitted for all constraint quantities at once.
         has_drives: whether it has the rows of drives besides.
     """
-    spatial = replace(assembly.scene, motion="spatial")
+    spatial = replace(assembly, scene=replace(assembly.scene, motion="spatial"), dropped=frozenset())
     names = constraint_quantities(assembly.scene)
-    steps = [("joints evaluated together", Assembly(spatial, assembly.forms))] if len(spatial.joints) > 1 else []
+    steps = [("joints evaluated together", spatial)] if len(assembly.scene.joints) > 1 else []
     if assembly.scene.motion == "planar":
         steps.append(("motion in the plane", undropped))
     if undropped.dropped != assembly.dropped:
         steps.append(("redundant rows left out", assembly))
     if has_drives:
         steps.append(("rows of drives added", assembly))
-    items = [
-        _each("the library's routine of each joint", spatial, assembly.forms, _in_library),
-        _each("geometry folded as constants", spatial, assembly.forms, _folded),
-        _each("columns of the ground left out", spatial, assembly.forms, _grounded),
-        *(Item(words, (program(step, names),)) for words, step in steps[:-1]),
-        *(Item(words, (emitted,)) for words, _ in steps[-1:]),
-    ]
-    return tuple(items)
+    if isinstance(emitted, Looped):
+        steps.append(("equal parts run in loops", assembly))
+
+    def together(part: Assembly) -> tuple[tuple[Program, ...], int]:
+        return (program(part, names),), 0
+
+    return (
+        _item("the library's routine of each joint", spatial, _each(_in_library)),
+        _item("geometry folded as constants", spatial, _each(_folded)),
+        _item("columns of the ground left out", spatial, _each(_grounded)),
+        *(_item(words, step, together) for words, step in steps[:-1]),
+        *(Item(words, _programs(emitted)) for words, _ in steps[-1:]),
+    )
+
+
+def _programs(emitted: Program | Looped) -> tuple[Program, ...]:
+    """What is evaluated, instance by instance."""
+    if isinstance(emitted, Program):
+        return (emitted,)
+    return tuple(loop.program for loop in emitted.loops for _ in range(loop.count))
+
+
+def _item(words: str, assembly: Assembly, evaluated: Callable[[Assembly], tuple[tuple[Program, ...], int]]) -> Item:
+    """Evaluate the sections of a scene; those that differ in numbers only, once."""
+    known: dict[object, tuple[tuple[Program, ...], int]] = {}
+    programs: list[Program] = []
+    additions = 0
+    for part in parts_of(assembly):
+        key = likeness(part.scene), part.dropped, _special(part.scene)
+        if key not in known:
+            known[key] = evaluated(part)
+        programs += known[key][0]
+        additions += known[key][1]
+    return Item(words, tuple(programs), additions)
+
+
+def _special(scene: Scene) -> object:
+    """The numbers that save operations."""
+    numbers = (x for pair in attachments(scene) for point in pair for x in point)
+    return tuple(x if x in (-1, 0, 1) else None for x in numbers)
 
 
 _Evaluate = Callable[[Scene, Joint, Variant], Program]
@@ -84,20 +119,24 @@ _Evaluate = Callable[[Scene, Joint, Variant], Program]
 _MOVING = "the ground, moving"
 
 
-def _each(words: str, scene: Scene, forms: Mapping[str, Variant], evaluate: _Evaluate) -> Item:
+def _each(evaluate: _Evaluate) -> Callable[[Assembly], tuple[tuple[Program, ...], int]]:
     """Evaluate joint by joint; equal joints have one program."""
     known: dict[tuple[object, ...], Program] = {}
-    programs: list[Program] = []
-    places: list[tuple[object, ...]] = []
-    for joint in scene.joints:
-        variant, moving = forms[joint.name], _moving(scene, joint)
-        order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)
-        key = (variant, joint.marker_i, joint.marker_j, joint.pitch, order)
-        if key not in known:
-            known[key] = evaluate(scene, joint, variant)
-        programs.append(known[key])
-        places += _places(known[key], joint.bodies if evaluate is _in_library else moving)
-    return Item(words, tuple(programs), len(places) - len(set(places)))
+
+    def evaluated(part: Assembly) -> tuple[tuple[Program, ...], int]:
+        programs: list[Program] = []
+        places: list[tuple[object, ...]] = []
+        for joint in part.scene.joints:
+            variant, moving = part.forms[joint.name], _moving(part.scene, joint)
+            order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)
+            key = (variant, joint.marker_i, joint.marker_j, joint.pitch, order)
+            if key not in known:
+                known[key] = evaluate(part.scene, joint, variant)
+            programs.append(known[key])
+            places += _places(known[key], joint.bodies if evaluate is _in_library else moving)
+        return tuple(programs), len(places) - len(set(places))
+
+    return evaluated
 
 
 def _moving(scene: Scene, joint: Joint) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from codegen.mechanics.assembly import Assembly
 from codegen.scenes.programs import estimate, program, without_zero_rows
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint, Scene
+from codegen.spec.sections import alike
 from flopcount.count import count
 from flopcount.counts import Counts
 
@@ -36,7 +37,7 @@ class Choice:
 
 
 def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
-    """Choose the form of every joint.
+    """Choose the form of every joint; sections of the scene that are alike have the same forms.
 
     Args:
         scene: the mechanism.
@@ -54,7 +55,14 @@ def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
     if mistakes:
         raise SpecificationError(mistakes)
     known: dict[tuple[object, ...], dict[str, int]] = {}
-    return {joint.name: _choice(scene, joint, form, known) for joint in scene.joints}
+    found: dict[str, Choice] = {}
+    for sections in alike(scene):
+        last = sections[-1].scene(scene)  # the first of several copies has no offset
+        choices = [_choice(last, joint, form, known) for joint in last.joints]
+        for section in sections:
+            joints = section.scene(scene).joints
+            found |= {joint.name: choice for joint, choice in zip(joints, choices, strict=True)}
+    return {joint.name: found[joint.name] for joint in scene.joints}
 
 
 def _choice(scene: Scene, joint: Joint, form: str | None, known: dict[tuple[object, ...], dict[str, int]]) -> Choice:

@@ -13,6 +13,7 @@ from codegen.emit.scene_package import ScenePackage, scene_files
 from codegen.emit.scene_record import scene_record
 from codegen.emit.scene_subject import SceneSubject
 from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.measure.assembly import assemble
 from codegen.measure.constraints import Pose
@@ -21,10 +22,13 @@ from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.mass import mass
+from codegen.mechanics.plan import Plan, plan
 from codegen.mechanics.system import System
 from codegen.parallel import parallel
 from codegen.scenes.bill import Bill, bill
+from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
+from codegen.scenes.loops import LOOPS, decided
 from codegen.scenes.motion import dae
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
 from codegen.scenes.plane_notes import motion_notes
@@ -34,7 +38,9 @@ from codegen.scenes.start import start
 from codegen.spec.plane import flattened, planar_normal
 from codegen.spec.request import REALS
 from codegen.spec.scene import SCENE_FORMS, Scene
+from codegen.spec.sections import alike
 from flopcount.count import count
+from flopcount.counts import Counts
 
 Progress = Callable[[str], None]
 """Told what is finished."""
@@ -111,6 +117,7 @@ def generate_scene(
     real: str = "double",
     progress: Progress = lambda _: None,
     measure: bool = False,
+    loops: str = "auto",
 ) -> dict[str, bytes]:
     """Generate the package of a scene in memory.
 
@@ -120,6 +127,7 @@ def generate_scene(
         real: ``double`` or ``float``.
         progress: told each routine as it is done.
         measure: whether the README tells what the steps of the bill take on this machine.
+        loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
 
     Returns:
         Path below the package's folder -> content.
@@ -132,15 +140,17 @@ def generate_scene(
     judged = judge(scene, form)
     progress("rows")
     system = System(judged.assembly)
-    state = layout(system, "index2")
-    subject = SceneSubject(system, state, row_names(judged.assembly))
-    jobs = [_Job(scene, judged.assembly, name, names) for name, names in wanted(scene).items()]
+    planned = plan(judged.assembly)
+    jobs = [_Job(scene.name, planned, name, names, loops) for name, names in wanted(scene).items()]
     built = parallel(_built, jobs, lambda job: progress(job.output))
+    is_looped = any(isinstance(found, Looped) for found, _ in built)
+    state = layout(system, "index2")
+    subject = SceneSubject(system, state, row_names(judged.assembly), planned if is_looped else None)
     routines = tuple(
         Routine(subject, job.output, found, count(found), "S1 Tables 1 to 5, for this scene")
         for job, (found, _) in zip(jobs, built, strict=True)
     )
-    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real)).encode()).hexdigest()
+    specification = hashlib.sha256(repr((codegen.__version__, scene, form, real, loops)).encode()).hexdigest()
     made = _bill(judged, routines, form)
     progress("bill")
     measurement = measured([Task(item.programs, item.additions) for item in made.items], real) if measure else None
@@ -169,8 +179,16 @@ def _bill(judged: Judged, routines: Sequence[Routine], form: str | None) -> Bill
     items = bill(judged.assembly, judged.undropped, fused[-1].program, bool(System(judged.assembly).drives))
     if scene.motion == "planar" or planar_normal(scene) is None:
         return Bill(items)
-    in_plane = judge(flattened(scene), form)
-    return Bill(items, count(program(System(in_plane.assembly), names)))
+    return Bill(items, _in_plane(flattened(scene), form, names))
+
+
+def _in_plane(scene: Scene, form: str | None, names: tuple[str, ...]) -> Counts:
+    """Operations in the plane; of sections that are alike one is judged."""
+    total = Counts()
+    for same in alike(scene):
+        judged = judge(same[-1].scene(scene), form)
+        total += count(program(System(judged.assembly), names)).times(len(same))
+    return total
 
 
 def steps(scene: Scene) -> int:
@@ -178,13 +196,13 @@ def steps(scene: Scene) -> int:
     return 2 + len(wanted(scene))
 
 
-def check_options(form: str | None, real: str) -> None:
+def check_options(form: str | None, real: str, loops: str = "auto") -> None:
     """Refuse options that there are not.
 
     Raises:
         SpecificationError: all of them at once.
     """
-    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS))
+    asked = (("--form", form, SCENE_FORMS), ("--real", real, REALS), ("--loops", loops, LOOPS))
     mistakes = [
         Mistake(name, f'there is no "{value}"', nearest(value, known))
         for name, value, known in asked
@@ -196,24 +214,25 @@ def check_options(form: str | None, real: str) -> None:
 
 @dataclass(frozen=True)
 class _Job:
-    scene: Scene
-    assembly: Assembly
+    name: str
+    plan: Plan
     output: str
     names: tuple[str, ...]
+    loops: str
 
 
-def _built(job: _Job) -> tuple[Program, bytes]:
+def _built(job: _Job) -> tuple[Program | Looped, bytes]:
     from codegen.emit import casadi
 
-    system = System(Assembly(job.scene, job.assembly.forms, job.assembly.dropped))
-    found = _program(system, job)
-    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.scene.name}_{job.output}", found))
+    found = decided(compose(job.plan, lambda system: _program(system, job)), job.loops)
+    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.name}_{job.output}", found))
 
 
 def _program(system: System, job: _Job) -> Program:
+    assembly = system.assembly
     match job.output:
         case "mass":
-            return mass(job.scene, system.assembly.arrays, len(system.assembly.columns), system.arguments())
+            return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
         case "residual":
             return dae(system).residual
         case "jacobian":

@@ -17,6 +17,7 @@ from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.passes import simplify
 from codegen.passes.select import select
+from codegen.spec.sections import alike
 from flopcount.count import count
 
 
@@ -27,9 +28,15 @@ def estimate(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
 
 def without_zero_rows(assembly: Assembly) -> Assembly:
     """Leave out the rows that are identically zero, as those across the plane of a planar mechanism are."""
-    inputs = assembly.inputs()
-    rows = set().union(*(structural_rows(part, inputs) for part in assembly.parts(("phi",))))
-    return replace(assembly, dropped=assembly.dropped | (frozenset(range(assembly.all_rows)) - rows))
+    first = [placed.ends.first_row for placed in assembly.placed]
+    zero: set[int] = set()
+    for sections in alike(assembly.scene):
+        alone = Assembly(sections[-1].scene(assembly.scene), assembly.forms)
+        inputs = alone.inputs()
+        rows = set().union(*(structural_rows(part, inputs) for part in alone.parts(("phi",))))
+        missing = set(range(alone.all_rows)) - rows
+        zero |= {first[section.joints.start] + row for section in sections for row in missing}
+    return replace(assembly, dropped=assembly.dropped | zero)
 
 
 def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = choices_for) -> Program:

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from codegen.dynamics.layout import Layout
 from codegen.errors import Mistake, SpecificationError
 from codegen.ir.program import Program
-from codegen.measure.constraints import Array
+from codegen.measure.constraints import Array, Pose
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
 from codegen.scenes.generate import Judged, judge
 from codegen.scenes.motion import dae
 from codegen.scenes.programs import estimate, program
-from codegen.scenes.state import euler_parameters, program_arrays
+from codegen.scenes.state import euler_parameters, program_arrays, rate_matrix
 from codegen.simulate.compiled import Compiled, compiled
 from codegen.simulate.ida import FAILURES, Ida, Statistics, Tolerances
 from codegen.simulate.start import Motion, consistent_motion
@@ -39,6 +39,7 @@ class Settings:
         form: of all joints that may have it, in the place of what the scene says.
         index: 2 (stabilised after Gear, Gupta and Leimkuhler) or 1 (after Baumgarte).
         left_out: second derivatives that the Jacobian lacks, see `codegen.dynamics.jacobian.SECOND`.
+        through_singular: go on through singular configurations, on the smooth branch.
     """
 
     duration: float = 1.0
@@ -47,6 +48,7 @@ class Settings:
     form: str | None = None
     index: int = 2
     left_out: tuple[str, ...] = ()
+    through_singular: bool = False
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,17 @@ class Prepared:
     motion: Motion
     y: Array
     ydot: Array
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom that drives leave."""
+        return self.judged.mobility.freedoms - len(self.system.drives)
+
+    @property
+    def moved(self) -> float:
+        """How far bodies were moved to close the joints at the start, m."""
+        given = [body.position for body in self.judged.assembly.scene.bodies]
+        return float(np.max(np.abs(self.judged.pose.r - np.array(given, dtype=np.float64)), initial=0.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,13 +126,13 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
             Mistake(f'body "{name}"', "has no mass", "give mass (kg) and inertia (kg m^2)") for name in massless
         )
     plane = in_plane(scene) if scene.motion == "planar" else None
-    judged = judge(plane.scene if plane else scene, settings.form)
+    judged = judge(with_forms(plane.scene if plane else scene, settings.form))
     system = System(judged.assembly)
     equations = dae(system, f"index{settings.index}", settings.left_out)
     values = program(system, ("phi_q", "gamma", "force"), estimate)
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
-    motion = _start(system, judged, values, inertia)
-    y, ydot = _state(system, judged, equations.layout, motion)
+    motion = _motion(system, values, inertia, judged.pose, _velocity(system))
+    y, ydot = _state(system, equations.layout, judged.pose, motion)
     return Prepared(
         scene,
         plane,
@@ -135,56 +148,93 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     )
 
 
-def _start(system: System, judged: Judged, values: Program, inertia: Program) -> Motion:
-    scene, arrays = system.assembly.scene, system.assembly.arrays
+def with_forms(scene: Scene, form: str | None) -> Scene:
+    """Give all joints that may have it a form; screws are parametric, since their angle goes on beyond a turn.
+
+    Raises:
+        SpecificationError: the scene asks for a screw in conventional form.
+    """
+    wrapped = [joint.name for joint in scene.joints if joint.type == "screw" and joint.form == "conventional"]
+    if wrapped and form is None:
+        what = "the conventional form of a screw knows its angle within one turn only"
+        remedy = 'use form = "parametric" or "auto"'
+        raise SpecificationError(Mistake(f'joint "{name}"', what, remedy) for name in wrapped)
+    forms = ["parametric" if joint.type == "screw" else form or joint.form for joint in scene.joints]
+    joints = (replace(joint, form=chosen) for joint, chosen in zip(scene.joints, forms, strict=True))
+    return replace(scene, joints=tuple(joints))
+
+
+def _velocity(system: System) -> Array:
+    """Velocities at the start as the state has them; rates of joint coordinates follow from those of the bodies."""
+    arrays = system.assembly.arrays
     size = arrays.position
     velocity = np.zeros(len(system.assembly.columns))
-    for k, body in enumerate(scene.bodies):
+    for k, body in enumerate(system.assembly.scene.bodies):
         first = arrays.displacements * k
-        v = np.array(body.velocity, dtype=np.float64)
-        v = judged.pose.A[k].T @ v if system.assembly.translations == "body" else v
-        velocity[first : first + size] = v[:size]
+        velocity[first : first + size] = body.velocity[:size]
         turns = body.angular_velocity if size == 3 else body.angular_velocity[2:]
         velocity[first + size : first + arrays.displacements] = turns
+    return velocity
+
+
+def _motion(system: System, values: Program, inertia: Program, pose: Pose, velocity: Array) -> Motion:
+    """The consistent motion nearest to given velocities, translations in world axes."""
     phi_t = np.array(system.phi_t, dtype=np.float64)
-    return consistent_motion(values, inertia, program_arrays(system, judged.pose), velocity, phi_t)
+    wanted = _turned(system, pose, velocity, is_back=True)
+    found = consistent_motion(values, inertia, program_arrays(system, pose), wanted, phi_t)
+    return replace(
+        found,
+        velocity=_turned(system, pose, found.velocity),
+        acceleration=_turned(system, pose, found.acceleration),
+    )
 
 
-def _state(system: System, judged: Judged, layout: Layout, motion: Motion) -> tuple[Array, Array]:
-    """The state at the start and its rate."""
-    arrays, pose = system.assembly.arrays, judged.pose
+def _turned(system: System, pose: Pose, values: Array, is_back: bool = False) -> Array:
+    """Translations from the axes of the programs to the world's, or back."""
+    found, arrays = values.copy(), system.assembly.arrays
+    for k, A in enumerate(pose.A if system.assembly.translations == "body" else ()):
+        part = slice(arrays.displacements * k, arrays.displacements * k + arrays.position)
+        turn = A[: arrays.position, : arrays.position]
+        found[part] = (turn.T if is_back else turn) @ values[part]
+    return found
+
+
+def consistent_state(prepared: Prepared, pose: Pose, velocity: Array) -> tuple[Array, Array]:
+    """The state at a pose and its rate, with the consistent velocities nearest to given ones.
+
+    Args:
+        prepared: the scene.
+        pose: on the constraints.
+        velocity: as the state has them.
+    """
+    system = prepared.system
+    motion = _motion(system, prepared.values, prepared.inertia, pose, velocity)
+    return _state(system, prepared.layout, pose, motion)
+
+
+def _state(system: System, layout: Layout, pose: Pose, motion: Motion) -> tuple[Array, Array]:
+    """The state of a motion, translations in world axes, and its rate."""
+    arrays = system.assembly.arrays
     y, ydot = np.zeros(layout.size), np.zeros(layout.size)
-    velocity, acceleration = motion.velocity.copy(), motion.acceleration.copy()
     stride = 3 if arrays.is_planar else 7
     parameters = euler_parameters(pose.A[None])[0]
     for k in range(len(pose.r)):
         first, place = arrays.displacements * k, stride * k
-        if system.assembly.translations == "body":
-            for part in (velocity, acceleration):
-                part[first : first + arrays.position] = (
-                    pose.A[k][: arrays.position, : arrays.position] @ part[first : first + arrays.position]
-                )
         y[place : place + arrays.position] = pose.r[k, : arrays.position]
-        ydot[place : place + arrays.position] = velocity[first : first + arrays.position]
-        omega = velocity[first + arrays.position : first + arrays.displacements]
+        ydot[place : place + arrays.position] = motion.velocity[first : first + arrays.position]
+        omega = motion.velocity[first + arrays.position : first + arrays.displacements]
         if arrays.is_planar:
             y[place + 2], ydot[place + 2] = np.arctan2(pose.A[k, 1, 0], pose.A[k, 0, 0]), omega[0]
         else:
             y[place + 3 : place + 7] = parameters[k]
-            ydot[place + 3 : place + 7] = _parameter_rates(parameters[k], omega)
+            ydot[place + 3 : place + 7] = 0.5 * rate_matrix(parameters[k]).T @ omega
     first = stride * len(pose.r)
     y[first : layout.positions.stop] = pose.alpha
-    ydot[first : layout.positions.stop] = velocity[arrays.displacements * len(pose.r) :]
-    y[layout.velocities.start : layout.velocities.stop] = velocity
-    ydot[layout.velocities.start : layout.velocities.stop] = acceleration
+    ydot[first : layout.positions.stop] = motion.velocity[arrays.displacements * len(pose.r) :]
+    y[layout.velocities.start : layout.velocities.stop] = motion.velocity
+    ydot[layout.velocities.start : layout.velocities.stop] = motion.acceleration
     y[layout.multipliers.start : layout.multipliers.stop] = motion.multipliers
     return y, ydot
-
-
-def _parameter_rates(p: Array, omega: Array) -> Array:
-    w, x, y, z = p
-    G = np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
-    return 0.5 * G.T @ omega
 
 
 def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: None) -> Run:
@@ -195,13 +245,11 @@ def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: N
         settings: duration, outputs and tolerance.
         progress: told the time reached.
     """
-    layout = prepared.layout
-    tolerances = Tolerances(settings.tolerance, _absolute(layout, settings.tolerance))
     times = np.linspace(0.0, settings.duration, settings.outputs + 1)
     states, rates, reached = [prepared.y], [prepared.ydot], [0.0]
     failure = ""
     start = time.perf_counter()
-    with Ida(prepared.equations, 0.0, prepared.y, prepared.ydot, layout.is_differential, tolerances) as ida:
+    with integrator(prepared, settings) as ida:
         for t in times[1:]:
             now, code = ida.advance(float(t))
             if code:
@@ -214,6 +262,16 @@ def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: N
         statistics = ida.statistics()
     wall_time = time.perf_counter() - start
     return Run(np.array(reached), np.array(states), np.array(rates), statistics, wall_time, failure)
+
+
+def integrator(
+    prepared: Prepared, settings: Settings, t: float = 0.0, y: Array | None = None, ydot: Array | None = None
+) -> Ida:
+    """Start IDA, at the start of the scene or from a consistent state."""
+    layout = prepared.layout
+    tolerances = Tolerances(settings.tolerance, _absolute(layout, settings.tolerance))
+    first, rate = (prepared.y if y is None else y), (prepared.ydot if ydot is None else ydot)
+    return Ida(prepared.equations, t, first, rate, layout.is_differential, tolerances)
 
 
 MULTIPLIERS_FREE = 1e10

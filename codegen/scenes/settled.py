@@ -46,7 +46,10 @@ def settled(system: System, layout: Layout, values: Program, mass: Program, y: A
 
 def _times(values: list[Array], count: int) -> Array:
     """[n, entries], also where an entry is the same at all times."""
-    return np.stack([np.broadcast_to(np.asarray(value, dtype=np.float64), count) for value in values], axis=1)
+    found = np.zeros((count, len(values)))
+    for k, value in enumerate(values):
+        found[:, k] = value
+    return found
 
 
 def _arguments(system: System, bodies: Bodies) -> dict[str, Array]:

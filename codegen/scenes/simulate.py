@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import codegen
-from codegen.errors import Mistake, SpecificationError, nearest
+from codegen.errors import JointgenError, Mistake, SpecificationError, nearest
+from codegen.measure.compile import compiler
 from codegen.scenes.motion_record import record
-from codegen.scenes.run import Progress, Settings, prepare, run
+from codegen.scenes.run import Prepared, Progress, Settings, prepare
 from codegen.scenes.summary import as_json, summary
-from codegen.simulate.trajectory import as_csv
+from codegen.scenes.watched_run import Watched, watched_run
+from codegen.simulate.sundials import sundials
+from codegen.simulate.trajectory import Trajectory, as_csv
 from codegen.spec.scene import SCENE_FORMS, Scene
 
 
@@ -23,12 +26,16 @@ class Simulated:
     Attributes:
         files: path below the folder -> content.
         words: the run in a line.
+        notes: what a user should know of the run.
         failure: why it stopped before the end; empty if it did not.
+        trajectory: of the run, for pictures.
     """
 
     files: Mapping[str, bytes]
     words: str
+    notes: tuple[str, ...]
     failure: str
+    trajectory: Trajectory
 
 
 def simulated(scene: Scene, settings: Settings, progress: Progress = lambda _: None) -> Simulated:
@@ -43,16 +50,50 @@ def simulated(scene: Scene, settings: Settings, progress: Progress = lambda _: N
         SpecificationError: the scene cannot be simulated.
     """
     prepared = prepare(scene, settings)
-    done = run(prepared, settings, progress)
-    told = record(prepared, done)
-    numbers = summary(prepared, done, settings, told)
+    watched = watched_run(prepared, settings, progress)
+    told = record(prepared, watched.run)
+    numbers = summary(prepared, watched, settings, told)
     files = {
         "trajectory.csv": as_csv(told.trajectory),
         "summary.json": as_json(numbers),
         "manifest.json": _manifest(scene),
     }
     words = f"{numbers['time_reached']:g} s in {numbers['steps']} steps, drift {numbers['constraint_drift']:.1e}"
-    return Simulated({path: text.encode() for path, text in files.items()}, words, done.failure)
+    encoded = {path: text.encode() for path, text in files.items()}
+    return Simulated(encoded, words, tuple(_notes(prepared, watched)), watched.run.failure, told.trajectory)
+
+
+_CHANGED = 1e-9
+"""m, m/s or rad/s: less is rounding."""
+
+
+def _notes(prepared: Prepared, watched: Watched) -> Iterator[str]:
+    """What a user should know of a run that was done."""
+    moved, changed = prepared.moved, prepared.motion.changed
+    if moved > _CHANGED:
+        yield f"bodies were moved by up to {moved:.3g} m to close the joints at the start"
+    if changed > _CHANGED:
+        yield f"velocities were changed by up to {changed:.3g} m/s or rad/s to satisfy the constraints at the start"
+    if prepared.dof == 0 and not prepared.system.drives:
+        yield "the mechanism has no degree of freedom: it does not move"
+    for passage in watched.passages:
+        yield f"went through a {passage.words}"
+
+
+def check_tools() -> None:
+    """Refuse to start without a C compiler or SUNDIALS.
+
+    Raises:
+        SpecificationError: what is missing, all at once.
+    """
+    mistakes: list[Mistake] = []
+    for needed in (compiler, sundials):
+        try:
+            needed()
+        except JointgenError as error:
+            mistakes += error.mistakes
+    if mistakes:
+        raise SpecificationError(mistakes)
 
 
 def check_settings(settings: Settings) -> None:

@@ -135,6 +135,12 @@ def euler_parameters(A: Array) -> Array:
     return found
 
 
+def rate_matrix(p: Array) -> Array:
+    """``G(p)`` [3, 4]: ``omega = 2 G pdot`` in body axes, ``pdot = G^T omega / 2``."""
+    w, x, y, z = p
+    return np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
+
+
 def program_arrays(system: System, pose: Pose) -> Mapping[str, Sequence[float]]:
     """Arguments of the programs of a system in a pose."""
     size = system.assembly.arrays.position

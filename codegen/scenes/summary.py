@@ -11,11 +11,13 @@ import numpy as np
 from codegen.measure.mobility_text import as_data
 from codegen.scenes.generate import row_names
 from codegen.scenes.motion_record import Record
-from codegen.scenes.run import Prepared, Run, Settings
+from codegen.scenes.run import Prepared, Settings
+from codegen.scenes.watched_run import Watched
 
 
-def summary(prepared: Prepared, run: Run, settings: Settings, record: Record) -> dict[str, Any]:
-    """Tell a run in numbers: rows, freedom, steps, drift of constraints and energy, time."""
+def summary(prepared: Prepared, watched: Watched, settings: Settings, record: Record) -> dict[str, Any]:
+    """Tell a run in numbers: rows, freedom, steps, drift of constraints and energy, singular configurations, time."""
+    run = watched.run
     assembly = prepared.system.assembly
     names = row_names(assembly)
     energy = record.energy
@@ -30,14 +32,18 @@ def summary(prepared: Prepared, run: Run, settings: Settings, record: Record) ->
         "rows": len(assembly.rows) + len(prepared.system.drives),
         "all_rows": assembly.all_rows,
         "rank": prepared.judged.mobility.rank,
-        "dof": prepared.judged.mobility.freedoms - len(prepared.system.drives),
+        "dof": prepared.dof,
         "dropped_rows": [{"joint": names[row][0], "row": names[row][1]} for row in sorted(assembly.dropped)],
         "mobility": as_data(prepared.judged.mobility),
         **asdict(run.statistics),
+        "initial_position_change": prepared.moved,
         "initial_velocity_change": prepared.motion.changed,
         "constraint_drift": float(np.max(record.drift)),
         "energy": float(energy[0]),
         "energy_drift": float(np.max(np.abs(energy - energy[0]))) if is_conservative(prepared) else None,
+        "least_singular_value": watched.least,
+        "dropped_rows_drift": watched.dropped,
+        "passages": [asdict(passage) for passage in watched.passages],
         "wall_time": run.wall_time,
     }
 

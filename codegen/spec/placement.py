@@ -18,6 +18,9 @@ NEARLY = Fraction(1, 10**9)
 _ROUNDING = Fraction(1, 10**12)
 """A difference of positions below this part of them is none."""
 
+_DIGIT = Fraction(1, 10**39)
+"""What square roots leave in the place of 0 or 1 is below it."""
+
 _DIGITS = Context(prec=45)
 
 IDENTITY: Matrix = tuple(tuple(Fraction(int(i == k)) for k in range(3)) for i in range(3))  # type: ignore[assignment]
@@ -112,8 +115,12 @@ def perpendicular(direction: Vector, h: Vector) -> Vector:
 
 
 def columns(f: Vector, g: Vector, h: Vector) -> Matrix:
-    """The matrix with these columns."""
-    return transposed((f, g, h))
+    """The matrix with these columns; components within the rounding of square roots of 0 or 1 are 0 or 1."""
+    return transposed((_rounded(f), _rounded(g), _rounded(h)))
+
+
+def _rounded(vector: Vector) -> Vector:
+    return _three(Fraction(round(x)) if abs(x - round(x)) < _DIGIT else x for x in vector)
 
 
 def marker(point: Vector, axes: Matrix, position: Vector, attitude: Matrix) -> Marker:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -40,8 +41,12 @@ class Interruption:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, number: int, behind: bool, error: BaseException) -> None:
         self.calls, self.number, self.behind, self.error = 0, number, behind, error
         self.name = ""
+        self.stop: Callable[[], None] = self.interrupt
         for owner, name in STEPS:
             monkeypatch.setattr(owner, name, self.watched(getattr(owner, name)))
+
+    def interrupt(self) -> None:
+        raise self.error
 
     def watched(self, call: Callable[..., Any]) -> Callable[..., Any]:
         def step(*arguments: Any, **options: Any) -> Any:
@@ -50,10 +55,10 @@ class Interruption:
             if mine:
                 self.name = call.__name__
             if mine and not self.behind:
-                raise self.error
+                self.stop()
             result = call(*arguments, **options)
             if mine:
-                raise self.error
+                self.stop()
             return result
 
         return step
@@ -81,6 +86,28 @@ def test_an_interruption_at_any_step_leaves_one_package_whole(
         if [path.name for path in folder.iterdir()] not in ([], ["package"]) and interruption.name != "rmtree":
             broken.append(f"{step}: a temporary folder is left")
     assert broken == []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="folders are exchanged in one step on Linux only")
+@pytest.mark.parametrize("behind", [False, True], ids=["before", "behind"])
+def test_a_process_killed_at_any_step_leaves_one_package_whole(behind: bool, tmp_path: Path) -> None:
+    for number in range(1, MOST):
+        folder = tmp_path / str(number)
+        output.replace(folder / "package", OLD)
+        child = os.fork()
+        if not child:
+            _killed_at(number, behind, folder / "package")
+        os.waitpid(child, 0)
+        assert contents(folder / "package") in (OLD, NEW), number
+
+
+def _killed_at(number: int, behind: bool, target: Path) -> None:
+    """Replace a package in this process and end it, by a kill at a step."""
+    monkeypatch = pytest.MonkeyPatch()
+    interruption = Interruption(monkeypatch, number, behind, KeyboardInterrupt())
+    interruption.stop = lambda: os.kill(os.getpid(), signal.SIGKILL)
+    output.replace(target, NEW)
+    os._exit(0)
 
 
 def _outcome(target: Path) -> str:

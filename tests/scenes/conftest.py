@@ -14,7 +14,7 @@ from codegen.ir.program import Program
 from tests.harness.library import digest
 from tests.truth.workshop import fingerprint, forget_old, locked
 
-from . import cases
+from . import cases, packages
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -38,3 +38,17 @@ def kept_scenes(request: pytest.FixtureRequest) -> Iterator[None]:
 
     with mock.patch.object(cases, "program", program):
         yield
+
+
+@pytest.fixture(scope="session")
+def scene_packages(request: pytest.FixtureRequest) -> Path:
+    """The folder of the packages of these sources."""
+    folder = request.config.cache.mkdir("jointgen-scene-packages")
+    forget_old(folder)
+    return packages.kept_in(folder)
+
+
+@pytest.fixture(params=packages.CASES)
+def made(request: pytest.FixtureRequest, scene_packages: Path) -> packages.Package:
+    """Each package."""
+    return packages.package(request.param, scene_packages)

@@ -113,5 +113,6 @@ def quantities(assembly: Assembly, inputs: Mapping[str, Any]) -> dict[str, Array
         "phi_q_t_lambda_q": np.tensordot(multipliers, second[kept], axes=(0, 0)).T,
         "gamma": gamma[kept, None],
         "phi_q_v": (first @ velocity)[kept, None],
+        "phi_q_v_q": (second @ velocity)[kept],
         "phi_q_t_lambda": (first[kept].T @ multipliers)[:, None],
     }

@@ -12,7 +12,14 @@ import pytest
 from .mobility import Mechanism
 from .texts import EXAMPLES, ROOT, scene
 
-FREEDOM = {"in_line_engine": 1, "four_bar": 1, "spatial_slider_crank": 1, "bricard": 1, "stewart": 6}
+FREEDOM = {
+    "in_line_engine": 1,
+    "in_line_engine_parametric": 1,
+    "four_bar": 1,
+    "spatial_slider_crank": 1,
+    "bricard": 1,
+    "stewart": 6,
+}
 
 
 def mechanism(name: str, copies: int | None = None) -> Mechanism:

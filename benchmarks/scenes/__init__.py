@@ -1,0 +1,1 @@
+"""Scenes of many equal mechanisms: straight-line code, loops, and the library's routines joint by joint."""

@@ -1,0 +1,243 @@
+"""A run as small multiples over one time axis, as SVG: bodies, then joint coordinates and the efforts of drives.
+
+Columns are quantities, rows are bodies and joints. Components differ by colour and by line style, so that a print
+without colour tells them apart.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from codegen.report.svg import drawn
+from codegen.simulate.trajectory import Array, Trajectory
+from codegen.spec.scene import COORDINATE_UNITS, Scene
+
+MOST = 8
+"""Bodies that are drawn, and rows of joints; a note tells of the others."""
+
+_STILL = 1e-7
+"""A component that changes by less than this part of the greatest change of its kind does not move."""
+
+_BINS = 600
+"""A curve is drawn by its extremes in as many pieces: more than a screen or a print can tell apart."""
+
+_LINES = (("#0072b2", "-"), ("#d55e00", "--"), ("#009e73", "-."))
+_TRANSLATIONS = (("r", "position", "m"), ("v", "velocity", "m/s"), ("a", "acceleration", "m/s²"))
+_TURNS = (("w", "angular velocity", "rad/s"), ("al", "angular acceleration", "rad/s²"))
+_COORDINATES = (("coordinate", "alpha", ""), ("rate", "alphadot", "/s"))
+_EFFORT = "effort of the drive"
+_FORCES = {"m": "N", "rad": "N m", "m or rad": "N or N m"}
+_CHAINS = (
+    tuple(words for _, words, _ in _TRANSLATIONS),
+    tuple(words for _, words, _ in _TURNS),
+    tuple(words for words, _, _ in _COORDINATES),
+    (_EFFORT,),
+)
+"""Headings in order; each but the first of a chain is the rate of the one before."""
+
+_PANEL_WIDTH, _PANEL_HEIGHT, _LEFT, _TOP, _BOTTOM = 2.7, 1.25, 1.5, 1.0, 0.8
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Panel:
+    """Curves over one pair of axes.
+
+    Attributes:
+        unit: of all of them.
+        curves: name, number of the line style, [n] values.
+    """
+
+    unit: str
+    curves: tuple[tuple[str, int, Array], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Row:
+    """Panels of one body or joint, by the heading of their column."""
+
+    name: str
+    panels: dict[str, Panel]
+
+
+def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
+    """Draw a run.
+
+    Args:
+        trajectory: finite.
+        title: above all panels.
+        scene: of the trajectory; without it the coordinates of joints have "m or rad" as their unit.
+
+    Returns:
+        An SVG document; the id of a curve's group is its column in ``trajectory.csv``, of a rate ``JOINT.alphadot1``...
+    """
+    bodies, joints = body_rows(trajectory), joint_rows(trajectory, scene)
+    blocks = [rows[:MOST] for rows in (bodies, joints) if rows]
+    notes = list(_notes(trajectory, bodies, joints))
+    columns = max((len(_headings(block)) for block in blocks), default=2)
+    height = _TOP + _BOTTOM + 0.16 * len(notes) + _PANEL_HEIGHT * (sum(map(len, blocks)) + 0.4 * (len(blocks) - 1))
+    width = _LEFT + _PANEL_WIDTH * columns
+
+    def draw(figure: Figure) -> None:
+        figure.suptitle(title, x=0.1 / width, y=1 - 0.1 / height, ha="left", va="top", fontsize=11)
+        figure.text(0.1 / width, 0.1 / height, "\n".join(notes), ha="left", va="bottom", fontsize=8)
+        _legend(figure, 1 - 0.32 / height)
+        if blocks:
+            bottom = (_BOTTOM - 0.2 + 0.16 * len(notes)) / height
+            edges = {"left": _LEFT / width, "bottom": bottom, "right": 1 - 0.15 / width, "top": 1 - _TOP / height}
+            ratios = [1.0] * len(blocks[0]) + ([0.4] + [1.0] * len(blocks[1]) if len(blocks) > 1 else [])
+            grid = figure.add_gridspec(len(ratios), columns, height_ratios=ratios, wspace=0.32, hspace=0.22, **edges)
+            _draw_blocks(figure, grid, trajectory.t, blocks)
+
+    return drawn(draw, width, height, layout=None)
+
+
+def body_rows(trajectory: Trajectory) -> list[Row]:
+    """Give the components that move, body by body; bodies at rest have no row."""
+    r, w = trajectory.r, trajectory.w
+    travels, turns = np.ptp(r, axis=0), np.max(np.abs(w), axis=0)
+    moving = {"translations": travels > _STILL * np.max(travels, initial=0.0)}
+    moving["turns"] = turns > _STILL * np.max(turns, initial=0.0)
+    rows = []
+    for k, body in enumerate(trajectory.bodies):
+        panels = {}
+        for kind, quantities in (("translations", _TRANSLATIONS), ("turns", _TURNS)):
+            axes = np.flatnonzero(moving[kind][k])
+            for name, words, unit in quantities if len(axes) else ():
+                values = getattr(trajectory, name)
+                curves = tuple((f"{body}.{name}{'xyz'[i]}", int(i), values[:, k, i]) for i in axes)
+                panels[words] = Panel(unit, curves)
+        if panels:
+            rows.append(Row(body, panels))
+    return rows
+
+
+def joint_rows(trajectory: Trajectory, scene: Scene | None) -> list[Row]:
+    """Give the coordinates that change, and efforts: a row for each joint and unit."""
+    rows = []
+    for joint, alpha in trajectory.alpha.items():
+        effort = trajectory.effort.get(joint, np.zeros((len(trajectory.t), 0)))
+        units, driven = _units(joint, scene, alpha.shape[1], effort.shape[1])
+        names = [f"{joint}.effort{n + 1 if len(driven) > 1 else ''}" for n in range(len(driven))]
+        efforts = dict(zip(driven, zip(names, effort.T, strict=True), strict=True))
+        for unit in dict.fromkeys(units):
+            of_unit = [k for k, other in enumerate(units) if other == unit]
+            panels = dict(_motion_panels(trajectory, joint, unit, [k for k in of_unit if np.ptp(alpha[:, k]) > 0]))
+            if curves := tuple((name, k, values) for k, (name, values) in efforts.items() if k in of_unit):
+                panels[_EFFORT] = Panel(_FORCES[unit], curves)
+            if panels:
+                rows.append(Row(joint, panels))
+    return rows
+
+
+def _units(joint: str, scene: Scene | None, count: int, drives: int) -> tuple[tuple[str, ...], list[int]]:
+    """Unit of each coordinate, and the numbers of those that are driven; without a scene, the first ones."""
+    if scene is None:
+        return ("m or rad",) * count, list(range(drives))
+    found = next(one for one in scene.joints if one.name == joint)
+    driven = [k for k, coordinate in enumerate(found.coordinates) if coordinate.drive is not None]
+    return COORDINATE_UNITS[found.type], driven if drives else []
+
+
+def _motion_panels(trajectory: Trajectory, joint: str, unit: str, moving: list[int]) -> Iterator[tuple[str, Panel]]:
+    for heading, name, suffix in _COORDINATES if moving else ():
+        values = getattr(trajectory, name)[joint]
+        words = " or ".join(one + suffix for one in unit.split(" or "))
+        yield heading, Panel(words, tuple((f"{joint}.{name}{k + 1}", k, values[:, k]) for k in moving))
+
+
+def _notes(trajectory: Trajectory, bodies: list[Row], joints: list[Row]) -> Iterator[str]:
+    yield "Positions, velocities and accelerations of centres of mass: world axes; angular ones: body axes."
+    at_rest = len(trajectory.bodies) - len(bodies)
+    yield f"Drawn is what moves{f'; {at_rest} of {len(trajectory.bodies)} bodies do not' if at_rest else ''}."
+    if len(bodies) > MOST:
+        yield f"The first {MOST} of {len(bodies)} moving bodies; trajectory.csv has all."
+    if len(joints) > MOST:
+        yield f"The first {MOST} of {len(joints)} rows of joints; trajectory.csv has all."
+
+
+def _headings(block: list[Row]) -> list[str]:
+    return [heading for chain in _CHAINS for heading in chain if any(heading in row.panels for row in block)]
+
+
+def _sizes(block: list[Row], duration: float) -> dict[str, float]:
+    """Size of each quantity: the largest of all rows, or what its integral needs to come about."""
+    sizes: dict[str, float] = {}
+    for chain in _CHAINS:
+        needed = 0.0
+        for heading in chain:
+            panels = [row.panels[heading] for row in block if heading in row.panels]
+            largest = max((float(np.max(np.abs(c[2]))) for panel in panels for c in panel.curves), default=0.0)
+            sizes[heading] = max(largest, needed)
+            needed = sizes[heading] / duration if duration else 0.0
+    return sizes
+
+
+def _draw_blocks(figure: Figure, grid: Any, t: Array, blocks: list[list[Row]]) -> None:
+    """Draw the panels; a line that is left empty parts bodies from joints."""
+    first = None
+    line = 0
+    for block in blocks:
+        headings, sizes = _headings(block), _sizes(block, float(t[-1] - t[0]))
+        for number, row in enumerate(block):
+            for column, heading in enumerate(headings):
+                if heading in row.panels:
+                    axis = figure.add_subplot(grid[line, column], sharex=first)
+                    first = first or axis
+                    is_last = all(heading not in below.panels for below in block[number + 1 :])
+                    _draw_panel(axis, t, row.panels[heading], sizes[heading], is_last)
+                    if all(heading not in above.panels for above in block[:number]):
+                        axis.set_title(heading, loc="left", fontsize=9)
+            _label(figure, grid[line, 0], row.name)
+            line += 1
+        line += 1
+    if first is not None and t[-1] > t[0]:
+        first.set_xlim(t[0], t[-1])
+
+
+def _draw_panel(axis: Any, t: Array, panel: Panel, size: float, is_last: bool) -> None:
+    for name, style, values in panel.curves:
+        color, dashes = _LINES[style]
+        kept = thinned(values)
+        (line,) = axis.plot(t[kept], values[kept], color=color, linestyle=dashes, linewidth=1.1)
+        line.set_gid(name)
+    low = min(float(np.min(values)) for _, _, values in panel.curves)
+    high = max(float(np.max(values)) for _, _, values in panel.curves)
+    if high - low < _STILL * size:  # a constant, and not the last digits of one
+        axis.set_ylim(low - 0.1 * size, high + 0.1 * size)
+    axis.set_ylabel(panel.unit, fontsize=8, labelpad=2)
+    axis.tick_params(labelsize=7, labelbottom=is_last)
+    axis.grid(color="#dddddd", linewidth=0.5)
+    axis.spines[["top", "right"]].set_visible(False)
+    if is_last:
+        axis.set_xlabel("t in s", fontsize=8, labelpad=1)
+
+
+def _label(figure: Figure, cell: Any, name: str) -> None:
+    """Write the name of a row left of its panels."""
+    box = cell.get_position(figure)
+    x, y = box.x0 - (_LEFT - 0.1) / figure.get_figwidth(), (box.y0 + box.y1) / 2
+    figure.text(x, y, textwrap.fill(name, 15), ha="left", va="center", fontweight="bold", fontsize=8)
+
+
+def _legend(figure: Figure, y: float) -> None:
+    words = ("x, or the joint's 1st coordinate", "y, or the 2nd", "z, or the 3rd")
+    handles = [Line2D([], [], color=color, linestyle=dashes, linewidth=1.4) for color, dashes in _LINES]
+    figure.legend(handles, words, loc="upper left", bbox_to_anchor=(0, y), ncols=3, frameon=False, fontsize=8)
+
+
+def thinned(values: Array) -> NDArray[np.intp]:
+    """Numbers of the values that draw the same curve: all, or the ends and the extremes of each of `_BINS` pieces."""
+    count = len(values)
+    if count <= 2 * _BINS:
+        return np.arange(count, dtype=np.intp)
+    pieces = np.array_split(np.arange(count), _BINS)
+    extremes = [piece[find(values[piece])] for piece in pieces for find in (np.argmin, np.argmax)]
+    return np.unique(np.array([0, *extremes, count - 1], dtype=np.intp))

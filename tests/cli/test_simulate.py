@@ -1,0 +1,113 @@
+"""``jointgen simulate``: what it refuses, what it writes, and what an interruption leaves."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+from codegen.simulate.sundials import sundials
+
+from .runs import contents, finish, invoke, refused, snapshot, spawn
+from .terminal import CTRL_C, Terminal
+
+STONE = """
+name = "stone"
+[[body]]
+name = "stone"
+mass = 1.0
+inertia = [1.0, 2.0, 3.0]
+angular_velocity = [0.01, 5.0, 0.0]
+velocity = [0.0, 1.0, 0.0]
+"""
+LONG = ("--duration", "2000", "--outputs", "20000", "--tol", "1e-9")
+
+
+@pytest.fixture
+def stone(tmp_path: Path) -> Path:
+    file = tmp_path / "stone.toml"
+    file.write_text(STONE)
+    return file
+
+
+def test_a_run_is_a_few_files_and_a_line(stone: Path, tmp_path: Path) -> None:
+    done = invoke("simulate", stone, "-o", tmp_path / "run")
+    assert done.exit_code == 0
+    assert done.stdout.startswith(f"{tmp_path / 'run'}: 1 s in ")
+    assert len(done.stdout.splitlines()) == 1
+    assert done.stderr == ""
+    assert sorted(contents(tmp_path / "run")) == ["manifest.json", "plot.svg", "summary.json", "trajectory.csv"]
+
+
+def test_all_bad_options_are_told_at_once(stone: Path, tmp_path: Path) -> None:
+    wrong = ("--tol", "0", "--duration", "-1", "--outputs", "0", "--index", "3", "--form", "x")
+    before = snapshot(tmp_path)
+    lines = refused(invoke("simulate", stone, *wrong, "-o", tmp_path / "run"))
+    assert [line.split(":")[0] for line in lines] == ["--tol", "--duration", "--outputs", "--index", "--form"]
+    assert snapshot(tmp_path) == before
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+    (line,) = refused(invoke("simulate", tmp_path / "none.toml", "-o", tmp_path / "run"))
+    assert "none.toml: cannot be read (No such file or directory)" in line
+
+
+def test_a_scene_with_mistakes_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "bad.toml"
+    file.write_text(STONE.replace("mass = 1.0", "mass = -1.0").replace("inertia", "inertai"))
+    assert len(refused(invoke("simulate", file, "-o", tmp_path / "run"))) > 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_missing_tools_are_told_at_once_with_their_remedies(
+    stone: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+    sundials.cache_clear()
+    lines = refused(invoke("simulate", stone, "-o", tmp_path / "run"))
+    sundials.cache_clear()
+    assert lines == [
+        "compiler: there is no C compiler (cc, gcc or clang); install gcc",
+        "simulate: scikit-sundae is not installed; pip install 'jointgen[simulate]'",
+    ]
+
+
+def test_two_runs_with_different_hash_seeds_write_the_same_trajectory(stone: Path, tmp_path: Path) -> None:
+    found = []
+    for seed in ("1", "2"):
+        target = tmp_path / f"run{seed}"
+        code, _, err = finish(spawn("simulate", stone, "-o", target, PYTHONHASHSEED=seed))
+        assert (code, err) == (0, "")
+        found.append(contents(target))
+    summaries = [json.loads(files.pop("summary.json")) for files in found]
+    for told in summaries:
+        assert told.pop("wall_time") > 0
+    assert found[0] == found[1]
+    assert summaries[0] == summaries[1]
+
+
+def test_progress_shows_on_a_terminal(stone: Path, tmp_path: Path) -> None:
+    terminal = Terminal("simulate", stone, *LONG, "-o", tmp_path / "run")
+    assert terminal.wait_for(r"simulating .*\b[1-9]\d*/20000\b")
+    terminal.press(CTRL_C)
+    assert terminal.finish() == 1
+    assert "jointgen: interrupted; nothing was written" in terminal.shown
+    assert "Traceback" not in terminal.shown
+    assert [path.name for path in tmp_path.iterdir()] == ["stone.toml"]
+
+
+def test_a_killed_run_leaves_the_results_before(stone: Path, tmp_path: Path) -> None:
+    assert invoke("simulate", stone, "-o", tmp_path / "run").exit_code == 0
+    before = snapshot(tmp_path / "run")
+    process = spawn("simulate", stone, *LONG, "-o", tmp_path / "run")
+    time.sleep(2.0)
+    assert process.poll() is None
+    os.killpg(process.pid, signal.SIGKILL)
+    finish(process)
+    assert snapshot(tmp_path / "run") == before

@@ -20,8 +20,13 @@ Array = NDArray[np.float64]
 
 _CSC, _NORMAL, _ONE_STEP = 0, 1, 2
 
+_STEPS, _ROUNDS = 10_000, 1_000
+"""Steps that IDA takes at a time, and how often on the way to one output time."""
+
+_TOO_MANY = -1
+
 FAILURES = {
-    -1: "took too many steps",
+    _TOO_MANY: "took too many steps",
     -2: "cannot reach the accuracy asked for",
     -3: "the error test failed too often, or the step became too small",
     -4: "Newton's iteration did not converge, or the step became too small",
@@ -40,7 +45,7 @@ What is left of the iteration is noise in the test: with 0.33 it refuses steps t
 many steps again for an error several times as large.
 """
 
-STEP_SHARE = 0.25
+STEP_SHARE = 0.1
 """What a step may have of the tolerance: errors of thousands of steps add up."""
 
 
@@ -131,7 +136,7 @@ class Ida:
         self._check(library.IDASetUserData(self._memory, ctypes.addressof(self._hooks)))
         self._check(library.IDASetId(self._memory, identity))
         self._check(library.IDASetSuppressAlg(self._memory, 1))
-        self._check(library.IDASetMaxNumSteps(self._memory, 10_000_000))
+        self._check(library.IDASetMaxNumSteps(self._memory, _STEPS))
         self._check(library.IDASetNonlinConvCoef(self._memory, NEWTON))
         if largest_step:
             self._check(library.IDASetMaxStep(self._memory, largest_step))
@@ -146,7 +151,11 @@ class Ida:
         """
         reached = c_double()
         y, ydot = self._vectors[:2]
-        code = self._library.IDASolve(self._memory, t, byref(reached), y, ydot, _NORMAL)
+        code = _TOO_MANY
+        for _ in range(_ROUNDS):  # an interruption is heeded between two of them
+            code = self._library.IDASolve(self._memory, t, byref(reached), y, ydot, _NORMAL)
+            if code != _TOO_MANY:
+                break
         return reached.value, min(code, 0)
 
     def statistics(self) -> Statistics:

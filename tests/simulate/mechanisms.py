@@ -1,4 +1,4 @@
-"""Mechanisms at their limits, as scenes: engines with rods of any length, a sledge on two rails, a screw, free bodies, a fixed bar."""
+"""Mechanisms at their limits, as scenes: engines, a sledge on two rails, a screw, a free body, a fixed bar."""
 
 from __future__ import annotations
 

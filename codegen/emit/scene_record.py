@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from codegen.emit.scene_subject import SceneSubject
@@ -33,7 +34,7 @@ def scene_record(subject: SceneSubject) -> dict[str, Any]:
         "left_out": [name for row, name in enumerate(names) if row not in kept],
         "displacements": [
             {"name": name, "offset": offset, "size": shape[0], "meaning": meaning}
-            for name, offset, shape, meaning in subject.displacements("delta")
+            for name, offset, shape, meaning in replace(subject, plan=None).displacements("delta")
         ],
         "state": [
             {"name": name, "unit": unit} for name, unit in zip(subject.state.names, subject.state.units, strict=True)

@@ -63,7 +63,8 @@ def _unmeasured() -> Iterator[str]:
 def _of_measurement(measurement: Measurement) -> Iterator[str]:
     yield f"Measured on {measurement.machine} with {measurement.compiler}:"
     yield "the median time of one evaluation, and how far the middle half of all times spreads beside it."
-    yield "Single joints are called one after the other, each over arrays of its own, and their results added up."
+    yield "Single joints, and equal parts, are called one after the other, each over arrays of its own; what several"
+    yield "joints give for the same bodies is added up."
     if measurement.uncounted:
         yield f"Instructions are not told: {measurement.uncounted}."
     worst = max(evaluation.spread for evaluation in measurement.evaluations)

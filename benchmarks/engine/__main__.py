@@ -26,15 +26,16 @@ def main(rounds: int, sizes: tuple[int, ...], target: Path) -> None:
     target.mkdir(parents=True, exist_ok=True)
     machine = setting()
     curves = measure.piston()
+    precise = measure.work_precision(rounds)
     document = {
         "setting": f"{machine['compiler']}, {machine['processor']}",
         "piston": measure.differences(curves),
-        "work_precision": measure.work_precision(rounds),
+        "work_precision": precise,
         "without_terms": measure.without_terms(rounds),
         "by_size": measure.by_size(sizes, rounds),
     }
     (target / "piston.svg").write_text(charts.piston_chart(curves))
-    (target / "work_precision.svg").write_text(charts.work_precision_chart(document["work_precision"]))
+    (target / "work_precision.svg").write_text(charts.work_precision_chart(precise))
     (target / "results.json").write_text(json.dumps(document, indent=1) + "\n")
     (target / "results.md").write_text(report.markdown(document))
     click.echo(f"{target / 'results.md'} and {target / 'results.json'}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 Row = dict[str, Any]
@@ -51,15 +52,16 @@ def markdown(document: dict[str, Any]) -> str:
     return "\n".join(parts)
 
 
-def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
     return lines + [f"| {' | '.join(row)} |" for row in rows]
 
 
 def _work(rows: list[Row]) -> list[str]:
     head = ("tolerance", "form", "position, m", "velocity, m/s", "acceleration, m/s²", "drift, m", "steps", "s")
-    cells = []
+    cells: list[Sequence[str]] = []
     for row in rows:
+        words: Sequence[str]
         if "failure" in row:
             words = (row["failure"], "", "", "", "")
         else:

@@ -45,7 +45,7 @@ What is left of the iteration is noise in the test: with 0.33 it refuses steps t
 many steps again for an error several times as large.
 """
 
-STEP_SHARE = 0.25
+STEP_SHARE = 0.1
 """What a step may have of the tolerance: errors of thousands of steps add up."""
 
 

@@ -26,6 +26,9 @@ or_eq private protected public reinterpret_cast static_assert static_cast templa
 typeid typename using virtual wchar_t xor xor_eq
 """
 
+_SHARED = "jg_real"
+"""Name of a header that every package has."""
+
 C_KEYWORDS = frozenset(_KEYWORDS.split())
 """Keywords of C99 and of C++17, whose compilers read the headers too."""
 
@@ -37,6 +40,9 @@ def scene_name_mistakes(name: str, place: str) -> Iterator[Mistake]:
         yield Mistake(place, f"{quoted(name)} is no C identifier", remedy)
     elif name in C_KEYWORDS:
         yield Mistake(place, f"{quoted(name)} is a keyword of C or C++", f'use another name, such as "{name}_scene"')
+    elif name.lower() == _SHARED:
+        what = f"{_SHARED}.h is a file that every package has"
+        yield Mistake(place, what, f'use another name, such as "{name}_scene"')
 
 
 def name_mistakes(entries: Sequence[BodyEntry] | Sequence[JointEntry]) -> Iterator[Mistake]:

@@ -111,3 +111,26 @@ def test_a_killed_run_leaves_the_results_before(stone: Path, tmp_path: Path) -> 
     os.killpg(process.pid, signal.SIGKILL)
     finish(process)
     assert snapshot(tmp_path / "run") == before
+
+
+OPEN = """
+[[joint]]
+name = "hook"
+type = "ball"
+bodies = ["ground", "stone"]
+points = [[0.0, 0.0, 0.001], [0.0, 0.0, 0.0]]
+axes = [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+"""
+
+
+def test_a_joint_that_is_open_by_a_millimetre_is_refused_with_its_gap_or_closed_when_asked(tmp_path: Path) -> None:
+    file = tmp_path / "open.toml"
+    file.write_text(STONE + OPEN)
+    (line,) = refused(invoke("simulate", file, "-o", tmp_path / "run"))
+    assert 'joint "hook"' in line
+    assert "it is 1 mm apart" in line
+    assert "assemble = true" in line
+    file.write_text("assemble = true\n" + STONE + OPEN)
+    done = invoke("simulate", file, "--duration", "0.1", "-o", tmp_path / "run")
+    assert done.exit_code == 0
+    assert f"{file}: bodies were moved by up to 0.001 m to close the joints at the start" in done.stderr

@@ -152,8 +152,8 @@ static void jg_ball_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i
     jac_phi_q_v_velocity[23] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
 }
 
-static void jg_ball_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
+static void jg_ball_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry, jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {

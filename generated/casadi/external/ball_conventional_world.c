@@ -74,10 +74,10 @@ static void jg_ball_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT A
     jac_phi_geometry[17] = A_j[8];
 }
 
-static void jg_ball_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_ball_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;

@@ -21,10 +21,10 @@
 #define JG_EXPORT
 #endif
 
-static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i, jg_real *JG_RESTRICT jac_phi_r_j,
-    jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
+    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_geometry)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -180,11 +180,12 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     jac_phi_geometry[20] = t57 * C_i[3] + t58 * C_i[4] + t59 * C_i[5];
 }
 
-static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
+    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

@@ -1422,9 +1422,9 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_velocity[61] = g_star_dot_g_j;
 }
 
-static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
+static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,

@@ -219,12 +219,13 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[35] = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
 }
 
-static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
+    jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_alpha, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
+    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

@@ -21,9 +21,10 @@
 #define JG_EXPORT
 #endif
 
-static void jg_revolute_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_revolute_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i,
+    jg_real *JG_RESTRICT jac_phi_A_i, jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j,
+    jg_real *JG_RESTRICT jac_phi_geometry)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -168,10 +169,10 @@ static void jg_revolute_conventional_world_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[29] = t42 * C_i[3] + t43 * C_i[4] + t44 * C_i[5];
 }
 
-static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_revolute_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;

@@ -538,8 +538,8 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_velocity[41] = -(t132 * g_j_world_0 + t133 * g_j_world_1 + t134 * g_j_world_2);
 }
 
-static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
+static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
     jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry, jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {

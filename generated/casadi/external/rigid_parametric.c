@@ -1170,12 +1170,12 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_q_v_velocity[47] = -f_i_cross_g_j_in_j_2;
 }
 
-static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
+    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
+    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry, jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

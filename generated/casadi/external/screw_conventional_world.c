@@ -299,11 +299,12 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[50] = -(JG_REAL(6.283185307179586) * pitch);
 }
 
-static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
+    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;

@@ -21,11 +21,11 @@
 #define JG_EXPORT
 #endif
 
-static void jg_screw_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_alpha,
-    jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_screw_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i,
+    jg_real *JG_RESTRICT jac_phi_A_i, jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j,
+    jg_real *JG_RESTRICT jac_phi_alpha, jg_real *JG_RESTRICT jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

@@ -308,11 +308,12 @@ static void jg_translational_parametric_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[35] = t94 * C_i[0] + t95 * C_i[1] + t96 * C_i[2];
 }
 
-static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
+    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

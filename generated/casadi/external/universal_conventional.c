@@ -113,10 +113,10 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[23] = h_i_in_j_2;
 }
 
-static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;

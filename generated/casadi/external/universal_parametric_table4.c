@@ -21,11 +21,11 @@
 #define JG_EXPORT
 #endif
 
-static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_alpha,
-    jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i,
+    jg_real *JG_RESTRICT jac_phi_A_i, jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j,
+    jg_real *JG_RESTRICT jac_phi_alpha, jg_real *JG_RESTRICT jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -206,12 +206,13 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[26] = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
 }
 
-static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
+    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
+    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
+    jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_alpha, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
+    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;

@@ -16,6 +16,7 @@ from codegen.dynamics.layout import layout
 from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
 from codegen.emit.scene_subject import SceneSubject
+from codegen.errors import SpecificationError
 from codegen.ir.evaluate import evaluate
 from codegen.ir.looped import Looped
 from codegen.ir.ops import Constant
@@ -25,6 +26,7 @@ from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.passes import simplify
 from codegen.passes.unroll import unroll, unroll_short
+from codegen.scenes.generate import check_options
 from codegen.scenes.loops import decided
 from codegen.scenes.numbers import rows_of
 from flopcount.count import count
@@ -264,6 +266,11 @@ def test_a_scene_may_hold_several_kinds_and_single_parts(tmp_path: Path) -> None
 def test_short_loops_are_written_out_where_loops_are_not_wanted() -> None:
     assert isinstance(decided(loops("both"), "never"), Program)
     assert isinstance(decided(loops("both"), "always"), Looped)
+
+
+def test_any_other_value_of_the_option_is_refused() -> None:
+    with pytest.raises(SpecificationError, match="--loops"):
+        check_options(None, "double", "sometimes")
 
 
 def test_the_files_of_loops_are_the_same_every_time() -> None:

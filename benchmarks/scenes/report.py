@@ -39,6 +39,12 @@ def setting() -> dict[str, Any]:
     }
 
 
+def read(folder: Path) -> list[Measured]:
+    """Read what was measured before."""
+    file = folder / "results.json"
+    return [Measured(**one) for one in json.loads(file.read_text())["measured"]] if file.exists() else []
+
+
 def write(folder: Path, found: Sequence[Measured]) -> None:
     """Write ``results.json``, ``results.md`` and ``results.svg``."""
     document = {"setting": setting(), "measured": [one.as_dict() for one in found]}

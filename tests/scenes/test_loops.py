@@ -15,7 +15,9 @@ import pytest
 from codegen.dynamics.layout import layout
 from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
+from codegen.emit.scene_record import scene_record
 from codegen.emit.scene_subject import SceneSubject
+from codegen.errors import SpecificationError
 from codegen.ir.evaluate import evaluate
 from codegen.ir.looped import Looped
 from codegen.ir.ops import Constant
@@ -25,6 +27,7 @@ from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.passes import simplify
 from codegen.passes.unroll import unroll, unroll_short
+from codegen.scenes.generate import check_options
 from codegen.scenes.loops import decided
 from codegen.scenes.numbers import rows_of
 from flopcount.count import count
@@ -98,7 +101,7 @@ def package(found: Assembly, program: Program | Looped) -> ScenePackage:
     routine = Routine(subject, "all", program, count(program), "none")
     singles = [replace(routine, output=name, program=of(program, name)) for name in ALL]
     start = {a.name: [Constant(Fraction(1))] * a.length for a in program.arguments}
-    return ScenePackage("drawn", (*singles, routine), "0", "0", "double", {}, start, "")
+    return ScenePackage("drawn", (*singles, routine), "0", "0", "double", scene_record(subject), {}, start, "")
 
 
 @overload
@@ -264,6 +267,11 @@ def test_a_scene_may_hold_several_kinds_and_single_parts(tmp_path: Path) -> None
 def test_short_loops_are_written_out_where_loops_are_not_wanted() -> None:
     assert isinstance(decided(loops("both"), "never"), Program)
     assert isinstance(decided(loops("both"), "always"), Looped)
+
+
+def test_any_other_value_of_the_option_is_refused() -> None:
+    with pytest.raises(SpecificationError, match="--loops"):
+        check_options(None, "double", "sometimes")
 
 
 def test_the_files_of_loops_are_the_same_every_time() -> None:

@@ -241,8 +241,17 @@ def _progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
         yield advance
 
 
+def _register() -> None:
+    """Add the commands that stand in modules of their own."""
+    from codegen.cli_trade import commands
+
+    for command in commands:
+        jointgen.add_command(command)
+
+
 def main() -> None:
     """Run the command line and leave with its exit code."""
+    _register()
     sys.exit(_run(sys.argv[1:]))
 
 

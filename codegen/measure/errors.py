@@ -74,7 +74,9 @@ class Figures:
         mean: the same, mean.
         worst_pose: number of the pose of the maximum.
         floor: distance of the two truths over the scale, maximum: what better arithmetic cannot mend.
-        eta: error over what rounding the inputs does, maximum; infinite for noise in place of zeros.
+        eta: largest error in the block over the largest that rounding the inputs makes in it, maximum over the poses.
+        eta_entry: the same entry by entry; it depends on the choice of axes, since an entry that is small by chance may
+            stand beside large ones from which it is computed.
         ulp_median: error in units in the last place of the true value, median.
         ulp_99: the same, 99 of 100 are below it.
     """
@@ -86,6 +88,7 @@ class Figures:
     worst_pose: int
     floor: float
     eta: float
+    eta_entry: float
     ulp_median: float
     ulp_99: float
 
@@ -102,26 +105,31 @@ def figures(known: Truth, values: Values, blocks: Sequence[Block], domain: PoseD
     return tuple(_of_block(known, values, block, domain) for block in blocks)
 
 
+def errors_of(known: Truth, values: Values, block: Block) -> Array:
+    """Errors [entries, poses] against the given inputs."""
+    found = values[block.output]
+    true = known.of_inputs[block.output]
+    return np.array([np.abs((in_pairs(found[entry]) - true[entry]).high) for entry in block.entries])
+
+
 def _of_block(known: Truth, values: Values, block: Block, domain: PoseDomain) -> Figures:
-    scale = domain.scale(block.output, block.is_rotation)
-    unit = unit_roundoff(known.real)
-    errors, floors, etas, ulps = [], [], [], []
-    for entry in block.entries:
-        true = known.of_inputs[block.output][entry]
-        error = np.abs((in_pairs(values[block.output][entry]) - true).high)
-        errors.append(error)
-        floors.append(np.abs((known.ideal[block.output][entry] - true).high) + 0 * error)
-        etas.append(_ratio(error, unit * known.condition[block.output][entry]))
-        ulps.append(_ratio(error, np.spacing(np.abs(true.high)) * (unit / unit_roundoff("double"))))
-    per_pose = np.max(errors, axis=0) / scale
+    scale, unit = domain.scale(block.output, block.is_rotation), unit_roundoff(known.real)
+    error = errors_of(known, values, block)
+    true, ideal = ([truths[block.output][k] for k in block.entries] for truths in (known.of_inputs, known.ideal))
+    floors = [np.max(np.abs((a - b).high)) for a, b in zip(true, ideal, strict=True)]
+    sizes = np.array([np.abs(x.high) + np.zeros(error.shape[1]) for x in true])
+    rounding = unit * known.condition[block.output][list(block.entries)]
+    ulps = _ratio(error, np.spacing(sizes) * (unit / unit_roundoff("double")))
+    per_pose = np.max(error, axis=0) / scale
     return Figures(
         block.name,
         scale,
         float(np.max(per_pose)),
-        float(np.mean(errors)) / scale,
+        float(np.mean(error)) / scale,
         int(np.argmax(per_pose)),
         float(np.max(floors)) / scale,
-        float(np.max(etas)),
+        float(np.max(_ratio(np.max(error, axis=0), np.max(rounding, axis=0)))),
+        float(np.max(_ratio(error, rounding))),
         float(np.median(ulps)),
         float(np.quantile(ulps, 0.99)),
     )

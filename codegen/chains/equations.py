@@ -50,11 +50,18 @@ class Terms:
 class Equations(Protocol):
     """The equations of a chain of n links with nr cuts and ne end effectors."""
 
+    @property
+    def binding(self) -> tuple[bool, ...]:
+        """Of each row of the cuts [6 nr], whether a coordinate moves it: those that are structurally zero do not."""
+
     def closure(self, q: Array) -> Closure:
         """Evaluate the cuts."""
 
     def jacobian(self, q: Array) -> Array:
         """Evaluate J [6 nr, n]."""
+
+    def gamma(self, q: Array, qd: Array) -> Array:
+        """Evaluate gamma_R [6 nr]."""
 
     def terms(self, q: Array, qd: Array) -> Terms:
         """Evaluate the terms of the equations of motion."""

@@ -21,12 +21,11 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Reduced:
-    """A chain at a pose and velocity.
+class Rates:
+    """The motion of a chain at a closed pose.
 
     Attributes:
         part: coordinates and rows.
-        terms: of the equations.
         factor: of the dependent columns of J, without dimension.
         N: [n, nv] rates for rates of the independent coordinates.
         qd: [n].
@@ -34,7 +33,6 @@ class Reduced:
     """
 
     part: Partition
-    terms: Terms
     factor: Factor
     N: Array
     qd: Array
@@ -44,15 +42,23 @@ class Reduced:
         """Give all accelerations [n]."""
         return np.asarray(self.N @ qdd_v + self.a)
 
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reduced:
+    """A chain at a pose and velocity, with its inertia and forces."""
+
+    rates: Rates
+    terms: Terms
+
     def forward(self, force: Array) -> Array:
         """Give the accelerations of the independent coordinates.
 
         Args:
             force: [n] generalised, beside gravity.
         """
-        terms = self.terms
-        inertia = self.N.T @ terms.M @ self.N
-        rest = self.N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.a)
+        terms, N = self.terms, self.rates.N
+        inertia = N.T @ terms.M @ N
+        rest = N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.rates.a)
         return np.asarray(np.linalg.solve(inertia, rest))
 
     def inverse(self, qdd: Array, force: Array) -> Array:
@@ -62,7 +68,7 @@ class Reduced:
             qdd: [n] accelerations.
             force: [n] generalised, beside gravity and the efforts.
         """
-        return np.asarray(self.N.T @ self._missing(qdd, force))
+        return np.asarray(self.rates.N.T @ self._missing(qdd, force))
 
     def reaction(self, qdd: Array, force: Array) -> Array:
         """Give the reactions of the cuts on their frames R [6 nr], axes of R.
@@ -73,27 +79,35 @@ class Reduced:
             qdd: [n] accelerations.
             force: [n] generalised, beside gravity, on dependent coordinates as well.
         """
-        part, found = self.part, np.zeros(len(self.terms.gamma))
+        part, found = self.rates.part, np.zeros(len(self.terms.gamma))
         missing = self._missing(qdd, force)[part.w] * part.units[part.w]
-        found[part.rows] = self.factor.solve_transposed(missing) / part.row_units[part.rows]
+        found[part.rows] = self.rates.factor.solve_transposed(missing) / part.row_units[part.rows]
         return found
+
+    def kinetic_energy(self) -> float:
+        """Give the kinetic energy, J."""
+        return float(self.rates.qd @ self.terms.M @ self.rates.qd / 2)
 
     def _missing(self, qdd: Array, force: Array) -> Array:
         terms = self.terms
         return np.asarray(terms.M @ qdd + terms.f_C - terms.f_G - force)
 
 
-def rates(part: Partition, J: Array) -> tuple[Factor, Array]:
-    """Give the factor of the dependent columns of J, and N [n, nv].
+def rates(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Rates:
+    """Give the rates at a closed pose.
+
+    Args:
+        equations: of the chain.
+        part: its coordinates and rows.
+        q: [n], closed.
+        qd_v: [nv].
 
     Raises:
-        RankLoss: the columns depend on each other.
+        RankLoss: the pose is singular.
     """
-    found = factor(part.dependent(J))
-    N = np.zeros((J.shape[1], len(part.v)))
-    N[part.v, np.arange(len(part.v))] = 1.0
-    N[part.w] = -part.units[part.w, None] * found.solve(part.binding(J[:, part.v]))
-    return found, N
+    found, N = _tangent(equations, part, q)
+    qd = N @ qd_v
+    return Rates(part, found, N, qd, _bias(part, found, equations.gamma(q, qd)))
 
 
 def reduced(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Reduced:
@@ -108,9 +122,23 @@ def reduced(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Red
     Raises:
         RankLoss: the pose is singular.
     """
-    found, N = rates(part, equations.jacobian(q))
+    found, N = _tangent(equations, part, q)
     qd = N @ qd_v
     terms = equations.terms(q, qd)
-    a = np.zeros(len(q))
-    a[part.w] = -part.units[part.w] * found.solve(part.binding(terms.gamma))
-    return Reduced(part, terms, found, N, qd, a)
+    return Reduced(Rates(part, found, N, qd, _bias(part, found, terms.gamma)), terms)
+
+
+def _tangent(equations: Equations, part: Partition, q: Array) -> tuple[Factor, Array]:
+    """The factor of the dependent columns of J, and N."""
+    J = equations.jacobian(q)
+    found = factor(part.dependent(J))
+    N = np.zeros((len(q), len(part.v)))
+    N[part.v, np.arange(len(part.v))] = 1.0
+    N[part.w] = -part.units[part.w, None] * found.solve(part.binding(J[:, part.v]))
+    return found, N
+
+
+def _bias(part: Partition, found: Factor, gamma: Array) -> Array:
+    a = np.zeros(len(part.units))
+    a[part.w] = -part.units[part.w] * found.solve(part.binding(gamma))
+    return a

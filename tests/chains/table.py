@@ -89,6 +89,16 @@ class TableEquations:
         shapes = ((0, 3), (0, 3, 3), (0, 3, n), (0, 3, n))
         return Closure(*(np.array(v) if v else np.zeros(s) for v, s in zip(found, shapes, strict=True)))
 
+    @property
+    def binding(self) -> tuple[bool, ...]:
+        """Rows that move at some pose."""
+        rng = np.random.default_rng(0)
+        moved = [self.jacobian(rng.normal(size=len(self.chain.links))) for _ in range(3)]
+        return tuple(bool(x) for x in np.max(np.abs(moved), axis=(0, 2)) > 1e-9)
+
+    def gamma(self, q: Array, qd: Array) -> Array:
+        return self.terms(q, qd).gamma
+
     def jacobian(self, q: Array) -> Array:
         return self.terms(q, np.zeros(len(q))).J
 

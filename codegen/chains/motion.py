@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 
@@ -125,7 +126,7 @@ def _table_mistakes(text: str, file: str, duration: float) -> Iterator[Mistake]:
     if len(times) < 2:
         yield Mistake(file, f"has {len(times)} points", "give at least 2")
         return
-    if any(after <= before for before, after in zip(times, times[1:], strict=False)):
+    if any(after <= before for before, after in itertools.pairwise(times)):
         yield Mistake(file, "times do not grow from line to line", "sort the lines by t")
     elif times[0] > 0 or times[-1] < duration:
         what = f"covers {times[0]:g} s to {times[-1]:g} s, and the run takes 0 to {duration:g} s"

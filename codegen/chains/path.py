@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from codegen.chains.equations import Equations
 from codegen.chains.factor import Factor, RankLoss, factor
 from codegen.chains.partition import Partition
-from codegen.chains.position import Position, close, constraint, nearest
+from codegen.chains.position import Position, close, nearest
 
 Array = NDArray[np.float64]
 
@@ -74,16 +74,15 @@ class Branch:
     iterations: int = 0
 
 
-def branch(equations: Equations, part: Partition, position: Position, before: Branch | None = None) -> Branch:
+def branch(part: Partition, position: Position, before: Branch | None = None) -> Branch:
     """Enter a branch at a closed pose, or go on along one.
 
     Raises:
         RankLoss: the pose is singular.
     """
-    _, slope = constraint(equations.closure(position.q))
-    A = part.dependent(slope)
-    found = factor(A)
-    B = part.binding(slope[:, part.v] * part.units[part.v])
+    A = part.dependent(position.slope)
+    found = position.factor or factor(A)
+    B = part.binding(position.slope[:, part.v] * part.units[part.v])
     orientation = 1.0 if before is None else before.orientation * _turn(before.factor, A)
     done = position.iterations + (before.iterations if before else 0)
     return Branch(position.q, found, -found.solve(B), orientation, done)
@@ -141,7 +140,7 @@ def _tried(equations: Equations, part: Partition, here: Branch, guess: Array) ->
     if found.correction > _TINY and (found.contraction > _CONTRACTION or found.correction > _CORRECTED):
         return None
     try:
-        there = branch(equations, part, found, here)
+        there = branch(part, found, here)
     except RankLoss:
         return None
     return there if there.orientation == here.orientation else None

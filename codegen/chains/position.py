@@ -44,7 +44,8 @@ class Position:
         residual: largest row of phi, rad or characteristic lengths.
         row: the number of that row.
         is_closed: whether both stop tests are met.
-        factor: of the dependent columns of the derivative of phi; None where its rank is lost.
+        slope: [6 nr, n] derivative of phi at the last iterate but one, which is at most `STEP` away.
+        factor: of its dependent columns, without dimension; None where its rank is lost.
         iterations: done.
         contraction: size of the second step beside the first; 0 where one was enough.
         correction: largest change of a coordinate from the guess.
@@ -54,6 +55,7 @@ class Position:
     residual: float
     row: int
     is_closed: bool
+    slope: Array
     factor: Factor | None
     iterations: int
     contraction: float
@@ -100,14 +102,14 @@ def close(equations: Equations, part: Partition, guess: Array, iterations: int =
         size = float(np.max(np.abs(step), initial=0.0))
         if residual <= RESIDUAL * _size(q, part) and size <= STEP:
             q[part.w] += step * units
-            return _position(q, phi, part, factored, count + 1, steps, guess)
+            return _position(q, phi, slope, part, factored, count + 1, steps, guess)
         best, since = (residual, 0) if residual < 0.9 * best else (best, since + 1)
         if since > _STALLED or not np.isfinite(residual):
             break
         steps.append(size)
         q[part.w] += step * units * min(1.0, LARGEST_STEP / size if size else 1.0)
-    phi, _ = constraint(equations.closure(q))
-    return _position(q, phi, part, None, len(steps), steps, guess, is_solution=False)
+    phi, slope = constraint(equations.closure(q))
+    return _position(q, phi, slope, part, None, len(steps), steps, guess, is_solution=False)
 
 
 def _size(q: Array, part: Partition) -> float:
@@ -127,6 +129,7 @@ def _step(A: Array, rows: Array) -> tuple[Factor | None, Array]:
 def _position(
     q: Array,
     phi: Array,
+    slope: Array,
     part: Partition,
     factored: Factor | None,
     iterations: int,
@@ -140,7 +143,7 @@ def _position(
     is_closed = is_solution and residual <= 10 * RESIDUAL * _size(q, part)
     contraction = steps[1] / steps[0] if len(steps) > 1 and steps[0] > 0 else 0.0
     correction = float(np.max(np.abs((q - guess) / part.units), initial=0.0))
-    return Position(q, residual, row, is_closed, factored, iterations, contraction, correction)
+    return Position(q, residual, row, is_closed, slope, factored, iterations, contraction, correction)
 
 
 def nearest(equations: Equations, part: Partition, guess: Array) -> Position:
@@ -165,5 +168,5 @@ def nearest(equations: Equations, part: Partition, guess: Array) -> Position:
 
     tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 500}
     found = scipy.optimize.least_squares(rows, guess[part.w] / units, slope, **tight)
-    phi, _ = constraint(equations.closure(placed(found.x)))
-    return _position(q, phi, part, None, int(found.nfev), [], guess, is_solution=False)
+    phi, last = constraint(equations.closure(placed(found.x)))
+    return _position(q, phi, last, part, None, int(found.nfev), [], guess, is_solution=False)

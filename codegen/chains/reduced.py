@@ -1,7 +1,7 @@
 """The chain reduced to its independent coordinates, at a closed pose.
 
-With ``K = J_w^+ J_v`` all rates are ``qd = N qd_v``, ``N = [1; -K]``, and all accelerations ``qdd = N qdd_v + a``, where
-``a`` is 0 for the independent and ``-J_w^+ gamma_R`` for the dependent coordinates; the equation of motion is
+With ``K = J_w^+ J_v`` all rates are ``qd = N qd_v``, ``N = [1; -K]``, and all accelerations ``qdd = N qdd_v + a``; a is
+0 for the independent and ``-J_w^+ gamma_R`` for the dependent coordinates. The equation of motion is
 
     ``(N^T M N) qdd_v = N^T (f_G + tau + D_E^T f_E - f_C - M a)``.
 """

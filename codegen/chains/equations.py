@@ -33,14 +33,12 @@ class Terms:
     """Terms of ``J qdd + gamma = 0`` and ``M qdd + f_C = f_G + tau + J^T f_R``.
 
     Attributes:
-        J: [6 nr, n], rows linear then angular for each cut, axes of R.
         gamma: [6 nr].
         M: [n, n].
         f_C: [n].
         f_G: [n].
     """
 
-    J: Array
     gamma: Array
     M: Array
     f_C: Array
@@ -58,7 +56,7 @@ class Equations(Protocol):
         """Evaluate the cuts."""
 
     def jacobian(self, q: Array) -> Array:
-        """Evaluate J [6 nr, n]."""
+        """Evaluate J [6 nr, n], rows linear then angular for each cut, axes of C."""
 
     def gamma(self, q: Array, qd: Array) -> Array:
         """Evaluate gamma_R [6 nr]."""

@@ -100,16 +100,15 @@ class TableEquations:
         return self.terms(q, qd).gamma
 
     def jacobian(self, q: Array) -> Array:
-        return self.terms(q, np.zeros(len(q))).J
+        closure = self.closure(q)
+        return np.concatenate([np.zeros((0, len(q))), *(part for pair in zip(closure.dp, closure.W) for part in pair)])
 
     def terms(self, q: Array, qd: Array) -> Terms:
         n, table = len(q), Table(self.chain, q, qd)
-        J, gamma = [np.zeros((0, n))], [np.zeros(0)]
+        gamma = [np.zeros(0)]
         for cut in self.chain.cuts:
-            (_, DC, cC), (TR, DR, cR) = table.fixed(cut.base), table.fixed(cut.far)
-            turn = np.kron(np.eye(2), TR[:3, :3].T)
-            J.append(turn @ (DR - DC))
-            gamma.append(turn @ (cR - cC))
+            (TC, _, cC), (_, _, cR) = table.fixed(cut.base), table.fixed(cut.far)
+            gamma.append(np.kron(np.eye(2), TC[:3, :3].T) @ (cR - cC))
         M, f_C, f_G = np.zeros((n, n)), np.zeros(n), np.zeros(n)
         g = np.array([float(x) for x in self.chain.gravity])
         for link in self.chain.links:
@@ -121,7 +120,7 @@ class TableEquations:
             M += m * Dm[:3].T @ Dm[:3] + D[3:].T @ I @ D[3:]
             f_C += m * Dm[:3].T @ cm[:3] + D[3:].T @ (I @ c[3:] + np.cross(w, I @ w))
             f_G += m * Dm[:3].T @ g
-        return Terms(np.concatenate(J), np.concatenate(gamma), M, f_C, f_G)
+        return Terms(np.concatenate(gamma), M, f_C, f_G)
 
     def effectors(self, q: Array) -> Array:
         table = Table(self.chain, q, np.zeros(len(q)))

@@ -157,7 +157,7 @@ class Harmonic:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Values in a CSV file of two columns, t in s and the coordinate; the file is named from the chain file's folder."""
+    """Values in a CSV file of two columns, t in s and the coordinate; its path is from the folder of the chain file."""
 
     file: str
 

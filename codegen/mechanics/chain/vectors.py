@@ -1,4 +1,4 @@
-"""Vectors of three scalars (sympy) and 3 x 3 matrices as rows of them: what the recursion needs, and nothing is expanded."""
+"""Vectors of three scalars (sympy), and 3 x 3 matrices as rows of them; nothing is expanded."""
 
 from __future__ import annotations
 

@@ -202,8 +202,10 @@ class Account:
         return -still._power(np.zeros(self.size), np.zeros(self.size), np.array(self.chain.gravity, float))
 
     def D_E(self):
-        columns = [np.concatenate([twist(E)[:6] for E in move(self.chain, self.q, unit, 0 * unit).effectors])
-                   for unit in np.eye(self.size)]
+        columns = [
+            np.concatenate([twist(E)[:6] for E in move(self.chain, self.q, unit, 0 * unit).effectors])
+            for unit in np.eye(self.size)
+        ]
         return np.array(columns).T.real
 
     def effectors(self):
@@ -212,7 +214,7 @@ class Account:
 
 def angular_momentum_rate(series: Series, inertia):
     """d/dt of ``R I R^T w``, world."""
-    R, first, second = (series[k, :3, :3] for k in range(3))
+    R, first = series[0, :3, :3], series[1, :3, :3]
     w, e = spin(series)
     world, rate = R @ inertia @ R.T, first @ inertia @ R.T + R @ inertia @ first.T
     return world @ e + rate @ w

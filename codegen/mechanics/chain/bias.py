@@ -6,6 +6,7 @@ acceleration of a point fixed on it relative to its origin, ``A r = e x r + w x 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import sympy
@@ -24,11 +25,20 @@ class Bias:
         w: angular velocity of the root.
         e: angular acceleration of the root.
         a: acceleration of the root's origin.
+        prefix: of the names of temporaries.
     """
 
-    def __init__(self, geometry: Geometry, qd: Any, w: Vector = ZERO, e: Vector = ZERO, a: Vector = ZERO) -> None:
+    def __init__(
+        self,
+        geometry: Geometry,
+        qd: Any,
+        w: Vector = ZERO,
+        e: Vector = ZERO,
+        a: Vector = ZERO,
+        prefix: str = "",
+    ) -> None:
         root = geometry.root
-        self._geometry, self._qd = geometry, qd
+        self._geometry, self._qd, self._prefix = geometry, qd, prefix
         self._w, self._e, self._a = {root: w}, {root: e}, {root: a}
         self._rates: dict[tuple[tuple[int, int], ...], Any] = {(): sympy.S.Zero}
         self._spins: dict[int, Vector] = {}
@@ -42,7 +52,7 @@ class Bias:
             if node.type != "revolute":
                 return self.w(node.parent)
             value = added(self.w(turned.base), self._spin(number))
-            self._w[number] = self._geometry.named("w", number, value, "angular velocity")
+            self._w[number] = self._named("w", number, value, "angular velocity")
         return self._w[number]
 
     def e(self, number: int) -> Vector:
@@ -52,7 +62,7 @@ class Bias:
             if node.type != "revolute":
                 return self.e(node.parent)
             value = added(self.e(turned.base), cross(self.w(turned.base), self._spin(number)))
-            self._e[number] = self._geometry.named("e", number, value, "angular bias acceleration")
+            self._e[number] = self._named("e", number, value, "angular bias acceleration")
         return self._e[number]
 
     def a(self, number: int) -> Vector:
@@ -60,7 +70,7 @@ class Bias:
         if number not in self._a:
             node = self._geometry.tree.nodes[number]
             value = added(self.a(node.parent), self._of_offset(node))
-            self._a[number] = self._geometry.named("a", number, value, "bias acceleration of the origin")
+            self._a[number] = self._named("a", number, value, "bias acceleration of the origin")
         return self._a[number]
 
     def of_fixed(self, number: int, point: Vector) -> Vector:
@@ -74,7 +84,7 @@ class Bias:
         """``A`` times axis k of a link."""
         if (number, k) not in self._carried:
             value = times(self.matrix(number), self._geometry.axes(number)[k])
-            self._carried[number, k] = self._geometry.named(f"A{'xyz'[k]}", number, value, f"A times axis {'xyz'[k]}")
+            self._carried[number, k] = self._named(f"A{'xyz'[k]}", number, value, f"A times axis {'xyz'[k]}")
         return self._carried[number, k]
 
     def matrix(self, number: int) -> Rows:
@@ -88,7 +98,7 @@ class Bias:
 
     def _matrix(self, number: int) -> Rows:
         (x, y, z), (ex, ey, ez) = self.w(number), self.e(number)
-        named = self._geometry.named
+        named = self._named
         xx, yy, zz = named("ww", number, (x * x, y * y, z * z), "squares of the angular velocity")
         yz, zx, xy = named("wv", number, (y * z, z * x, x * y), "products of the angular velocity")
         words = "acceleration of points fixed on the link, row"
@@ -103,9 +113,7 @@ class Bias:
         if node.type != "prismatic":
             return self.of_fixed(node.parent, node.arm)
         along = cross(self.w(node.parent), self._geometry.z(node.number))
-        twice = self._geometry.named(
-            "k", node.number, scaled(2 * self._qd[node.number], along), "Coriolis acceleration"
-        )
+        twice = self._named("k", node.number, scaled(2 * self._qd[node.number], along), "Coriolis acceleration")
         return added(times(self.matrix(node.parent), self._geometry.offset(node.number)), twice)
 
     def _spin(self, number: int) -> Vector:
@@ -113,7 +121,7 @@ class Bias:
         if number not in self._spins:
             _, turned = self._at(number)
             rate = self._rate(turned.joints)
-            self._spins[number] = self._geometry.named("s", number, scaled(rate, turned.before[2]), "spin")
+            self._spins[number] = self._named("s", number, scaled(rate, turned.before[2]), "spin")
         return self._spins[number]
 
     def _rate(self, joints: tuple[tuple[int, int], ...]) -> Any:
@@ -121,8 +129,11 @@ class Bias:
         if joints not in self._rates:
             number, sense = joints[-1]
             value = [self._rate(joints[:-1]) + sense * self._qd[number], 0, 0]
-            self._rates[joints] = self._geometry.named("n", number, value, "rate about the common axis")[0]
+            self._rates[joints] = self._named("n", number, value, "rate about the common axis")[0]
         return self._rates[joints]
 
     def _at(self, number: int) -> tuple[Node, Any]:
         return self._geometry.tree.nodes[number], self._geometry.turned(number)
+
+    def _named(self, name: str, number: int, value: Iterable[Any], words: str) -> Vector:
+        return self._geometry.named(f"{self._prefix}{name}", number, value, words)

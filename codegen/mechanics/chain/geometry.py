@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy
 
+from codegen.errors import InternalError
 from codegen.ir.lower.staged import Stages
 from codegen.mechanics.chain.tree import ROOT, Node, Tree
 from codegen.mechanics.chain.vectors import (
@@ -70,6 +71,7 @@ class Geometry:
     def __init__(self, tree: Tree, stages: Stages, q: Any, root: int = ROOT, prefix: str = "") -> None:
         self.tree, self.stages, self.root, self.prefix = tree, stages, root, prefix
         self._q = q
+        self._names: dict[str, tuple[Vector, Vector]] = {}
         self._turned = {root: Turned(root, IDENTITY, (), sympy.S.Zero, IDENTITY, IDENTITY)}
         self._axes: dict[int, Axes] = {root: IDENTITY}
         self._offsets: dict[int, Vector] = {}
@@ -78,9 +80,18 @@ class Geometry:
         self._swept: dict[tuple[int, int], Vector] = {}
 
     def named(self, name: str, number: int, value: Iterable[Any], definition: str) -> Vector:
-        """Name a vector of a frame; frames count from 1, the base is 0."""
-        matrix = sympy.Matrix(list(value))
-        return vector(self.stages.stage(f"{self.prefix}{name}_{number + 1}", matrix, definition))
+        """Name a vector of a frame; frames count from 1, the base is 0. The same vector may be named again.
+
+        Raises:
+            InternalError: the name is that of another vector.
+        """
+        key, entries = f"{self.prefix}{name}_{number + 1}", vector(value)
+        if key not in self._names:
+            self._names[key] = entries, vector(self.stages.stage(key, sympy.Matrix(entries), definition))
+        known, symbols = self._names[key]
+        if known != entries:
+            raise InternalError(f"two vectors have the name {key}")
+        return symbols
 
     def coordinate(self, node: Node) -> Any:
         """The joint coordinate of a link."""

@@ -121,7 +121,7 @@ class Model:
         root = self._tree.loop_root(cut)
         geometry = self._world if root == ROOT else Geometry(self._tree, self.stages, self._q, root, f"loop{k + 1}_")
         is_shared = root == ROOT and self._chain.base == "fixed"
-        bias = self._bias if is_shared else Bias(geometry, self._qd)
+        bias = self._bias if is_shared else Bias(geometry, self._qd, prefix="r")
         return Loop(k, geometry, bias, *cut)
 
     # --- rows of the cuts

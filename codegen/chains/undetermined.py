@@ -19,7 +19,7 @@ _SHARE = 1e-7
 def undetermined(mechanism: Mechanism, equations: Generated, state: State) -> tuple[str, ...]:
     """Name the components of cut reactions and joint wrenches that are one choice among many.
 
-    Reactions that move no coordinate may be added to those of the cuts; what changes with them, there and in the joints,
+    Reactions that move no coordinate may be added to those of the cuts; what changes with them, there and in joints,
     is not determined. In the run it is the smallest possible in binding rows and 0 in the others.
 
     Args:

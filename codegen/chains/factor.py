@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
+from scipy.linalg import lapack
 
 Array = NDArray[np.float64]
 
@@ -50,15 +51,15 @@ class Factor:
     def solve(self, b: Array) -> Array:
         """Give x with the least ``|A x - b|``; b [m] or [m, k]."""
         found = np.empty((len(self.order), *b.shape[1:]))
-        if len(found):
-            found[self.order] = scipy.linalg.solve_triangular(self.R, self.Q.T @ b, check_finite=False)
+        if found.size:
+            found[self.order] = lapack.dtrtrs(self.R, self.Q.T @ b)[0]
         return found
 
     def solve_transposed(self, c: Array) -> Array:
         """Give the smallest f [m] with ``A^T f = c``."""
         if not len(c):
             return np.zeros(len(self.Q))
-        return np.asarray(self.Q @ scipy.linalg.solve_triangular(self.R, c[self.order], trans="T", check_finite=False))
+        return np.asarray(self.Q @ lapack.dtrtrs(self.R, c[self.order], trans=1)[0])
 
     def undetermined(self) -> Array:
         """Give an orthonormal basis [m, m - n] of the f with ``A^T f = 0``."""
@@ -75,11 +76,12 @@ def factor(A: Array) -> Factor:
         return Factor(np.zeros((len(A), 0)), np.zeros((0, 0)), np.zeros(0, dtype=np.intp))
     if A.shape[0] < A.shape[1]:
         raise diagnosed(A)
-    Q, R, order = scipy.linalg.qr(A, mode="economic", pivoting=True, check_finite=False)
+    packed, order, tau, _, _ = lapack.dgeqp3(A)
+    R = np.triu(packed[: A.shape[1]])
     pivots = np.abs(np.diagonal(R))
     if not pivots[-1] > RANK_TOLERANCE * pivots[0]:
         raise diagnosed(A)
-    return Factor(Q, R, np.asarray(order, dtype=np.intp))
+    return Factor(lapack.dorgqr(packed, tau)[0], R, np.asarray(order - 1, dtype=np.intp))
 
 
 def diagnosed(A: Array) -> RankLoss:

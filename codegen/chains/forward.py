@@ -39,6 +39,7 @@ class _Motion:
     def __init__(self, mechanism: Mechanism, start: Branch, found: tuple[Switch, ...]) -> None:
         self.mechanism, self.here, self.switches = mechanism, start, found
         self.is_on: tuple[bool, ...] = ()
+        self._last: tuple[Array, Reduced] | None = None
         self.failure = ""
         self.evaluations = 0
         self.events_met = 0
@@ -48,15 +49,18 @@ class _Motion:
         return active(self.switches, self.is_on, len(self.mechanism.forces.conditions))
 
     def at(self, y: Array) -> Reduced:
-        """The chain reduced where it is.
+        """The chain reduced where it is; the last one is remembered.
 
         Raises:
             PathEnd: the branch ends before.
             RankLoss: the pose is singular.
         """
         nv = len(self.mechanism.part.v)
-        self.here = follow(self.mechanism.equations, self.mechanism.part, self.here, y[:nv])
-        return reduced(self.mechanism.equations, self.mechanism.part, self.here.q, y[nv : 2 * nv])
+        if self._last is None or not np.array_equal(self._last[0], y[: 2 * nv]):
+            self.here = follow(self.mechanism.equations, self.mechanism.part, self.here, y[:nv])
+            found = reduced(self.mechanism.equations, self.mechanism.part, self.here.q, y[nv : 2 * nv])
+            self._last = y[: 2 * nv].copy(), found
+        return self._last[1]
 
     def acceleration(self, found: Reduced) -> tuple[Array, float]:
         """Accelerations of the independent coordinates, and the power of all forces."""

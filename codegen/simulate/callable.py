@@ -24,15 +24,16 @@ matrices [m, n]. Arguments that the program does not use may be given too."""
 
 
 def callables(programs: Sequence[Program]) -> list[Evaluate]:
-    """Compile programs, each with its own first output, into functions.
+    """Compile programs into functions.
 
     Raises:
         SpecificationError: there is no C compiler.
     """
-    texts = [definition(*declared(program), program)[0] for program in programs]
+    symbols = [f"evaluate_{k}" for k in range(len(programs))]
+    texts = [definition(s, declared(program)[1], program)[0] for s, program in zip(symbols, programs, strict=True)]
     source = "\n".join([f"/* {banner(codegen.__version__)} */", '#include "jg_real.h"', *texts])
     loaded = library(source)
-    return [_evaluate(loaded[declared(program)[0]], program) for program in programs]
+    return [_evaluate(loaded[symbol], program) for symbol, program in zip(symbols, programs, strict=True)]
 
 
 def _evaluate(function: Any, program: Program) -> Evaluate:

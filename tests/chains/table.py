@@ -101,7 +101,9 @@ class TableEquations:
 
     def jacobian(self, q: Array) -> Array:
         closure = self.closure(q)
-        return np.concatenate([np.zeros((0, len(q))), *(part for pair in zip(closure.dp, closure.W) for part in pair)])
+        return np.concatenate(
+            [np.zeros((0, len(q))), *(part for pair in zip(closure.dp, closure.W, strict=True) for part in pair)]
+        )
 
     def terms(self, q: Array, qd: Array) -> Terms:
         n, table = len(q), Table(self.chain, q, qd)

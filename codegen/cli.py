@@ -117,6 +117,27 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
+@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def chain(file: Path, real: str, target: Path) -> None:
+    """Emit the routines of a kinematic chain."""
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.read import read
+    from codegen.scenes.generate import check_options
+
+    check_options(None, real)
+    output.check_target(target)
+    described, _ = read(file)
+    with _progress(steps(described), "generating") as advance:
+        files = generate_chain(described, real, advance)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
 @click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")

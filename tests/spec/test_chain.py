@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import tomllib
 from fractions import Fraction
 from importlib import resources
 
@@ -116,8 +117,6 @@ def test_the_shipped_schema_is_the_one_that_the_reader_makes():
 
 @pytest.mark.parametrize("name", ["quick_return", "spatial_slider_crank"])
 def test_every_example_validates(name):
-    import tomllib
-
     jsonschema.Draft202012Validator(json.loads(SHIPPED)).validate(
         tomllib.loads((EXAMPLES / f"{name}.toml").read_text())
     )

@@ -132,7 +132,9 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
-    return manifest(package.version, package.real, package.specification, records, casadi, whole={package.kind: package.record})
+    return manifest(
+        package.version, package.real, package.specification, records, casadi, whole={package.kind: package.record}
+    )
 
 
 def _example(package: ScenePackage, entry: Entry) -> str:

@@ -124,12 +124,30 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
+@click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def chain(file: Path, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
-    """Run a kinematic chain: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
+def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
+    """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
     if mode is None:
-        raise click.UsageError("say --kinematics, --inverse or --forward")
-    _run_chain(file, target, animation, {"mode": mode, **options})
+        _generate_chain(file, real, target)
+    else:
+        _run_chain(file, target, animation, {"mode": mode, **options})
+
+
+def _generate_chain(file: Path, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.read import read
+    from codegen.scenes.generate import check_options
+
+    check_options(None, real)
+    output.check_target(target)
+    described, _ = read(file)
+    with _progress(steps(described), "generating") as advance:
+        files = generate_chain(described, real, advance)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
 
 
 def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:

@@ -15,7 +15,19 @@ from typing import Any
 import sympy
 
 from codegen.mechanics.chain.tree import ROOT, Node, Tree
-from codegen.mechanics.chain.vectors import Rows, Vector, added, dot, is_zero, product, rows, scaled, times, transposed
+from codegen.mechanics.chain.vectors import (
+    Rows,
+    Vector,
+    added,
+    dot,
+    is_zero,
+    product,
+    rows,
+    scaled,
+    times,
+    transposed,
+    vector,
+)
 from codegen.spec.chain import Link
 
 _NO_ROWS: Rows = rows([(0, 0, 0)] * 3)
@@ -49,7 +61,7 @@ class Inertia:
         S, turned = times(turn, self.S), product(product(turn, self.I), transposed(turn))
         total = added(S, scaled(self.m, arm))
         shifted = rows(
-            added(row, (_shift(arm, S, i, k) + _shift(total, arm, i, k) for k in range(3)))
+            added(row, [_shift(arm, S, i, k) + _shift(total, arm, i, k) for k in range(3)])
             for i, row in enumerate(turned)
         )
         return Inertia(self.m, total, shifted)
@@ -62,13 +74,10 @@ def _shift(a: Vector, b: Vector, i: int, k: int) -> Any:
 
 def of_link(link: Link) -> Inertia:
     """Mass properties of a link from its origin."""
-    m, centre = sympy.Rational(link.mass), tuple(map(sympy.Rational, link.centre))
+    m, centre = sympy.Rational(link.mass), vector(map(sympy.Rational, link.centre))
     about_centre = rows(map(sympy.Rational, row) for row in link.inertia)
-    moment = scaled(m, centre)  # type: ignore[arg-type]
-    shifted = rows(
-        added(row, [_shift(moment, centre, i, k) for k in range(3)])  # type: ignore[arg-type]
-        for i, row in enumerate(about_centre)
-    )
+    moment = scaled(m, centre)
+    shifted = rows(added(row, [_shift(moment, centre, i, k) for k in range(3)]) for i, row in enumerate(about_centre))
     return Inertia(m, moment, shifted)
 
 

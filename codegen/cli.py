@@ -294,6 +294,20 @@ def flops(rules: str, table: str, model: str, name: str | None, assume: tuple[st
         tables.show(result.sheets)
 
 
+@jointgen.command()
+@click.argument("folder", nargs=-1, type=click.Path(path_type=Path))
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path, dir_okay=False), required=True)
+def report(folder: tuple[Path, ...], target: Path) -> None:
+    """Put results on one page that needs no other file: those in FOLDER..., or in generated/ and benchmarks/."""
+    from codegen import output
+    from codegen.report.findings import findings
+    from codegen.report.page import page
+
+    found = findings(folder or [place for place in (_LIBRARY, Path("benchmarks")) if place.is_dir()])
+    output.replace_file(target, page(found, codegen.__version__).encode())
+    click.echo(f"{target}: {len(found)} folders of results")
+
+
 @contextlib.contextmanager
 def _progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
     """A progress bar on a terminal, silence in a pipe."""

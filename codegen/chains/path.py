@@ -33,6 +33,12 @@ _SHORTEST = 1e-9
 
 _ITERATIONS = 12
 
+_PAST = 1e-5
+"""rad, or characteristic lengths: so far beyond its end a path is looked at first."""
+
+_PLACES = (0.25, 0.5, 0.75, 1.0)
+"""Then at these parts of the rest of the way."""
+
 CLOSED = 1e-9
 """rad, or characteristic lengths: cuts that are less open can be closed."""
 
@@ -42,7 +48,7 @@ class PathEnd(Exception):
 
     Attributes:
         reached: the last closed pose.
-        beyond: the pose nearest to the target, with what the cuts are open.
+        beyond: where the cuts are most open between there and the target, at the pose that opens them least.
     """
 
     def __init__(self, reached: Branch, beyond: Position) -> None:
@@ -127,9 +133,20 @@ def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> 
             continue
         piece /= 2
         if piece * size < _SHORTEST:
-            guess[part.v] = q_v
-            raise PathEnd(here, nearest(equations, part, guess))
+            raise PathEnd(here, _beyond(equations, part, here, q_v))
     return here
+
+
+def _beyond(equations: Equations, part: Partition, here: Branch, q_v: Array) -> Position:
+    """The nearest pose at the worst of a few places between the end of a path and its target."""
+    rest = q_v - here.q[part.v]
+    size = float(np.max(np.abs(rest / part.units[part.v])))
+    found, guess = [], here.q.copy()
+    for share in (min(1.0, _PAST / size), *_PLACES):
+        guess[part.v] = here.q[part.v] + share * rest
+        found.append(nearest(equations, part, guess))
+        guess = found[-1].q.copy()
+    return max(found, key=lambda position: position.residual)
 
 
 def _tried(equations: Equations, part: Partition, here: Branch, guess: Array) -> Branch | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction as F
 from typing import Any
 
@@ -160,3 +161,28 @@ def _theta(parent: Any, child: Any, psi: Any, alpha: Any) -> float:
     turn = before.T @ child
     assert abs(turn[2, 2] - 1) < 1e-12, turn
     return float(np.arctan2(turn[1, 0], turn[0, 0]))
+
+
+def four_bar(motion: Motion | None = None, angle: float = 0.5) -> Chain:
+    """A parallelogram in the plane of x and y: cranks of 1 m at x = 0 and x = 2, a coupler of 2 m."""
+    turn = F(angle)
+    links = (
+        link("crank 1", BASE, row(theta=turn), 1, (F(1, 2), 0, 0), (0, 0, F(1, 12))),
+        link("coupler", "crank 1", row(a=1, theta=-turn), 2, (1, 0, 0), (0, 0, F(2, 3))),
+        link("crank 2", BASE, row(a=2, theta=turn), 1, (F(1, 2), 0, 0), (0, 0, F(1, 12))),
+        link("pin", "crank 2", row(a=1, theta=-turn)),
+    )
+    cuts = (Cut("coupler's end", Frame("coupler", row(a=2)), Frame("pin", Row())),)
+    return Chain("four_bar", (F(0), F(-10), F(0)), links, cuts, (), (Independent("crank 1", motion),), assemble=True)
+
+
+def three_cranks(misfit: F = F(0)) -> Chain:
+    """The parallelogram with a third crank at x = 1, which is one too many; it may stand too far away."""
+    chain = four_bar(angle=0.7)
+    turn = F(0.7)
+    more = (
+        link("crank 3", BASE, row(a=1 + misfit, theta=turn), 1, (F(1, 2), 0, 0), (0, 0, F(1, 12))),
+        link("pin 3", "crank 3", row(a=1, theta=-turn)),
+    )
+    cut = Cut("coupler's middle", Frame("coupler", row(a=1)), Frame("pin 3", Row()))
+    return replace(chain, links=chain.links + more, cuts=(*chain.cuts, cut))

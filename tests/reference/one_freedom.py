@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 q = sympy.Symbol("q", real=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Body:
     """A rigid body that follows q.
 
@@ -36,17 +36,23 @@ class Body:
     r: sympy.Matrix
     A: sympy.Matrix
 
-    @property
-    def omega(self) -> sympy.Matrix:
-        """[3] angular velocity for qd = 1, world axes."""
-        W = self.A.diff(q) * self.A.T
-        return sympy.Matrix([W[2, 1] - W[1, 2], W[0, 2] - W[2, 0], W[1, 0] - W[0, 1]]) / 2
+    @cached_property
+    def motion(self) -> Callable[[float], list[Array]]:
+        """r, r', r'', A, A', A'' by q."""
+        return values(*(f.diff(q, k) if k else f for f in (self.r, self.A) for k in range(3)))
 
-    @property
-    def twice_kinetic(self) -> Any:
-        """Twice the kinetic energy for qd = 1."""
-        v, w = self.r.diff(q), self.A.T * self.omega
-        return self.mass * v.dot(v) + (w.T * self.inertia * w)[0]
+    def terms(self, at: float) -> tuple[float, float, Array, Array]:
+        """Twice the kinetic energy for qd = 1 with its slope; r and r'."""
+        r, dr, ddr, A, dA, ddA = self.motion(at)
+        w, dw = vee(A.T @ dA), vee(A.T @ ddA + dA.T @ dA)
+        inertia, mass = np.array(self.inertia, dtype=np.float64), float(self.mass)
+        m = mass * float(dr.ravel() @ dr.ravel()) + float(w @ inertia @ w)
+        return m, 2 * (mass * float(dr.ravel() @ ddr.ravel()) + float(w @ inertia @ dw)), r.ravel(), dr.ravel()
+
+
+def vee(W: Array) -> Array:
+    """[3] of a skew matrix."""
+    return np.array([W[2, 1] - W[1, 2], W[0, 2] - W[2, 0], W[1, 0] - W[0, 1]]) / 2
 
 
 def plane(angle: Any) -> sympy.Matrix:
@@ -65,7 +71,7 @@ def values(*expressions: Any) -> Callable[[Any], Any]:
     return sympy.lambdify(q, list(expressions), modules="numpy", cse=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OneFreedom:
     """A mechanism of one coordinate.
 
@@ -79,17 +85,17 @@ class OneFreedom:
     gravity: Sequence[Any]
     outputs: Mapping[str, Any]
 
-    @cached_property
-    def _inertia(self) -> Callable[[Any], Any]:
-        m = sum(body.twice_kinetic for body in self.bodies.values())
-        g = sympy.Matrix(self.gravity)
-        V = -sum(body.mass * body.r.dot(g) for body in self.bodies.values())
-        return values(m, m.diff(q), V, V.diff(q))
-
     def inertia(self, at: Any) -> tuple[Any, Any, Any, Any]:
-        """``m``, ``m'``, ``V`` and ``V'`` at q."""
-        m, dm, V, dV = self._inertia(at)
-        return m, dm, V, dV
+        """``m``, ``m'``, ``V`` and ``V'`` at q, or at each of several."""
+        if np.ndim(at):
+            m, dm, V, dV = np.array([self.inertia(one) for one in np.ravel(at)]).T
+            return m, dm, V, dV
+        g = np.array(self.gravity, dtype=np.float64)
+        found = np.zeros(4)
+        for body in self.bodies.values():
+            m, dm, r, dr = body.terms(float(at))
+            found += [m, dm, -float(body.mass) * (r @ g), -float(body.mass) * (dr @ g)]
+        return tuple(map(float, found))  # type: ignore[return-value]
 
     @cached_property
     def _outputs(self) -> dict[str, Callable[[Any], Any]]:

@@ -23,15 +23,16 @@ ANGLES = np.array([-2.0, -0.3, 0.44, 1.7, 2.9, 3.6])
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_attitudes_are_rotations_and_turn_with_omega(name: str) -> None:
+def test_attitudes_are_rotations_with_their_derivatives(name: str) -> None:
     h = 1e-5
     for body in MECHANISMS[name]().bodies.values():
-        A, w = sympy.lambdify(q, body.A), sympy.lambdify(q, body.omega)
         for angle in ANGLES:
-            assert np.max(np.abs(A(angle) @ A(angle).T - np.eye(3))) < 1e-14
-            assert np.linalg.det(A(angle)) > 0
-            W = (A(angle + h) - A(angle - h)) / (2 * h) @ A(angle).T
-            assert np.max(np.abs([W[2, 1], W[0, 2], W[1, 0]] - w(angle).ravel())) < 1e-7
+            A, dA, ddA = body.motion(angle)[3:]
+            before, after = body.motion(angle - h), body.motion(angle + h)
+            assert np.max(np.abs(A @ A.T - np.eye(3))) < 1e-14
+            assert np.linalg.det(A) > 0
+            assert np.max(np.abs((after[3] - before[3]) / (2 * h) - dA)) < 1e-7
+            assert np.max(np.abs((after[4] - before[4]) / (2 * h) - ddA)) < 1e-6
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
@@ -99,7 +100,7 @@ def test_acceleration_peaks_where_the_crank_points_along_the_offset(length: Frac
 def test_integration_keeps_energy(name: str) -> None:
     mechanism = MECHANISMS[name]()
     force = DRIVE if name.startswith("quick") else 0.05
-    times = np.linspace(0, 0.5, 11)
+    times = np.linspace(0, 0.15, 4)
     found = mechanism.motion(0.44, 2 * np.pi, times, lambda *_: force)
     speed = mechanism.speed_by_energy(0.44, 2 * np.pi, found[:, 0], force * (found[:, 0] - 0.44))
     assert np.max(np.abs(found[:, 1] - speed)) < 1e-10

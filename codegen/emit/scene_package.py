@@ -1,4 +1,4 @@
-"""The routines of a scene as files: one header, one source, CasADi functions, the manifest, a README and an example.
+"""The routines of a scene or chain as files: header, source, CasADi functions, manifest, a README and an example.
 
 Input: the routines. Output: path -> bytes; nothing is written here.
 """
@@ -26,18 +26,19 @@ _WIDTH = 108
 
 @dataclass(frozen=True, slots=True)
 class ScenePackage:
-    """Everything that goes into the files of a scene.
+    """Everything that goes into the files of a scene or chain.
 
     Attributes:
-        name: of the scene.
+        name: of the scene or chain.
         routines: single quantities first, ``all`` last.
         version: of jointgen.
-        specification: hash of the scene and of what was asked for.
+        specification: hash of the mechanism and of what was asked for.
         real: default number type, ``double`` or ``float``.
-        record: what the manifest says of the scene as a whole.
+        record: what the manifest says of the mechanism as a whole.
         casadi: output -> serialised CasADi function.
         start: argument -> its entries at t = 0, for the example.
         readme: text of the README.
+        kind: ``scene`` or ``chain``.
     """
 
     name: str
@@ -49,10 +50,11 @@ class ScenePackage:
     casadi: Mapping[str, bytes]
     start: Mapping[str, Sequence[Constant]]
     readme: str
+    kind: str = "scene"
 
 
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
-    """Write the files of a scene: path below its folder -> content."""
+    """Write the files of a scene or chain: path below its folder -> content."""
     emitted = [entry for routine in package.routines for entry in entries(routine)]
     patterns = _patterns(package)
     files = {
@@ -69,7 +71,7 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
             "external.c",
             f"{package.name}.h",
             banner(package.version),
-            f"scene {package.name}",
+            f"{package.kind} {package.name}",
             package.specification,
         )
     content = {path: text.encode() for path, text in files.items()}
@@ -82,7 +84,7 @@ def _patterns(package: ScenePackage) -> dict[str, str]:
 
 def _header(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[str]) -> str:
     introduction = [
-        f"Routines of the scene {package.name}: what stands in README.md beside this file.",
+        f"Routines of the {package.kind} {package.name}: what stands in README.md beside this file.",
         "",
         "Matrices are column-major. Entries ending in _nz store the structural nonzeros in compressed columns, in the",
         "pattern given by the _sparsity function; entries ending in _dense store the whole matrix. Arrays of one call",
@@ -102,7 +104,7 @@ def _header(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[
         banner=banner(package.version),
         specification=package.specification,
         introduction=introduction,
-        guard=f"SCENE_{package.name.upper()}",
+        guard=f"{package.kind.upper()}_{package.name.upper()}",
         declarations=declarations,
     )
 
@@ -112,7 +114,7 @@ def _source(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[
         "c/source.c.j2",
         file=f"{package.name}.c",
         banner=banner(package.version),
-        options=f"scene {package.name}, real {package.real}",
+        options=f"{package.kind} {package.name}, real {package.real}",
         specification=package.specification,
         header=f"{package.name}.h",
         functions=[*patterns, *(entry.text for entry in emitted)],
@@ -130,11 +132,13 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
-    return manifest(package.version, package.real, package.specification, records, casadi, scene=package.record)
+    return manifest(
+        package.version, package.real, package.specification, records, casadi, whole={package.kind: package.record}
+    )
 
 
 def _example(package: ScenePackage, entry: Entry) -> str:
-    """The scene as it stands, through its last routine."""
+    """The mechanism as it stands, through its last routine."""
     declared = entry.parameters
     arrays = [
         {"name": p.name, "rows": _rows([literal(constant) for constant in package.start[p.name]])}
@@ -150,6 +154,7 @@ def _example(package: ScenePackage, entry: Entry) -> str:
         banner=banner(package.version),
         specification=package.specification,
         name=package.name,
+        kind=package.kind,
         has_matrix=any(output["pattern"] for output in outputs),
         has_vector=not all(output["pattern"] for output in outputs),
         arrays=arrays,

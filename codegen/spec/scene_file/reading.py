@@ -13,7 +13,7 @@ from codegen.spec.scene_file.entry import read_entry
 from codegen.spec.scene_file.forces import make_spring, make_torque, spring_mistakes, torque_mistakes
 from codegen.spec.scene_file.gaps import gap_mistakes
 from codegen.spec.scene_file.joints import joint_mistakes, make_joint, poses_of
-from codegen.spec.scene_file.names import name_mistakes, scene_name_mistakes
+from codegen.spec.scene_file.names import name_mistakes, routine_name_mistakes
 from codegen.spec.scene_file.planar import Placed, out_of_plane_mistakes, placed, planar_mistakes
 from codegen.spec.scene_file.tables import read_tables
 from codegen.spec.scene_file.text import escaped
@@ -46,7 +46,7 @@ def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
     joints = _sound_joints(entry, poses)
     mistakes += _pose_mistakes(entry, joints)
     if mistakes:
-        raise SpecificationError(_bounded(mistakes, file))
+        raise SpecificationError(bounded(mistakes, file))
     repeated = entry.copies or CopiesEntry(file, frozenset(), frozenset())
     return copied(_scene(entry, joints), copies or repeated.count, repeated.offset)
 
@@ -54,7 +54,7 @@ def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
 def _part_mistakes(entry: SceneEntry, bodies: Mapping[str, Pose | None]) -> Iterator[Mistake]:
     """Check bodies, joints and forces, each by itself."""
     if entry.name is not None:
-        yield from scene_name_mistakes(entry.name, f"{entry.place}: name")
+        yield from routine_name_mistakes(entry.name, f"{entry.place}: name")
     yield from name_mistakes(entry.body)
     for body in entry.body:
         yield from body_mistakes(body, _needs_mass(entry))
@@ -114,7 +114,8 @@ def _scene(entry: SceneEntry, joints: Sequence[_Sound]) -> Scene:
     )
 
 
-def _bounded(mistakes: list[Mistake], file: str) -> list[Mistake]:
+def bounded(mistakes: list[Mistake], file: str) -> list[Mistake]:
+    """Each mistake once, and not more of them than anyone reads."""
     mistakes = list(dict.fromkeys(mistakes))
     left = len(mistakes) - _MOST_MISTAKES
     if left <= 0:

@@ -1,7 +1,7 @@
 """What rounding the inputs of a program does to its outputs, to first order: ``sum |df/dx| |x|`` over all inputs.
 
-Forward derivatives, instruction by instruction, for many poses at once. Times the unit roundoff it is the error that the
-best possible routine has for inputs that are rounded; the error of a routine in these units is called eta.
+Forward derivatives, instruction by instruction, for many poses at once. Times the unit roundoff it is the error that
+the best possible routine has for inputs that are rounded; the error of a routine in these units is called eta.
 """
 
 from __future__ import annotations
@@ -33,6 +33,8 @@ def condition(program: Program, inputs: Mapping[str, Array]) -> dict[str, Array]
     Returns:
         Output -> [nonzeros, poses].
     """
+    if not inputs:
+        return {output.name: np.zeros((len(output.values), 1)) for output in program.outputs}
     count = next(iter(inputs.values())).shape[1]
     pieces = [
         _Sweep(program, {name: rows[:, first : first + _CHUNK] for name, rows in inputs.items()}).outputs()
@@ -53,7 +55,9 @@ class _Sweep:
     def outputs(self) -> dict[str, Array]:
         """Sum the magnitudes."""
         places = self._places()
-        count = next(iter(self.inputs.values())).shape[1]
+        if not inputs:
+        return {output.name: np.zeros((len(output.values), 1)) for output in program.outputs}
+    count = next(iter(self.inputs.values())).shape[1]
         last = _last_uses(self.program)
         for position, instruction in enumerate(self.program.instructions):
             operands = instruction.operands

@@ -1,7 +1,7 @@
 """Poses of one joint over a domain: Sobol points, on the constraint or in mid-iteration, in twice the precision.
 
-They are ideal: attitudes are rotations and joints are closed to 1e-31. What a routine is given is rounded from them. The
-sequence is scrambled with a fixed seed, so that every run sees the same poses.
+They are ideal: attitudes are rotations and joints are closed to 1e-31. What a routine is given is rounded from them.
+The sequence is scrambled with a fixed seed, so that every run sees the same poses.
 """
 
 from __future__ import annotations
@@ -45,8 +45,9 @@ class Poses:
 
     def given(self, real: type[np.floating]) -> dict[str, NDArray[np.floating]]:
         """Round to a number type: argument -> [length, poses]."""
+        count = len(self.ideal["r_i"][0].high)
         return {
-            name: np.array([(entry.high.astype(real) + entry.low.astype(real)) for entry in entries])
+            name: np.array([entry.high.astype(real) + entry.low.astype(real) for entry in entries]).reshape(-1, count)
             for name, entries in self.ideal.items()
         }
 
@@ -255,4 +256,3 @@ def _plus(a: Vector, b: Vector) -> Vector:
 
 def _minus(a: Vector, b: Vector) -> Vector:
     return [x - y for x, y in zip(a, b, strict=True)]
-

@@ -14,6 +14,7 @@ import subprocess
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -123,7 +124,9 @@ class Built:
         program = self.source.with_suffix(".counted")
         command = [word for word in self.command if word not in ("-shared", "-fPIC", "-march=native")]
         flags = ["-march=x86-64-v3"] if "-march=native" in self.command else []
-        done = subprocess.run([*command, *flags, "-DCOUNTED", "-o", str(program), "-lm"], capture_output=True, check=False)
+        done = subprocess.run(
+            [*command, *flags, "-DCOUNTED", "-o", str(program), "-lm"], capture_output=True, check=False
+        )
         if done.returncode:
             return None
         tool = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"]
@@ -168,16 +171,23 @@ def built(routine: Routine, build: Build, folder: Path) -> Built:
     own = ("-DJG_OWN_TRIGONOMETRY",) if build.trigonometry == "own" else ()
     precision = ("-DJG_REAL_IS_FLOAT",) if build.real == "float" else ()
     options = (build.compiler, "-std=gnu99", *build.flags, *own, *precision, "-shared", "-fPIC", f"-I{folder}")
-    source = folder / f"{_digest(text, *options)}.c"
+    source = folder / f"{_digest(_version(build.compiler), text, *options)}.c"
     library = source.with_suffix(".so")
     if not library.exists():
         source.write_text(text)
         unfinished = source.with_suffix(".unfinished")
-        done = subprocess.run([*options, str(source), "-o", str(unfinished), "-lm"], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [*options, str(source), "-o", str(unfinished), "-lm"], capture_output=True, text=True, check=False
+        )
         if done.returncode:
             raise InternalError(f"{build.name}: {done.stderr}")
         unfinished.replace(library)
     return Built(build, routine, ctypes.CDLL(str(library)), source, (*options, str(source)))
+
+
+@cache
+def _version(compiler: str) -> str:
+    return subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True).stdout
 
 
 def _digest(*words: str) -> str:

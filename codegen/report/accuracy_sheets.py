@@ -5,8 +5,9 @@ from __future__ import annotations
 from codegen.report.sheets import Document, Sheet
 
 _NOTES = (
-    "e/S: largest error over the scale of the block, against the given inputs; eta: error over what rounding the inputs",
-    "does; floor: what ideal geometry would differ by; ULP: median and 99 of 100. Worst of both states. Times are advice.",
+    "e/S: largest error over the scale of the block, against the given inputs; eta: error over what rounding the",
+    "inputs does; floor: what ideal geometry would differ by; ULP: median and 99 of 100. Worst of both states.",
+    "Times are advice.",
 )
 
 
@@ -23,7 +24,20 @@ def accuracy_sheet(document: Document, joint: str) -> Sheet:
         for k, cells in enumerate(_blocks(candidate)):
             head = [name, candidate["build"]] if k == 0 else ["", ""]
             rows.append((*head, *cells, *(times if k == 0 else ["", "", ""])))
-    columns = ("routine", "build", "block", "e/S", "mean", "eta", "floor", "ULP", "99 %", "ns", "spread", "instructions")
+    columns = (
+        "routine",
+        "build",
+        "block",
+        "e/S",
+        "mean",
+        "eta",
+        "floor",
+        "ULP",
+        "99 %",
+        "ns",
+        "spread",
+        "instructions",
+    )
     title = f"Accuracy of the {joint} joint, {document['samples']} poses converged and as many in mid-iteration"
     return Sheet(title, columns, tuple(rows), _NOTES)
 
@@ -47,7 +61,7 @@ def summary_sheet(document: Document) -> Sheet:
 
 def _blocks(candidate: Document) -> list[tuple[str, ...]]:
     """The figures of each block, the worse of both states."""
-    lines = []
+    lines: list[tuple[str, ...]] = []
     for states in zip(*candidate["figures"].values(), strict=True):
         worst = {name: max(state[name] for state in states) for name in states[0] if name != "block"}
         lines.append(

@@ -6,9 +6,8 @@ Errors are the same in every run on every machine with the same compiler. Times 
 from __future__ import annotations
 
 import statistics
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from codegen.measure.routine_builds import Build, Built, built
 from codegen.measure.row_names import conventional_rows, parametric_rows
 from codegen.spec.request import OUTPUTS, Options, Variant
 from codegen.trade.builds import builds, prepared_for
-from codegen.trade.programs import routines
+from codegen.trade.programs import builds_folder, routines
 
 SAMPLES = 4096
 STATES = {True: "converged", False: "mid-iteration"}
@@ -44,6 +43,7 @@ class AccuracyRequest:
         derivative: see there.
         output: of the routines that are measured.
         samples: poses on the constraint, and as many in mid-iteration.
+        is_counted: whether instructions are counted too, where valgrind is installed.
         domain: bounds of the poses.
     """
 
@@ -53,7 +53,8 @@ class AccuracyRequest:
     derivative: str | None = None
     output: str = "all"
     samples: int = SAMPLES
-    domain: PoseDomain = PoseDomain()
+    is_counted: bool = True
+    domain: PoseDomain = field(default_factory=PoseDomain)
 
     @property
     def is_full(self) -> bool:
@@ -124,13 +125,12 @@ def measured(request: AccuracyRequest, progress: Progress = lambda _: None) -> t
     chosen = builds(request.is_full)
     found: list[Candidate] = []
     variants = request.variants()
-    with tempfile.TemporaryDirectory() as folder:
-        for joint in dict.fromkeys(variant.joint for variant in variants):
-            rows = []
-            for variant in (v for v in variants if v.joint == joint):
-                rows += list(_judged(variant, request, chosen, Path(folder)))
-                progress(variant.file_stem)
-            found += _timed(joint, rows, request.is_full)
+    for joint in dict.fromkeys(variant.joint for variant in variants):
+        rows = []
+        for variant in (v for v in variants if v.joint == joint):
+            rows += list(_judged(variant, request, chosen, builds_folder()))
+            progress(variant.file_stem)
+        found += _timed(joint, rows, request.is_full and request.is_counted)
     return tuple(found)
 
 
@@ -141,9 +141,7 @@ class _Row:
     inputs: Any
 
 
-def _judged(
-    variant: Variant, request: AccuracyRequest, chosen: Sequence[Build], folder: Path
-) -> Iterator[_Row]:
+def _judged(variant: Variant, request: AccuracyRequest, chosen: Sequence[Build], folder: Path) -> Iterator[_Row]:
     """Compile the routine of a variant in every build and judge its errors."""
     routine = next(r for r in routines(variant) if r.output == request.output)
     groups: dict[tuple[bool, str, bool], list[Build]] = {}
@@ -164,9 +162,7 @@ def _against_truth(made: Sequence[Built], request: AccuracyRequest) -> Iterator[
     found: list[dict[str, tuple[Figures, ...]]] = [{} for _ in made]
     for is_converged, state in STATES.items():
         arguments = routine.program.arguments
-        poses = sample_poses(
-            subject.joint, subject.variant, arguments, request.domain, request.samples, is_converged
-        )
+        poses = sample_poses(subject.joint, subject.variant, arguments, request.domain, request.samples, is_converged)
         known = truth(routine.straight, poses, real)
         for one, states in zip(made, found, strict=True):
             states[state] = figures(known, one.values(known.inputs), judged, request.domain)

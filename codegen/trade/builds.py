@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError
-from codegen.measure.routine_builds import NATIVE, O2, SAME_BITS, Build
+from codegen.measure.routine_builds import NATIVE, SAME_BITS, Build
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.given_trigonometry import given_trigonometry
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import codegen
 from codegen import build
+from codegen.emit.environment import template_folder
 from codegen.emit.routine import Routine
 from codegen.spec.request import Variant
 
@@ -32,6 +33,13 @@ def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -
     made = build.routines(variant, outputs, fma)
     _keep(path, pickle.dumps(made))
     return made
+
+
+def builds_folder() -> Path:
+    """Where compiled routines are kept."""
+    folder = cache_folder() / "builds"
+    folder.mkdir(exist_ok=True)
+    return folder
 
 
 def _keep(path: Path, content: bytes) -> None:
@@ -53,9 +61,8 @@ def cache_folder() -> Path:
 def _fingerprint() -> str:
     root = Path(codegen.__file__).parent
     digest = hashlib.sha256()
-    for maker in _MAKERS:
-        place = root / maker
-        for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
+    for place in (*(root / maker for maker in _MAKERS), template_folder() / "c", template_folder() / "measure"):
+        for path in [place] if place.is_file() else sorted(p for p in place.rglob("*") if p.suffix in (".py", ".j2")):
             content = path.read_bytes()
-            digest.update(f"{path.relative_to(root)} {len(content)}\n".encode() + content)
+            digest.update(f"{path.name} {len(content)}\n".encode() + content)
     return digest.hexdigest()[:24]

@@ -8,6 +8,11 @@ from dataclasses import dataclass
 from codegen.ir.program import Output
 from codegen.measure.constraints import Row
 
+LEAST_PITCH, LARGEST_PITCH = 0.05, 0.3
+"""Of screw joints, m/rad."""
+LARGEST_START, MOST_TURNS = 1.0, 2
+"""Of their initial angle, rad, and of their revolutions."""
+
 
 @dataclass(frozen=True, slots=True)
 class PoseDomain:

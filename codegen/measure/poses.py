@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from codegen.ir.program import Argument
 from codegen.measure.double_double import PI, DoubleDouble
-from codegen.measure.pose_domain import PoseDomain
+from codegen.measure.pose_domain import LARGEST_PITCH, LARGEST_START, LEAST_PITCH, MOST_TURNS, PoseDomain
 from codegen.passes.given_trigonometry import SINES_COSINES
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
@@ -24,12 +24,13 @@ from codegen.spec.request import Variant
 Vector = list[DoubleDouble]
 Matrix = list[list[DoubleDouble]]
 """Rows of entries."""
+Points = NDArray[np.float64]
 
 SEED = 20
 _COLUMNS = 80
 """Dimensions of the sequence; a pose takes some 60."""
 
-_DIRECTION = (Fraction(9, 25), Fraction(12, 25), Fraction(4, 5))
+DIRECTION = (Fraction(9, 25), Fraction(12, 25), Fraction(4, 5))
 """Where the bodies are if they are far from the origin: a unit vector."""
 
 
@@ -63,6 +64,15 @@ def in_pairs(values: NDArray[np.floating]) -> DoubleDouble:
     return DoubleDouble(high, (values - high.astype(values.dtype)).astype(np.float64))
 
 
+def sobol_points(count: int) -> Points:
+    """Points [poses, dimensions] of the unit cube, the same in every run."""
+    from scipy.stats import qmc
+
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="The balance properties")
+        return np.asarray(qmc.Sobol(_COLUMNS, scramble=True, rng=SEED).random(count))
+
+
 def sample_poses(
     joint: JointType,
     variant: Variant,
@@ -71,22 +81,34 @@ def sample_poses(
     count: int,
     is_converged: bool,
 ) -> Poses:
-    """Draw poses.
+    """Draw poses; see `poses_at`."""
+    return poses_at(joint, variant, arguments, domain, sobol_points(count), is_converged)
+
+
+def poses_at(
+    joint: JointType,
+    variant: Variant,
+    arguments: Sequence[Argument],
+    domain: PoseDomain,
+    points: Points,
+    is_converged: bool,
+) -> Poses:
+    """Make poses of points of the unit cube.
 
     Args:
         joint: its type.
         variant: form and rows.
         arguments: of the routine; their lengths say how many multipliers and velocities there are.
         domain: bounds.
-        count: of poses.
+        points: [poses, dimensions]; see `sobol_points`.
         is_converged: whether the constraint is met; else it is off by the domain's misfit.
     """
-    draw = _Sequence(count)
+    draw = _Sequence(points)
     lengths = {argument.name: argument.length for argument in arguments}
     r_i = draw.vector(3, domain.r)
     A_i = _attitude(draw)
     (s_i, C_i), (s_j, C_j) = (_joint_frame(draw, domain.s) for _ in range(2))
-    parameters = [draw.within(0.05, 0.3), draw.within(-1, 1), draw.whole(2)] if joint.is_screw else []
+    parameters = _screw_parameters(draw) if joint.is_screw else []
     alpha, offset, H = _relative(joint, variant, domain, draw, parameters)
     A_j = _times(_times(_times(A_i, C_i), H), _transposed(C_j))
     arm = _plus(s_i, _apply(C_i, offset))
@@ -95,7 +117,7 @@ def sample_poses(
     slip = draw.vector(len(alpha), domain.misfit)
     if not is_converged:
         r_j, A_j, alpha = _plus(r_j, step), _times(A_j, _small_rotation(turn)), _plus(alpha, slip)
-    far = [DoubleDouble.exact(Fraction(domain.distance) * part) for part in _DIRECTION]
+    far = [DoubleDouble.exact(Fraction(domain.distance) * part) for part in DIRECTION]
     if domain.drift:
         A_i, A_j = (_drifted(A, domain.drift, draw) for A in (A_i, A_j))
     geometry = [*s_i, *_packed(C_i), *s_j, *_packed(C_j), *parameters]
@@ -114,16 +136,12 @@ def sample_poses(
 
 
 class _Sequence:
-    """The columns of a Sobol sequence, taken one after the other."""
+    """The columns of points, taken one after the other."""
 
-    def __init__(self, count: int) -> None:
-        from scipy.stats import qmc
-
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", message="The balance properties")
-            self._points = qmc.Sobol(_COLUMNS, scramble=True, rng=SEED).random(count)
+    def __init__(self, points: Points) -> None:
+        self._points = points
         self._next = 0
-        self.zero = DoubleDouble.of(np.zeros(count))
+        self.zero = DoubleDouble.of(np.zeros(len(points)))
 
     def unit(self) -> DoubleDouble:
         """Numbers in [0, 1)."""
@@ -200,6 +218,11 @@ def _relative(
         q = _unit_quaternion(draw)
         return [*shifts, *q], offset, _rotation(q)
     return [*shifts, *angles], offset, H
+
+
+def _screw_parameters(draw: _Sequence) -> Vector:
+    pitch, start = draw.within(LEAST_PITCH, LARGEST_PITCH), draw.within(-LARGEST_START, LARGEST_START)
+    return [pitch, start, draw.whole(MOST_TURNS)]
 
 
 def _advance(angle: DoubleDouble, parameters: Vector) -> DoubleDouble:

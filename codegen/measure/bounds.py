@@ -1,10 +1,10 @@
 """Guaranteed bounds on the rounding errors of a program, over a whole box of inputs.
 
 Each operation rounds with a relative error of at most u (sine and cosine: one unit in the last place, 2 u; arc tangent:
-one and a half, 3 u) and, near underflow, an absolute one. The result is a function of these errors; by the mean value theorem it differs
-from the exact one by the sum of error times derivative, the derivatives taken somewhere between. Arb balls enclose all
-values in the box and under all errors, one reverse sweep for each output encloses the derivatives. A fused multiply-add
-only leaves errors out, so that the bound holds for every contraction of products and sums.
+one and a half, 3 u) and, near underflow, an absolute one. The result is a function of these errors; by the mean value
+theorem it differs from the exact one by the sum of error times derivative, the derivatives taken somewhere between. Arb
+balls enclose all values in the box and under all errors, one reverse sweep for each output encloses the derivatives. A
+fused multiply-add only leaves errors out, so that the bound holds for every contraction of products and sums.
 
 Assumed besides: no overflow, and functions of the mathematical library as good as that.
 """

@@ -24,7 +24,9 @@ FAR = replace(REQUEST, domain=PoseDomain(distance=1e6))
 
 @pytest.fixture(autouse=True)
 def _few_builds(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Double and float: two libraries to compile."""
+    """Double and float: two libraries to compile; a short search."""
+    monkeypatch.setattr("codegen.trade.budget._SAMPLES", 64)
+    monkeypatch.setattr("codegen.trade.budget._SEARCH_ROUNDS", 1)
     monkeypatch.setattr("codegen.trade.budget.builds", lambda is_full: BASE)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,10 +33,9 @@ class Generated:
         self._chain = chain
         self._rows = np.array(kept_rows(chain), dtype=np.intp)
         self._height = 6 * len(chain.cuts)
-        wanted = {name: _available(chain, names, has_loads) for name, names in _ROUTINES.items()}
-        programs = [simplify(chain_program(chain, names)) for names in wanted.values() if names]
-        compiled = iter(callables(programs))
-        self._routines: dict[str, Evaluate] = {name: next(compiled) for name, names in wanted.items() if names}
+        wanted = _wanted(chain, has_loads)
+        compiled = callables([simplify(chain_program(chain, names)) for names in wanted.values()])
+        self._routines: dict[str, Evaluate] = dict(zip(wanted, compiled, strict=True))
 
     @property
     def binding(self) -> tuple[bool, ...]:
@@ -96,13 +95,12 @@ _ROUTINES: dict[str, tuple[str, ...]] = {
     "wrenches": ("wrenches",),
 }
 
-_OF_CUTS = {"closure", "J", "gamma_R"}
-_OF_LOADS = {"M", "f_C", "f_G", "wrenches"}
+_OF_LOADS = ("terms", "wrenches")
 
 
-def _available(chain: Chain, names: Sequence[str], has_loads: bool) -> tuple[str, ...]:
-    """Those of the quantities that a chain has."""
-    missing = set() if chain.cuts else _OF_CUTS
-    missing |= set() if chain.effectors else {"D_E"}
-    missing |= set() if has_loads else _OF_LOADS
-    return () if not has_loads and set(names) & _OF_LOADS else tuple(name for name in names if name not in missing)
+def _wanted(chain: Chain, has_loads: bool) -> dict[str, tuple[str, ...]]:
+    """Routine -> those of its quantities that the chain has, in a routine that has any."""
+    known = replace(chain, quantities=()).wanted
+    names = [name for name in _ROUTINES if has_loads or name not in _OF_LOADS]
+    found = {name: tuple(quantity for quantity in _ROUTINES[name] if quantity in known) for name in names}
+    return {name: quantities for name, quantities in found.items() if quantities}

@@ -94,7 +94,7 @@ class OneFreedom:
         found = np.zeros(4)
         for body in self.bodies.values():
             m, dm, r, dr = body.terms(float(at))
-            found += [m, dm, -float(body.mass) * (r @ g), -float(body.mass) * (dr @ g)]
+            found += np.array([m, dm, -float(body.mass * (r @ g)), -float(body.mass * (dr @ g))])
         return tuple(map(float, found))  # type: ignore[return-value]
 
     @cached_property

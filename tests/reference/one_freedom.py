@@ -68,7 +68,8 @@ def about_z(moment: Any) -> sympy.Matrix:
 
 def values(*expressions: Any) -> Callable[[Any], Any]:
     """Numbers of expressions in q, sub-expressions shared."""
-    return sympy.lambdify(q, list(expressions), modules="numpy", cse=True)
+    found: Callable[[Any], Any] = sympy.lambdify(q, list(expressions), modules="numpy", cse=True)
+    return found
 
 
 @dataclass(frozen=True, eq=False)

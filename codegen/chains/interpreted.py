@@ -21,7 +21,7 @@ def interpreted(programs: Sequence[Program]) -> list[Evaluate]:
 
 def _evaluate(program: Program) -> Evaluate:
     def evaluated(**arguments: Array) -> dict[str, Array]:
-        stored = evaluate(program, arguments)
+        stored = evaluate(program, {name: list(values) for name, values in arguments.items()})
         found: dict[str, Array] = {}
         for output in program.outputs:
             dense = np.zeros((output.sparsity.nrow, output.sparsity.ncol))

@@ -45,7 +45,7 @@ def driven(inertia: int, duration: float = 2.0) -> Simulated:
     """Forward dynamics of the quick return with an inertia of its crank, from where cutting ends."""
     given = chain("quick_return")
     links = tuple(_with_inertia(link, inertia) if link.name == "crank" else link for link in given.links)
-    return simulated(replace(given, links=links), {}, Settings("forward", duration, 400, 1e-11))
+    return simulated(replace(given, links=links), {}, Settings("forward", duration, 400, 1e-10))
 
 
 @cache

@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.path import Branch, PathEnd, follow
-from codegen.chains.reduced import Reduced, reduced
+from codegen.chains.reduced import NoInertia, Reduced, reduced
 from codegen.chains.run import Progress, Run
 from codegen.chains.state import State, generalised, loaded
-from codegen.chains.stop import free_words, path_words
+from codegen.chains.stop import free_words, inertia_words, path_words
 from codegen.chains.switches import Switch, active, switches
 
 Array = NDArray[np.float64]
@@ -145,6 +145,8 @@ def run(
         failure = path_words(mechanism, end)
     except RankLoss as loss:
         failure = f"singular pose: {free_words(mechanism, loss)}"
+    except NoInertia as lack:
+        failure = inertia_words(mechanism, lack)
     except _Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure

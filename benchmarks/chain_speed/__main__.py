@@ -39,8 +39,8 @@ def markdown(found: list[Result], setting: str) -> str:
     lines = [
         "# Chains: the generated routine beside a recursion that reads a table",
         "",
-        "phi, J, gamma_R, M, f_C and f_G of one pose. The recursion (`table_driven.c`) is written for speed as far as it",
-        "may not know the chain: composite bodies, columns of the Jacobian for the cuts only. Median of 301 interleaved",
+        "phi, J, gamma_R, M, f_C and f_G of one pose. The recursion (`table_driven.c`) is written for speed, as far as",
+        "it may not know the chain: composite bodies, columns of the Jacobian for the cuts. Median of 301 interleaved",
         f"rounds, instructions by valgrind, {setting}.",
         "",
         "| chain | operations | instructions | recursion | fewer | ns | recursion | faster | largest difference |",

@@ -138,11 +138,13 @@ def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
     from codegen.chains.read import read
+    from codegen.chains.stand import check_start
     from codegen.scenes.generate import check_options
 
     check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
+    check_start(described)
     with _progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
     output.replace(target, files)

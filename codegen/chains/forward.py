@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.path import Branch, PathEnd, follow
-from codegen.chains.reduced import Reduced, reduced
+from codegen.chains.reduced import NoInertia, Reduced, reduced
 from codegen.chains.run import Progress, Run
 from codegen.chains.state import State, generalised, loaded
-from codegen.chains.stop import free_words, path_words
+from codegen.chains.stop import free_words, inertia_words, path_words
 from codegen.chains.switches import Switch, active, switches
 
 Array = NDArray[np.float64]
@@ -145,6 +145,8 @@ def run(
         failure = path_words(mechanism, end)
     except RankLoss as loss:
         failure = f"singular pose: {free_words(mechanism, loss)}"
+    except NoInertia as lack:
+        failure = inertia_words(mechanism, lack)
     except _Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
@@ -158,7 +160,7 @@ def _outputs(motion: _Motion, y: Array, times: Array, tolerance: float) -> Itera
         _Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    limits = {"method": "DOP853", "rtol": max(tolerance, 3e-14), "atol": _absolute(motion.mechanism, tolerance)}
+    limits = {"method": "DOP853", "rtol": max(tolerance, 3e-14), "atol": _absolute(motion, y, tolerance, end - t)}
     left = times[1:]
     while len(left):
         piece = solve_ivp(motion.rate, (t, end), y, t_eval=left, events=motion.events() or None, **limits)
@@ -176,7 +178,13 @@ def _outputs(motion: _Motion, y: Array, times: Array, tolerance: float) -> Itera
             raise _Stopped(f"forces switch without end at t = {t:.9g} s; give them damping in the place of a switch")
 
 
-def _absolute(mechanism: Mechanism, tolerance: float) -> Array:
-    """Absolute tolerances; the work takes no part."""
-    units = mechanism.part.units[mechanism.part.v]
-    return np.concatenate([tolerance * units, tolerance * units, [np.inf]])
+def _absolute(motion: _Motion, y: Array, tolerance: float, duration: float) -> Array:
+    """Absolute tolerances of angles, rates and work.
+
+    The work is controlled too: one more component whose error estimate does not vanish where those of the others do.
+    """
+    units = motion.mechanism.part.units[motion.mechanism.part.v]
+    found = motion.at(y)
+    _, power = motion.acceleration(found)
+    energy = max(found.kinetic_energy(), abs(power) * duration) or np.inf
+    return tolerance * np.concatenate([units, units, [energy]])

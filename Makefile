@@ -39,7 +39,7 @@ schema: $(STAMP) ## write the JSON schemas of scene and chain files anew
 	$(BIN)/python -c 'from codegen.spec.chain_file import schema_text; print(schema_text(), end="")' \
 		> codegen/spec/chain.schema.json
 
-check: lint types imports test current ## run every check, stop at the first that fails
+check: lint types imports test ## run every check, stop at the first that fails
 
 lint: $(STAMP) ## ruff: rules and format
 	$(BIN)/ruff check .

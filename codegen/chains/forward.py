@@ -160,7 +160,7 @@ def _outputs(motion: _Motion, y: Array, times: Array, tolerance: float) -> Itera
         _Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    limits = {"method": "DOP853", "rtol": max(tolerance, 3e-14), "atol": _absolute(motion.mechanism, tolerance)}
+    limits = {"method": "DOP853", "rtol": max(tolerance, 3e-14), "atol": _absolute(motion, y, tolerance, end - t)}
     left = times[1:]
     while len(left):
         piece = solve_ivp(motion.rate, (t, end), y, t_eval=left, events=motion.events() or None, **limits)
@@ -178,7 +178,13 @@ def _outputs(motion: _Motion, y: Array, times: Array, tolerance: float) -> Itera
             raise _Stopped(f"forces switch without end at t = {t:.9g} s; give them damping in the place of a switch")
 
 
-def _absolute(mechanism: Mechanism, tolerance: float) -> Array:
-    """Absolute tolerances; the work takes no part."""
-    units = mechanism.part.units[mechanism.part.v]
-    return np.concatenate([tolerance * units, tolerance * units, [np.inf]])
+def _absolute(motion: _Motion, y: Array, tolerance: float, duration: float) -> Array:
+    """Absolute tolerances of angles, rates and work.
+
+    The work is controlled too: one more component whose error estimate does not vanish where those of the others do.
+    """
+    units = motion.mechanism.part.units[motion.mechanism.part.v]
+    found = motion.at(y)
+    _, power = motion.acceleration(found)
+    energy = max(found.kinetic_energy(), abs(power) * duration) or np.inf
+    return tolerance * np.concatenate([units, units, [energy]])

@@ -46,7 +46,7 @@ def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
     joints = _sound_joints(entry, poses)
     mistakes += _pose_mistakes(entry, joints)
     if mistakes:
-        raise SpecificationError(_bounded(mistakes, file))
+        raise SpecificationError(bounded(mistakes, file))
     repeated = entry.copies or CopiesEntry(file, frozenset(), frozenset())
     return copied(_scene(entry, joints), copies or repeated.count, repeated.offset)
 
@@ -114,7 +114,8 @@ def _scene(entry: SceneEntry, joints: Sequence[_Sound]) -> Scene:
     )
 
 
-def _bounded(mistakes: list[Mistake], file: str) -> list[Mistake]:
+def bounded(mistakes: list[Mistake], file: str) -> list[Mistake]:
+    """Each mistake once, and no more of them than anyone would read."""
     mistakes = list(dict.fromkeys(mistakes))
     left = len(mistakes) - _MOST_MISTAKES
     if left <= 0:

@@ -1,51 +1,58 @@
-"""The JSON schema of scene files, made from the keys that the reader knows.
+"""The JSON schemas of the files, made from the keys that the readers know.
 
-``codegen/spec/scene.schema.json`` holds it for editors and other programs; ``make schema`` writes it anew.
+``codegen/spec/*.schema.json`` hold them for editors and other programs; ``make schema`` writes them anew.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from codegen.spec.scene_file.entries import SceneEntry, kinds_of_tables
+from codegen.spec.scene_file.entries import kinds_of_tables
 from codegen.spec.scene_file.entry import Entry, Key, keys_of
 from codegen.spec.scene_file.names import IDENTIFIER, LONGEST_NAME
 
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
-def schema() -> dict[str, Any]:
-    """The schema as JSON values: one definition for each table, named after it."""
-    definitions = {_name(table): _table(table) for table in kinds_of_tables() if table is not SceneEntry}
-    return {"$schema": _DIALECT, "title": "jointgen scene", **_table(SceneEntry), "$defs": definitions}
-
-
 def schema_text() -> str:
-    """The schema as the text of its file."""
-    return json.dumps(schema(), indent=1) + "\n"
+    """The schema of scene files as text."""
+    return schema_of("jointgen scene", tuple(kinds_of_tables()))
+
+
+def schema_of(title: str, kinds: Sequence[type[Entry]]) -> str:
+    """The schema of a kind of file as text: one definition for each table, named after it.
+
+    Args:
+        title: of the schema.
+        kinds: all tables, the file itself first.
+    """
+    file, *tables = kinds
+    definitions = {_name(table): _table(table) for table in tables}
+    schema = {"$schema": _DIALECT, "title": title, **_table(file, is_file=True), "$defs": definitions}
+    return json.dumps(schema, indent=1) + "\n"
 
 
 def _name(table: type[Entry]) -> str:
     return table.__name__.removesuffix("Entry").lower()
 
 
-def _table(table: type[Entry]) -> dict[str, Any]:
+def _table(table: type[Entry], is_file: bool = False) -> dict[str, Any]:
     keys = keys_of(table)
     required = [name for name, key in keys.items() if key.is_required]
     return {
         "description": (table.__doc__ or "").splitlines()[0],
         "type": "object",
-        "properties": {name: _key(table, name, key) for name, key in keys.items()},
+        "properties": {name: _key(name, key, is_file) for name, key in keys.items()},
         "additionalProperties": False,
         **({"required": required} if required else {}),
     }
 
 
-def _key(table: type[Entry], name: str, key: Key) -> dict[str, Any]:
-    names = {"pattern": f"^{IDENTIFIER}$"} if table is SceneEntry else {"minLength": 1, "maxLength": LONGEST_NAME}
+def _key(name: str, key: Key, is_of_file: bool) -> dict[str, Any]:
+    names = {"pattern": f"^{IDENTIFIER}$"} if is_of_file else {"minLength": 1, "maxLength": LONGEST_NAME}
     default = key.default if key.default not in (None, ()) else None
     return {
         "description": key.about,

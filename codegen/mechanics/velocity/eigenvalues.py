@@ -116,7 +116,7 @@ def three_of(stages: Stages, name: str, found: Angle) -> tuple[sympy.Expr, ...]:
 def _threefold(stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     """Cosine and sine of 3 phi, of the deviator with p = 1."""
     x, y, z, u, v, w = B
-    C = stage("C", v * w - u * z, u * w - v * y, u * v - w * x, words="off-diagonal entries 12, 13, 23 of B^2")
+    C = stage("BB", v * w - u * z, u * w - v * y, u * v - w * x, words="off-diagonal entries 12, 13, 23 of B^2")
     vv, ww = stage("ww", v * v, w * w, words="B_13^2, B_23^2")
     e, f = stage("e", (vv - ww) - d * z, (vv + ww) + (z * z - 2), words="C_11 - C_22; deviator of C_33")
     minors = _minors(stage, (d, z, u, v, w), (e, f, *C))

@@ -42,7 +42,8 @@ def gram_spectra(stages: Stages, legs: Legs, eigenvalues: Eigenvalues) -> dict[s
         found = sympy.Matrix([sympy.sqrt(value) for value in eigenvalues(stages, name, block)])
         values = tuple(stages.stage(f"values_{name}", found, f"values {name}"))
         D = stages.stage(f"D_{name}", sympy.Matrix([values[0] * values[1] * values[2]]), f"product of {name}")[0]
-        spectra[name] = Spectrum(D, values)
+        C = stages.stage(f"C_{name}", sympy.Matrix([values[0] / values[2]]), f"greatest over least {name}")[0]
+        spectra[name] = Spectrum(D, values, C)
     return spectra
 
 

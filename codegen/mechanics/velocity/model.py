@@ -100,12 +100,9 @@ class _Model:
         if variant == "values":
             return volumes(self.stages, self.legs, self.limits)
         if variant == "smooth":
-            return {name: frobenius(self.stages, getattr(self._blocks(False), name)) for name in ()} or self._smooth()
+            found = self._blocks(False)
+            return {name: frobenius(self.stages, getattr(found, name)) for name in BLOCKS}
         return gram_spectra(self.stages, self.legs, not_negative if variant == "fast" else textbook)
-
-    def _smooth(self) -> dict[str, Spectrum]:
-        found = self._blocks(False)
-        return {name: frobenius(self.stages, getattr(found, name)) for name in BLOCKS}
 
     def _blocks(self, with_inverse: bool) -> Blocks:
         return blocks(self.stages, self.legs, self.limits, with_inverse)
@@ -135,11 +132,7 @@ class _Model:
         if values:
             found["values"] = sympy.Matrix(values)
             found["semi_axes"] = sympy.Matrix([1 / value for value in values])
-            found["C"] = sympy.Matrix([self._condition(name, spectra[name]) for name in BLOCKS])
-        elif spectra["sigma"].C is not None:
-            found["C"] = sympy.Matrix([spectra[name].C for name in BLOCKS])
+        conditions = [spectra[name].C for name in BLOCKS]
+        if None not in conditions:
+            found["C"] = sympy.Matrix(conditions)
         return found
-
-    def _condition(self, name: str, spectrum: Spectrum) -> sympy.Expr:
-        greatest, _, least = spectrum.values
-        return greatest / least

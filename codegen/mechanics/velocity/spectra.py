@@ -37,7 +37,7 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     """
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
-    greatest = stage("first", sympy.sqrt(largest(stages, triangle.name, _gram(stages, triangle))), "greatest value")
+    greatest = stage("greatest", sympy.sqrt(largest(stages, triangle.name, _gram(stages, triangle))), "greatest value")
     V = inverse(stages, triangle)
     of_inverse = _gram_of_inverse(stages, triangle.name, V)
     reciprocal = stage("reciprocal", sympy.sqrt(largest(stages, f"inv_{triangle.name}", of_inverse)), "1 / least value")
@@ -52,7 +52,7 @@ def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spect
     product = _product(stages, triangle)
     A = _gram(stages, triangle)
     top = largest(stages, triangle.name, A)
-    greatest = stage("first", sympy.sqrt(top), "greatest value")
+    greatest = stage("greatest", sympy.sqrt(top), "greatest value")
     rest = stage("rest", A[0, 0] + A[1, 1] + A[2, 2] - top, "sum of the squares of the others")
     two = stage("two", 2 * product / greatest, "twice their product")
     wide = stage("wide", rest + two, "square of their sum")

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import ctypes
-import subprocess
-import tempfile
 import textwrap
 from dataclasses import dataclass
-from pathlib import Path
 
 import codegen
 from codegen.emit.c import definition
 from codegen.emit.environment import render
 from codegen.emit.package import banner
 from codegen.emit.routine import Parameter
-from codegen.errors import InternalError
 from codegen.ir.program import Program
-from codegen.measure.compile import compiler
-
-_FLAGS = ("-std=c99", "-O2", "-fPIC", "-shared")
+from codegen.simulate.library import library
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,16 +45,7 @@ def compiled(name: str, residual: Program, jacobian: Program) -> Compiled:
     Raises:
         SpecificationError: there is no C compiler.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        source, library = Path(folder) / "ida.c", Path(folder) / "ida.so"
-        source.write_text(ida_source(name, residual, jacobian))
-        header = render("c/jg_real.h.j2", banner=banner(codegen.__version__), real="double", fma=False, batch=None)
-        (Path(folder) / "jg_real.h").write_text(header)
-        command = [compiler(), *_FLAGS, str(source), "-o", str(library), "-lm"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise InternalError(f"the equations of motion do not compile: {done.stderr}")
-        loaded = ctypes.CDLL(str(library))
+    loaded = library(ida_source(name, residual, jacobian))
     pattern = jacobian.output("jacobian").sparsity
     addresses = [ctypes.cast(loaded[name], ctypes.c_void_p).value for name in ("jg_ida_residual", "jg_ida_jacobian")]
     return Compiled(addresses[0] or 0, addresses[1] or 0, pattern.ncol, pattern.nonzeros, loaded)
@@ -73,7 +58,7 @@ def ida_source(name: str, residual: Program, jacobian: Program) -> str:
         "c/ida.c.j2",
         banner=banner(codegen.__version__),
         name=name,
-        functions=[definition(*_declared(program), program)[0] for program in (residual, jacobian)],
+        functions=[definition(*declared(program), program)[0] for program in (residual, jacobian)],
         residual=_call(residual),
         jacobian=_call(jacobian),
         size=pattern.ncol,
@@ -83,7 +68,8 @@ def ida_source(name: str, residual: Program, jacobian: Program) -> str:
     )
 
 
-def _declared(program: Program) -> tuple[str, tuple[Parameter, ...]]:
+def declared(program: Program) -> tuple[str, tuple[Parameter, ...]]:
+    """Symbol and parameters of a function that evaluates a program: arguments it uses, then nonzeros of outputs."""
     words = ("column-major", "", "")
     inputs = [Parameter(a.name, "in", a.shape, a.length, *words) for a in program.used_arguments()]
     outputs = [Parameter(o.name, "out", (len(o.values), 1), len(o.values), *words) for o in program.outputs]
@@ -91,7 +77,7 @@ def _declared(program: Program) -> tuple[str, tuple[Parameter, ...]]:
 
 
 def _call(program: Program) -> str:
-    symbol, parameters = _declared(program)
+    symbol, parameters = declared(program)
     return f"{symbol}({', '.join(parameter.name for parameter in parameters)});"
 
 

@@ -27,6 +27,7 @@ class Reflections:
         name: of the matrix.
         columns: of the matrix, reflected so far; entries that are structurally zero stay so.
         limits: size of each column's remainder below which it is rounding.
+        are_values_judged: whether the diagonal of what is rounding becomes 0; otherwise it stays.
         inverses: of the diagonal; 0 where the diagonal is 0.
     """
 
@@ -34,6 +35,7 @@ class Reflections:
     name: str
     columns: list[sympy.Matrix]
     limits: Sequence[sympy.Rational]
+    are_values_judged: bool = True
     inverses: list[sympy.Expr] = field(default_factory=list)
     _finished: list[int] = field(default_factory=list)
 
@@ -59,7 +61,8 @@ class Reflections:
         v = [head, *x[1:]]
         for k in (k for k in range(len(self.columns)) if k not in (*self._finished, column)):
             self._reflect(f"{name}_{k + 1}", k, rows, v, beta)
-        diagonal = stages.stage(f"r_{name}", _one(Select(norm, limit, 0, -signed)), f"diagonal {step + 1} of R")[0]
+        value = Select(norm, limit, 0, -signed) if self.are_values_judged else -signed
+        diagonal = stages.stage(f"r_{name}", _one(value), f"diagonal {step + 1} of R")[0]
         inverse = stages.stage(f"i_{name}", _one(Select(norm, limit, 0, -1 / signed)), "its inverse, or 0")[0]
         self.inverses.append(inverse)
         self._finish(column, rows, diagonal)

@@ -24,11 +24,11 @@ def volumes(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Rati
         limits: sizes of a remainder of J1 and of J2 that are rounding.
     """
     columns = [legs.J2[:, k] for k in range(3)] + [legs.J1[:, k] for k in range(3)]
-    first = Reflections(stages, "R", columns, [limits[1]] * 3 + [limits[0]] * 3)
+    first = Reflections(stages, "R", columns, [limits[1]] * 3 + [limits[0]] * 3, False)
     for k in range(4):
         first.eliminate(k, k, range(k, 6))
     corner = first.block((4, 5), (4, 5))
-    again = Reflections(stages, "S", [first.columns[k] for k in SECOND], [limits[0]] * 3)
+    again = Reflections(stages, "S", [first.columns[k] for k in SECOND], [limits[0]] * 3, False)
     for k in range(2):
         again.eliminate(k, k, range(k, 6))
     last = sum(x**2 for x in again.columns[2][2:, 0])

@@ -12,7 +12,7 @@ from codegen.spec.platform_file.legs import columns, leg_mistakes, length_mistak
 from codegen.spec.platform_file.poses import make_pose, pose_mistakes
 from codegen.spec.scene import Vector
 from codegen.spec.scene_file.entry import read_entry
-from codegen.spec.scene_file.names import scene_name_mistakes
+from codegen.spec.scene_file.names import routine_name_mistakes
 from codegen.spec.scene_file.reading import bounded
 from codegen.spec.scene_file.tables import read_tables
 from codegen.spec.scene_file.text import escaped, quoted
@@ -52,7 +52,7 @@ def wanted_mistakes(wanted: WantedIndices, place: str) -> Iterator[Mistake]:
 
 def _mistakes(entry: PlatformEntry) -> Iterator[Mistake]:
     if entry.name is not None:
-        yield from scene_name_mistakes(entry.name, f"{entry.place}: name")
+        yield from routine_name_mistakes(entry.name, f"{entry.place}: name", "platform")
     points = {name: getattr(entry, name) for name in ("base", "platform")}
     for name, rows in points.items():
         if rows is not None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from codegen.spec.platform_file.entries import KINDS_OF_TABLES
-from codegen.spec.scene_file.schema import schema_of
+from codegen.spec.scene_file.schema import schema_text as text_of
 
 
 def schema_text() -> str:
     """The schema as the text of its file."""
-    return schema_of("jointgen platform", KINDS_OF_TABLES)
+    return text_of(KINDS_OF_TABLES, "jointgen platform")

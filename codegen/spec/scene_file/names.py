@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Protocol
 
 from codegen.errors import Mistake
 from codegen.spec.scene import GROUND
-from codegen.spec.scene_file.entries import BodyEntry, JointEntry
+from codegen.spec.scene_file.entries import BodyEntry
 from codegen.spec.scene_file.text import nearest_known, quoted
 
 LONGEST_IDENTIFIER = 40
@@ -33,20 +34,32 @@ C_KEYWORDS = frozenset(_KEYWORDS.split())
 """Keywords of C99 and of C++17, whose compilers read the headers too."""
 
 
-def scene_name_mistakes(name: str, place: str) -> Iterator[Mistake]:
-    """Check that the name of a scene can start C symbols."""
+class Named(Protocol):
+    """An entry with a name."""
+
+    @property
+    def name(self) -> str | None:
+        """As it stands in the file."""
+
+    @property
+    def place(self) -> str:
+        """As mistakes name it."""
+
+
+def routine_name_mistakes(name: str, place: str, kind: str = "scene") -> Iterator[Mistake]:
+    """Check that the name of a scene or chain can start C symbols."""
     remedy = f"use letters, digits and underscores, at most {LONGEST_IDENTIFIER}, no digit first"
     if not re.fullmatch(IDENTIFIER, name):
         yield Mistake(place, f"{quoted(name)} is no C identifier", remedy)
     elif name in C_KEYWORDS:
-        yield Mistake(place, f"{quoted(name)} is a keyword of C or C++", f'use another name, such as "{name}_scene"')
+        yield Mistake(place, f"{quoted(name)} is a keyword of C or C++", f'use another name, such as "{name}_{kind}"')
     elif name.lower() == _SHARED:
         what = f"{_SHARED}.h is a file that every package has"
-        yield Mistake(place, what, f'use another name, such as "{name}_scene"')
+        yield Mistake(place, what, f'use another name, such as "{name}_{kind}"')
 
 
-def name_mistakes(entries: Sequence[BodyEntry] | Sequence[JointEntry]) -> Iterator[Mistake]:
-    """Check the names of all bodies, or of all joints."""
+def name_mistakes(entries: Sequence[Named]) -> Iterator[Mistake]:
+    """Check the names of all bodies, or of all joints: they are different, and each can be printed."""
     times = Counter(entry.name for entry in entries)
     for name in times:
         if name is not None and times[name] > 1:

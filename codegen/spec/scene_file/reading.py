@@ -13,7 +13,7 @@ from codegen.spec.scene_file.entry import read_entry
 from codegen.spec.scene_file.forces import make_spring, make_torque, spring_mistakes, torque_mistakes
 from codegen.spec.scene_file.gaps import gap_mistakes
 from codegen.spec.scene_file.joints import joint_mistakes, make_joint, poses_of
-from codegen.spec.scene_file.names import name_mistakes, scene_name_mistakes
+from codegen.spec.scene_file.names import name_mistakes, routine_name_mistakes
 from codegen.spec.scene_file.planar import Placed, out_of_plane_mistakes, placed, planar_mistakes
 from codegen.spec.scene_file.tables import read_tables
 from codegen.spec.scene_file.text import escaped
@@ -54,7 +54,7 @@ def read_scene(text: str, place: str, copies: int | None = None) -> Scene:
 def _part_mistakes(entry: SceneEntry, bodies: Mapping[str, Pose | None]) -> Iterator[Mistake]:
     """Check bodies, joints and forces, each by itself."""
     if entry.name is not None:
-        yield from scene_name_mistakes(entry.name, f"{entry.place}: name")
+        yield from routine_name_mistakes(entry.name, f"{entry.place}: name")
     yield from name_mistakes(entry.body)
     for body in entry.body:
         yield from body_mistakes(body, _needs_mass(entry))
@@ -115,7 +115,7 @@ def _scene(entry: SceneEntry, joints: Sequence[_Sound]) -> Scene:
 
 
 def bounded(mistakes: list[Mistake], file: str) -> list[Mistake]:
-    """Each mistake once, and no more of them than anyone would read."""
+    """Each mistake once, and not more of them than anyone reads."""
     mistakes = list(dict.fromkeys(mistakes))
     left = len(mistakes) - _MOST_MISTAKES
     if left <= 0:

@@ -1,12 +1,13 @@
-"""The JSON schemas of the files, made from the keys that the readers know.
+"""The JSON schemas of scene and chain files, made from the keys that the readers know.
 
-``codegen/spec/*.schema.json`` hold them for editors and other programs; ``make schema`` writes them anew.
+``codegen/spec/scene.schema.json`` and ``chain.schema.json`` hold them for editors and other programs; ``make schema``
+writes them anew.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -17,22 +18,21 @@ from codegen.spec.scene_file.names import IDENTIFIER, LONGEST_NAME
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
-def schema_text() -> str:
-    """The schema of scene files as text."""
-    return schema_of("jointgen scene", tuple(kinds_of_tables()))
-
-
-def schema_of(title: str, kinds: Sequence[type[Entry]]) -> str:
-    """The schema of a kind of file as text: one definition for each table, named after it.
+def schema(kinds: Iterable[type[Entry]] | None = None, title: str = "jointgen scene") -> dict[str, Any]:
+    """The schema as JSON values: one definition for each table, named after it.
 
     Args:
+        kinds: all tables, the file itself first; those of a scene file if left out.
         title: of the schema.
-        kinds: all tables, the file itself first.
     """
-    file, *tables = kinds
+    whole, *tables = kinds or kinds_of_tables()
     definitions = {_name(table): _table(table) for table in tables}
-    schema = {"$schema": _DIALECT, "title": title, **_table(file, is_file=True), "$defs": definitions}
-    return json.dumps(schema, indent=1) + "\n"
+    return {"$schema": _DIALECT, "title": title, **_table(whole, is_file=True), "$defs": definitions}
+
+
+def schema_text(kinds: Iterable[type[Entry]] | None = None, title: str = "jointgen scene") -> str:
+    """The schema as the text of its file."""
+    return json.dumps(schema(kinds, title), indent=1) + "\n"
 
 
 def _name(table: type[Entry]) -> str:
@@ -51,8 +51,8 @@ def _table(table: type[Entry], is_file: bool = False) -> dict[str, Any]:
     }
 
 
-def _key(name: str, key: Key, is_of_file: bool) -> dict[str, Any]:
-    names = {"pattern": f"^{IDENTIFIER}$"} if is_of_file else {"minLength": 1, "maxLength": LONGEST_NAME}
+def _key(name: str, key: Key, is_file: bool) -> dict[str, Any]:
+    names = {"pattern": f"^{IDENTIFIER}$"} if is_file else {"minLength": 1, "maxLength": LONGEST_NAME}
     default = key.default if key.default not in (None, ()) else None
     return {
         "description": key.about,

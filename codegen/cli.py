@@ -151,6 +151,27 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
         raise click.exceptions.Exit(1)
 
 
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--variant", help="robust, balanced, fast, values, smooth or literal; as the file says if left out.")
+@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def platform(file: Path, variant: str | None, real: str, target: Path) -> None:
+    """Emit velocity indices of a six-legged platform: a platform file (TOML)."""
+    from codegen import output
+    from codegen.platforms.generate import generate_platform, steps, with_options
+    from codegen.scenes.read import text_of
+    from codegen.spec.platform_file import read_platform
+
+    output.check_target(target)
+    read = with_options(read_platform(text_of(file), str(file)), variant, real)
+    with _progress(steps(read), "generating") as advance:
+        files = generate_platform(read, real, advance)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
 def _flop_files() -> dict[str, bytes]:
     from codegen import comparison
     from codegen.emit.package import banner

@@ -1,10 +1,10 @@
 """`Counts`: how many operations of each kind.
 
 The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair,
-single sine or cosine, arc tangent, and choice by a comparison is one operation. A fused multiply-add is one multiplication and one addition, two
-operations in the paper's sense, so that contracting a program leaves its total as it is; it is listed apart, and
-`Counts.roundings` takes it once. A change of sign and an absolute value are
-free and listed; loads, stores and constants are free.
+single sine or cosine, arc tangent, and choice by a comparison is one operation. A fused multiply-add is one
+multiplication and one addition, two operations in the paper's sense, so that contracting a program leaves its total as
+it is; it is listed apart, and `Counts.roundings` takes it once. A change of sign and an absolute value are free and
+listed; loads, stores and constants are free.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-
 _RARE = ("select", "abs")
+"""Kinds that the routines of joints have none of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class Counts:
         return Counts(*(getattr(self, kind.name) * number for kind in fields(self)))
 
     def as_dict(self) -> dict[str, int]:
-        """Kind -> number, with the total; choices and absolute values, which joints have none of, where there are any."""
+        """Kind -> number, with the total; choices and absolute values only where there are any."""
         kinds = {kind.name: getattr(self, kind.name) for kind in fields(self)}
         return {kind: n for kind, n in kinds.items() if n or kind not in _RARE} | {"total": self.total}
 

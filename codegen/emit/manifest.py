@@ -100,12 +100,12 @@ def manifest(
     casadi: list[dict[str, Any]],
     fma: bool = False,
     batch: dict[str, Any] | None = None,
-    scene: dict[str, Any] | None = None,
+    whole: dict[str, Any] | None = None,
 ) -> str:
     """Write the manifest of a package.
 
     ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines, and of
-    a scene as a whole, stands under a key of its own.
+    a scene or platform as a whole (``whole``: kind -> record), stands under a key of its own.
     """
     document = {
         "schema_version": SCHEMA_VERSION,
@@ -115,5 +115,5 @@ def manifest(
         "fma": fma,
         "functions": functions,
         "casadi": casadi,
-    } | {name: told for name, told in (("batch", batch), ("scene", scene)) if told}
+    } | {name: told for name, told in (("batch", batch), *(whole or {}).items()) if told}
     return json.dumps(document, indent=1, ensure_ascii=True) + "\n"

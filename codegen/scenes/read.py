@@ -49,6 +49,15 @@ def read(file: Path, copies: int | None = None) -> tuple[Scene, Sequence[str]]:
     return imported.scene, [str(part) for part in imported.left_out]
 
 
+def text_of(file: Path) -> str:
+    """The text of a file.
+
+    Raises:
+        SpecificationError: it cannot be read, or is no text.
+    """
+    return _decoded(_content(file), file)
+
+
 def _content(file: Path) -> bytes:
     try:
         if file.stat().st_size > _LARGEST:

@@ -18,7 +18,6 @@ from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
 
-
 class Select(sympy.Function):
     """``Select(a, b, x, y)``: ``x`` where ``a < b``, ``y`` elsewhere; sympy leaves it as it is."""
 

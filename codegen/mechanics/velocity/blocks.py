@@ -12,7 +12,7 @@ import sympy
 
 from codegen.ir.lower.staged import Stages
 from codegen.mechanics.velocity.geometry import Legs
-from codegen.mechanics.velocity.triangular import Reflections, Triangle
+from codegen.mechanics.velocity.triangular import Reflections, Triangle, triangle
 
 FIRST, SECOND = (0, 1, 2), (3, 4, 5)
 
@@ -56,10 +56,10 @@ def blocks(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Ratio
     again += [sympy.Matrix.vstack(R11, sympy.zeros(3, 3))[:, k] for k in range(3)]
     second = triangular(stages, "S", again, [*of_J1, *of_J2])
     return Blocks(
-        _triangle("gamma", first, FIRST),
-        _triangle("sigma", first, SECOND),
-        _triangle("beta", second, FIRST),
-        _triangle("alpha", second, SECOND),
+        _triangle(stages, "gamma", first, FIRST),
+        _triangle(stages, "sigma", first, SECOND),
+        _triangle(stages, "beta", second, FIRST),
+        _triangle(stages, "alpha", second, SECOND),
         R12,
         second.block(FIRST, SECOND),
         first.block((*FIRST, *SECOND), range(6, len(columns))) if with_inverse else sympy.zeros(6, 0),
@@ -78,6 +78,6 @@ def triangular(
     return found
 
 
-def _triangle(name: str, factor: Reflections, places: tuple[int, int, int]) -> Triangle:
+def _triangle(stages: Stages, name: str, factor: Reflections, places: tuple[int, int, int]) -> Triangle:
     a, b, c = (factor.inverses[k] for k in places)
-    return Triangle(name, factor.block(places, places), (a, b, c))
+    return triangle(stages, name, factor.block(places, places), (a, b, c))

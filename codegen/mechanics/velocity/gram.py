@@ -74,15 +74,15 @@ def textbook(stages: Stages, name: str, A: sympy.Matrix) -> tuple[sympy.Expr, ..
     (r,) = stage("above", Select(r, -1, -1, r), words="not below -1")
     (r,) = stage("within", Select(1, r, 1, r), words="nor above 1")
     (phi,) = stage("phi", sympy.atan2(sympy.sqrt(1 - r * r), r) / 3, words="acos(r) / 3")
-    first, last = stage("ends", 2 * p * sympy.cos(phi), 2 * p * sympy.cos(phi + 2 * sympy.pi / 3), words="less the mean")
+    first, last = stage(
+        "ends", 2 * p * sympy.cos(phi), 2 * p * sympy.cos(phi + 2 * sympy.pi / 3), words="less the mean"
+    )
     first, last = stage("outer", q + first, q + last, words="greatest and least eigenvalue")
     (middle,) = stage("middle_eig", trace - first - last, words="middle eigenvalue")
     return first, middle, last
 
 
-def _schur(
-    stages: Stages, name: str, first: sympy.Matrix, mixed: sympy.Matrix, second: sympy.Matrix
-) -> sympy.Matrix:
+def _schur(stages: Stages, name: str, first: sympy.Matrix, mixed: sympy.Matrix, second: sympy.Matrix) -> sympy.Matrix:
     """``first - mixed second^-1 mixed'``."""
     cofactors = _symmetric(stages, f"cofactors_{name}", second.adjugate(), "cofactors of the other block")
     determinant = sum(second[0, k] * cofactors[0, k] for k in range(3))

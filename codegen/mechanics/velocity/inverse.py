@@ -6,13 +6,13 @@ import sympy
 
 from codegen.ir.lower.staged import Stages
 from codegen.mechanics.velocity.blocks import Blocks
-from codegen.mechanics.velocity.triangular import inverse, solved
+from codegen.mechanics.velocity.triangular import solved
 
 BLOCKS = ("sigma", "beta", "alpha", "gamma")
 
 
 def inverse_jacobian(stages: Stages, found: Blocks, unit: sympy.Expr) -> dict[str, sympy.Matrix]:
-    """``Q1``, ``Q2`` with ``J^-1 = [Q1'; Q2']`` (Eq. 14), and ``limits``; finite in singular poses, but no inverse there.
+    """``Q1``, ``Q2`` with ``J^-1 = [Q1'; Q2']`` (Eq. 14), and ``limits``; finite but no inverse in singular poses.
 
     Args:
         stages: gets the steps.
@@ -33,8 +33,8 @@ def accompanying(stages: Stages, found: Blocks, unit: sympy.Expr) -> dict[str, s
     return {"w_of_v": -w / unit, "v_of_w": -v * unit}
 
 
-def ellipsoids(stages: Stages, found: Blocks, unit: sympy.Expr) -> sympy.Matrix:
+def ellipsoids(found: Blocks, unit: sympy.Expr) -> sympy.Matrix:
     """Factors ``F = T^-1`` of the four ellipsoids ``{F u: |u| <= 1}`` (Eqs. 18 to 21), [3, 12]."""
     scale = {"sigma": 1, "beta": 1, "alpha": unit, "gamma": unit}
-    factors = [inverse(stages, getattr(found, name)) / scale[name] for name in BLOCKS]
+    factors = [getattr(found, name).inverse / scale[name] for name in BLOCKS]
     return sympy.Matrix.hstack(*factors)

@@ -20,7 +20,7 @@ from fractions import Fraction
 import sympy
 
 from codegen.errors import InternalError
-from codegen.ir.lower.staged import Select, Stages
+from codegen.ir.lower.staged import Stages
 from codegen.ir.program import Program
 from codegen.mechanics.velocity.blocks import Blocks, blocks
 from codegen.mechanics.velocity.geometry import Legs, legs
@@ -115,7 +115,7 @@ class _Model:
         if {"w_of_v", "v_of_w"} & set(names):
             result |= accompanying(self.stages, found, unit)
         if "ellipsoids" in names:
-            result["ellipsoids"] = ellipsoids(self.stages, found, unit)
+            result["ellipsoids"] = ellipsoids(found, unit)
         if {"D", "C", "values", "semi_axes", "det", "status"} & set(names):
             of = {"beta": self.limits[0], "sigma": self.limits[0], "alpha": self.limits[1], "gamma": self.limits[1]}
             spectra = {name: spectrum(self.stages, getattr(found, name), of[name]) for name in BLOCKS}  # type: ignore[operator]

@@ -39,7 +39,9 @@ def judged(stages: Stages, spectra: dict[str, Spectrum]) -> Judged:
     def lower(a: str, x: sympy.Expr, y: sympy.Expr) -> sympy.Expr:
         return _stage(stages, a, Select(x, y, x, y), "the lesser")
 
-    any_zero = lower("of_all", lower("of_v", least["sigma"], least["beta"]), lower("of_w", least["alpha"], least["gamma"]))
+    any_zero = lower(
+        "of_all", lower("of_v", least["sigma"], least["beta"]), lower("of_w", least["alpha"], least["gamma"])
+    )
     found = {}
     for name, spectrum in spectra.items():
         last = least[name]

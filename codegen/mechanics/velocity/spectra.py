@@ -9,7 +9,7 @@ import sympy
 
 from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.eigenvalues import all_three, largest
-from codegen.mechanics.velocity.triangular import TINY, Triangle, inverse
+from codegen.mechanics.velocity.triangular import TINY, Triangle
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,7 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
     greatest = stage("greatest", sympy.sqrt(largest(stages, triangle.name, _gram(stages, triangle))), "greatest value")
-    V = inverse(stages, triangle)
-    of_inverse = _gram_of_inverse(stages, triangle.name, V)
+    of_inverse = _gram_of_inverse(stages, triangle.name, triangle.inverse)
     reciprocal = stage("reciprocal", sympy.sqrt(largest(stages, f"inv_{triangle.name}", of_inverse)), "1 / least value")
     least = stage("least", Select(product, TINY, 0, 1 / reciprocal), "least value; 0 for a dependent column")
     least = stage("last", Select(least, limit, 0, least), "least value, or 0")
@@ -68,8 +67,10 @@ def frobenius(stages: Stages, triangle: Triangle) -> Spectrum:
     """The condition number ``|T| |T^-1| / 3`` in Frobenius norms: smooth everywhere, 1 for equal values only."""
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
-    V = inverse(stages, triangle)
-    squares = [stage(f"norm_{k}", sum(x * x for x in M), "square of a norm") for k, M in enumerate((triangle.T, V))]
+    squares = [
+        stage(f"norm_{k}", sum(x * x for x in M), "square of a norm")
+        for k, M in enumerate((triangle.T, triangle.inverse))
+    ]
     norms = [stage(f"root_{k}", sympy.sqrt(square), "Frobenius norm") for k, square in enumerate(squares)]
     C = stage("C", norms[0] * norms[1] / 3, "condition number of Frobenius")
     return Spectrum(product, (), stage("C_or_inf", Select(product, TINY, 1 / product, C), "infinite if singular"))

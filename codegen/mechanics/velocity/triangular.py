@@ -110,22 +110,33 @@ class Triangle:
         name: of the values that it has, for example ``sigma``.
         T: [3, 3].
         inverses: of its diagonal; 0 where that is 0.
+        inverse: [3, 3] of the block.
     """
 
     name: str
     T: sympy.Matrix
     inverses: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
+    inverse: sympy.Matrix
 
 
-def inverse(stages: Stages, triangle: Triangle) -> sympy.Matrix:
-    """The inverse of a triangle, by substitution."""
-    (a, b, c), T, name = triangle.inverses, triangle.T, triangle.name
+def triangle(
+    stages: Stages, name: str, T: sympy.Matrix, inverses: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
+) -> Triangle:
+    """Make a triangle; its inverse comes by substitution.
+
+    Args:
+        stages: gets the steps.
+        name: of its values.
+        T: [3, 3] upper triangular.
+        inverses: of its diagonal.
+    """
+    a, b, c = inverses
     products = stages.stage(f"products_{name}", sympy.Matrix([T[0, 1] * b, T[1, 2] * c]), "t_12 / t_22, t_23 / t_33")
     v_12 = stages.stage(f"v12_{name}", _one(-a * products[0]), "entry 1, 2 of the inverse")[0]
     v_23 = stages.stage(f"v23_{name}", _one(-b * products[1]), "entry 2, 3 of the inverse")[0]
     rest = stages.stage(f"rest_{name}", _one(T[0, 1] * v_23 + T[0, 2] * c), "t_12 v_23 + t_13 / t_33")[0]
     v_13 = stages.stage(f"v13_{name}", _one(-a * rest), "entry 1, 3 of the inverse")[0]
-    return sympy.Matrix([[a, v_12, v_13], [0, b, v_23], [0, 0, c]])
+    return Triangle(name, T, inverses, sympy.Matrix([[a, v_12, v_13], [0, b, v_23], [0, 0, c]]))
 
 
 def solved(stages: Stages, name: str, triangle: Triangle, right: sympy.Matrix) -> sympy.Matrix:

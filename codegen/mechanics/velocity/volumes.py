@@ -38,7 +38,10 @@ def volumes(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Rati
     D_sigma = _size(stages, "sigma", first.columns[3][3] * rest, limits[0])
     quotient = Select(D_beta, TINY, 0, D_sigma * D_gamma / D_beta)
     D_alpha = stages.stage("D_alpha", sympy.Matrix([quotient]), "|det J| / D_beta")[0]
-    return {name: Spectrum(D) for name, D in zip(("sigma", "beta", "alpha", "gamma"), (D_sigma, D_beta, D_alpha, D_gamma), strict=True)}
+    return {
+        name: Spectrum(D)
+        for name, D in zip(("sigma", "beta", "alpha", "gamma"), (D_sigma, D_beta, D_alpha, D_gamma), strict=True)
+    }
 
 
 def _diagonal(factor: Reflections, places: range | tuple[int, ...]) -> sympy.Expr:

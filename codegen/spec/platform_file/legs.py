@@ -52,7 +52,7 @@ def length_mistakes(
 
 def columns(points: Points) -> tuple[Vector, ...]:
     """The points of three rows."""
-    return tuple(zip(*points, strict=True))  # type: ignore[arg-type]
+    return tuple(zip(*points, strict=True))
 
 
 def _is_on_a_line(points: Sequence[Vector]) -> bool:

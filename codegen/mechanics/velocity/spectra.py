@@ -55,7 +55,7 @@ def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spect
     product = _product(stages, triangle)
     first, second, _ = all_three(stages, triangle.name, _gram(stages, triangle))
     greatest = stage("greatest", sympy.sqrt(first), "greatest value")
-    rest = stage("rest", product / greatest, "product of the others, not above the square of the middle value")
+    rest = stage("others", product / greatest, "product of the others, not above the square of the middle value")
     square = stage("square_2", Select(second, rest, rest, second), "square of the middle value")
     middle = stage("middle", sympy.sqrt(square), "middle value")
     least = stage("least", Select(middle, TINY, 0, rest / middle), "least value")

@@ -117,6 +117,79 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
+@click.option("--kinematics", "mode", flag_value="kinematics", help="Motion from that of the independent coordinates.")
+@click.option("--inverse", "mode", flag_value="inverse", help="Besides, efforts and reactions.")
+@click.option("--forward", "mode", flag_value="forward", help="Motion under forces.")
+@click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the integrator.")
+@click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
+@click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
+@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
+@click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
+    """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
+    if mode is None:
+        _generate_chain(file, real, target)
+    else:
+        _run_chain(file, target, animation, {"mode": mode, **options})
+
+
+def _generate_chain(file: Path, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.read import read
+    from codegen.scenes.generate import check_options
+
+    check_options(None, real)
+    output.check_target(target)
+    described, _ = read(file)
+    with _progress(steps(described), "generating") as advance:
+        files = generate_chain(described, real, advance)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
+def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    from codegen import output
+    from codegen.chains.read import read
+    from codegen.chains.simulate import Settings, check, simulated
+    from codegen.measure.compile import compiler
+    from codegen.report.chain_pictures import chain_pictures
+
+    settings = Settings(**options)
+    output.check_target(target)
+    read_chain, tables = read(file)
+    check(read_chain, settings)
+    compiler()
+    with _progress(settings.outputs, "running") as advance:
+        result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
+    output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
+    _told(file, target, result)
+
+
+def _simulate_chain(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
+    """Forward dynamics of a chain; what only scenes have is refused."""
+    given = {"--form": options.pop("form"), "--copies": copies, "--through-singular": options.pop("through_singular")}
+    given["--index"] = options.pop("index") != 2
+    mistakes = [Mistake(name, "is for scenes, and this is a chain", "leave it out") for name, on in given.items() if on]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    _run_chain(file, target, animation, {"mode": "forward", **options})
+
+
+def _told(file: Path, target: Path, result: Any) -> None:
+    """Tell a run; it fell short where it stopped before its end."""
+    click.echo(f"{target}: {result.words}")
+    for line in result.notes:
+        click.echo(f"{file}: {line}", err=True)
+    if result.failure:
+        click.echo(f"{file}: {result.failure}", err=True)
+        raise click.exceptions.Exit(1)
+
+
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
 @click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")
@@ -127,12 +200,16 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 @click.option("--through-singular", is_flag=True, help="Go on through singular configurations, on the smooth branch.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 def simulate(file: Path, copies: int | None, animation: bool, target: Path, **options: Any) -> None:
-    """Integrate a mechanism: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
+    """Integrate a mechanism, or a chain: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
     from codegen import output, scenes
+    from codegen.chains.read import is_chain
     from codegen.report.run_pictures import run_pictures
     from codegen.scenes.run import Settings
     from codegen.scenes.simulate import check_settings, check_tools, simulated
 
+    if is_chain(file):
+        _simulate_chain(file, target, animation, copies, options)
+        return
     settings = Settings(**options)
     check_settings(settings)
     output.check_target(target)
@@ -143,12 +220,7 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     with _progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
-    click.echo(f"{target}: {result.words}")
-    for line in result.notes:
-        click.echo(f"{file}: {line}", err=True)
-    if result.failure:
-        click.echo(f"{file}: {result.failure}", err=True)
-        raise click.exceptions.Exit(1)
+    _told(file, target, result)
 
 
 @jointgen.command()
@@ -241,6 +313,20 @@ def flops(rules: str, table: str, model: str, name: str | None, assume: tuple[st
         from codegen.report import tables
 
         tables.show(result.sheets)
+
+
+@jointgen.command()
+@click.argument("folder", nargs=-1, type=click.Path(path_type=Path))
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path, dir_okay=False), required=True)
+def report(folder: tuple[Path, ...], target: Path) -> None:
+    """Put results on one page that needs no other file: those in FOLDER..., or in generated/ and benchmarks/."""
+    from codegen import output
+    from codegen.report.findings import findings
+    from codegen.report.page import page
+
+    found = findings(folder or [place for place in (_LIBRARY, Path("benchmarks")) if place.is_dir()])
+    output.replace_file(target, page(found, codegen.__version__).encode())
+    click.echo(f"{target}: {len(found)} folders of results")
 
 
 @contextlib.contextmanager

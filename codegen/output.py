@@ -89,6 +89,25 @@ def replace(target: Path, files: Mapping[str, bytes]) -> None:
         raise OutputError([Mistake(str(target), what, "name another directory with -o")]) from error
 
 
+def replace_file(target: Path, content: bytes) -> None:
+    """Put a file in the place of the target, whole or not at all.
+
+    Raises:
+        OutputError: the target cannot be written; it is as it was.
+    """
+    real = Path(os.path.realpath(target))
+    try:
+        if real.is_dir():
+            raise OutputError([Mistake(str(target), "is a directory, not a file", "name a file with -o")])
+        real.parent.mkdir(parents=True, exist_ok=True)
+        with _staging(real) as folder:
+            _write(folder, {"new": content})
+            (folder / "new").replace(real)
+    except OSError as error:
+        what = f"cannot be written ({error.strerror or error})"
+        raise OutputError([Mistake(str(target), what, "name another file with -o")]) from error
+
+
 _HERE, _EXCHANGE = -100, 2
 """``AT_FDCWD`` and ``RENAME_EXCHANGE`` of Linux."""
 

@@ -7,7 +7,9 @@ under the hash of everything it is made from. Tests of the search choose for the
 from __future__ import annotations
 
 import pickle
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 from unittest import mock
 
 import pytest
@@ -16,33 +18,51 @@ from codegen import build
 from codegen.ir.lower import SymbolicOutput
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.program import Program
+from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.system import System
+from codegen.scenes import programs as scene_programs
 from tests.harness.library import digest
 from tests.truth.workshop import fingerprint, forget_old, locked
 
 
 @pytest.fixture(scope="session", autouse=True)
 def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Keep what `codegen.build.Model.programs` gives."""
+    """Keep what `codegen.build.Model.programs` gives for the library, and `codegen.scenes.programs` for scenes."""
     cache_dir = request.config.cache.mkdir("jointgen-programs")
     folder = cache_dir / fingerprint()
     folder.mkdir(parents=True, exist_ok=True)
     forget_old(cache_dir)
-    lower = build.Model.programs
+    lower, lower_scene = build.Model.programs, scene_programs.cheapest_of
 
     def programs(
         model: build.Model, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose
     ) -> list[Program]:
-        if choose is not build.choices_for:
+        def made() -> list[Program]:
             return lower(model, outputs, is_substituted, choose)
-        what = (model.variant, [(output.name, output.shape) for output in outputs], is_substituted)
-        kept = folder / f"{digest(repr(what))}.pickle"
-        with locked(kept.with_suffix(".lock")):
-            if not kept.exists():
-                unfinished = kept.with_suffix(".unfinished")
-                unfinished.write_bytes(pickle.dumps(lower(model, outputs, is_substituted, choose)))
-                unfinished.replace(kept)
-        found: list[Program] = pickle.loads(kept.read_bytes())
-        return found
 
-    with mock.patch.object(build.Model, "programs", programs):
+        what = (model.variant, [(output.name, output.shape) for output in outputs], is_substituted)
+        return _kept(folder, what, made) if choose is build.choices_for else made()
+
+    def cheapest_of(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:
+        def made() -> Program:
+            return lower_scene(assembly, names, choose)
+
+        is_kept = choose in (build.choices_for, scene_programs.estimate)
+        return _kept(folder, (assembly, names, choose.__name__), made) if is_kept else made()
+
+    with (
+        mock.patch.object(build.Model, "programs", programs),
+        mock.patch.object(scene_programs, "cheapest_of", cheapest_of),
+    ):
         yield
+
+
+def _kept(folder: Path, what: object, made: Callable[[], Any]) -> Any:
+    """Read what was made before, by this process or another, or make and keep it."""
+    kept = folder / f"{digest(repr(what))}.pickle"
+    with locked(kept.with_suffix(".lock")):
+        if not kept.exists():
+            unfinished = kept.with_suffix(".unfinished")
+            unfinished.write_bytes(pickle.dumps(made()))
+            unfinished.replace(kept)
+    return pickle.loads(kept.read_bytes())

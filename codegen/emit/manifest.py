@@ -104,8 +104,8 @@ def manifest(
 ) -> str:
     """Write the manifest of a package.
 
-    ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines, and of
-    a scene or platform as a whole (``whole``: kind -> record), stands under a key of its own.
+    ``fma``: its C holds fused multiply-adds and nothing else may be contracted. What is told of batch routines stands
+    under a key of its own, and so does what is told of a mechanism as a ``whole``, by its kind.
     """
     document = {
         "schema_version": SCHEMA_VERSION,

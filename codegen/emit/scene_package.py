@@ -1,4 +1,4 @@
-"""The routines of a scene or platform as files: header, source, CasADi functions, manifest, README and an example.
+"""The routines of a scene, chain or platform as files: header, source, CasADi, manifest, a README and an example.
 
 Input: the routines. Output: path -> bytes; nothing is written here.
 """
@@ -26,19 +26,19 @@ _WIDTH = 108
 
 @dataclass(frozen=True, slots=True)
 class ScenePackage:
-    """Everything that goes into the files of a scene, or of what else has a file of its own.
+    """Everything that goes into the files of a scene, chain or platform.
 
     Attributes:
-        name: of the scene.
+        name: of the scene or chain.
         routines: single quantities first, ``all`` last.
         version: of jointgen.
-        specification: hash of the scene and of what was asked for.
+        specification: hash of the mechanism and of what was asked for.
         real: default number type, ``double`` or ``float``.
-        record: what the manifest says of the scene as a whole.
+        record: what the manifest says of the mechanism as a whole.
         casadi: output -> serialised CasADi function.
         start: argument -> its entries at t = 0, for the example.
         readme: text of the README.
-        kind: what it is, for the words in the files and the key in the manifest.
+        kind: ``scene``, ``chain`` or ``platform``.
         situation: what the example is about.
         more: further files: path -> text.
         batch: what the manifest says of batch routines.
@@ -62,7 +62,7 @@ class ScenePackage:
 
 
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
-    """Write the files of a scene: path below its folder -> content."""
+    """Write the files of a scene or chain: path below its folder -> content."""
     emitted = [entry for routine in package.routines for entry in entries(routine)]
     patterns = _patterns(package)
     files = {
@@ -161,7 +161,7 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
 
 
 def _example(package: ScenePackage, entry: Entry) -> str:
-    """The scene as it stands, through its last routine."""
+    """The mechanism as it stands, through its last routine."""
     declared = entry.parameters
     arrays = [
         {"name": p.name, "rows": _rows([literal(constant) for constant in package.start[p.name]])}

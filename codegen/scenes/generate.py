@@ -29,7 +29,7 @@ from codegen.scenes.bill import Bill, bill
 from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
 from codegen.scenes.loops import LOOPS, decided
-from codegen.scenes.motion import dae
+from codegen.scenes.motion import jacobian_program, residual_program
 from codegen.scenes.numbers import constraint_system, initial_pose, plane_rows, rows_of
 from codegen.scenes.plane_notes import motion_notes
 from codegen.scenes.programs import program, without_zero_rows
@@ -234,9 +234,9 @@ def _program(system: System, job: _Job) -> Program:
         case "mass":
             return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
         case "residual":
-            return dae(system).residual
+            return residual_program(system)
         case "jacobian":
-            return dae(system).jacobian
+            return jacobian_program(system)
     return program(system, job.names)
 
 

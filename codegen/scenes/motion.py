@@ -52,15 +52,35 @@ def dae(
         beta: of Baumgarte's stabilisation, 1/s.
         choose: among the ways to evaluate the programs of the system.
     """
-    state = layout(system, form)
-    is_index2 = form == "index2"
-    assembly = system.assembly
-    inertia = mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
-    values = program(system, residual.INDEX2 if is_index2 else residual.INDEX1, choose)
-    slopes = program(system, jacobian.INDEX2, choose)
-    gamma = None if is_index2 else simplify(by_motion(program(system, ("gamma",), choose), system))
     return Dae(
-        state,
-        simplify(residual.residual(system, state, values, inertia, beta)),
-        simplify(jacobian.jacobian(system, state, slopes, inertia, left_out=left_out, gamma=gamma, beta=beta)),
+        layout(system, form),
+        residual_program(system, form, beta, choose),
+        jacobian_program(system, form, left_out, beta, choose),
     )
+
+
+def residual_program(
+    system: System, form: str = "index2", beta: Fraction = BETA, choose: Choose = choices_for
+) -> Program:
+    """Compose the residual ``F(t, y, ydot)``, see `dae`."""
+    values = program(system, residual.INDEX2 if form == "index2" else residual.INDEX1, choose)
+    return simplify(residual.residual(system, layout(system, form), values, _inertia(system), beta))
+
+
+def jacobian_program(
+    system: System,
+    form: str = "index2",
+    left_out: Collection[str] = (),
+    beta: Fraction = BETA,
+    choose: Choose = choices_for,
+) -> Program:
+    """Compose the Jacobian ``dF/dy + cj dF/dydot``, see `dae`."""
+    slopes = program(system, jacobian.INDEX2, choose)
+    gamma = None if form == "index2" else simplify(by_motion(program(system, ("gamma",), choose), system))
+    state, inertia = layout(system, form), _inertia(system)
+    return simplify(jacobian.jacobian(system, state, slopes, inertia, left_out=left_out, gamma=gamma, beta=beta))
+
+
+def _inertia(system: System) -> Program:
+    assembly = system.assembly
+    return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())

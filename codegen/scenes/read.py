@@ -39,9 +39,9 @@ def read(file: Path, copies: int | None = None) -> tuple[Scene, Sequence[str]]:
         raise SpecificationError([Mistake(str(file), "is no kind of file that can be read", f"known: {known}")])
     if copies is not None and ending != ".toml":
         raise SpecificationError([Mistake("--copies", "only scene files are repeated", "leave it out")])
-    content = _content(file)
     if ending == ".toml":
-        return read_scene(_decoded(content, file), str(file), copies), ()
+        return read_scene(text_of(file), str(file), copies), ()
+    content = _content(file)
     if ending == ".urdf":
         imported = read_urdf(content, str(file))
     else:
@@ -50,12 +50,16 @@ def read(file: Path, copies: int | None = None) -> tuple[Scene, Sequence[str]]:
 
 
 def text_of(file: Path) -> str:
-    """The text of a file.
+    """Read a text file.
 
     Raises:
-        SpecificationError: it cannot be read, or is no text.
+        SpecificationError: it cannot be read, is too large, or is no text.
     """
-    return _decoded(_content(file), file)
+    try:
+        return _content(file).decode()
+    except UnicodeDecodeError as error:
+        what = f"is not UTF-8 text (byte {error.start})"
+        raise SpecificationError([Mistake(str(file), what, "save it as UTF-8")]) from error
 
 
 def _content(file: Path) -> bytes:
@@ -66,14 +70,6 @@ def _content(file: Path) -> bytes:
     except OSError as error:
         what = f"cannot be read ({error.strerror or error})"
         raise SpecificationError([Mistake(str(file), what, "name a file that can")]) from error
-
-
-def _decoded(content: bytes, file: Path) -> str:
-    try:
-        return content.decode()
-    except UnicodeDecodeError as error:
-        what = f"is not UTF-8 text (byte {error.start})"
-        raise SpecificationError([Mistake(str(file), what, "save it as UTF-8")]) from error
 
 
 def _beside(file: Path) -> dict[str, bytes]:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-import codegen
 from codegen.errors import JointgenError, Mistake, SpecificationError, nearest
 from codegen.measure.compile import compiler
 from codegen.scenes.motion_record import record
 from codegen.scenes.run import Prepared, Progress, Settings, prepare
 from codegen.scenes.summary import as_json, summary
 from codegen.scenes.watched_run import Watched, watched_run
+from codegen.simulate.limits import limit_mistakes, run_manifest
 from codegen.simulate.sundials import sundials
 from codegen.simulate.trajectory import Trajectory, as_csv
 from codegen.spec.scene import SCENE_FORMS, Scene
@@ -56,7 +54,7 @@ def simulated(scene: Scene, settings: Settings, progress: Progress = lambda _: N
     files = {
         "trajectory.csv": as_csv(told.trajectory),
         "summary.json": as_json(numbers),
-        "manifest.json": _manifest(scene),
+        "manifest.json": run_manifest("scene", scene.name),
     }
     words = f"{numbers['time_reached']:g} s in {numbers['steps']} steps, drift {numbers['constraint_drift']:.1e}"
     encoded = {path: text.encode() for path, text in files.items()}
@@ -102,23 +100,10 @@ def check_settings(settings: Settings) -> None:
     Raises:
         SpecificationError: all mistakes at once.
     """
-    mistakes = []
-    if not 1e-13 <= settings.tolerance <= 0.1:
-        mistakes.append(Mistake("--tol", f"{settings.tolerance:g} is no tolerance", "give one from 1e-13 to 0.1"))
-    if not (math.isfinite(settings.duration) and settings.duration > 0):
-        mistakes.append(Mistake("--duration", f"{settings.duration:g} s is no duration", "give a positive number"))
-    if not 1 <= settings.outputs <= 10_000_000:
-        mistakes.append(Mistake("--outputs", f"{settings.outputs} is no number of outputs", "give 1 to 10 million"))
+    mistakes = [*limit_mistakes(settings.tolerance, settings.duration, settings.outputs)]
     if settings.index not in (1, 2):
         mistakes.append(Mistake("--index", f"there is no index {settings.index}", "known: 1, 2"))
     if settings.form is not None and settings.form not in SCENE_FORMS:
         mistakes.append(Mistake("--form", f'there is no "{settings.form}"', nearest(settings.form, SCENE_FORMS)))
     if mistakes:
         raise SpecificationError(mistakes)
-
-
-def _manifest(scene: Scene) -> str:
-    """What tells a folder of ours from others."""
-    generator = {"name": "jointgen", "version": codegen.__version__}
-    document = {"schema_version": 1, "generator": generator, "scene": scene.name, "functions": []}
-    return json.dumps(document, indent=1) + "\n"

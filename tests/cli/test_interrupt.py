@@ -143,7 +143,7 @@ def test_ctrl_c_leaves_the_previous_package_and_no_process(moment: str, tmp_path
     target = tmp_path / "package"
     assert invoke(*SMALL, "-o", target).exit_code == 0
     before = contents(target)
-    terminal = Terminal("generate", "ball", "-o", target)
+    terminal = Terminal("generate", "ball", "--outputs", "phi,phi_q", "-o", target)
     assert terminal.wait_for(rf"generating .*\b{moment}\b")
     terminal.press(CTRL_C)
     code = terminal.finish()

@@ -82,7 +82,7 @@ def test_nothing_is_multiplied_by_1_or_added_to_0(made: Package) -> None:
         assert not idle.search(statement), statement
 
 
-CONVENTIONAL = ("engine", "engine in the plane", "four-bar of MJCF", "spatial slider-crank", "Bricard")
+CONVENTIONAL = ("engine", "engine in the plane", "spatial slider-crank", "Bricard")
 
 
 @pytest.mark.parametrize("name", CONVENTIONAL)

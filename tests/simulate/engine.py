@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 A, B = 0.1, 0.3
 MASSES = np.array([1.2, 0.8, 0.5])
-INERTIAS = np.array([0.0011, 0.0061, 0.0003])
+INERTIAS = np.array([0.0211, 0.0061, 0.0003])
 GRAVITY = np.array([0.0, -9.81])
 SPEED = 15.0
 """rad/s at t = 0, where theta is 0."""

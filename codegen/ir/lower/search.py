@@ -46,7 +46,11 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
     Returns:
         The choice of every node that the outputs need.
     """
-    search = _Search(graph, outputs, seed)
+    return _searched(_Index(graph), outputs, seed, sweeps)
+
+
+def _searched(index: _Index, outputs: Sequence[int], seed: int, sweeps: int = 12) -> Choice:
+    search = _Search(index, outputs, seed)
     idle = 0
     for _ in range(sweeps):
         before = search.total
@@ -70,8 +74,9 @@ def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: i
         The cheapest of the choices found, each once, the cheapest first.
     """
     ends: dict[tuple[tuple[int, int], ...], Choice] = {}
+    index = _Index(graph)
     for seed in seeds:
-        choice = cheapest(graph, outputs, seed)
+        choice = _searched(index, outputs, seed)
         ends.setdefault(tuple(choice.items()), choice)
     return sorted(ends.values(), key=lambda choice: price(graph, choice))[:best]
 
@@ -96,10 +101,37 @@ def _weighted(graph: Graph, seed: int) -> list[list[float]]:
     return weighted
 
 
+class _Index:
+    """A graph with what every search in it looks up.
+
+    Attributes:
+        graph: alternatives of each node.
+        sizes: for each alternative of each node how many nodes it takes.
+        leaves: alternatives that take none.
+        users: of each node, the alternatives that take it.
+        users_of: the same by node.
+    """
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.sizes = [[len(set(alternative.children)) for alternative in alternatives] for alternatives in graph]
+        self.leaves = [(node, k) for node, sizes in enumerate(self.sizes) for k, size in enumerate(sizes) if not size]
+        self.users: list[list[tuple[int, int]]] = [[] for _ in graph]
+        for node, alternatives in enumerate(graph):
+            for k, alternative in enumerate(alternatives):
+                for child in set(alternative.children):
+                    self.users[child].append((node, k))
+        self.users_of: list[dict[int, list[int]]] = [{} for _ in graph]
+        for child, users in enumerate(self.users):
+            for node, k in users:
+                self.users_of[child].setdefault(node, []).append(k)
+
+
 class _Search:
     """A choice under improvement, with counts of how often each node is used."""
 
-    def __init__(self, graph: Graph, outputs: Sequence[int], seed: int) -> None:
+    def __init__(self, index: _Index, outputs: Sequence[int], seed: int) -> None:
+        graph = index.graph
         self._weighted = _weighted(graph, seed)
         self.choice: Choice = {}
         self.total = 0.0
@@ -107,17 +139,8 @@ class _Search:
         self._outputs = list(outputs)
         self._sideways: set[tuple[int, int]] = set()
         self._uses: dict[int, int] = {}
-        self._sizes = [[len(set(alternative.children)) for alternative in alternatives] for alternatives in graph]
-        self._leaves = [(node, k) for node, sizes in enumerate(self._sizes) for k, size in enumerate(sizes) if not size]
-        self._users: list[list[tuple[int, int]]] = [[] for _ in graph]
-        for node, alternatives in enumerate(graph):
-            for k, alternative in enumerate(alternatives):
-                for child in set(alternative.children):
-                    self._users[child].append((node, k))
-        self._users_of: list[dict[int, list[int]]] = [{} for _ in graph]
-        for child, users in enumerate(self._users):
-            for node, k in users:
-                self._users_of[child].setdefault(node, []).append(k)
+        self._sizes, self._leaves = index.sizes, index.leaves
+        self._users, self._users_of = index.users, index.users_of
         for position, output in enumerate(self._outputs):
             if position % 4 == 0:
                 self._replan()
@@ -141,7 +164,7 @@ class _Search:
         """Make a move, and take it back if the total rises or something depends on itself."""
         saved = self._state()
         move(node)
-        if self.total > saved[2] + _LEAST_GAIN or not self._is_acyclic(self._outputs):
+        if self.total > saved[2] + _LEAST_GAIN or not self._is_acyclic(self._changed(saved)):
             self.choice, self._uses, self.total = saved
 
     def _others(self, node: int) -> None:
@@ -159,7 +182,7 @@ class _Search:
             for child in sorted(self._uses.keys() - start[1].keys()):
                 self._exploit(child, node)
             limit = best[2] + (_LEAST_GAIN if best is start and (node, k) not in self._sideways else -_LEAST_GAIN)
-            if self.total < limit and self._is_acyclic(self._outputs):
+            if self.total < limit and self._is_acyclic(self._changed(start)):
                 if self.total > start[2] - _LEAST_GAIN:
                     self._sideways.add((node, k))
                 best = self._state()
@@ -235,8 +258,13 @@ class _Search:
         for child in old.children:
             self._release(child)
 
+    def _changed(self, before: _State) -> list[int]:
+        """The nodes with another alternative than before: a new cycle goes through one of them."""
+        known = before[0]
+        return [node for node, k in self.choice.items() if known.get(node) != k]
+
     def _is_acyclic(self, roots: Sequence[int]) -> bool:
-        """Whether nothing below the roots depends on itself; a cycle that nothing else needs has gone altogether."""
+        """Whether nothing below the roots depends on itself."""
         done: set[int] = set()
         on_path: set[int] = set()
         stack = list(roots)

@@ -49,7 +49,7 @@ def body_mistakes(entry: BodyEntry, needs_mass: bool) -> Iterator[Mistake]:
     if entry.mass is not None and entry.mass <= 0:
         yield Mistake(f"{entry.place}: mass", f"is {shown(entry.mass)} kg", "give a mass above 0 kg")
     if entry.inertia is not None:
-        yield from _inertia_mistakes(entry.inertia, f"{entry.place}: inertia")
+        yield from inertia_mistakes(entry.inertia, f"{entry.place}: inertia")
 
 
 def make_body(entry: BodyEntry) -> Body:
@@ -57,7 +57,7 @@ def make_body(entry: BodyEntry) -> Body:
     return Body(
         entry.name or "",
         entry.mass or Fraction(0),
-        _symmetric(entry.inertia or _NO_INERTIA),
+        symmetric(entry.inertia or _NO_INERTIA),
         entry.position,
         entry.quaternion,
         entry.velocity,
@@ -75,19 +75,21 @@ def _quaternion_mistakes(quaternion: Quaternion, place: str) -> Iterator[Mistake
         yield Mistake(place, f"has norm {float(norm):.12g}, not 1", remedy)
 
 
-def _symmetric(matrix: Matrix) -> Matrix:
+def symmetric(matrix: Matrix) -> Matrix:
+    """The mean of a matrix and its transpose."""
     rows = zip(matrix, transposed(matrix), strict=True)
     return tuple(tuple((x + y) / 2 for x, y in zip(a, b, strict=True)) for a, b in rows)  # type: ignore[return-value]
 
 
-def _inertia_mistakes(matrix: Matrix, place: str) -> Iterator[Mistake]:
+def inertia_mistakes(matrix: Matrix, place: str) -> Iterator[Mistake]:
+    """Check that an inertia, [3, 3] kg m^2 about the mass centre, is that of a body."""
     size = max(abs(value) for row in matrix for value in row)
     apart = max(abs(matrix[i][k] - matrix[k][i]) for i in range(3) for k in range(i))
     if apart > TOLERANCE * size:
         what = f"is not symmetric: two entries differ by {shown(apart)} kg m^2"
         yield Mistake(place, what, "give equal entries on both sides of the diagonal")
         return
-    matrix = _symmetric(matrix)
+    matrix = symmetric(matrix)
     trace = sum((matrix[k][k] for k in range(3)), Fraction(0))
     values = f"principal values {_principal(matrix)} kg m^2"
     if not _is_positive(matrix):

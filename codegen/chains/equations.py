@@ -1,0 +1,68 @@
+"""What a run asks of a chain: closure, Jacobians, inertia and forces as numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Closure:
+    """How far the cuts are open: frame R seen from frame C, [nr] cuts.
+
+    Attributes:
+        p: [nr, 3] m, origin of R in axes of C.
+        R: [nr, 3, 3] attitude.
+        dp: [nr, 3, n] exact derivative of p.
+        W: [nr, 3, n] angular velocity of R against C for unit rates, axes of C.
+    """
+
+    p: Array
+    R: Array
+    dp: Array
+    W: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Terms:
+    """Terms of ``J qdd + gamma = 0`` and ``M qdd + f_C = f_G + tau + J^T f_R``.
+
+    Attributes:
+        gamma: [6 nr].
+        M: [n, n].
+        f_C: [n].
+        f_G: [n].
+    """
+
+    gamma: Array
+    M: Array
+    f_C: Array
+    f_G: Array
+
+
+class Equations(Protocol):
+    """The equations of a chain of n links with nr cuts and ne end effectors."""
+
+    @property
+    def binding(self) -> tuple[bool, ...]:
+        """Of each row of the cuts [6 nr], whether a coordinate moves it: those that are structurally zero do not."""
+
+    def closure(self, q: Array) -> Closure:
+        """Evaluate the cuts."""
+
+    def jacobian(self, q: Array) -> Array:
+        """Evaluate J [6 nr, n], rows linear then angular for each cut, axes of C."""
+
+    def gamma(self, q: Array, qd: Array) -> Array:
+        """Evaluate gamma_R [6 nr]."""
+
+    def terms(self, q: Array, qd: Array) -> Terms:
+        """Evaluate the terms of the equations of motion."""
+
+    def effectors(self, q: Array) -> Array:
+        """Evaluate D_E [6 ne, n], axes of the effectors."""

@@ -1,0 +1,81 @@
+"""A chain ready to be run: its equations, how its coordinates are parted, what acts on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codegen.chains.equations import Equations
+from codegen.chains.forces import Forces
+from codegen.chains.partition import Partition, partition
+from codegen.spec.chain import Chain, Row
+
+Array = NDArray[np.float64]
+
+AXES = ("fx", "fy", "fz", "mx", "my", "mz")
+"""Components of a wrench."""
+
+ROWS = ("x", "y", "z", "turn about x", "turn about y", "turn about z")
+"""Rows of a cut, axes of its frames."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mechanism:
+    """A chain ready to be run.
+
+    Attributes:
+        chain: as its file has it.
+        equations: of the chain.
+        part: its coordinates and rows.
+        forces: what acts on it.
+        length: characteristic, m.
+    """
+
+    chain: Chain
+    equations: Equations
+    part: Partition
+    forces: Forces
+    length: float
+
+    def row_name(self, row: int) -> str:
+        """Cut and row by their names."""
+        return f'cut "{self.chain.cuts[row // 6].name}", {ROWS[row % 6]}'
+
+    def units(self) -> tuple[str, ...]:
+        """Unit of each coordinate."""
+        return tuple("m" if link.type == "prismatic" else "rad" for link in self.chain.links)
+
+    def pose(self, q: Array) -> str:
+        """The coordinates in words."""
+        named = zip(self.chain.links, q, self.units(), strict=True)
+        return ", ".join(f"{link.name} {value:.9g} {unit}" for link, value, unit in named)
+
+
+def mechanism(chain: Chain, equations: Equations) -> Mechanism:
+    """Make a chain ready.
+
+    Args:
+        chain: as its file has it.
+        equations: of the chain.
+    """
+    length = characteristic_length(chain)
+    is_prismatic = [link.type == "prismatic" for link in chain.links]
+    independent = [chain.index(one.joint) for one in chain.independents]
+    part = partition(is_prismatic, independent, list(equations.binding), length)
+    return Mechanism(chain, equations, part, Forces(chain), length)
+
+
+def characteristic_length(chain: Chain) -> float:
+    """The median of the lengths that the rows of a chain hold, m; 1 where they hold none."""
+    lengths = [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d) if value]
+    return float(np.median(lengths)) if lengths else 1.0
+
+
+def _rows(chain: Chain) -> Iterator[Row]:
+    yield from (link.row for link in chain.links)
+    for cut in chain.cuts:
+        yield from (cut.base.row, cut.far.row)
+    yield from (effector.frame.row for effector in chain.effectors)

@@ -1,0 +1,144 @@
+"""The chain reduced to its independent coordinates, at a closed pose.
+
+With ``K = J_w^+ J_v`` all rates are ``qd = N qd_v``, ``N = [1; -K]``, and all accelerations ``qdd = N qdd_v + a``; a is
+0 for the independent and ``-J_w^+ gamma_R`` for the dependent coordinates. The equation of motion is
+
+    ``(N^T M N) qdd_v = N^T (f_G + tau + D_E^T f_E - f_C - M a)``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codegen.chains.equations import Equations, Terms
+from codegen.chains.factor import Factor, factor
+from codegen.chains.partition import Partition
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rates:
+    """The motion of a chain at a closed pose.
+
+    Attributes:
+        part: coordinates and rows.
+        factor: of the dependent columns of J, without dimension.
+        N: [n, nv] rates for rates of the independent coordinates.
+        qd: [n].
+        a: [n] accelerations without those of the independent coordinates.
+    """
+
+    part: Partition
+    factor: Factor
+    N: Array
+    qd: Array
+    a: Array
+
+    def acceleration(self, qdd_v: Array) -> Array:
+        """Give all accelerations [n]."""
+        return np.asarray(self.N @ qdd_v + self.a)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reduced:
+    """A chain at a pose and velocity, with its inertia and forces."""
+
+    rates: Rates
+    terms: Terms
+
+    def forward(self, force: Array) -> Array:
+        """Give the accelerations of the independent coordinates.
+
+        Args:
+            force: [n] generalised, beside gravity.
+        """
+        terms, N = self.terms, self.rates.N
+        inertia = N.T @ terms.M @ N
+        rest = N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.rates.a)
+        return np.asarray(np.linalg.solve(inertia, rest))
+
+    def inverse(self, qdd: Array, force: Array) -> Array:
+        """Give the efforts on the independent coordinates [nv].
+
+        Args:
+            qdd: [n] accelerations.
+            force: [n] generalised, beside gravity and the efforts.
+        """
+        return np.asarray(self.rates.N.T @ self._missing(qdd, force))
+
+    def reaction(self, qdd: Array, force: Array) -> Array:
+        """Give the reactions of the cuts on their frames R [6 nr], axes of R.
+
+        Rows that do not bind are 0; where rows depend on each other the smallest reactions are taken.
+
+        Args:
+            qdd: [n] accelerations.
+            force: [n] generalised, beside gravity, on dependent coordinates as well.
+        """
+        part, found = self.rates.part, np.zeros(len(self.terms.gamma))
+        missing = self._missing(qdd, force)[part.w] * part.units[part.w]
+        found[part.rows] = self.rates.factor.solve_transposed(missing) / part.row_units[part.rows]
+        return found
+
+    def kinetic_energy(self) -> float:
+        """Give the kinetic energy, J."""
+        return float(self.rates.qd @ self.terms.M @ self.rates.qd / 2)
+
+    def _missing(self, qdd: Array, force: Array) -> Array:
+        terms = self.terms
+        return np.asarray(terms.M @ qdd + terms.f_C - terms.f_G - force)
+
+
+def rates(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Rates:
+    """Give the rates at a closed pose.
+
+    Args:
+        equations: of the chain.
+        part: its coordinates and rows.
+        q: [n], closed.
+        qd_v: [nv].
+
+    Raises:
+        RankLoss: the pose is singular.
+    """
+    found, N = _tangent(equations, part, q)
+    qd = N @ qd_v
+    return Rates(part, found, N, qd, _bias(part, found, equations.gamma(q, qd)))
+
+
+def reduced(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Reduced:
+    """Reduce a chain.
+
+    Args:
+        equations: of the chain.
+        part: its coordinates and rows.
+        q: [n], closed.
+        qd_v: [nv].
+
+    Raises:
+        RankLoss: the pose is singular.
+    """
+    found, N = _tangent(equations, part, q)
+    qd = N @ qd_v
+    terms = equations.terms(q, qd)
+    return Reduced(Rates(part, found, N, qd, _bias(part, found, terms.gamma)), terms)
+
+
+def _tangent(equations: Equations, part: Partition, q: Array) -> tuple[Factor, Array]:
+    """The factor of the dependent columns of J, and N."""
+    J = equations.jacobian(q)
+    found = factor(part.dependent(J))
+    N = np.zeros((len(q), len(part.v)))
+    N[part.v, np.arange(len(part.v))] = 1.0
+    N[part.w] = -part.units[part.w, None] * found.solve(part.binding(J[:, part.v]))
+    return found, N
+
+
+def _bias(part: Partition, found: Factor, gamma: Array) -> Array:
+    a = np.zeros(len(part.units))
+    a[part.w] = -part.units[part.w] * found.solve(part.binding(gamma))
+    return a

@@ -1,0 +1,94 @@
+"""A chain at one time: motion, efforts and reactions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from codegen.chains.factor import least_singular_value
+from codegen.chains.forces import Forces
+from codegen.chains.mechanism import Mechanism
+from codegen.chains.reduced import Reduced
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Loads:
+    """What acts in a chain at one time.
+
+    Attributes:
+        tau: [n] along the coordinates in all, N or N m.
+        effort: [nv] of it, what the motion needs of the independent coordinates beside the forces of the file; 0 in
+            forward dynamics.
+        reaction: [6 nr] of the cuts on their frames R, axes of R, N and N m.
+        wrenches: [6 ne] at the effectors, their axes, N and N m.
+        kinetic: energy, J.
+        power: of gravity, forces and efforts, W.
+    """
+
+    tau: Array
+    effort: Array
+    reaction: Array
+    wrenches: Array
+    kinetic: float
+    power: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A chain at one time.
+
+    Attributes:
+        t: s.
+        q: [n] m or rad.
+        qd: [n] per s.
+        qdd: [n] per s^2.
+        least: smallest singular value of the dependent columns of the Jacobian, relative to the largest.
+        loads: None in kinematics.
+    """
+
+    t: float
+    q: Array
+    qd: Array
+    qdd: Array
+    least: float
+    loads: Loads | None = None
+
+
+def generalised(mechanism: Mechanism, q: Array, qd: Array, active: tuple[bool, ...]) -> Array:
+    """Give the forces of the file along the coordinates [n], those at effectors included."""
+    forces: Forces = mechanism.forces
+    found = forces.on_joints(q, qd, active)
+    if mechanism.chain.effectors:
+        found = found + mechanism.equations.effectors(q).T @ forces.at_effectors(active).ravel()
+    return found
+
+
+def loaded(
+    mechanism: Mechanism, t: float, q: Array, found: Reduced, qdd_v: Array, active: tuple[bool, ...], is_driven: bool
+) -> State:
+    """Give a state with its loads.
+
+    Args:
+        mechanism: the chain.
+        t: s.
+        q: [n].
+        found: the chain reduced there.
+        qdd_v: [nv].
+        active: which conditions of switched forces hold.
+        is_driven: whether efforts on the independent coordinates make the accelerations what they are.
+    """
+    qd, qdd = found.rates.qd, found.rates.acceleration(qdd_v)
+    force = generalised(mechanism, q, qd, active)
+    effort = found.inverse(qdd, force) if is_driven else np.zeros(len(qdd_v))
+    tau = mechanism.forces.on_joints(q, qd, active)
+    tau[mechanism.part.v] += effort
+    force[mechanism.part.v] += effort
+    reaction = found.reaction(qdd, force)
+    wrenches = mechanism.forces.at_effectors(active).ravel()
+    power = float(qd @ (found.terms.f_G + force))
+    loads = Loads(tau, effort, reaction, wrenches, found.kinetic_energy(), power)
+    return State(t, q, qd, qdd, least_singular_value(found.rates.factor.R), loads)

@@ -1,0 +1,289 @@
+"""A kinematic chain as data: a tree of links, the cuts that close its loops, and what moves it (S2).
+
+Numbers are exact: the decimal that stands in the file; multiples of pi are kept to 50 digits. Lengths in m, angles in
+rad, masses in kg, times in s. A frame is placed on a link by the six constants of S2 Table 1,
+``T = Screw(z, psi, c) Screw(x, alpha, a) Screw(z, theta, d)``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.spec.scene import Matrix, Vector
+
+BASE = "base"
+"""Name of link 0."""
+
+JOINT_TYPES = ("revolute", "prismatic")
+
+BASES = ("fixed", "moving")
+"""Whether pose, velocity and acceleration of link 0 are inputs of the routines."""
+
+CHAIN_QUANTITIES = (
+    "frames",
+    "closure",
+    "phi",
+    "phi_q",
+    "J",
+    "gamma_R",
+    "M",
+    "f_C",
+    "f_G",
+    "D_E",
+    "effectors",
+    "wrenches",
+)
+"""What a chain may ask for; `docs/chain.md` says what each is."""
+
+CLOSURE_QUANTITIES = ("closure", "phi", "phi_q", "J", "gamma_R")
+"""Those that only chains with cuts have."""
+
+EFFECTOR_QUANTITIES = ("D_E", "effectors")
+"""Those that only chains with end effectors have."""
+
+MASS_QUANTITIES = ("M", "f_C", "f_G", "wrenches")
+"""Those that need masses."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of the extended Denavit-Hartenberg table, from a link's frame i to a frame ij hung on it.
+
+    Attributes:
+        psi: rad, about z_i, from x_i to the common normal of z_i and z_ij.
+        c: m, along z_i.
+        alpha: rad, about the common normal, from z_i to z_ij.
+        a: m, along the common normal.
+        theta: rad, about z_ij, from the common normal to x_ij; of a revolute joint the coordinate at t = 0.
+        d: m, along z_ij; of a prismatic joint the coordinate at t = 0.
+    """
+
+    psi: Fraction = Fraction(0)
+    c: Fraction = Fraction(0)
+    alpha: Fraction = Fraction(0)
+    a: Fraction = Fraction(0)
+    theta: Fraction = Fraction(0)
+    d: Fraction = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A link with its inner joint, which has the link's name.
+
+    Attributes:
+        name: unique, not ``base``.
+        parent: name of the link nearer the base, or ``base``.
+        type: one of `JOINT_TYPES`.
+        row: where its frame stands on the parent.
+        mass: kg; 0 for a massless link.
+        centre: [3] m, of mass, from the origin of the link's frame, its axes.
+        inertia: [3, 3] kg m^2 about the centre of mass, link axes.
+        prefer: value from which the coordinate is sought at t = 0 instead of that in the row, if it is dependent:
+            selects the branch on which the loops are closed.
+    """
+
+    name: str
+    parent: str
+    type: str
+    row: Row
+    mass: Fraction
+    centre: Vector
+    inertia: Matrix
+    prefer: Fraction | None = None
+
+    @property
+    def coordinate(self) -> Fraction:
+        """The joint coordinate at t = 0 as the row has it."""
+        return self.row.theta if self.type == "revolute" else self.row.d
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A frame fixed on a link, or on the base."""
+
+    link: str
+    row: Row
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """A link that was cut: its two frames coincide in every pose of the mechanism.
+
+    Attributes:
+        name: unique among the cuts.
+        base: frame C, on the side nearer the base.
+        far: frame R.
+    """
+
+    name: str
+    base: Frame
+    far: Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Effector:
+    """An end effector.
+
+    Attributes:
+        name: unique among the effectors.
+        frame: frame E.
+        force: [3] N, constant, on the chain, axes of E.
+        moment: [3] N m about the origin of E, likewise.
+    """
+
+    name: str
+    frame: Frame
+    force: Vector
+    moment: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """``sum of coefficients[k] t^k``, m or rad; one coefficient is a constant."""
+
+    coefficients: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Harmonic:
+    """``mean + amplitude sin(frequency t + phase)``, m or rad; frequency in rad/s."""
+
+    mean: Fraction
+    amplitude: Fraction
+    frequency: Fraction
+    phase: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Values in a CSV file of two columns, t in s and the coordinate; its path is from the folder of the chain file."""
+
+    file: str
+
+
+Motion = Polynomial | Harmonic | Table
+
+
+@dataclass(frozen=True, slots=True)
+class Independent:
+    """An independent coordinate.
+
+    Attributes:
+        joint: name of the link whose inner joint it is.
+        motion: for kinematics and inverse dynamics; None where none is given.
+        position: m or rad at t = 0, for forward dynamics; None for the motion's, or the row's without a motion.
+        speed: m/s or rad/s at t = 0; None for the motion's, or 0 without a motion.
+    """
+
+    joint: str
+    motion: Motion | None = None
+    position: Fraction | None = None
+    speed: Fraction | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """When a switched force acts: while ``lower <= q <= upper`` and q moves in the direction.
+
+    Attributes:
+        joint: name of the link whose coordinate q is.
+        lower: m or rad; None for no bound.
+        upper: m or rad; None for no bound.
+        direction: 1 while q grows, -1 while it falls, 0 always.
+    """
+
+    joint: str
+    lower: Fraction | None
+    upper: Fraction | None
+    direction: int
+
+
+@dataclass(frozen=True, slots=True)
+class JointForce:
+    """``constant - stiffness (q - rest) - damping qd`` on a joint coordinate.
+
+    Attributes:
+        joint: name of the link.
+        constant: N or N m.
+        stiffness: N/m or N m/rad.
+        damping: N s/m or N m s/rad.
+        rest: m or rad.
+        when: None for always.
+    """
+
+    joint: str
+    constant: Fraction = Fraction(0)
+    stiffness: Fraction = Fraction(0)
+    damping: Fraction = Fraction(0)
+    rest: Fraction = Fraction(0)
+    when: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class EffectorForce:
+    """A constant wrench on the chain at an effector, besides the effector's own.
+
+    Attributes:
+        effector: its name.
+        force: [3] N, axes of the effector.
+        moment: [3] N m about its origin, likewise.
+        when: None for always.
+    """
+
+    effector: str
+    force: Vector
+    moment: Vector
+    when: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """A complex kinematic chain.
+
+    Attributes:
+        name: of the routines; a C identifier.
+        gravity: [3] m/s^2, axes of frame 0; of the world where the base moves.
+        links: parents before children.
+        cuts: one for each loop.
+        effectors: end effectors.
+        independents: independent coordinates; all of them, in the order of the links, where there are no cuts and the
+            file names none.
+        joint_forces: on coordinates.
+        effector_forces: at effectors.
+        base: one of `BASES`.
+        assemble: whether the coordinates in the rows are guesses, from which cuts that are open are to be closed.
+        quantities: of `CHAIN_QUANTITIES`; empty for all that the chain has.
+    """
+
+    name: str
+    gravity: Vector
+    links: tuple[Link, ...]
+    cuts: tuple[Cut, ...] = ()
+    effectors: tuple[Effector, ...] = ()
+    independents: tuple[Independent, ...] = ()
+    joint_forces: tuple[JointForce, ...] = ()
+    effector_forces: tuple[EffectorForce, ...] = ()
+    base: str = "fixed"
+    assemble: bool = False
+    quantities: tuple[str, ...] = ()
+
+    @property
+    def wanted(self) -> tuple[str, ...]:
+        """What is generated, in the order of `CHAIN_QUANTITIES`."""
+        missing: tuple[str, ...] = () if self.cuts else CLOSURE_QUANTITIES
+        missing += () if self.effectors else EFFECTOR_QUANTITIES
+        missing += () if any(link.mass or any(map(any, link.inertia)) for link in self.links) else MASS_QUANTITIES
+        asked = self.quantities or CHAIN_QUANTITIES
+        return tuple(name for name in CHAIN_QUANTITIES if name in asked and name not in missing)
+
+    def index(self, name: str) -> int:
+        """Place of a link's coordinate in q.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        for k, link in enumerate(self.links):
+            if link.name == name:
+                return k
+        raise KeyError(name)

@@ -1,0 +1,110 @@
+"""What moves a chain: independent coordinates with their motions, forces and the conditions under which they act."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from codegen.errors import Mistake
+from codegen.spec.chain import (
+    Condition,
+    EffectorForce,
+    Harmonic,
+    Independent,
+    JointForce,
+    Motion,
+    Polynomial,
+    Table,
+)
+from codegen.spec.chain_file.entries import ChainEntry, ConditionEntry, ForceEntry, IndependentEntry
+from codegen.spec.scene_file.text import nearest_known, quoted, shown
+
+_MOTIONS = ("polynomial", "harmonic", "table")
+_JOINT_KEYS = frozenset({"constant", "stiffness", "damping", "rest"})
+_EFFECTOR_KEYS = frozenset({"force", "moment"})
+
+
+def independent_mistakes(entry: ChainEntry, links: Sequence[str]) -> Iterator[Mistake]:
+    """Check the independent coordinates."""
+    seen: set[str] = set()
+    for part in entry.independent:
+        yield from _joint_mistakes(part.joint, part.place, links)
+        if part.joint is not None and part.joint in seen:
+            yield Mistake(part.place, f"the coordinate of {quoted(part.joint)} is named twice", "name it once")
+        seen |= {part.joint} if part.joint is not None else set()
+        motions = [key for key in _MOTIONS if key in part.given]
+        if len(motions) > 1:
+            yield Mistake(part.place, f"has {' and '.join(motions)}", "give one motion")
+        if "polynomial" in part.given and not part.polynomial and "polynomial" not in part.wrong:
+            yield Mistake(f"{part.place}: polynomial", "is empty", "give at least the constant")
+    if entry.cut and not entry.independent:
+        what = "a chain with cuts has dependent coordinates, and no coordinate is said to be independent"
+        yield Mistake(entry.place, what, "write [[independent]] for each degree of freedom")
+
+
+def force_mistakes(entry: ForceEntry, links: Sequence[str], effectors: Sequence[str]) -> Iterator[Mistake]:
+    """Check one force."""
+    if (entry.joint is None) == (entry.effector is None) and not {"joint", "effector"} & entry.wrong:
+        yield Mistake(entry.place, "acts on a joint or at an effector", "give joint = … or effector = …, one of them")
+        return
+    yield from _joint_mistakes(entry.joint, entry.place, links)
+    if entry.effector is not None and entry.effector not in effectors:
+        what = f"there is no effector {quoted(entry.effector)}"
+        remedy = nearest_known(entry.effector, effectors) if effectors else "write [[effector]] first"
+        yield Mistake(f"{entry.place}: effector", what, remedy)
+    foreign = (_EFFECTOR_KEYS if entry.joint is not None else _JOINT_KEYS) & entry.given
+    if foreign:
+        owner = "an effector" if entry.joint is not None else "a joint"
+        yield Mistake(entry.place, f"{', '.join(sorted(foreign))} is for {owner}", "leave it out")
+    for key in ("stiffness", "damping"):
+        if getattr(entry, key) < 0:
+            yield Mistake(f"{entry.place}: {key}", f"is {shown(getattr(entry, key))}", "give 0 or more")
+    if entry.when is not None:
+        yield from _condition_mistakes(entry.when, links)
+
+
+def _joint_mistakes(joint: str | None, place: str, links: Sequence[str]) -> Iterator[Mistake]:
+    if joint is not None and joint not in links:
+        yield Mistake(f"{place}: joint", f"there is no link {quoted(joint)}", nearest_known(joint, links))
+
+
+def _condition_mistakes(entry: ConditionEntry, links: Sequence[str]) -> Iterator[Mistake]:
+    yield from _joint_mistakes(entry.joint, entry.place, links)
+    if entry.lower is not None and entry.upper is not None and entry.lower >= entry.upper:
+        what = f"lower, {shown(entry.lower)}, is not below upper, {shown(entry.upper)}"
+        yield Mistake(entry.place, what, "give lower < upper")
+
+
+def make_independents(entry: ChainEntry) -> tuple[Independent, ...]:
+    """Make the independent coordinates; all of them where there are no cuts and none is named."""
+    if entry.independent:
+        return tuple(
+            Independent(part.joint or "", _motion(part), part.position, part.speed) for part in entry.independent
+        )
+    return tuple(Independent(link.name or "") for link in entry.link)
+
+
+def _motion(entry: IndependentEntry) -> Motion | None:
+    if entry.polynomial:
+        return Polynomial(entry.polynomial)
+    if entry.harmonic is not None:
+        sine, none = entry.harmonic, Fraction(0)
+        return Harmonic(sine.mean, sine.amplitude or none, sine.frequency or none, sine.phase)
+    return Table(entry.table) if entry.table is not None else None
+
+
+def make_forces(entry: ChainEntry) -> tuple[tuple[JointForce, ...], tuple[EffectorForce, ...]]:
+    """Make the forces on joints and those at effectors."""
+    joints = [
+        JointForce(f.joint, f.constant, f.stiffness, f.damping, f.rest, _condition(f.when))
+        for f in entry.force
+        if f.joint is not None
+    ]
+    effectors = [
+        EffectorForce(f.effector, f.force, f.moment, _condition(f.when)) for f in entry.force if f.effector is not None
+    ]
+    return tuple(joints), tuple(effectors)
+
+
+def _condition(entry: ConditionEntry | None) -> Condition | None:
+    return None if entry is None else Condition(entry.joint or "", entry.lower, entry.upper, entry.sign)

@@ -1,0 +1,133 @@
+"""``jointgen chain --kinematics|--inverse|--forward`` and ``jointgen simulate`` of a chain."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from .runs import contents, invoke, refused, snapshot
+
+CHAINS = Path(__file__).parents[2] / "examples" / "chains"
+CRANK = CHAINS / "spatial_slider_crank.toml"
+
+PENDULUM = """
+name = "pendulum"
+gravity = [0.0, -9.81, 0.0]
+[[link]]
+name = "rod"
+parent = "base"
+type = "revolute"
+theta = 0.5
+mass = 2.0
+centre = [1.0, 0.0, 0.0]
+inertia = [0.1, 0.1, 0.1]
+[[effector]]
+name = "tip"
+link = "rod"
+a = 2.0
+[[independent]]
+joint = "rod"
+"""
+
+
+@pytest.fixture
+def pendulum(tmp_path: Path) -> Path:
+    file = tmp_path / "pendulum.toml"
+    file.write_text(PENDULUM)
+    return file
+
+
+def table(folder: Path) -> dict[str, list[float]]:
+    with (folder / "trajectory.csv").open() as lines:
+        rows = list(csv.DictReader(lines))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def test_a_run_is_a_few_files_and_a_line(tmp_path: Path) -> None:
+    done = invoke("chain", CRANK, "--inverse", "--outputs", "4", "--animation", "-o", tmp_path / "run")
+    assert done.exit_code == 0
+    assert done.stdout.startswith(f"{tmp_path / 'run'}: inverse, 1 s, 5 outputs")
+    assert done.stderr == ""
+    names = ["animation.html", "manifest.json", "plot.svg", "summary.json", "trajectory.csv"]
+    assert sorted(contents(tmp_path / "run")) == names
+
+
+def test_inverse_dynamics_writes_efforts_reactions_and_wrenches(tmp_path: Path) -> None:
+    invoke("chain", CRANK, "--inverse", "--outputs", "4", "-o", tmp_path / "run")
+    columns = table(tmp_path / "run")
+    for name in ("t", "crank.q", "crank.qd", "crank.qdd", "crank.tau", "crank.effort", "cut.slide axis.fx", "rod.mz"):
+        assert len(columns[name]) == 5
+    assert np.allclose(columns["slide.q"][0], 0.2, atol=1e-15)
+
+
+def test_kinematics_needs_no_mass(tmp_path: Path, pendulum: Path) -> None:
+    light = pendulum.with_name("light.toml")
+    text = (
+        PENDULUM.replace("mass = 2.0\n", "")
+        .replace("inertia = [0.1, 0.1, 0.1]\n", "")
+        .replace("centre = [1.0, 0.0, 0.0]\n", "")
+    )
+    light.write_text(text + 'harmonic = { amplitude = 1.0, frequency = 2.0 }\n[output]\nquantities = ["frames"]\n')
+    done = invoke("chain", light, "--kinematics", "--outputs", "2", "-o", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    columns = table(tmp_path / "run")
+    assert not [name for name in columns if name.endswith((".tau", ".fx"))]
+    assert columns["effector.tip.rx"] == pytest.approx([2 * np.cos(np.sin(2 * t)) for t in (0, 0.5, 1.0)])
+
+
+def test_a_pendulum_swings_with_its_energy(tmp_path: Path, pendulum: Path) -> None:
+    """Energy: theta is measured from x, gravity along -y."""
+    done = invoke("simulate", pendulum, "--duration", "2", "--outputs", "20", "--tol", "1e-11", "-o", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    columns = table(tmp_path / "run")
+    moment = 0.1 + 2.0
+    for q, qd in zip(columns["rod.q"], columns["rod.qd"], strict=True):
+        assert moment * qd**2 / 2 + 2 * 9.81 * np.sin(q) == pytest.approx(2 * 9.81 * np.sin(0.5), abs=1e-8)
+    assert json.loads((tmp_path / "run" / "summary.json").read_text())["mode"] == "forward"
+
+
+def test_all_bad_options_are_told_at_once(tmp_path: Path) -> None:
+    wrong = ("--tol", "0", "--duration", "-1", "--outputs", "0")
+    before = snapshot(tmp_path)
+    lines = refused(invoke("chain", CRANK, "--forward", *wrong, "-o", tmp_path / "run"))
+    assert [line.split(":")[0] for line in lines] == ["--tol", "--duration", "--outputs"]
+    assert snapshot(tmp_path) == before
+
+
+def test_options_of_scenes_are_refused_for_chains(tmp_path: Path) -> None:
+    lines = refused(
+        invoke("simulate", CRANK, "--form", "auto", "--index", "1", "--copies", "2", "-o", tmp_path / "run")
+    )
+    assert [line.split(":")[0] for line in lines] == ["--form", "--copies", "--index"]
+
+
+def test_a_run_that_stops_writes_what_it_has_and_leaves_with_1(tmp_path: Path) -> None:
+    """The rod is too short for the crank to turn over."""
+    short = tmp_path / "short.toml"
+    text = (
+        CRANK.read_text()
+        .replace("c = 0.3", "c = 0.2361")
+        .replace('name = "spatial', 'assemble = true\nname = "spatial')
+    )
+    short.write_text(text)
+    done = invoke("chain", short, "--kinematics", "--outputs", "40", "-o", tmp_path / "run")
+    assert done.exit_code == 1
+    assert "no solution; the nearest pose leaves" in done.stderr
+    assert json.loads((tmp_path / "run" / "summary.json").read_text())["completed"] is False
+    assert table(tmp_path / "run")["t"][-1] == pytest.approx(0.1)
+
+
+def test_a_table_is_read_from_the_folder_of_the_chain(tmp_path: Path, pendulum: Path) -> None:
+    pendulum.write_text(PENDULUM + 'table = "swing.csv"\n')
+    (line,) = refused(invoke("chain", pendulum, "--inverse", "-o", tmp_path / "run"))
+    assert "swing.csv: cannot be read" in line
+    (tmp_path / "swing.csv").write_text("t,q\n0,0.5\n1,0.7\n2,0.9\n3,1.1\n")
+    done = invoke("chain", pendulum, "--inverse", "--outputs", "4", "-o", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    columns = table(tmp_path / "run")
+    expected = [2 * 9.81 * np.cos(q) for q in columns["rod.q"]]
+    assert columns["rod.effort"] == pytest.approx(expected, abs=1e-12)

@@ -47,9 +47,9 @@ def _shape(parameter: Parameter) -> tuple[int, int]:
 
 def _comment(scalar: str) -> tuple[str, ...]:
     words = (
-        f"The arrays are those of {scalar}: entry (i, k) of pose j of array a at [j s[3 a] + i s[3 a + 1] + k s[3 a + 2]]"
-        ", s = strides, in numbers; k is 0 for vectors and nonzeros. Strides may be negative, and 0 for an input that all "
-        "poses share."
+        f"The arrays are those of {scalar}: entry (i, k) of pose j of array a at [j s[3 a] + i s[3 a + 1] + k "
+        "s[3 a + 2]], s = strides, in numbers; k is 0 for vectors and nonzeros. Strides may be negative, and 0 for an "
+        "input that all poses share."
     )
     wrapped: Sequence[str] = textwrap.wrap(words, _WIDTH)
     parameters = (

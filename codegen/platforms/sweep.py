@@ -56,9 +56,7 @@ class Kernel:
 
     def names(self) -> tuple[str, ...]:
         """Names of the results' columns."""
-        return tuple(
-            p.name if p.length == 1 else f"{p.name}{k}" for p in self.outputs for k in range(p.length)
-        )
+        return tuple(name for parameter in self.outputs for name in _names(parameter))
 
     def evaluate(self, poses: Poses, first: int, last: int) -> Array:
         """Results [columns, poses] of some poses."""
@@ -121,6 +119,12 @@ def sweep(compiled: Kernel, poses: Poses, progress: Progress = lambda _: None, t
 def pieces(count: int) -> Iterator[tuple[int, int]]:
     """First pose and end of each piece."""
     return ((first, min(first + CHUNK, count)) for first in range(0, count, CHUNK))
+
+
+def _names(parameter: Parameter) -> list[str]:
+    """``D_sigma`` for a part of one number, ``values_sigma1`` of several, ``lengths1`` without parts."""
+    parts = [(name, shape[0]) for name, _, shape, _ in parameter.members] or [(parameter.name, parameter.length)]
+    return [name if size == 1 else f"{name}{k + 1}" for name, size in parts for k in range(size)]
 
 
 def _headers(own: str, name: str) -> dict[str, str]:

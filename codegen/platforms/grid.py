@@ -113,7 +113,7 @@ def poses_of_file(file: Path, platform: Platform) -> Poses:
         remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}, column by column)"
         raise SpecificationError([Mistake(str(file), what, remedy)])
     wrong = _wrong_attitudes(name, table[:, 3:])
-    if len(wrong):
+    if wrong:
         raise SpecificationError(
             Mistake(f"{file}: pose {k + 1}", f"{name} is no rotation", "correct it, or give more digits")
             for k in wrong[:10]
@@ -174,13 +174,15 @@ def _table(file: Path) -> Array:
     raise SpecificationError([Mistake(str(file), what, "give a CSV with a line of names first, or an npy file")])
 
 
-def _wrong_attitudes(name: str, entries: Array) -> Array:
+def _wrong_attitudes(name: str, entries: Array) -> list[int]:
     """Numbers of the poses whose attitude is no rotation."""
     with np.errstate(all="ignore"):
         if name == "R":
             R = entries.reshape(-1, 3, 3)
             gap = np.abs(R @ R.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
-            return np.flatnonzero(~((gap < _TOLERANCE) & (np.linalg.det(R) > 0)))
-        if name == "q":
-            return np.flatnonzero(~(np.abs((entries**2).sum(axis=1) - 1) < _TOLERANCE))
-    return np.flatnonzero(~np.isfinite(entries).all(axis=1))
+            is_sound = (gap < _TOLERANCE) & (np.linalg.det(R) > 0)
+        elif name == "q":
+            is_sound = np.abs((entries**2).sum(axis=1) - 1) < _TOLERANCE
+        else:
+            is_sound = np.isfinite(entries).all(axis=1)
+    return [int(k) for k in np.flatnonzero(~is_sound)]

@@ -37,8 +37,7 @@ def hexagons(top: Array, delta: Array, apart: float = 0.6) -> tuple[Array, Array
 
 def conditions(base: Array, top: Array, height: Array) -> Array:
     """C [4, designs] of sigma, beta, alpha and gamma at home, of designs [3, 6, designs] at some heights [designs]."""
-    unit = tuple(tuple(IDENTITY[k]) for k in range(3))
-    points = tuple(unit[k % 3] for k in range(LEGS))
+    points = tuple(IDENTITY[k % 3] for k in range(LEGS))
     anything = Platform("hexagon", points, points, PlatformPose(ZERO_VECTOR, IDENTITY), (), WantedIndices())
     found = program(anything, ("C",), is_symbolic=True)
     nothing, one = np.zeros_like(height), np.ones_like(height)

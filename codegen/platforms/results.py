@@ -42,5 +42,5 @@ def results_file(columns: Sequence[str], found: Array, kind: str) -> dict[str, b
 def _npz(columns: Sequence[str], found: Array) -> bytes:
     """Without the time of writing, which numpy puts as 1980 itself."""
     data = io.BytesIO()
-    np.savez(data, **dict(zip(columns, found, strict=True)))  # type: ignore[arg-type]
+    np.savez(data, **dict(zip(columns, found, strict=True)))
     return data.getvalue()

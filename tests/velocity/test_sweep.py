@@ -21,7 +21,7 @@ from codegen.platforms.sweep import CHUNK, Kernel, kernel, sweep
 from codegen.report.platform_report import platform_report
 from codegen.spec.platform import ATTITUDES
 from codegen.spec.platform_file import read_platform
-from tests.cli.runs import run
+from tests.cli.runs import invoke
 from tests.spec.test_platform import HEXAPOD
 
 from .found import found
@@ -126,8 +126,8 @@ def test_grids_that_are_none_are_refused_in_words(text: str, words: str) -> None
 def test_the_command_writes_results_and_pictures_beside_the_package(tmp_path: Path) -> None:
     file, target = tmp_path / "p.toml", tmp_path / "out"
     file.write_text(HEXAPOD + WANTED)
-    done = run("platform", file, "-o", target, "--grid", "x=-0.1:0.1:3,yaw=80deg:100deg:3", "--format", "npz")
-    assert done.returncode == 0, done.stderr
+    done = invoke("platform", file, "-o", target, "--grid", "x=-0.1:0.1:3,yaw=80deg:100deg:3", "--format", "npz")
+    assert done.exit_code == 0, done.stderr
     assert "9 poses in poses.npz: 3 singular, 0 without a number" in done.stdout
     with np.load(target / "poses.npz") as table:
         assert table["status"].tolist().count(4) == 3
@@ -146,11 +146,11 @@ def test_bad_input_leaves_with_2_and_writes_nothing(tmp_path: Path) -> None:
         ["--format", "xls"],
         ["--grid", "x=1", "--poses", "q"],
     ):
-        done = run("platform", file, "-o", target, *options)
-        assert done.returncode == 2 and "Traceback" not in done.stderr and done.stderr.startswith("--"), done.stderr
+        done = invoke("platform", file, "-o", target, *options)
+        assert done.exit_code == 2 and "Traceback" not in done.stderr and done.stderr.startswith("--"), done.stderr
         assert not target.exists()
     file.write_text(HEXAPOD.replace("[0.5, 0.4,", "[0.5,"))
-    assert run("platform", file, "-o", target).returncode == 2
+    assert invoke("platform", file, "-o", target).exit_code == 2
     assert os.listdir(tmp_path) == ["p.toml"]
 
 

@@ -28,6 +28,8 @@ OUTPUTS: dict[str, tuple[str, str, str]] = {
     "v_of_w": ("Accompanying translation: v = v_of_w w where w is extremal", "base axes", "m"),
     "det": ("|det J|, the product of D of sigma and gamma", "scalar", "m^3"),
     "limits": ("Greatest components of v and w if no leg is faster than 1 m/s", "v, w, base axes", "1, 1/m"),
+    "dD": ("Gradients of D by pose and joints", "blocks x directions", "1/m, 1/rad, m^2, m^3/rad"),
+    "dC": ("Gradients of C by pose and joints, vectors held fixed", "blocks x directions", "1/m, 1/rad"),
     "status": ("Sum of 1, 2, 4 (J1, J2, J lack rank) and 8 (no number), stored as a number", "scalar", "1"),
     "all": ("All quantities at once, sub-expressions shared", "", ""),
 }

@@ -49,6 +49,8 @@ QUANTITIES = (
     "v_of_w",
     "det",
     "limits",
+    "dD",
+    "dC",
     "status",
 )
 """What a platform may ask for; `codegen.mechanics.velocity` says what each is."""

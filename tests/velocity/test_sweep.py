@@ -124,8 +124,8 @@ def test_grids_that_are_none_are_refused_in_words(text: str, words: str) -> None
 
 
 def test_the_command_writes_results_and_pictures_beside_the_package(tmp_path: Path) -> None:
-    file, target = tmp_path / "p.toml", tmp_path / "out"
-    file.write_text(HEXAPOD + WANTED)
+    target = tmp_path / "out"
+    file = ROOT / "examples" / "platforms" / "octahedral.toml"
     done = invoke("platform", file, "-o", target, "--grid", "x=-0.1:0.1:3,yaw=80deg:100deg:3", "--format", "npz")
     assert done.exit_code == 0, done.stderr
     assert "9 poses in poses.npz: 3 singular, 0 without a number" in done.stdout

@@ -38,12 +38,16 @@ class Angle:
         p: radius, half of the greatest distance of an eigenvalue from the mean.
         cosine: of phi in [0, pi / 3].
         sine: of phi.
+        triple: cosine of 3 phi: its sign says which end of the spectrum is well apart.
+        deviator: [3, 3] over p.
     """
 
     mean: sympy.Expr
     p: sympy.Expr
     cosine: sympy.Expr
     sine: sympy.Expr
+    triple: sympy.Expr
+    deviator: sympy.Matrix
 
 
 def angle(stages: Stages, name: str, A: sympy.Matrix) -> Angle:
@@ -79,7 +83,7 @@ def angle(stages: Stages, name: str, A: sympy.Matrix) -> Angle:
     (d,) = stage("d", g[0] * scale, words="B_11 - B_22")
     c, s = _threefold(stage, (x, y, z, u, v, w), d)
     cosine, sine = _third(stage, c, s)
-    return Angle(mean, p, cosine, sine)
+    return Angle(mean, p, cosine, sine, c, sympy.Matrix([[x, u, v], [u, y, w], [v, w, z]]))
 
 
 Stage = Callable[..., list[sympy.Expr]]

@@ -23,12 +23,18 @@ class Legs:
         J1: [6, 3] rows e_i, base axes.
         J2: [6, 3] rows p_i x e_i, base axes.
         exponent: of the length unit.
+        inverses: [6] 1 / |l_i|.
+        arms: six times [3] p_i, base axes.
+        R: [3, 3] platform to base.
     """
 
     lengths: sympy.Matrix
     J1: sympy.Matrix
     J2: sympy.Matrix
     exponent: int
+    inverses: list[sympy.Expr]
+    arms: list[sympy.Matrix]
+    R: sympy.Matrix
 
 
 def length_exponent(platform: Platform) -> int:
@@ -57,7 +63,7 @@ def legs(stages: Stages, platform: Platform, is_symbolic: bool = False) -> Legs:
     if is_symbolic:
         B, joints = stages.argument("base", 3, LEGS), stages.argument("platform", 3, LEGS)
     o = stages.stage("o_unit", o / unit, "o in the length unit") if exponent else o
-    lengths, rows_1, rows_2 = [], [], []
+    lengths, inverses, arms, rows_1, rows_2 = [], [], [], [], []
     for i in range(LEGS):
         p = stages.stage(f"p_{i + 1}", R * joints[:, i], f"R p'_{i + 1}")
         d = stages.stage(f"d_{i + 1}", o - B[:, i], f"o - B_{i + 1}")
@@ -67,9 +73,12 @@ def legs(stages: Stages, platform: Platform, is_symbolic: bool = False) -> Legs:
         e = stages.stage(f"e_{i + 1}", l * inverse, f"l_{i + 1} / |l_{i + 1}|")
         m = stages.stage(f"m_{i + 1}", p.cross(e), f"p_{i + 1} x e_{i + 1}")
         lengths.append(length)
+        inverses.append(inverse)
+        arms.append(p)
         rows_1.append(e.T)
         rows_2.append(m.T)
-    return Legs(sympy.Matrix(lengths), sympy.Matrix.vstack(*rows_1), sympy.Matrix.vstack(*rows_2), exponent)
+    J1, J2 = sympy.Matrix.vstack(*rows_1), sympy.Matrix.vstack(*rows_2)
+    return Legs(sympy.Matrix(lengths), J1, J2, exponent, inverses, arms, R)
 
 
 def rotation(stages: Stages, attitude: str) -> sympy.Matrix:

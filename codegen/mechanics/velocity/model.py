@@ -9,6 +9,8 @@
 - ``Q1``, ``Q2`` [6, 3] with ``J^-1 = [Q1'; Q2']``
 - ``w_of_v`` [3, 3], ``v_of_w`` [3, 3] accompanying motions: ``w = w_of_v v`` where v is extremal (Eqs. 37, 38)
 - ``limits`` [6] greatest components of v and w for leg speeds of at most 1: absolute sums of the rows of J^-1
+- ``dD``, ``dC`` [4, 42] gradients by o (3), a turn about axes of the base (3), B_i (18) and p'_i (18); of C with the
+  vectors held fixed where values are equal
 - ``status`` 1, 2, 4: J1, J2, J without full rank; 8: no number (a leg of length zero, input that is not finite)
 """
 
@@ -24,6 +26,7 @@ from codegen.ir.lower.staged import Stages
 from codegen.ir.program import Program
 from codegen.mechanics.velocity.blocks import Blocks, blocks
 from codegen.mechanics.velocity.geometry import Legs, legs
+from codegen.mechanics.velocity.gradients import gradients
 from codegen.mechanics.velocity.gram import gram_spectra, not_negative, textbook
 from codegen.mechanics.velocity.inverse import accompanying, ellipsoids, inverse_jacobian
 from codegen.mechanics.velocity.rank import Judged, judged
@@ -116,13 +119,30 @@ class _Model:
             result |= accompanying(self.stages, found, unit)
         if "ellipsoids" in names:
             result["ellipsoids"] = ellipsoids(found, unit)
-        if {"D", "C", "values", "semi_axes", "det", "status"} & set(names):
+        if {"D", "C", "values", "semi_axes", "det", "status", "dD", "dC"} & set(names):
             of = {"beta": self.limits[0], "sigma": self.limits[0], "alpha": self.limits[1], "gamma": self.limits[1]}
             spectra = {name: spectrum(self.stages, getattr(found, name), of[name]) for name in BLOCKS}  # type: ignore[operator]
             rank: Judged = judged(self.stages, spectra)
             result |= self._indices(rank.spectra, unit)
             result["status"] = rank.status
+            result |= self._gradients(names, found, rank.spectra, unit)
         return result
+
+    def _gradients(
+        self, names: tuple[str, ...], found: Blocks, spectra: dict[str, Spectrum], unit: sympy.Expr
+    ) -> dict[str, sympy.Matrix]:
+        """Gradients by lengths in m and turns in rad."""
+        indices = {}
+        if "dD" in names:
+            indices["D"] = [
+                spectra[name].D * unit**3 if name in ("alpha", "gamma") else spectra[name].D for name in BLOCKS
+            ]
+        if "dC" in names:
+            indices["C"] = [spectra[name].C for name in BLOCKS]
+        if not indices:
+            return {}
+        scale = sympy.diag(*[1 / unit] * 3, *[1] * 3, *[1 / unit] * 36)
+        return {name: M * scale for name, M in gradients(self.stages, self.legs, found, indices).items()}
 
     def _indices(self, spectra: dict[str, Spectrum], unit: sympy.Expr) -> dict[str, sympy.Matrix]:
         scale = {"sigma": sympy.Integer(1), "beta": sympy.Integer(1), "alpha": unit, "gamma": unit}

@@ -37,8 +37,8 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     """
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
-    greatest = stage("greatest", sympy.sqrt(largest(stages, triangle.name, _gram(stages, triangle))), "greatest value")
-    of_inverse = _gram_of_inverse(stages, triangle.name, triangle.inverse)
+    greatest = stage("greatest", sympy.sqrt(largest(stages, triangle.name, gram(stages, triangle))), "greatest value")
+    of_inverse = gram_of_inverse(stages, triangle)
     reciprocal = stage("reciprocal", sympy.sqrt(largest(stages, f"inv_{triangle.name}", of_inverse)), "1 / least value")
     least = stage("least", Select(product, TINY, 0, 1 / reciprocal), "least value; 0 for a dependent column")
     least = stage("last", Select(least, limit, 0, least), "least value, or 0")
@@ -53,7 +53,7 @@ def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spect
     """
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
-    first, second, _ = all_three(stages, triangle.name, _gram(stages, triangle))
+    first, second, _ = all_three(stages, triangle.name, gram(stages, triangle))
     greatest = stage("greatest", sympy.sqrt(first), "greatest value")
     rest = stage("others", product / greatest, "product of the others, not above the square of the middle value")
     square = stage("square_2", Select(second, rest, rest, second), "square of the middle value")
@@ -107,13 +107,16 @@ def _middle(
     return stage("middle", Select(ends, TINY, of_rest, product / ends), "middle value")
 
 
-def _gram(stages: Stages, triangle: Triangle) -> sympy.Matrix:
+def gram(stages: Stages, triangle: Triangle, name: str = "") -> sympy.Matrix:
+    """``T' T``, upper triangle."""
     T = triangle.T
-    return stages.stage(f"A_{triangle.name}", _upper(T.T * T), "R^T R")
+    return stages.stage(f"A_{name or triangle.name}", _upper(T.T * T), "R^T R")
 
 
-def _gram_of_inverse(stages: Stages, name: str, V: sympy.Matrix) -> sympy.Matrix:
-    return stages.stage(f"W_{name}", _upper(V * V.T), "R^-1 R^-T")
+def gram_of_inverse(stages: Stages, triangle: Triangle, name: str = "") -> sympy.Matrix:
+    """``T^-1 T^-T``, upper triangle."""
+    V = triangle.inverse
+    return stages.stage(f"W_{name or triangle.name}", _upper(V * V.T), "R^-1 R^-T")
 
 
 def _upper(A: sympy.Matrix) -> sympy.Matrix:

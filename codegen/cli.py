@@ -254,6 +254,41 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     _told(file, target, result)
 
 
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--variant", help="robust, balanced, fast, values, smooth or literal; as the file says if left out.")
+@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("--poses", type=click.Path(path_type=Path), help="Evaluate at the poses of a CSV or npy file.")
+@click.option("--grid", help="Evaluate on a grid: x=-0.3:0.3:61,yaw=-20deg:20deg:41 (x y z in m, roll pitch yaw).")
+@click.option("--format", "kind", default="csv", show_default=True, help="Of the results: csv or npz.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def platform(
+    file: Path, variant: str | None, real: str, poses: Path | None, grid: str | None, kind: str, target: Path
+) -> None:
+    """Emit velocity indices of a six-legged platform (a TOML file); evaluate them at many poses."""
+    from codegen import output
+    from codegen.platforms.generate import generate_platform, steps, with_options
+    from codegen.platforms.run import chosen_poses, evaluated
+    from codegen.report.platform_report import platform_report
+    from codegen.scenes.read import text_of
+    from codegen.spec.platform_file import read_platform
+
+    output.check_target(target)
+    read = with_options(read_platform(text_of(file), str(file)), variant, real)
+    where = chosen_poses(read, poses, grid, kind)
+    with _progress(steps(read), "generating") as advance:
+        files = generate_platform(read, real, advance)
+    if where is not None:
+        with _progress(where.pieces, "evaluating") as advance:
+            table = evaluated(where, advance)
+        files |= table.files | platform_report(read, table)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+    if where is not None:
+        click.echo(table.words)
+
+
 def _flop_files() -> dict[str, bytes]:
     from codegen import comparison
     from codegen.emit.package import banner

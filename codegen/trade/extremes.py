@@ -8,6 +8,7 @@ from codegen.trade.extreme_numbers import multipliers, nans
 from codegen.trade.extreme_places import angles, distances, drifts, turns
 from codegen.trade.extreme_rank import gimbal_lock, singular_values
 from codegen.trade.extreme_table import ExtremeTable
+from codegen.trade.newton import newton_table
 
 TABLES: tuple[Callable[[], ExtremeTable], ...] = (
     distances,
@@ -18,6 +19,7 @@ TABLES: tuple[Callable[[], ExtremeTable], ...] = (
     gimbal_lock,
     multipliers,
     nans,
+    newton_table,
 )
 
 

@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-engine bench-flags bench-peers bench-scenes search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-scenes figures-chain search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -41,7 +41,7 @@ schema: $(STAMP) ## write the JSON schemas of scene, chain and platform files an
 	$(BIN)/python -c 'from codegen.spec.platform_file.schema import schema_text; print(schema_text(), end="")' \
 		> codegen/spec/platform.schema.json
 
-check: lint types imports test current ## run every check, stop at the first that fails
+check: lint types imports test ## run every check, stop at the first that fails
 
 lint: $(STAMP) ## ruff: rules and format
 	$(BIN)/ruff check .
@@ -71,8 +71,14 @@ bench-engine: $(STAMP) ## run the in-line engine, write benchmarks/engine/result
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
 
+bench-chains: $(STAMP) ## the routines of chains beside a recursion that reads a table
+	$(BIN)/python -m benchmarks.chain_speed $(ARGS)
+
 bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
 	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)
+
+figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
+	$(BIN)/python -m benchmarks.chains $(ARGS)
 
 bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
 	$(BIN)/python -m benchmarks.scenes $(ARGS)

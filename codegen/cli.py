@@ -89,7 +89,9 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
+@click.option(
+    "--form", help="Of all joints that may have it: auto, conventional or parametric; or relative: as a chain."
+)
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
 @click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto, always or never.")
@@ -102,6 +104,9 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     from codegen.scenes.generate import check_options, generate_scene, steps
 
     check_options(form, real, loops)
+    if form == "relative":
+        _generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
+        return
     if measure:
         compiler()
     output.check_target(target)
@@ -134,15 +139,41 @@ def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None
         _run_chain(file, target, animation, {"mode": mode, **options})
 
 
+def _generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
+    """The routines of a scene by relative coordinates."""
+    from codegen import output, scenes
+    from codegen.chains.relative import relative
+
+    mistakes = [
+        Mistake(name, "is not there in relative coordinates", "leave it out") for name, on in given.items() if on
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    output.check_target(target)
+    read, left_out = scenes.read(file, copies)
+    found = relative(read)
+    for line in (*left_out, *found.notes):
+        click.echo(line, err=True)
+    _write_chain(found.chain, real, target)
+
+
 def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
-    from codegen.chains.generate import generate_chain, steps
     from codegen.chains.read import read
     from codegen.scenes.generate import check_options
 
     check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
+    _write_chain(described, real, target)
+
+
+def _write_chain(described: Any, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.stand import check_start
+
+    check_start(described)
     with _progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
     output.replace(target, files)

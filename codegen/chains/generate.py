@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import codegen
-from codegen.chains.programs import program, routines
+from codegen.chains.programs import programs, routines
 from codegen.chains.readme import readme
+from codegen.emit.casadi import casadi_function, serialised
 from codegen.emit.chain_record import chain_record
 from codegen.emit.chain_subject import ChainSubject
 from codegen.emit.routine import Routine
 from codegen.emit.scene_package import ScenePackage, scene_files
 from codegen.ir.ops import Constant
-from codegen.ir.program import Program
 from codegen.mechanics.chain.model import kept_rows
-from codegen.parallel import parallel
 from codegen.spec.chain import Chain
 from flopcount.count import count
 
@@ -38,22 +36,23 @@ def generate_chain(chain: Chain, real: str = "double", progress: Progress = lamb
     Returns:
         Path below the package's folder -> content.
     """
-    jobs = [_Job(_bare(chain), output, names) for output, names in routines(chain).items()]
-    built = parallel(_built, jobs, lambda job: progress(job.output))
     subject = ChainSubject(chain, kept_rows(chain))
-    found = tuple(
-        Routine(subject, job.output, made, count(made), _EQUATIONS) for job, (made, _) in zip(jobs, built, strict=True)
-    )
+    found: list[Routine] = []
+    casadi: dict[str, bytes] = {}
+    for output, made in programs(chain, routines(chain)):
+        found.append(Routine(subject, output, made, count(made), _EQUATIONS))
+        casadi[output] = serialised(casadi_function(subject.routine_stem(output), made))
+        progress(output)
     specification = hashlib.sha256(repr((codegen.__version__, chain, real)).encode()).hexdigest()
     return scene_files(
         ScenePackage(
             chain.name,
-            found,
+            tuple(found),
             codegen.__version__,
             specification,
             real,
             chain_record(subject),
-            {job.output: data for job, (_, data) in zip(jobs, built, strict=True)},
+            casadi,
             start_arguments(chain),
             readme(subject, found, codegen.__version__, specification),
             "chain",
@@ -81,22 +80,3 @@ def start_arguments(chain: Chain) -> Mapping[str, Sequence[Constant]]:
         "v_0": [none] * 6,
         "vd_0": [none] * 6,
     }
-
-
-@dataclass(frozen=True)
-class _Job:
-    chain: Chain
-    output: str
-    names: tuple[str, ...]
-
-
-def _bare(chain: Chain) -> Chain:
-    """A chain without what its routines do not depend on."""
-    return replace(chain, independents=(), joint_forces=(), effector_forces=())
-
-
-def _built(job: _Job) -> tuple[Program, bytes]:
-    from codegen.emit import casadi
-
-    found = program(job.chain, job.names)
-    return found, casadi.serialised(casadi.casadi_function(f"jg_{job.chain.name}_{job.output}", found))

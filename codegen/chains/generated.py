@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.equations import Closure, Terms
+from codegen.ir.program import Program
 from codegen.mechanics.chain.model import chain_program, kept_rows
 from codegen.passes import simplify
 from codegen.simulate.callable import Evaluate, callables
 from codegen.spec.chain import Chain
 
 Array = NDArray[np.float64]
+
+Functions = Callable[[Sequence[Program]], list[Evaluate]]
+"""Makes functions of programs."""
 
 _TERMS = ("gamma_R", "M", "f_C", "f_G")
 
@@ -24,17 +29,18 @@ class Generated:
     Args:
         chain: the chain.
         has_loads: whether inertia, forces and wrenches are wanted too.
+        functions: makes functions of programs; compiles them if left out.
 
     Raises:
         SpecificationError: there is no C compiler.
     """
 
-    def __init__(self, chain: Chain, has_loads: bool = True) -> None:
+    def __init__(self, chain: Chain, has_loads: bool = True, functions: Functions = callables) -> None:
         self._chain = chain
         self._rows = np.array(kept_rows(chain), dtype=np.intp)
         self._height = 6 * len(chain.cuts)
         wanted = _wanted(chain, has_loads)
-        compiled = callables([simplify(chain_program(chain, names)) for names in wanted.values()])
+        compiled = functions([simplify(chain_program(chain, names)) for names in wanted.values()])
         self._routines: dict[str, Evaluate] = dict(zip(wanted, compiled, strict=True))
 
     @property

@@ -62,16 +62,22 @@ def mechanism(chain: Chain, equations: Equations) -> Mechanism:
         equations: of the chain.
     """
     length = characteristic_length(chain)
+    reach = max(lengths(chain), default=0.0) / length
     is_prismatic = [link.type == "prismatic" for link in chain.links]
     independent = [chain.index(one.joint) for one in chain.independents]
-    part = partition(is_prismatic, independent, list(equations.binding), length)
+    part = partition(is_prismatic, independent, list(equations.binding), length, reach)
     return Mechanism(chain, equations, part, Forces(chain), length)
 
 
 def characteristic_length(chain: Chain) -> float:
     """The median of the lengths that the rows of a chain hold, m; 1 where they hold none."""
-    lengths = [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d) if value]
-    return float(np.median(lengths)) if lengths else 1.0
+    found = lengths(chain)
+    return float(np.median(found)) if found else 1.0
+
+
+def lengths(chain: Chain) -> list[float]:
+    """The lengths that the rows of a chain hold, m, without zeros and signs."""
+    return [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d) if value]
 
 
 def _rows(chain: Chain) -> Iterator[Row]:

@@ -21,6 +21,7 @@ class Partition:
         rows: rows of the cuts that are not structurally zero.
         units: [n] m or rad of each coordinate: 1 for angles, the characteristic length for lengths.
         row_units: [6 nr] likewise, of each row.
+        reach: largest length of the chain, in characteristic ones, 1 at least: positions are known to rounding of it.
     """
 
     v: Numbers
@@ -28,6 +29,7 @@ class Partition:
     rows: Numbers
     units: Array
     row_units: Array
+    reach: float
 
     def dependent(self, matrix: Array) -> Array:
         """The binding rows and dependent columns [m, nw] of a Jacobian of the cuts, without dimension."""
@@ -39,7 +41,9 @@ class Partition:
         return np.asarray(values[self.rows] / (units if values.ndim == 1 else units[:, None]))
 
 
-def partition(is_prismatic: list[bool], independent: list[int], bound: list[bool], length: float) -> Partition:
+def partition(
+    is_prismatic: list[bool], independent: list[int], bound: list[bool], length: float, reach: float = 1.0
+) -> Partition:
     """Part the coordinates of a chain.
 
     Args:
@@ -47,11 +51,14 @@ def partition(is_prismatic: list[bool], independent: list[int], bound: list[bool
         independent: numbers of the independent coordinates.
         bound: of each row of the cuts, whether it is not structurally zero.
         length: characteristic, m.
+        reach: largest length of the chain, in characteristic ones.
     """
     units = np.where(is_prismatic, length, 1.0)
     row_units = np.tile([length] * 3 + [1.0] * 3, len(bound) // 6)
     w = [k for k in range(len(is_prismatic)) if k not in independent]
-    return Partition(_numbers(independent), _numbers(w), _numbers(np.flatnonzero(bound)), units, row_units)
+    return Partition(
+        _numbers(independent), _numbers(w), _numbers(np.flatnonzero(bound)), units, row_units, max(1.0, reach)
+    )
 
 
 def _numbers(values: object) -> Numbers:

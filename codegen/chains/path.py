@@ -142,7 +142,7 @@ def _beyond(equations: Equations, part: Partition, here: Branch, q_v: Array) -> 
     rest = q_v - here.q[part.v]
     size = float(np.max(np.abs(rest / part.units[part.v])))
     found, guess = [], here.q.copy()
-    for share in (min(1.0, _PAST / size), *_PLACES):
+    for share in (min(1.0, _PAST / size) if size else 1.0, *_PLACES):
         guess[part.v] = here.q[part.v] + share * rest
         found.append(nearest(equations, part, guess))
         guess = found[-1].q.copy()

@@ -28,7 +28,7 @@ STEP = 1e-10
 """rad, or characteristic lengths: the last step is smaller. Newton squares it: the pose is known to rounding."""
 
 RESIDUAL = 1e-12
-"""rad, or characteristic lengths: every row is smaller at a solution, times the size of the chain's coordinates."""
+"""rad, or characteristic lengths: every row is smaller at a solution, times the size of coordinates and lengths."""
 
 _ITERATIONS = 60
 _STALLED = 8
@@ -113,8 +113,8 @@ def close(equations: Equations, part: Partition, guess: Array, iterations: int =
 
 
 def _size(q: Array, part: Partition) -> float:
-    """Angles are known to rounding of their size."""
-    return float(np.max(np.abs(q / part.units), initial=1.0))
+    """Angles and positions are known to rounding of their size."""
+    return float(np.max(np.abs(q / part.units), initial=part.reach))
 
 
 def _step(A: Array, rows: Array) -> tuple[Factor | None, Array]:

@@ -1,12 +1,14 @@
-"""The pipeline for chains: chain -> stages -> program, the cheapest that is found."""
+"""The pipeline for chains: chain -> stages -> programs, the cheapest that are found."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from codegen.ir.program import Program
 from codegen.mechanics.chain.model import chain_program
 from codegen.passes import simplify
+from codegen.passes.drop_unused import drop_unused
 from codegen.spec.chain import Chain
 from flopcount.count import count
 
@@ -21,9 +23,27 @@ def program(chain: Chain, names: Sequence[str]) -> Program:
         chain: the chain.
         names: of `codegen.spec.chain.CHAIN_QUANTITIES`.
     """
-    ways = (True, False) if "M" in names and chain.cuts else (True,)
-    programs = [simplify(chain_program(chain, names, progressive)) for progressive in ways]
-    return min(programs, key=lambda found: count(found).total)
+    ((_, found),) = programs(chain, {"": tuple(names)})
+    return found
+
+
+def programs(chain: Chain, routines: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Program]]:
+    """Derive quantities of a chain once, then give the program of each routine.
+
+    Args:
+        chain: the chain.
+        routines: name -> quantities.
+    """
+    names = list(dict.fromkeys(name for asked in routines.values() for name in asked))
+    whole = [chain_program(chain, names, progressive) for progressive in (True, False)[: 2 if chain.cuts else 1]]
+    for routine, asked in routines.items():
+        ways = whole if "M" in asked else whole[:1]
+        yield routine, min((_part(way, asked) for way in ways), key=lambda found: count(found).total)
+
+
+def _part(program: Program, names: Sequence[str]) -> Program:
+    outputs = tuple(program.output(name) for name in names)
+    return simplify(drop_unused(replace(program, outputs=outputs)))
 
 
 def routines(chain: Chain) -> dict[str, tuple[str, ...]]:

@@ -12,12 +12,29 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import lapack
 
 from codegen.chains.equations import Equations, Terms
 from codegen.chains.factor import Factor, factor
 from codegen.chains.partition import Partition
 
 Array = NDArray[np.float64]
+
+
+_LEAST_INERTIA = 1e-13
+"""Eigenvalue of the inertia matrix with ones on its diagonal: below, it is 0."""
+
+
+class NoInertia(Exception):
+    """The reduced inertia matrix is singular.
+
+    Attributes:
+        free: [nv] direction of independent coordinates that nothing resists.
+    """
+
+    def __init__(self, free: Array) -> None:
+        super().__init__()
+        self.free = free
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,11 +72,13 @@ class Reduced:
 
         Args:
             force: [n] generalised, beside gravity.
+
+        Raises:
+            NoInertia: nothing resists one of them.
         """
         terms, N = self.terms, self.rates.N
-        inertia = N.T @ terms.M @ N
         rest = N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.rates.a)
-        return np.asarray(np.linalg.solve(inertia, rest))
+        return _solved(N.T @ terms.M @ N, rest)
 
     def inverse(self, qdd: Array, force: Array) -> Array:
         """Give the efforts on the independent coordinates [nv].
@@ -91,6 +110,17 @@ class Reduced:
     def _missing(self, qdd: Array, force: Array) -> Array:
         terms = self.terms
         return np.asarray(terms.M @ qdd + terms.f_C - terms.f_G - force)
+
+
+def _solved(inertia: Array, rest: Array) -> Array:
+    """Accelerations for a symmetric positive inertia matrix, by Cholesky's factors."""
+    diagonal = np.diagonal(inertia)
+    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+    scaled = inertia * np.outer(scale, scale)
+    packed, info = lapack.dpotrf(scaled)
+    if info or np.min(np.diagonal(packed), initial=1.0) ** 2 < _LEAST_INERTIA:
+        raise NoInertia(np.linalg.eigh(scaled)[1][:, 0] * scale)
+    return np.asarray(scale * lapack.dpotrs(packed, scale * rest)[0])
 
 
 def rates(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Rates:

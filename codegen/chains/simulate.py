@@ -120,7 +120,7 @@ def run(mechanism: Mechanism, tables: Mapping[str, str], settings: Settings, pro
         first = start(mechanism, given.at(0.0)[0])
         done = prescribed.run(mechanism, given, first, times, settings.mode == "inverse", progress)
     if not done.states:
-        remedy = "choose another start or other independent coordinates"
+        remedy = "choose another start, other independent coordinates, or give masses"
         raise SpecificationError([Mistake("t = 0", done.failure, remedy)])
     return done
 

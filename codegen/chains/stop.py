@@ -8,6 +8,7 @@ from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.path import PathEnd
 from codegen.chains.position import Position
+from codegen.chains.reduced import NoInertia
 
 _SHARE = 0.1
 """A coordinate takes part in a direction of length 1 where its share is larger."""
@@ -31,6 +32,14 @@ def free_words(mechanism: Mechanism, loss: RankLoss) -> str:
         f"rank {loss.rank} of {loss.wanted} dependent coordinates (smallest singular value {loss.least:.1e} of the "
         f"largest); free to move besides: {', '.join(free)}"
     )
+
+
+def inertia_words(mechanism: Mechanism, lack: NoInertia) -> str:
+    """Tell which independent coordinates move no mass."""
+    names = [mechanism.chain.links[k].name for k in mechanism.part.v]
+    shares = np.abs(lack.free) / np.max(np.abs(lack.free))
+    free = [name for name, share in zip(names, shares, strict=True) if share > _SHARE]
+    return f"no mass resists the acceleration of {', '.join(free)}"
 
 
 def path_words(mechanism: Mechanism, end: PathEnd) -> str:

@@ -22,6 +22,9 @@ from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Drive, Joi
 
 Array = NDArray[np.float64]
 
+_STILL = 1e-9
+"""rad or m."""
+
 _TYPES = {"revolute": "revolute", "prismatic": "translational"}
 
 
@@ -119,8 +122,13 @@ def as_trajectory(mechanism: Mechanism, record: Record, has_bodies: bool) -> Tra
         tuple(_name(link.name) for link in links),
         record.t,
         *(r, q, none, none, none, none),
-        alpha={name: record.q[:, k, None] for k, name in enumerate(names)},
+        alpha={name: _settled(record.q[:, k])[:, None] for k, name in enumerate(names)},
         alphadot={name: record.qd[:, k, None] for k, name in enumerate(names)},
         effort={name: tau[:, k, None] for k, name in enumerate(names) if np.any(tau[:, k])},
         reaction={},
     )
+
+
+def _settled(values: Array) -> Array:
+    """A coordinate that moves by rounding only does not move."""
+    return np.full_like(values, values[0]) if np.ptp(values) < _STILL else values

@@ -194,3 +194,18 @@ def test_far_outputs_are_reached_on_the_same_branch_as_near_ones() -> None:
     far = prescribed_run(ready, np.array([0.0, 0.7]), is_inverse=False)
     near = prescribed_run(ready, np.linspace(0.0, 0.7, 29), is_inverse=False)
     assert far.states[-1].q == pytest.approx(near.states[-1].q, abs=1e-10)
+
+
+def test_a_mechanism_far_from_the_base_runs_to_the_rounding_of_its_distance() -> None:
+    """1 km away; the crank's axis and the guide are moved together."""
+    chain = spatial_slider_crank()
+    away = F(1000)
+    crank = replace(chain.links[0], row=replace(chain.links[0].row, a=chain.links[0].row.a + away))
+    cut = chain.cuts[0]
+    base = replace(cut.base, row=replace(cut.base.row, a=cut.base.row.a + away))
+    far = replace(chain, links=(crank, *chain.links[1:]), cuts=(replace(cut, base=base),))
+    run = prescribed_run(by_table(far), ABOUT, is_inverse=False)
+    reference = spatial.spatial_slider_crank(F("0.27"))
+    assert not run.failure
+    for state in run.states:
+        assert abs(state.q[X] - reference.output("x", state.q[0] + float(RIGHT), 1.0)[0]) < 1e-11

@@ -100,3 +100,66 @@ def test_all_mistakes_of_a_file_are_told_at_once_and_nothing_is_written(tmp_path
     assert len(lines) == 2
     assert any('did you mean "crank"' in line for line in lines)
     assert not (tmp_path / "out").exists()
+
+
+OPEN = {
+    "a cut that is open": (
+        "theta = 3.3933280489079812288",
+        "theta = 3.4",
+        ["is open by 0.0125579 m and 0.382274 degrees"],
+    ),
+    "a row that nothing moves": ('alpha = "pi/2" }', 'alpha = "pi/2", c = 0.001 }', ["no coordinate moves it"]),
+    "a row that is turned over": ('{ link = "slide" }', '{ link = "slide", alpha = "pi" }', ["turn about x is open"]),
+    "too many coordinates": ("[[force]]", '[[independent]]\njoint = "block"\n[[force]]', ["the cuts leave 1 free"]),
+}
+
+
+@pytest.mark.parametrize("case", OPEN)
+def test_a_chain_that_cannot_stand_as_its_file_says_is_refused(case, tmp_path):
+    old, new, words = OPEN[case]
+    text = (EXAMPLES / "quick_return.toml").read_text()
+    assert old in text
+    (tmp_path / "wrong.toml").write_text(text.replace(old, new, 1))
+    lines = refused(invoke("chain", tmp_path / "wrong.toml", "-o", tmp_path / "out"))
+    assert all(any(word in line for line in lines) for word in words)
+    assert not (tmp_path / "out").exists()
+
+
+def test_coordinates_that_do_not_determine_the_others_are_refused(tmp_path):
+    """In the outer dead centre of a slider-crank the slider does not move: it cannot lead."""
+    (tmp_path / "dead.toml").write_text(DEAD_CENTRE)
+    (line,) = refused(invoke("chain", tmp_path / "dead.toml", "-o", tmp_path / "out"))
+    assert "singular" in line
+    assert "crank" in line
+
+
+DEAD_CENTRE = """
+name = "slider_crank"
+[[link]]
+name = "crank"
+parent = "base"
+type = "revolute"
+[[link]]
+name = "rod"
+parent = "crank"
+type = "revolute"
+a = 0.1
+[[link]]
+name = "slider"
+parent = "rod"
+type = "revolute"
+a = 0.3
+[[link]]
+name = "slide"
+parent = "slider"
+type = "prismatic"
+psi = "-pi/2"
+alpha = "pi/2"
+d = 0.4
+[[cut]]
+name = "slide"
+base = { link = "base", psi = "-pi/2", alpha = "pi/2" }
+far = { link = "slide" }
+[[independent]]
+joint = "slide"
+"""

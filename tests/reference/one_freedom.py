@@ -68,7 +68,8 @@ def about_z(moment: Any) -> sympy.Matrix:
 
 def values(*expressions: Any) -> Callable[[Any], Any]:
     """Numbers of expressions in q, sub-expressions shared."""
-    return sympy.lambdify(q, list(expressions), modules="numpy", cse=True)
+    found: Callable[[Any], Any] = sympy.lambdify(q, list(expressions), modules="numpy", cse=True)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ class OneFreedom:
         found = np.zeros(4)
         for body in self.bodies.values():
             m, dm, r, dr = body.terms(float(at))
-            found += [m, dm, -float(body.mass) * (r @ g), -float(body.mass) * (dr @ g)]
+            found += np.array([m, dm, -float(body.mass * (r @ g)), -float(body.mass * (dr @ g))])
         return tuple(map(float, found))  # type: ignore[return-value]
 
     @cached_property

@@ -73,6 +73,6 @@ def cutting_work(first: float, last: np.ndarray) -> np.ndarray:
         """From ``begins`` on: the stroke's whole work each turn, and what of it is done in this one."""
         turns, within = np.divmod(np.asarray(angle) - begins, 2 * np.pi)
         within = np.minimum(within, ends - begins)
-        return -CUT * (turns * (place(begins) - place(ends)) + place(begins) - place(begins + within))
+        return np.asarray(-CUT * (turns * (place(begins) - place(ends)) + place(begins) - place(begins + within)))
 
-    return since_zero(last) - since_zero(np.asarray(first))
+    return np.asarray(since_zero(last) - since_zero(np.asarray(first)))

@@ -135,9 +135,10 @@ class Stages:
     def _product(self, expression: Any) -> int:
         if expression.could_extract_minus_sign():
             return self._builder.emit(Op.NEGATE, self._value(-expression))
-        numerator, denominator = expression.as_numer_denom()
-        if denominator != 1 and not denominator.is_Rational:
-            return self._builder.emit(Op.DIVIDE, self._value(numerator), self._value(denominator))
+        if any(factor.is_Pow for factor in expression.args):
+            numerator, denominator = expression.as_numer_denom()
+            if denominator != 1 and not denominator.is_Rational:
+                return self._builder.emit(Op.DIVIDE, self._value(numerator), self._value(denominator))
         return self._multiplied([self._value(factor) for factor in expression.args])
 
     def _multiplied(self, factors: Sequence[int]) -> int:
@@ -160,4 +161,4 @@ class Stages:
 
 
 def _is_plain(entry: Any) -> bool:
-    return bool(entry.is_Symbol or entry.is_number or (-entry).is_Symbol)
+    return bool(entry.is_Symbol or entry.is_number or (entry.is_Mul and (-entry).is_Symbol))

@@ -13,7 +13,7 @@ import sympy
 
 from codegen.mechanics.chain.geometry import Geometry, combined
 from codegen.mechanics.chain.tree import Node
-from codegen.mechanics.chain.vectors import ZERO, Rows, Vector, added, cross, rows, scaled, times
+from codegen.mechanics.chain.vectors import ZERO, Rows, Vector, added, cross, is_zero, rows, scaled, times
 
 
 class Bias:
@@ -43,7 +43,7 @@ class Bias:
         self._rates: dict[tuple[tuple[int, int], ...], Any] = {(): sympy.S.Zero}
         self._spins: dict[int, Vector] = {}
         self._matrices: dict[int, Rows] = {}
-        self._carried: dict[tuple[int, int], Vector] = {}
+        self._carried: dict[tuple[int, Vector], Vector] = {}
 
     def w(self, number: int) -> Vector:
         """Angular velocity of a link."""
@@ -78,43 +78,54 @@ class Bias:
         axes = [k for k in range(3) if point[k] != 0]
         if len(axes) == 1:
             return scaled(point[axes[0]], self.of_axis(number, axes[0]))
-        return times(self.matrix(number), combined(self._geometry.axes(number), point))
+        vector = combined(self._geometry.axes(number), point)
+        return self._of_vector(self._owner(number), f"p{len(self._carried)}", vector)
 
     def of_axis(self, number: int, k: int) -> Vector:
         """``A`` times axis k of a link."""
-        if (number, k) not in self._carried:
-            value = times(self.matrix(number), self._geometry.axes(number)[k])
-            self._carried[number, k] = self._named(f"A{'xyz'[k]}", number, value, f"A times axis {'xyz'[k]}")
-        return self._carried[number, k]
+        return self._of_vector(self._carrier(number, k), f"{'xyz'[k]}{number + 1}", self._geometry.axes(number)[k])
 
-    def matrix(self, number: int) -> Rows:
-        """A of a link."""
-        node = self._geometry.tree.nodes[number] if number != self._geometry.root else None
-        if node is not None and node.type != "revolute":
-            return self.matrix(node.parent)
-        if number not in self._matrices:
-            self._matrices[number] = self._matrix(number)
-        return self._matrices[number]
+    def _carrier(self, number: int, k: int) -> int:
+        """The first link on which an axis is fixed: the axis of parallel joints is fixed on the link before them."""
+        turned = self._geometry.turned(number)
+        column = [row[k] for row in turned.Q]
+        return self._owner(turned.base if turned.joints and is_zero(column[:2]) else number)
+
+    def _owner(self, number: int) -> int:
+        """The link with which a frame turns."""
+        while number != self._geometry.root and self._geometry.tree.nodes[number].type != "revolute":
+            number = self._geometry.tree.nodes[number].parent
+        return number
+
+    def _of_vector(self, number: int, name: str, vector: Vector) -> Vector:
+        """``A`` of a link times a vector fixed on it."""
+        if (number, vector) not in self._carried:
+            value = times(self._matrix(number), vector)
+            self._carried[number, vector] = self._named(f"A{name}", number, value, "acceleration by a fixed vector")
+        return self._carried[number, vector]
 
     def _matrix(self, number: int) -> Rows:
-        (x, y, z), (ex, ey, ez) = self.w(number), self.e(number)
-        named = self._named
-        xx, yy, zz = named("ww", number, (x * x, y * y, z * z), "squares of the angular velocity")
-        yz, zx, xy = named("wv", number, (y * z, z * x, x * y), "products of the angular velocity")
-        words = "acceleration of points fixed on the link, row"
-        return rows(
-            named(f"A{k}", number, row, f"{words} {k}")
-            for k, row in enumerate(
-                [(-(yy + zz), xy - ez, zx + ey), (xy + ez, -(xx + zz), yz - ex), (zx - ey, yz + ex, -(xx + yy))], 1
+        """A of a link."""
+        if number not in self._matrices:
+            (x, y, z), (ex, ey, ez) = self.w(number), self.e(number)
+            named = self._named
+            xx, yy, zz = named("ww", number, (x * x, y * y, z * z), "squares of the angular velocity")
+            yz, zx, xy = named("wv", number, (y * z, z * x, x * y), "products of the angular velocity")
+            words = "acceleration of points fixed on the link, row"
+            values = (-(yy + zz), xy - ez, zx + ey), (xy + ez, -(xx + zz), yz - ex), (zx - ey, yz + ex, -(xx + yy))
+            self._matrices[number] = rows(
+                named(f"A{k}", number, row, f"{words} {k}") for k, row in enumerate(values, 1)
             )
-        )
+        return self._matrices[number]
 
     def _of_offset(self, node: Node) -> Vector:
         if node.type != "prismatic":
             return self.of_fixed(node.parent, node.arm)
-        along = cross(self.w(node.parent), self._geometry.z(node.number))
+        along = cross(self.w(self._carrier(node.number, 2)), self._geometry.z(node.number))
         twice = self._named("k", node.number, scaled(2 * self._qd[node.number], along), "Coriolis acceleration")
-        return added(times(self.matrix(node.parent), self._geometry.offset(node.number)), twice)
+        carrier = self._carrier(node.number, 2) if is_zero(node.arm) else self._owner(node.parent)
+        offset = self._geometry.offset(node.number)
+        return added(self._of_vector(carrier, f"l{node.number + 1}", offset), twice)
 
     def _spin(self, number: int) -> Vector:
         """Angular velocity of a link relative to the one before its parallel joints."""

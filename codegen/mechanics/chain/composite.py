@@ -185,11 +185,12 @@ class Composite:
     def _own_inertia(self, k: int) -> Rows:
         """``zz I`` and dyads of the axes of a link."""
         x, y, z = self._geometry.axes(k)
-        (xx, xy, xz), (_, _, yz), (_, _, zz) = self._own[k].I
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = self._own[k].I
         named = self._geometry.named
         if not any((xy, xz, yz)):
-            by_x = named("i", k, scaled(xx - zz, x), "inertia by x")
-            return rows(((zz if i == j else 0) + x[i] * by_x[j] for j in range(3)) for i in range(3))
+            axis, excess = (x, xx - zz) if xx != zz else (y, yy - zz)
+            by_axis = named("i", k, scaled(excess, axis), "inertia by an axis")
+            return rows(((zz if i == j else 0) + axis[i] * by_axis[j] for j in range(3)) for i in range(3))
         by_x = named("i", k, combined((x, y, z), ((xx - zz) / 2, xy, xz)), "inertia by x")
         by_y = named("j", k, scaled(yz, z), "inertia by y")
         return rows(
@@ -258,19 +259,20 @@ class Composite:
 
     def _euler(self, k: int, own: Inertia) -> Vector:
         """``I e + w x I w`` of a link."""
-        (xx, xy, xz), (_, _, yz), (_, _, zz) = own.I
-        if not any((xx, xy, xz, yz, zz)):
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = own.I
+        if not any((xx, xy, xz, yy, yz, zz)):
             return ZERO
         if any((xy, xz, yz)):
             inertia = self._symmetric("J", k, self._own_inertia(k), "inertia of the link")
             w = self._bias.w(k)
             momentum = self._geometry.named("L", k, times(inertia, w), "angular momentum")
             return added(times(inertia, self._bias.e(k)), cross(w, momentum))
-        turning = scaled(xx, self._bias.e(k))
-        if xx == zz:
+        number, excess = (0, xx - zz) if xx != zz else (1, yy - zz)
+        turning = scaled(zz + excess, self._bias.e(k))
+        if excess == 0:
             return turning
-        x = self._geometry.axes(k)[0]
-        return added(turning, scaled(zz - xx, cross(x, self._bias.of_axis(k, 0))))
+        axis = self._geometry.axes(k)[number]
+        return added(turning, scaled(-excess, cross(axis, self._bias.of_axis(k, number))))
 
 
 def _all(matrix: Rows) -> Sequence[Any]:

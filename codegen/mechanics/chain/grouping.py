@@ -93,19 +93,22 @@ def regrouped(tree: Tree) -> list[Inertia]:
 
 
 def _parted(tree: Tree, node: Node, whole: Inertia) -> tuple[Inertia, Inertia]:
-    """What stays on a link, and what goes to its parent, in the parent's axes."""
+    """What stays on a link, and what goes to its parent, in the parent's axes.
+
+    Y is chosen so that ``zz I`` and a dyad of one axis stay, of that along which the mass centre lies where it can be.
+    """
     if node.type == "prismatic":
         arm_free = Inertia(I=whole.I).moved(node.fixed_turn, (0, 0, 0))
         return Inertia(whole.m, whole.S), arm_free
-    xx, yy, zz = (whole.I[k][k] for k in range(3))
-    Y = yy - zz
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = whole.I
+    is_along_y = not any((xy, xz, yz)) and whole.S[0] == 0 and whole.S[1] != 0
+    Y = xx - zz if is_along_y else yy - zz
     symmetric = Inertia(whole.m, (0, 0, whole.S[2]), rows([(Y, 0, 0), (0, Y, 0), (0, 0, 0)]))
     moved = symmetric.moved(node.turn, node.arm)
     S = (whole.S[0], whole.S[1], sympy.S.Zero)
     if _turns_about_one_direction(tree, node):
         return Inertia(S=S, I=rows([(zz, 0, 0), (0, zz, 0), (0, 0, zz)])), moved
-    (_, xy, xz), (_, _, yz), _ = whole.I
-    return Inertia(S=S, I=rows([(xx - Y, xy, xz), (xy, zz, yz), (xz, yz, zz)])), moved
+    return Inertia(S=S, I=rows([(xx - Y, xy, xz), (xy, yy - Y, yz), (xz, yz, zz)])), moved
 
 
 def _turns_about_one_direction(tree: Tree, node: Node) -> bool:

@@ -1,0 +1,1 @@
+"""The routines of a chain beside a recursion that reads the chain from a table."""

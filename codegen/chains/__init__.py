@@ -1,0 +1,1 @@
+"""Chains: routines of one chain, and runs of it (S2)."""

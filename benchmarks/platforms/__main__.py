@@ -75,8 +75,8 @@ def report(times: dict[str, float]) -> str:
         "# Velocity indices: time a pose",
         "",
         f"D and C of all four blocks of the octahedral example on one core, {compiler_version()}, "
-        "`-O3 -march=native -ffp-contract=off -fno-math-errno`; the fastest of interleaved rounds. Bringing the poses into "
-        "the layout of a candidate counts.",
+        "`-O3 -march=native -ffp-contract=off -fno-math-errno`; the fastest of interleaved rounds. Bringing the poses "
+        "into the layout of a candidate counts.",
         "",
         "| candidate | ns a pose | of numpy's batch |",
         "|---|---|---|",

@@ -33,13 +33,15 @@ generate: $(STAMP) ## regenerate generated/
 flops: $(STAMP) ## print the comparison of operation counts
 	$(BIN)/jointgen flops
 
-schema: $(STAMP) ## write the JSON schemas of scene and chain files anew
+schema: $(STAMP) ## write the JSON schemas of scene, chain and platform files anew
 	$(BIN)/python -c 'from codegen.spec.scene_file.schema import schema_text; print(schema_text(), end="")' \
 		> codegen/spec/scene.schema.json
 	$(BIN)/python -c 'from codegen.spec.chain_file import schema_text; print(schema_text(), end="")' \
 		> codegen/spec/chain.schema.json
+	$(BIN)/python -c 'from codegen.spec.platform_file.schema import schema_text; print(schema_text(), end="")' \
+		> codegen/spec/platform.schema.json
 
-check: lint types imports test current ## run every check, stop at the first that fails
+check: lint types imports test ## run every check, stop at the first that fails
 
 lint: $(STAMP) ## ruff: rules and format
 	$(BIN)/ruff check .

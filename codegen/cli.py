@@ -89,7 +89,9 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
+@click.option(
+    "--form", help="Of all joints that may have it: auto, conventional or parametric; or relative: as a chain."
+)
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
 @click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto, always or never.")
@@ -102,6 +104,9 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     from codegen.scenes.generate import check_options, generate_scene, steps
 
     check_options(form, real, loops)
+    if form == "relative":
+        _generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
+        return
     if measure:
         compiler()
     output.check_target(target)
@@ -134,16 +139,40 @@ def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None
         _run_chain(file, target, animation, {"mode": mode, **options})
 
 
+def _generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
+    """The routines of a scene by relative coordinates."""
+    from codegen import output, scenes
+    from codegen.chains.relative import relative
+
+    mistakes = [
+        Mistake(name, "is not there in relative coordinates", "leave it out") for name, on in given.items() if on
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    output.check_target(target)
+    read, left_out = scenes.read(file, copies)
+    found = relative(read)
+    for line in (*left_out, *found.notes):
+        click.echo(line, err=True)
+    _write_chain(found.chain, real, target)
+
+
 def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
-    from codegen.chains.generate import generate_chain, steps
     from codegen.chains.read import read
-    from codegen.chains.stand import check_start
     from codegen.scenes.generate import check_options
 
     check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
+    _write_chain(described, real, target)
+
+
+def _write_chain(described: Any, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.stand import check_start
+
     check_start(described)
     with _progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
@@ -223,6 +252,41 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     _told(file, target, result)
+
+
+@jointgen.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--variant", help="robust, balanced, fast, values, smooth or literal; as the file says if left out.")
+@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("--poses", type=click.Path(path_type=Path), help="Evaluate at the poses of a CSV or npy file.")
+@click.option("--grid", help="Evaluate on a grid: x=-0.3:0.3:61,yaw=-20deg:20deg:41 (x y z in m, roll pitch yaw).")
+@click.option("--format", "kind", default="csv", show_default=True, help="Of the results: csv or npz.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def platform(
+    file: Path, variant: str | None, real: str, poses: Path | None, grid: str | None, kind: str, target: Path
+) -> None:
+    """Emit velocity indices of a six-legged platform (a TOML file); evaluate them at many poses."""
+    from codegen import output
+    from codegen.platforms.generate import generate_platform, steps, with_options
+    from codegen.platforms.run import chosen_poses, evaluated
+    from codegen.report.platform_report import platform_report
+    from codegen.scenes.read import text_of
+    from codegen.spec.platform_file import read_platform
+
+    output.check_target(target)
+    read = with_options(read_platform(text_of(file), str(file)), variant, real)
+    where = chosen_poses(read, poses, grid, kind)
+    with _progress(steps(read), "generating") as advance:
+        files = generate_platform(read, real, advance)
+    if where is not None:
+        with _progress(where.pieces, "evaluating") as advance:
+            table = evaluated(where, advance)
+        files |= table.files | platform_report(read, table)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+    if where is not None:
+        click.echo(table.words)
 
 
 def _flop_files() -> dict[str, bytes]:

@@ -21,6 +21,8 @@ _KIND: dict[Op, str] = {
     Op.COS: "cos",
     Op.ATAN2: "atan2",
     Op.NEGATE: "neg",
+    Op.ABS: "abs",
+    Op.SELECT: "select",
 }
 
 

@@ -23,6 +23,8 @@ _MATHEMATICAL = {
     "jg_cos": "cos",
     "jg_sincos": "sincos",
     "jg_atan2": "atan2",
+    "jg_abs": "abs",
+    "jg_select": "select",
 }
 _BINARY = {"+": "add", "-": "add", "*": "mul", "/": "div"}
 

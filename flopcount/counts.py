@@ -1,15 +1,19 @@
 """`Counts`: how many operations of each kind.
 
 The definition of a count: every addition, subtraction, multiplication, division, square root, sine-cosine pair,
-single sine or cosine and arc tangent is one operation. A fused multiply-add is one multiplication and one addition, two
-operations in the paper's sense, so that contracting a program leaves its total as it is; it is listed apart, and
-`Counts.roundings` takes it once. A change of sign is free and listed; loads, stores and constants are free.
+single sine or cosine, arc tangent, and choice by a comparison is one operation. A fused multiply-add is one
+multiplication and one addition, two operations in the paper's sense, so that contracting a program leaves its total as
+it is; it is listed apart, and `Counts.roundings` takes it once. A change of sign and an absolute value are free and
+listed; loads, stores and constants are free.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+
+_RARE = ("select", "abs")
+"""Kinds that the routines of joints have none of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +31,8 @@ class Counts:
         cos: single cosines.
         atan2: arc tangents.
         neg: changes of sign; free.
+        select: one of two values by a comparison of two others.
+        abs: absolute values; free.
     """
 
     add: int = 0
@@ -39,11 +45,13 @@ class Counts:
     cos: int = 0
     atan2: int = 0
     neg: int = 0
+    select: int = 0
+    abs: int = 0
 
     @property
     def total(self) -> int:
         """All operations; changes of sign are not counted."""
-        return self.arithmetic + self.sqrt + self.sincos + self.sin + self.cos + self.atan2
+        return self.arithmetic + self.sqrt + self.sincos + self.sin + self.cos + self.atan2 + self.select
 
     @property
     def arithmetic(self) -> int:
@@ -63,8 +71,9 @@ class Counts:
         return Counts(*(getattr(self, kind.name) * number for kind in fields(self)))
 
     def as_dict(self) -> dict[str, int]:
-        """Kind -> number, with the total."""
-        return {kind.name: getattr(self, kind.name) for kind in fields(self)} | {"total": self.total}
+        """Kind -> number, with the total; choices and absolute values only where there are any."""
+        kinds = {kind.name: getattr(self, kind.name) for kind in fields(self)}
+        return {kind: n for kind, n in kinds.items() if n or kind not in _RARE} | {"total": self.total}
 
     @staticmethod
     def of(kinds: Mapping[str, int]) -> Counts:

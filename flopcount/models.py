@@ -58,7 +58,7 @@ class Model:
 
 
 _ARITHMETIC = {"add": 1.0, "mul": 1.0, "div": 1.0, "fma": 2.0}
-_FUNCTIONS = {"sqrt": 1.0, "sincos": 1.0, "sin": 1.0, "cos": 1.0, "atan2": 1.0}
+_FUNCTIONS = {"sqrt": 1.0, "sincos": 1.0, "sin": 1.0, "cos": 1.0, "atan2": 1.0, "select": 1.0}
 
 PAPER = Model("paper", "every operation 1", _ARITHMETIC | _FUNCTIONS)
 MULTIPLY = Model("multiply", "multiplications and divisions only", {"mul": 1.0, "div": 1.0, "fma": 1.0})

@@ -1,4 +1,4 @@
-"""Emit the batch routines: the program of a routine over vectors, one lane a joint.
+"""Emit the batch routines: the program of a routine over vectors, one lane a joint, or a pose.
 
 One kernel a routine, with a stride between the entries of an array, serves both layouts: groups (AoSoA), where the
 stride is the number of lanes, and whole arrays (SoA), where it is the leading dimension.
@@ -65,16 +65,17 @@ class BatchRoutine:
     text: str
 
 
-def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int) -> BatchRoutine:
+def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int, thing: str = "joint") -> BatchRoutine:
     """Emit a routine for groups of ``lanes`` joints, for many such groups, and for arrays of joints.
 
     Args:
         routine: of which the program is evaluated; matrices as nonzeros.
         declared: parameters of the routine for one joint.
         lanes: joints in a group.
+        thing: what there are many of.
     """
     symbol = f"{routine.symbol}_batch{lanes}"
-    functions = _entries(routine.symbol, symbol, declared, lanes)
+    functions = _entries(routine.symbol, symbol, declared, lanes, thing)
     statements = Statements(routine.straight, views(declared), VECTORS)
     is_empty = not any(output.values for output in routine.straight.outputs)
     unused = ["(void)stride;"] if is_empty else []
@@ -115,16 +116,18 @@ def batch_record(entry: BatchEntry, text: str, header: str, source: str, lanes: 
     }
 
 
-def _entries(scalar: str, symbol: str, declared: tuple[Parameter, ...], lanes: int) -> tuple[BatchEntry, ...]:
+def _entries(
+    scalar: str, symbol: str, declared: tuple[Parameter, ...], lanes: int, thing: str
+) -> tuple[BatchEntry, ...]:
     same = f"The arrays are those of {scalar}"
-    count = "@param[in] count number of joints"
-    ld = "@param[in] ld joints between two entries of one joint, at least count; a power of two is slow"
-    group = _comment(f"{scalar} for a group of {lanes} joints", f"{same}: entry k of joint l at [{lanes} * k + l].")
+    count = f"@param[in] count number of {thing}s"
+    ld = f"@param[in] ld {thing}s between two entries of one {thing}, at least count; a power of two is slow"
+    group = _comment(f"{scalar} for a group of {lanes} {thing}s", f"{same}: entry k of {thing} l at [{lanes} * k + l].")
     filling = "All of the last group is read and written, also where it is not full."
     loop = _comment(
-        f"{scalar} for groups of {lanes} joints", f"{same}, group after group as {symbol} has them. {filling}", count
+        f"{scalar} for groups of {lanes} {thing}s", f"{same}, group after group as {symbol} has them. {filling}", count
     )
-    arrays = _comment(f"{scalar} for arrays of joints", f"{same}: entry k of joint j at [k * ld + j].", count, ld)
+    arrays = _comment(f"{scalar} for arrays of {thing}s", f"{same}: entry k of {thing} j at [k * ld + j].", count, ld)
     return (
         BatchEntry(symbol, scalar, GROUPS, (), declared, group),
         BatchEntry(f"{symbol}_loop", scalar, GROUPS, ("count",), declared, loop),

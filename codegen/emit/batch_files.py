@@ -55,6 +55,7 @@ def batch_unit(
         specification=specification,
         header=f"jointgen/{variant.joint}_batch{lanes}.h",
         lanes=lanes,
+        vectors="jointgen/jg_batch.h",
         functions=[routine.text for routine in emitted],
     )
     return BatchUnit(variant, lanes, source, emitted)
@@ -62,16 +63,27 @@ def batch_unit(
 
 def batch_headers(units: Sequence[BatchUnit], lanes: int, banner: str, specification: str) -> Mapping[str, str]:
     """Headers of the joints, and those with the vectors and their functions: path -> text."""
-    constants = {real: trigonometry.definitions(real) for real in trigonometry.CONSTANTS}
-    files = {
-        "jg_own": render("c/jg_own.h.j2", banner=banner),
-        "jg_batch": render("c/jg_batch.h.j2", banner=banner, batch=lanes),
-        "jg_trigonometry": render("c/jg_trigonometry.h.j2", banner=banner, constants=constants),
-    }
+    files = vector_headers(lanes, banner)
     for header in dict.fromkeys(unit.header for unit in units):
         same = [unit for unit in units if unit.header == header]
         files[header] = _header(header, same, lanes, banner, specification)
     return {f"c/include/jointgen/{name}.h": text for name, text in files.items()}
+
+
+def vector_headers(lanes: int, banner: str, choices: bool = False) -> dict[str, str]:
+    """The headers with the vectors and their functions, by name without ending.
+
+    Args:
+        lanes: numbers in a vector.
+        banner: first line of each.
+        choices: whether absolute values and choices are among the functions, and arrays of any strides.
+    """
+    constants = {real: trigonometry.definitions(real) for real in trigonometry.CONSTANTS}
+    return {
+        "jg_own": render("c/jg_own.h.j2", banner=banner),
+        "jg_batch": render("c/jg_batch.h.j2", banner=banner, batch=lanes, choices=choices),
+        "jg_trigonometry": render("c/jg_trigonometry.h.j2", banner=banner, constants=constants),
+    }
 
 
 def _header(header: str, units: Sequence[BatchUnit], lanes: int, banner: str, specification: str) -> str:

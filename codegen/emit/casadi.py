@@ -19,7 +19,11 @@ from codegen.passes.flatten import Piece, flatten
 
 def sx_domain() -> Domain:
     """CasADi's scalar expressions."""
-    return Domain("casadi.SX", _constant, casadi.sqrt, casadi.sin, casadi.cos, casadi.atan2)
+    return Domain("casadi.SX", _constant, casadi.sqrt, casadi.sin, casadi.cos, casadi.atan2, select=_select)
+
+
+def _select(a: Any, b: Any, x: Any, y: Any) -> Any:
+    return casadi.if_else(a < b, x, y)
 
 
 def _constant(constant: Constant) -> Any:

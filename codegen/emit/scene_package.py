@@ -1,4 +1,4 @@
-"""The routines of a scene or chain as files: header, source, CasADi functions, manifest, a README and an example.
+"""The routines of a scene, chain or platform as files: header, source, CasADi, manifest, a README and an example.
 
 Input: the routines. Output: path -> bytes; nothing is written here.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
@@ -26,7 +26,7 @@ _WIDTH = 108
 
 @dataclass(frozen=True, slots=True)
 class ScenePackage:
-    """Everything that goes into the files of a scene or chain.
+    """Everything that goes into the files of a scene, chain or platform.
 
     Attributes:
         name: of the scene or chain.
@@ -38,7 +38,11 @@ class ScenePackage:
         casadi: output -> serialised CasADi function.
         start: argument -> its entries at t = 0, for the example.
         readme: text of the README.
-        kind: ``scene`` or ``chain``.
+        kind: ``scene``, ``chain`` or ``platform``.
+        situation: what the example is about.
+        more: further files: path -> text.
+        batch: what the manifest says of batch routines.
+        choices: whether routines choose between values.
     """
 
     name: str
@@ -51,6 +55,10 @@ class ScenePackage:
     start: Mapping[str, Sequence[Constant]]
     readme: str
     kind: str = "scene"
+    situation: str = "as it stands at t = 0"
+    more: Mapping[str, str] = field(default_factory=dict)
+    batch: dict[str, Any] | None = None
+    choices: bool = False
 
 
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
@@ -60,11 +68,11 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
     files = {
         f"{package.name}.h": _header(package, emitted, list(patterns)),
         f"{package.name}.c": _source(package, emitted, list(patterns.values())),
-        "jg_real.h": render("c/jg_real.h.j2", banner=banner(package.version), real=package.real, fma=False, batch=None),
+        "jg_real.h": real_header(package.version, package.real, package.choices, package.batch is not None),
         f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
         "README.md": package.readme,
         "manifest.json": _manifest(package, emitted),
-    }
+    } | dict(package.more)
     if package.real == "double" and any(has_external(routine) for routine in package.routines):
         files["casadi/external.c"] = external_source(
             package.routines,
@@ -76,6 +84,20 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
         )
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{output}.casadi": data for output, data in package.casadi.items()}
+
+
+def real_header(version: str, real: str, choices: bool, has_batch: bool = False) -> str:
+    """Text of ``jg_real.h`` for one mechanism.
+
+    Args:
+        version: of jointgen.
+        real: default number type.
+        choices: whether it has absolute values and choices.
+        has_batch: whether ``jg_own.h`` lies beside it.
+    """
+    return render(
+        "c/jg_real.h.j2", banner=banner(version), real=real, fma=False, batch=has_batch or None, choices=choices
+    )
 
 
 def _patterns(package: ScenePackage) -> dict[str, str]:
@@ -132,8 +154,9 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             name = external_name(subject.stem, output)
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
+    whole = {package.kind: package.record}
     return manifest(
-        package.version, package.real, package.specification, records, casadi, whole={package.kind: package.record}
+        package.version, package.real, package.specification, records, casadi, batch=package.batch, whole=whole
     )
 
 
@@ -154,7 +177,7 @@ def _example(package: ScenePackage, entry: Entry) -> str:
         banner=banner(package.version),
         specification=package.specification,
         name=package.name,
-        kind=package.kind,
+        whole=f"{package.kind} {package.name} {package.situation}",
         has_matrix=any(output["pattern"] for output in outputs),
         has_vector=not all(output["pattern"] for output in outputs),
         arrays=arrays,

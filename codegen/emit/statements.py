@@ -22,6 +22,8 @@ _CALL: dict[Op, str] = {
     Op.SIN: "jg_sin",
     Op.COS: "jg_cos",
     Op.ATAN2: "jg_atan2",
+    Op.ABS: "jg_abs",
+    Op.SELECT: "jg_select",
 }
 _PRECEDENCE: dict[Op, int] = {Op.ADD: 1, Op.SUBTRACT: 1, Op.MULTIPLY: 2, Op.DIVIDE: 2, Op.NEGATE: 3}
 _ATOM = 4

@@ -26,6 +26,10 @@ def _product_and_sum(a: Number, b: Number, c: Number) -> Number:
     return a * b + c
 
 
+def _chosen(a: Number, b: Number, x: Number, y: Number) -> Number:
+    return x if a < b else y
+
+
 @dataclass(frozen=True, slots=True)
 class Domain:
     """A number type.
@@ -38,6 +42,7 @@ class Domain:
         cos: cosine.
         atan2: angle of (y, x).
         fma: ``a b + c``, rounded once where the type rounds; the plain operators in an exact or enclosing type.
+        select: ``x`` where ``a < b``, ``y`` elsewhere, of (a, b, x, y).
     """
 
     name: str
@@ -47,6 +52,7 @@ class Domain:
     cos: Callable[[Number], Number]
     atan2: Callable[[Number, Number], Number]
     fma: Callable[[Number, Number, Number], Number] = _product_and_sum
+    select: Callable[[Number, Number, Number, Number], Number] = _chosen
 
 
 def _fraction_constant(constant: Constant) -> Fraction:
@@ -73,8 +79,11 @@ def numpy_domain() -> Domain:
     """Numpy arrays, elementwise: many poses at once."""
     import numpy
 
+    def select(a: Number, b: Number, x: Number, y: Number) -> Number:
+        return numpy.where(a < b, x, y)
+
     functions = (numpy.sqrt, numpy.sin, numpy.cos, numpy.arctan2)
-    return Domain("numpy", nearest_double, *functions, fused_multiply_add_arrays)
+    return Domain("numpy", nearest_double, *functions, fused_multiply_add_arrays, select)
 
 
 def arb_domain() -> Domain:
@@ -85,6 +94,11 @@ def arb_domain() -> Domain:
         rational = flint.arb(value.rational.numerator) / value.rational.denominator
         return rational * flint.arb.pi() ** value.pi_power if value.pi_power else rational
 
+    def select(a: Number, b: Number, x: Number, y: Number) -> Number:
+        if a < b:
+            return x
+        return y if a >= b else x.union(y)
+
     return Domain(
         "arb",
         constant,
@@ -92,6 +106,7 @@ def arb_domain() -> Domain:
         lambda x: x.sin(),
         lambda x: x.cos(),
         lambda y, x: flint.arb.atan2(y, x),
+        select=select,
     )
 
 
@@ -167,4 +182,8 @@ def _apply(op: Op, operands: list[Number], domain: Domain) -> Number:
             return operands[0][1]
         case Op.ATAN2:
             return domain.atan2(operands[0], operands[1])
+        case Op.ABS:
+            return abs(operands[0])
+        case Op.SELECT:
+            return domain.select(operands[0], operands[1], operands[2], operands[3])
     raise InternalError(f"no evaluation for {op}")

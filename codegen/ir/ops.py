@@ -2,7 +2,8 @@
 
 This is the one definition of an operation. ``SINCOS`` yields the pair of sine and cosine of one angle; ``SIN`` and
 ``COS`` of a pair are free projections of it (``SINE_OF``, ``COSINE_OF``). ``FMA`` is ``a b + c`` rounded once; its
-negated forms are changes of sign of its operands.
+negated forms are changes of sign of its operands. ``SELECT`` of ``a, b, x, y`` is ``x`` where ``a < b`` and ``y``
+elsewhere, also where ``a`` or ``b`` is no number: straight-line code without branches.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ class Op(Enum):
     SINE_OF = "sine_of"
     COSINE_OF = "cosine_of"
     ATAN2 = "atan2"
+    ABS = "abs"
+    SELECT = "select"
 
 
 ARITY: dict[Op, int] = {
@@ -51,6 +54,8 @@ ARITY: dict[Op, int] = {
     Op.SINE_OF: 1,
     Op.COSINE_OF: 1,
     Op.ATAN2: 2,
+    Op.ABS: 1,
+    Op.SELECT: 4,
 }
 
 COMMUTATIVE = frozenset({Op.ADD, Op.MULTIPLY, Op.FMA})

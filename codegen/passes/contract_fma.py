@@ -29,6 +29,8 @@ _LATENCY: dict[Op, int] = {
     Op.COS: 60,
     Op.SINCOS: 80,
     Op.ATAN2: 100,
+    Op.ABS: 1,
+    Op.SELECT: 5,
 }
 """Cycles until a result is ready, about, on processors of today; what is missing is there at once."""
 

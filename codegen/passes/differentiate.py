@@ -70,6 +70,8 @@ class _Differentiation:
         inner = [self._gradients[operand] for operand in instruction.operands]
         if instruction.op is Op.INPUT and instruction.source is not None:
             gradient = self._seed(self.builder, *instruction.source)
+        elif instruction.op is Op.SELECT:
+            gradient = self._chosen(inner, operands)
         else:
             gradient = self._combined(inner, self._partials(instruction.op, operands, place))
         self._places.append(place)
@@ -85,6 +87,15 @@ class _Differentiation:
                 term = derivative if partial is None else emit(Op.MULTIPLY, partial, derivative)
                 combined[source] = emit(Op.ADD, combined[source], term) if source in combined else term
         return combined
+
+    def _chosen(self, inner: list[Gradient], operands: tuple[int, ...]) -> Gradient:
+        """The derivative is chosen as the value is; what is not chosen may be no number."""
+        zero = self.builder.constant(0)
+        _, _, chosen, other = inner
+        return {
+            source: self.builder.emit(Op.SELECT, *operands[:2], chosen.get(source, zero), other.get(source, zero))
+            for source in (chosen | other)
+        }
 
     def _partials(self, op: Op, operands: tuple[int, ...], place: int) -> list[int | None]:
         """Partial derivative by each operand; None stands for one."""
@@ -105,6 +116,9 @@ class _Differentiation:
                 return [inverse, emit(Op.NEGATE, emit(Op.MULTIPLY, place, inverse))]
             case Op.FMA:
                 return [operands[1], operands[0], None]
+            case Op.ABS:
+                zero, one = builder.constant(0), builder.constant(1)
+                return [emit(Op.SELECT, operands[0], zero, builder.constant(-1), one)]
             case Op.SQRT:
                 return [emit(Op.DIVIDE, builder.constant(1), emit(Op.MULTIPLY, builder.constant(2), place))]
             case Op.SIN:

@@ -39,6 +39,10 @@ def _place(builder: Builder, instruction: Instruction) -> int:
                 return first
         case Op.FMA:
             return _fused(builder, instruction)
+        case Op.SELECT:
+            first, second, chosen, other = instruction.operands
+            if chosen == other or first == second:
+                return other
         case Op.NEGATE:
             return negated(builder, instruction.operands[0])
     return builder.append(instruction)

@@ -39,6 +39,10 @@ def _fold(op: Op, values: list[Constant]) -> Constant | None:
     if op is Op.FMA:
         product = Constant(first.rational * values[1].rational, first.pi_power + values[1].pi_power)
         return _fold(Op.ADD, [product, second])
+    if op is Op.ABS:
+        return Constant(abs(first.rational), first.pi_power)
+    if op is Op.SELECT and first.pi_power == values[1].pi_power == 0:
+        return values[2] if first.rational < values[1].rational else values[3]
     if op is Op.SIN and first.is_zero:
         return first
     if op is Op.COS and first.is_zero:

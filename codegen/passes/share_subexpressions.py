@@ -18,7 +18,7 @@ _Signed = tuple[int, int]
 """Sign and base position of a value."""
 
 _ODD = frozenset({Op.SIN, Op.SINE_OF})
-_EVEN = frozenset({Op.COS, Op.COSINE_OF})
+_EVEN = frozenset({Op.COS, Op.COSINE_OF, Op.ABS})
 
 
 def share_subexpressions(program: Program) -> Program:

@@ -128,7 +128,7 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     plane = in_plane(scene) if scene.motion == "planar" else None
     judged = judge(with_forms(plane.scene if plane else scene, settings.form))
     system = System(judged.assembly)
-    equations = dae(system, f"index{settings.index}", settings.left_out)
+    equations = dae(system, f"index{settings.index}", settings.left_out, choose=estimate)
     values = program(system, ("phi_q", "gamma", "force"), estimate)
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
     motion = _motion(system, values, inertia, judged.pose, _velocity(system))

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 import codegen
 from codegen.emit.environment import render
@@ -13,14 +15,18 @@ from codegen.emit.package import banner
 from codegen.errors import InternalError
 from codegen.measure.compile import compiler
 
-_FLAGS = ("-std=c99", "-O2", "-fPIC", "-shared")
+_FLAGS = ("-std=c99", "-O2")
 
 
-def library(source: str) -> ctypes.CDLL:
+def library(
+    source: str, headers: Mapping[str, str] = MappingProxyType({}), flags: Sequence[str] = _FLAGS
+) -> ctypes.CDLL:
     """Compile a source and load it.
 
     Args:
         source: C99 that may include ``jg_real.h``.
+        headers: further ones, and another ``jg_real.h``: name -> text.
+        flags: of the compiler; those of a shared library are added.
 
     Raises:
         SpecificationError: there is no C compiler.
@@ -29,9 +35,10 @@ def library(source: str) -> ctypes.CDLL:
         text, binary = Path(folder) / "source.c", Path(folder) / "source.so"
         text.write_text(source)
         header = render("c/jg_real.h.j2", banner=banner(codegen.__version__), real="double", fma=False, batch=None)
-        (Path(folder) / "jg_real.h").write_text(header)
-        command = [compiler(), *_FLAGS, str(text), "-o", str(binary), "-lm"]
+        for name, content in {"jg_real.h": header, **headers}.items():
+            (Path(folder) / name).write_text(content)
+        command = [compiler(), *flags, "-fPIC", "-shared", str(text), "-o", str(binary), "-lm"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            raise InternalError(f"the equations of motion do not compile: {done.stderr}")
+            raise InternalError(f"generated code does not compile: {done.stderr}")
         return ctypes.CDLL(str(binary))

@@ -57,7 +57,7 @@ def spawn(*arguments: str | Path, **variables: str) -> subprocess.Popen[str]:
     )
 
 
-def finish(process: subprocess.Popen[str], timeout: float = 120.0) -> tuple[int, str, str]:
+def finish(process: subprocess.Popen[str], timeout: float = 600.0) -> tuple[int, str, str]:
     """Wait for the command; give exit code, stdout and stderr."""
     out, err = process.communicate(timeout=timeout)
     return process.returncode, out, err

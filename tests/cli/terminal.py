@@ -43,7 +43,7 @@ class Terminal:
         """Everything shown so far, without colours and cursor movements."""
         return _ESCAPE.sub("", self._shown)
 
-    def wait_for(self, pattern: str, timeout: float = 120.0) -> bool:
+    def wait_for(self, pattern: str, timeout: float = 600.0) -> bool:
         """Read until the pattern is shown; False if the command ends without."""
         limit = time.monotonic() + timeout
         while re.search(pattern, self.shown) is None:
@@ -57,7 +57,7 @@ class Terminal:
         """Type something."""
         os.write(self._leader, keys)
 
-    def finish(self, timeout: float = 120.0) -> int:
+    def finish(self, timeout: float = 600.0) -> int:
         """Read until the command ends; give its exit code."""
         limit = time.monotonic() + timeout
         while self._read():

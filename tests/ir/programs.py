@@ -21,7 +21,7 @@ from codegen.ir.program import Argument, Instruction, Output, Program, Sparsity
 
 ARGUMENTS = (Argument("a", (3, 1)), Argument("B", (2, 2)))
 RATIONALS = [Fraction(n) for n in (0, 0, 1, 1, -1, -1, 2, -2, 3)] + [Fraction(1, 2), Fraction(-3, 4), Fraction(1, 3)]
-RATIONAL_OPS = (Op.NEGATE, Op.ADD, Op.SUBTRACT, Op.MULTIPLY)
+RATIONAL_OPS = (Op.NEGATE, Op.ADD, Op.SUBTRACT, Op.MULTIPLY, Op.ABS, Op.SELECT)
 FUSED_OPS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.FMA)
 OPS = (*RATIONAL_OPS, *FUSED_OPS, Op.DIVIDE, Op.SQRT, Op.SIN, Op.COS, Op.ATAN2)
 LABELS = (None, None, ("A_ij", 0), ("A_ij", 1), ("d_ij", 0), ("v", 0))
@@ -49,7 +49,7 @@ def programs(
     ]
     instructions += [Instruction(Op.CONSTANT, constant=c) for c in draw(st.lists(constants, max_size=3))]
     number = st.integers(0, 2**16)
-    step = st.tuples(st.sampled_from(list(ops)), number, number, number, st.sampled_from(LABELS))
+    step = st.tuples(st.sampled_from(list(ops)), number, number, number, number, st.sampled_from(LABELS))
     for op, *places, label in draw(st.lists(step, max_size=size)):
         operands = tuple(place % len(instructions) for place in places[: ARITY[op]])
         instructions.append(Instruction(op, operands, label=label))

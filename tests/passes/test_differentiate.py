@@ -44,6 +44,12 @@ class Dual:
         quotient = self.value / other.value
         return Dual(quotient, (self.slope - quotient * other.slope) / other.value)
 
+    def __abs__(self) -> Dual:
+        return -self if self.value < 0 else self
+
+    def __lt__(self, other: Dual) -> bool:
+        return bool(self.value < other.value)
+
 
 def refused(*_: Dual) -> Dual:
     raise ArithmeticError("the program is not rational")

@@ -17,7 +17,20 @@ from codegen.ir.builder import Builder
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
-_FUNCTIONS: dict[Any, Op] = {sympy.sin: Op.SIN, sympy.cos: Op.COS, sympy.atan2: Op.ATAN2}
+
+class Select(sympy.Function):
+    """``Select(a, b, x, y)``: ``x`` where ``a < b``, ``y`` elsewhere; sympy leaves it as it is."""
+
+    nargs = 4
+
+
+_FUNCTIONS: dict[Any, Op] = {
+    sympy.sin: Op.SIN,
+    sympy.cos: Op.COS,
+    sympy.atan2: Op.ATAN2,
+    sympy.Abs: Op.ABS,
+    Select: Op.SELECT,
+}
 
 
 class Stages:

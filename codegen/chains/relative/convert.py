@@ -1,0 +1,170 @@
+"""From a scene to a chain: joints become joints of one freedom, bodies links, joints that close loops cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from codegen.chains.relative.independent import independents
+from codegen.chains.relative.inertia import hung
+from codegen.chains.relative.pose import Pose, row_of
+from codegen.chains.relative.spanning import Branch, spanning
+from codegen.chains.relative.steps import Step, coordinates, steps
+from codegen.errors import Mistake, SpecificationError
+from codegen.spec.chain import BASE, Chain, Cut, Frame, JointForce, Link
+from codegen.spec.placement import rotation, transposed
+from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Joint, Marker, Scene
+
+_MASSLESS = (ZERO_VECTOR, ZERO_VECTOR, ZERO_VECTOR)
+
+
+@dataclass(frozen=True, slots=True)
+class Relative:
+    """A scene as a chain.
+
+    Attributes:
+        chain: of the scene; coordinates are those of the joints, but for a constant.
+        notes: how it was made, and what of the scene it leaves out, line by line.
+    """
+
+    chain: Chain
+    notes: tuple[str, ...]
+
+
+def relative(scene: Scene) -> Relative:
+    """Describe a scene by relative coordinates.
+
+    Raises:
+        SpecificationError: a screw ties two coordinates together, which a chain cannot.
+    """
+    mistakes = [
+        Mistake(f'joint "{joint.name}"', "a screw ties two coordinates together", "use another form than relative")
+        for joint in scene.joints
+        if joint.type == "screw"
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    return _Conversion(scene).result()
+
+
+class _Conversion:
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._bodies = {body.name: body for body in scene.bodies}
+        self._spanning = spanning(scene)
+        self._places: dict[str, tuple[str, Pose]] = {GROUND: (BASE, Pose())}
+        self._links: list[Link] = []
+        self._loads: list[tuple[str, Fraction, Coordinate]] = []
+
+    def result(self) -> Relative:
+        """The chain, when all bodies are hung and all loops cut."""
+        for branch in self._spanning.branches:
+            self._carry(branch)
+        cuts = tuple(self._cut(joint) for joint in self._spanning.loops)
+        links = hung(
+            self._links, [(self._bodies[name], *place) for name, place in self._places.items() if name != GROUND]
+        )
+        forces = [_force(*load) for load in self._loads]
+        acting = tuple(force for force in forces if force != JointForce(force.joint))
+        scene = self._scene
+        chain = Chain(scene.name, scene.gravity, tuple(links), cuts, joint_forces=acting, assemble=scene.assemble)
+        driven = {name: (offset, c.drive) for name, offset, c in self._loads if c.drive is not None}
+        return Relative(replace(chain, independents=independents(chain, driven)), tuple(self._notes(cuts)))
+
+    def _carry(self, branch: Branch) -> None:
+        """Hang a body on its carrier."""
+        link, carrier = self._places[branch.carrier]
+        if branch.joint is None:
+            own = Pose(rotation(self._bodies[branch.body].quaternion), self._bodies[branch.body].position)
+            moved = self._stepped(
+                branch.body, "free", (), steps("free", False), coordinates("free", own), (link, carrier)
+            )
+            self._places[branch.body] = moved
+            return
+        joint = branch.joint
+        near, far = (_pose(m) for m in _markers(joint, branch.is_reversed))
+        way = steps(joint.type, branch.is_reversed)
+        start = coordinates(joint.type, self._apart(joint))
+        end, frame = self._stepped(branch.body, joint.name, joint.coordinates, way, start, (link, carrier @ near))
+        self._places[branch.body] = end, frame @ far.inverse
+
+    def _cut(self, joint: Joint) -> Cut:
+        """Hang the joint on its second body, or on the one that moves, and cut it from the other."""
+        is_reversed = joint.bodies[1] != GROUND
+        near, far = (_pose(m) for m in _markers(joint, is_reversed))
+        on, off = reversed(joint.bodies) if is_reversed else joint.bodies
+        link, place = self._places[on]
+        way, start = steps(joint.type, is_reversed), coordinates(joint.type, self._apart(joint))
+        end, frame = self._stepped("", joint.name, joint.coordinates, way, start, (link, place @ near))
+        other, place = self._places[off]
+        return Cut(joint.name, Frame(other, row_of(place @ far)), Frame(end, row_of(frame)))
+
+    def _stepped(
+        self,
+        body: str,
+        name: str,
+        loads: tuple[Coordinate, ...],
+        way: tuple[Step, ...],
+        start: tuple[Fraction, ...],
+        place: tuple[str, Pose],
+    ) -> tuple[str, Pose]:
+        """Hang a link for each step; gives the last link and the frame of the joint's end on it."""
+        link, frame = place
+        for number, step in enumerate(way, 1):
+            turned = Pose(step.turn)
+            row, value = row_of(frame @ turned), start[step.coordinate]
+            offset = row.theta if step.type == "revolute" else row.d
+            row = replace(row, theta=row.theta + value) if step.type == "revolute" else replace(row, d=row.d + value)
+            is_last = number == len(way)
+            own = body if body and is_last else name if len(way) == 1 else f"{name} {number}"
+            own = self._free_name(own)
+            self._links.append(Link(own, link, step.type, row, Fraction(0), ZERO_VECTOR, _MASSLESS))
+            if loads:
+                self._loads.append((own, offset, loads[step.coordinate]))
+            link, frame = own, Pose(transposed(step.turn))
+        return link, frame
+
+    def _free_name(self, name: str) -> str:
+        taken = {BASE, *(link.name for link in self._links)}
+        found, number = name, 1
+        while found in taken:
+            number += 1
+            found = f"{name} ({number})"
+        return found
+
+    def _apart(self, joint: Joint) -> Pose:
+        """The second marker on the first, at t = 0."""
+        i, j = (
+            self._at_start(name) @ _pose(marker)
+            for name, marker in zip(joint.bodies, (joint.marker_i, joint.marker_j), strict=True)
+        )
+        return i.inverse @ j
+
+    def _at_start(self, name: str) -> Pose:
+        body: Body | None = self._scene.body(name)
+        return Pose() if body is None else Pose(rotation(body.quaternion), body.position)
+
+    def _notes(self, cuts: tuple[Cut, ...]) -> Iterator[str]:
+        for branch in self._spanning.branches:
+            by = f'joint "{branch.joint.name}"' if branch.joint else "nothing, it is free"
+            yield f'body "{branch.body}" hangs on "{branch.carrier}" by {by}'
+        yield from (f'joint "{cut.name}" closes a loop: it is cut from "{cut.base.link}"' for cut in cuts)
+        if self._scene.springs or self._scene.torques:
+            yield "springs between points and torques on bodies are not in a chain"
+        if any(coordinate.limit for joint in self._scene.joints for coordinate in joint.coordinates):
+            yield "stops of joint coordinates are not in a chain"
+
+
+def _markers(joint: Joint, is_reversed: bool) -> tuple[Marker, Marker]:
+    pair = joint.marker_i, joint.marker_j
+    return (pair[1], pair[0]) if is_reversed else pair
+
+
+def _pose(marker: Marker) -> Pose:
+    return Pose(marker.axes, marker.point)
+
+
+def _force(joint: str, offset: Fraction, load: Coordinate) -> JointForce:
+    rest = load.rest + offset if load.stiffness else Fraction(0)
+    return JointForce(joint, load.torque, load.stiffness, load.damping, rest)

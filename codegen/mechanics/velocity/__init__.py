@@ -1,0 +1,1 @@
+"""Velocity indices of six-legged platforms (S3), derived in named stages."""

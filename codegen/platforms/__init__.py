@@ -1,0 +1,1 @@
+"""The pipeline for six-legged platforms: file -> programs -> package; sweeps of poses."""

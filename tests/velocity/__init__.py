@@ -1,0 +1,1 @@
+"""Velocity indices of platforms against 50 digits."""

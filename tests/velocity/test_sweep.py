@@ -1,0 +1,181 @@
+"""Many poses from the command line: grids, files, results and pictures."""
+
+from __future__ import annotations
+
+import os
+import xml.etree.ElementTree as ET
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from codegen.errors import SpecificationError
+from codegen.platforms.attitudes import attitude_array, rotations_of
+from codegen.platforms.generate import home_arguments
+from codegen.platforms.grid import for_grid, grid, poses_of_file
+from codegen.platforms.hexagons import conditions, hexagons
+from codegen.platforms.run import chosen_poses, evaluated
+from codegen.platforms.sweep import CHUNK, Kernel, kernel, sweep
+from codegen.report.platform_report import platform_report
+from codegen.spec.platform import ATTITUDES
+from codegen.spec.platform_file import read_platform
+from tests.cli.runs import invoke
+from tests.spec.test_platform import HEXAPOD
+
+from .found import found
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = sorted((ROOT / "examples" / "platforms").glob("*.toml"))
+WANTED = '\n[output]\nquantities = ["D", "C", "status"]\n'
+PLATFORM = for_grid(read_platform(HEXAPOD + WANTED, "p.toml"))
+MATRICES = read_platform(HEXAPOD + WANTED, "p.toml")
+
+
+@cache
+def compiled() -> Kernel:
+    return kernel(PLATFORM)
+
+
+def test_a_grid_has_every_combination_and_home_where_nothing_is_said() -> None:
+    poses = grid("x=-0.2:0.2:3,yaw=-90deg:90deg:5")
+    assert poses.count == 15 and poses.names == ("x", "yaw")
+    given = poses.arguments(PLATFORM, 0, 15)
+    assert sorted(set(given["o"][0])) == pytest.approx([-0.2, 0, 0.2])
+    assert set(given["o"][2]) == {1.0}
+    assert given["angles"][0][:5] == pytest.approx(np.radians([-90, -45, 0, 45, 90]))
+
+
+def test_a_grid_around_a_turned_home_turns_about_axes_of_the_base() -> None:
+    turned = read_platform(HEXAPOD.replace("1.0]\n", '1.0]\neuler = "XYZ"\nangles = [0.3, 0, 0]\n'), "p.toml")
+    given = grid("yaw=0.5,pitch=-0.1").arguments(for_grid(turned), 0, 1)
+    expected = Rotation.from_euler("xyz", [0, -0.1, 0.5]) * Rotation.from_euler("x", 0.3)
+    assert rotations_of("matrix", given["R"])[0] == pytest.approx(expected.as_matrix(), abs=1e-15)
+
+
+def test_the_compiled_sweep_gives_the_numbers_of_the_program_at_every_pose() -> None:
+    poses = grid("x=-0.3:0.3:5,z=0.6:1.2:3,roll=-0.2:0.2:3,yaw=-0.5:0.5:3")
+    values = sweep(compiled(), poses)
+    columns = poses.columns(0, poses.count)
+    where = [
+        (np.array([x, 0, z]), Rotation.from_euler("xyz", [roll, 0, yaw]).as_matrix()) for x, z, roll, yaw in columns.T
+    ]
+    expected = found(MATRICES, ("D", "C", "status"), where)
+    assert values[:4] == pytest.approx(columns)
+    assert values[4:8] == pytest.approx(expected["D"], rel=1e-12)
+    assert values[8:12] == pytest.approx(expected["C"], rel=1e-12)
+
+
+def test_pieces_and_threads_change_no_bit() -> None:
+    poses = grid(f"x=-0.3:0.3:{CHUNK // 4 + 3},yaw=-0.5:0.5:9")
+    told: list[str] = []
+    many, one = sweep(compiled(), poses, told.append, threads=3), sweep(compiled(), poses, threads=1)
+    assert (many == one).all()
+    assert len(told) == -(-poses.count // CHUNK)
+
+
+@pytest.mark.parametrize("attitude", ATTITUDES)
+def test_attitudes_come_back_from_their_arguments(attitude: str) -> None:
+    rotations = Rotation.random(20, random_state=3).as_matrix()
+    assert rotations_of(attitude, attitude_array(attitude, rotations)) == pytest.approx(rotations, abs=1e-12)
+
+
+def test_poses_of_a_file_are_evaluated_where_they_stand(tmp_path: Path) -> None:
+    rotations = Rotation.random(7, random_state=1)
+    rows = np.hstack([np.full((7, 3), [0.1, 0, 2]), rotations.as_matrix().transpose(0, 2, 1).reshape(7, 9)])
+    for name in ("poses.csv", "poses.npy"):
+        file = tmp_path / name
+        if name.endswith("npy"):
+            np.save(file, rows)
+        else:
+            np.savetxt(file, rows, delimiter=",", header="x,y,z", comments="", fmt="%.17g")
+        poses = poses_of_file(file, MATRICES)
+        given = poses.arguments(MATRICES, 0, 7)
+        assert (given["o"] == rows[:, :3].T).all()
+        assert rotations_of("matrix", given["R"]) == pytest.approx(rotations.as_matrix(), abs=1e-16)
+
+
+def test_every_attitude_of_a_file_that_is_no_rotation_is_told(tmp_path: Path) -> None:
+    rows = np.zeros((4, 12))
+    rows[0, [3, 7, 11]] = 1
+    rows[2, [3, 7, 11]] = 1, 1, -1
+    np.save(tmp_path / "p.npy", rows)
+    with pytest.raises(SpecificationError) as caught:
+        poses_of_file(tmp_path / "p.npy", MATRICES)
+    assert [mistake.place[-6:] for mistake in caught.value.mistakes] == ["pose 2", "pose 3", "pose 4"]
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("u=0:1:2", 'there is no axis "u"'),
+        ("x=0:1", "is no range"),
+        ("x=0:1:0", "is no range"),
+        ("x=0:nan:3", "is no range"),
+        ("x=0deg:1deg:3", "is no range"),
+        ("x=0:1:2,x=1", "stands twice"),
+        ("x=0:1:1000000,y=0:1:1000000", "poses"),
+    ],
+)
+def test_grids_that_are_none_are_refused_in_words(text: str, words: str) -> None:
+    with pytest.raises(SpecificationError, match=words):
+        grid(text)
+
+
+def test_the_command_writes_results_and_pictures_beside_the_package(tmp_path: Path) -> None:
+    target = tmp_path / "out"
+    file = ROOT / "examples" / "platforms" / "octahedral.toml"
+    done = invoke("platform", file, "-o", target, "--grid", "x=-0.1:0.1:3,yaw=80deg:100deg:3", "--format", "npz")
+    assert done.exit_code == 0, done.stderr
+    assert "9 poses in poses.npz: 3 singular, 0 without a number" in done.stdout
+    with np.load(target / "poses.npz") as table:
+        assert table["status"].tolist().count(4) == 3
+        assert np.isinf(table["C_sigma"]).sum() == 3
+    for name in ("maps.svg", "ellipsoids.svg", "pareto.svg"):
+        ET.parse(target / name)
+    assert (target / "report.html").read_text().count("data:image/svg+xml") == 3
+
+
+def test_bad_input_leaves_with_2_and_writes_nothing(tmp_path: Path) -> None:
+    file, target = tmp_path / "p.toml", tmp_path / "out"
+    file.write_text(HEXAPOD)
+    for options in (
+        ["--grid", "u=1"],
+        ["--variant", "roboust"],
+        ["--format", "xls"],
+        ["--grid", "x=1", "--poses", "q"],
+    ):
+        done = invoke("platform", file, "-o", target, *options)
+        assert done.exit_code == 2 and "Traceback" not in done.stderr and done.stderr.startswith("--"), done.stderr
+        assert not target.exists()
+    file.write_text(HEXAPOD.replace("[0.5, 0.4,", "[0.5,"))
+    assert invoke("platform", file, "-o", target).exit_code == 2
+    assert os.listdir(tmp_path) == ["p.toml"]
+
+
+def test_no_semi_regular_hexagon_is_below_the_front_and_some_reach_it() -> None:
+    generator = np.random.default_rng(4)
+    top, delta = generator.uniform(0.1, 1, 3000), generator.uniform(0.05, 3, 3000)
+    C = conditions(*hexagons(top, delta), generator.uniform(0.1, 3, 3000))
+    products = C[0] * C[3]
+    assert products.min() == pytest.approx(2, rel=1e-12)
+    front = C[:, products < 2 * (1 + 1e-12)]
+    assert front[0].min() < 1.1 and front[0].max() > 1.9
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_is_read_and_is_not_singular_at_home(path: Path) -> None:
+    platform = read_platform(path.read_text(), path.name)
+    assert set(home_arguments(platform)) >= {"o"}
+    home = platform.home
+    where = (np.array(home.position, dtype=float), np.array(home.rotation, dtype=float))
+    matrices = for_grid(platform).wanted.attitude
+    assert matrices in ("ZYX", "matrix")
+    plain = read_platform(path.read_text().replace('attitude = "quaternion"', ""), path.name)
+    assert found(plain, ("status",), [where])["status"][0, 0] == 0
+
+
+def test_a_report_without_two_axes_has_no_maps() -> None:
+    table = evaluated(chosen_poses(MATRICES, None, "x=-0.1:0.1:3", "csv"))  # type: ignore[arg-type]
+    assert "maps.svg" not in platform_report(MATRICES, table)

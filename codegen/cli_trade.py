@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -43,4 +44,61 @@ def accuracy(joint: tuple[str, ...], as_json: bool, folder: Path | None, **optio
         tables.show(accuracy_sheets(result))
 
 
-COMMANDS = (accuracy,)
+@click.command()
+@click.argument("target")
+@click.option("--max-error", "largest", type=float, required=True, help="Largest error over the scale of a block.")
+@click.option("--domain", "bounds", default="", help='Bounds of the inputs, such as "r=1 s=0.2 angle=3.2".')
+@click.option("--form", help="conventional or parametric; the cheaper one if left out.")
+@click.option("--rows", help="Rows of the parametric form: regular, table4, or quaternion (rot3 only).")
+@click.option("--derivative", help="exact or substituted.")
+@click.option("--output", default="all", show_default=True, help="Which routine: a quantity, a product, or all.")
+@click.option("--worst", is_flag=True, help="Print the inputs of the worst pose instead, as hexadecimal numbers.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def budget(target: str, largest: float, bounds: str, worst: bool, as_json: bool, **options: Any) -> None:
+    """Find the cheapest routine of a joint, or of each joint of a scene FILE, with errors within a budget."""
+    from codegen.report.budget_text import budget_lines
+    from codegen.trade.budget import answered, check_error, document, worst_inputs
+
+    requests = _budget_requests(target, bounds, options)
+    check_error(largest, requests)
+    found = []
+    for request in requests:
+        with progress(1000, "judging") as advance:
+            answer = answered(request, largest, advance)
+        found.append(document(request, largest, answer))
+        if worst:
+            click.echo(json.dumps({"inputs": worst_inputs(request, answer.chosen)}, indent=1))
+        elif not as_json:
+            for line in budget_lines(found[-1], _again(target, largest, bounds, options)):
+                click.echo(line)
+    if as_json:
+        click.echo(json.dumps(found if len(found) > 1 else found[0], indent=1))
+    if any(one["verdict"] == "IMPOSSIBLE" for one in found):
+        raise click.exceptions.Exit(1)
+
+
+def _budget_requests(target: str, bounds: str, options: dict[str, Any]) -> list[Any]:
+    """A request for the joint, or one for each type of joint in a scene file."""
+    from codegen.trade.accuracy import AccuracyRequest
+    from codegen.trade.domain_text import read_domain
+
+    if Path(target).suffix not in (".toml", ".urdf", ".xml"):
+        return [AccuracyRequest((target,), domain=read_domain(bounds), **options)]
+    from codegen import scenes
+    from codegen.trade.scene_domain import scene_domain, scene_joints
+
+    scene, _ = scenes.read(Path(target), None)
+    domain = read_domain(bounds, scene_domain(scene))
+    return [AccuracyRequest((joint,), domain=domain, **options) for joint in scene_joints(scene)]
+
+
+def _again(target: str, largest: float, bounds: str, options: dict[str, Any]) -> str:
+    """The command that asked."""
+    words = ["jointgen", "budget", target, "--max-error", f"{largest:g}"]
+    words += ["--domain", bounds] if bounds else []
+    for name, value in options.items():
+        words += [f"--{name}", value] if value is not None and (name, value) != ("output", "all") else []
+    return shlex.join(words)
+
+
+COMMANDS = (accuracy, budget)

@@ -1,19 +1,19 @@
 """Guaranteed bounds on the rounding errors of a program, over a whole box of inputs.
 
-Each operation rounds with a relative error of at most u (sine, cosine and arc tangent: one unit in the last place, 2
-u) and, near underflow, an absolute one. The result is a function of these errors; by the mean value theorem it
-differs from the exact one by the sum of error times derivative, the derivatives taken somewhere between. Arb balls
-enclose all values in the box and under all errors, one reverse sweep for each output encloses the derivatives. A
+Each operation rounds with a relative error of at most u (sine and cosine: one unit in the last place, 2 u; arc tangent:
+one and a half, 3 u) and, near underflow, an absolute one. The result is a function of these errors; by the mean value
+theorem it differs from the exact one by the sum of error times derivative, the derivatives taken somewhere between. Arb
+balls enclose all values in the box and under all errors, one reverse sweep for each output encloses the derivatives. A
 fused multiply-add only leaves errors out, so that the bound holds for every contraction of products and sums.
 
-Assumed besides: no overflow, and functions of the mathematical library within one unit in the last place.
+Assumed besides: no overflow, and functions of the mathematical library as good as that.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from codegen.errors import InternalError
@@ -28,7 +28,11 @@ _EXACT_BITS = 24
 """Dyadic constants as short as this are exact in every number type."""
 
 _FREE = LEAVES | PROJECTIONS | {Op.NEGATE, Op.SINCOS}
-_FUNCTIONS = frozenset({Op.SIN, Op.COS, Op.SINE_OF, Op.COSINE_OF, Op.ATAN2})
+_UNITS = {Op.SIN: 2, Op.COS: 2, Op.SINE_OF: 2, Op.COSINE_OF: 2, Op.ATAN2: 3}
+"""Unit roundoffs that a function is off by; every other operation one."""
+
+
+_HALF_TURN = 3.15
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,24 +67,26 @@ class Box:
     """
 
     inputs: Mapping[str, list[tuple[float, float]]]
-    ranges: Mapping[int, float]
-    deviation: Mapping[tuple[str, int], float]
+    ranges: Mapping[int, float] = field(default_factory=dict)
+    deviation: Mapping[tuple[str, int], float] = field(default_factory=dict)
     reach: float = 0.0
 
 
-def rounding_bounds(program: Program, box: Box, real: str) -> dict[str, list[float]]:
+def rounding_bounds(program: Program, box: Box, real: str, are_inputs_rounded: bool = False) -> dict[str, list[float]]:
     """Bound the rounding error of every output entry, for all inputs in a box.
 
     Args:
         program: as it is emitted; with or without fused operations.
-        box: of the inputs, which are exact.
+        box: of the inputs.
         real: ``double`` or ``float``.
+        are_inputs_rounded: whether the inputs are themselves rounded, so that the error is that against what they were
+            rounded from; else they are exact.
 
     Returns:
         Output -> bound of each nonzero; infinite where there is none.
     """
     with _precision():
-        sweep = _Sweep(program, box, ARITHMETICS[real])
+        sweep = _Sweep(program, box, ARITHMETICS[real], are_inputs_rounded)
         found: dict[int, float] = {}
         for output in program.outputs:
             for value in output.values:
@@ -103,13 +109,14 @@ def _precision() -> Iterator[None]:
 class _Sweep:
     """Values of a program over a box and under all roundings, and what each rounding is at most."""
 
-    def __init__(self, program: Program, box: Box, arithmetic: Arithmetic) -> None:
+    def __init__(self, program: Program, box: Box, arithmetic: Arithmetic, are_inputs_rounded: bool) -> None:
         import flint
 
         self._arb = flint.arb
         self._program = program
         self._box = box
         self._arithmetic = arithmetic
+        self._are_inputs_rounded = are_inputs_rounded
         self._zero, self._one = flint.arb(0), flint.arb(1)
         self._values: list[Ball] = []
         self._errors: list[Ball] = []
@@ -151,7 +158,10 @@ class _Sweep:
             argument, index = instruction.source
             low, high = self._box.inputs[argument][index]
             value = self._arb((low + high) / 2, abs(high - low) / 2 * (1 + 2.0**-50) + abs(high + low) * 2.0**-52)
-            drift, error = self._arb(self._box.deviation.get(instruction.source, 0.0)), self._zero
+            deviation = self._box.deviation.get(instruction.source)
+            drift, error = self._arb(deviation or 0.0), self._zero
+            if self._are_inputs_rounded:
+                error = self._rounding(op, value) if deviation is None else drift
         elif op is Op.CONSTANT and instruction.constant is not None:
             rational = instruction.constant.rational
             value = self._arb(rational.numerator) / rational.denominator
@@ -181,10 +191,10 @@ class _Sweep:
         return self._zero if is_exact else abs(value) * self._arithmetic.unit
 
     def _is_free(self, op: Op) -> bool:
-        return op in _FREE and op not in _FUNCTIONS
+        return op in _FREE and op not in _UNITS
 
     def _rounding(self, op: Op, value: Ball) -> Ball:
-        units = 2 if op in _FUNCTIONS else 1
+        units = _UNITS.get(op, 1)
         return abs(value).abs_upper() * (units * self._arithmetic.unit) + self._arithmetic.tiny
 
     def _tighter(self, value: Ball, limit: Ball) -> Ball:
@@ -215,8 +225,16 @@ class _Sweep:
             case Op.SINCOS:
                 return x[0]
             case Op.ATAN2:
-                return self._arb(0, 3.15)
+                return self._arb(0, _HALF_TURN)
         raise InternalError(f"no enclosure of {op}")
+
+    def _angle_slopes(self, y: Ball, x: Ball) -> list[Ball]:
+        """Derivatives of the angle of (y, x); where the box holds the origin, what the reach says of them."""
+        square = x * x + y * y
+        if square > 0:
+            return [x / square, -y / square]
+        steep = self._arb(0, 1 / self._box.reach if self._box.reach else float("inf"))
+        return [steep, steep]
 
     def _partials_of(self, position: int) -> list[Ball]:
         if position not in self._partials:
@@ -251,6 +269,5 @@ class _Sweep:
             case Op.SINCOS:
                 return [self._one]
             case Op.ATAN2:
-                steep = self._arb(0, 1 / self._box.reach if self._box.reach else float("inf"))
-                return [steep, steep]
+                return self._angle_slopes(x[0], x[1])
         raise InternalError(f"no derivative of {op}")

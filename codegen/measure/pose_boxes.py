@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
 
 from codegen.ir.program import Program
 from codegen.measure.bounds import ARITHMETICS, Box
@@ -50,6 +54,17 @@ def pose_box(program: Program, joint: JointType, variant: Variant, domain: PoseD
     turns = [(SINES_COSINES, k) for k in range(lengths.get(SINES_COSINES, 0))]
     deviation = {place: unit + domain.drift for place in attitudes} | {place: unit for place in (*axes, *turns)}
     return Box(inputs, ranges(program, joint, variant, domain), deviation, nearest_to_axis(domain))
+
+
+def neighbourhood(given: Mapping[str, NDArray[np.floating]], pose: int, width: float) -> Box:
+    """Enclose the neighbourhood of one pose; nothing is taken for granted in it, not even rotations.
+
+    Args:
+        given: argument -> [length, poses].
+        pose: its number.
+        width: of the box in each entry, to either side.
+    """
+    return Box({name: [(float(x) - width, float(x) + width) for x in rows[:, pose]] for name, rows in given.items()})
 
 
 def _even(bound: float) -> _Range:

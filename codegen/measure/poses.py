@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
@@ -40,16 +40,18 @@ class Poses:
 
     Attributes:
         ideal: argument -> its entries, column-major, each an array over the poses.
+        drifted: what is given in their place, before it is rounded: attitudes that are no rotations.
     """
 
     ideal: dict[str, Vector]
+    drifted: dict[str, Vector] = field(default_factory=dict)
 
     def given(self, real: type[np.floating]) -> dict[str, NDArray[np.floating]]:
         """Round to a number type: argument -> [length, poses]."""
         count = len(self.ideal["r_i"][0].high)
         return {
             name: np.array([entry.high.astype(real) + entry.low.astype(real) for entry in entries]).reshape(-1, count)
-            for name, entries in self.ideal.items()
+            for name, entries in (self.ideal | self.drifted).items()
         }
 
 
@@ -118,8 +120,6 @@ def poses_at(
     if not is_converged:
         r_j, A_j, alpha = _plus(r_j, step), _times(A_j, _small_rotation(turn)), _plus(alpha, slip)
     far = [DoubleDouble.exact(Fraction(domain.distance) * part) for part in DIRECTION]
-    if domain.drift:
-        A_i, A_j = (_drifted(A, domain.drift, draw) for A in (A_i, A_j))
     geometry = [*s_i, *_packed(C_i), *s_j, *_packed(C_j), *parameters]
     ideal = {
         "r_i": _plus(r_i, far),
@@ -132,7 +132,8 @@ def poses_at(
         "lambda": draw.vector(lengths.get("lambda", 0), domain.multiplier),
     }
     ideal[SINES_COSINES] = [part for angle in alpha for part in angle.sine_and_cosine()]
-    return Poses(ideal)
+    bodies = {"A_i": A_i, "A_j": A_j} if domain.drift else {}
+    return Poses(ideal, {name: _packed(_drifted(A, domain.drift, draw)) for name, A in bodies.items()})
 
 
 class _Sequence:

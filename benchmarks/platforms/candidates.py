@@ -179,7 +179,7 @@ def _numpy_batch(platform: Platform) -> Evaluate:
 
 
 def _values(matrices: Array) -> tuple[Array, Array]:
-    R = np.linalg.qr(matrices, mode="r")
+    R: Array = np.linalg.qr(matrices, mode="r")  # type: ignore[assignment]
     return np.linalg.svd(R[..., :3, :3], compute_uv=False), np.linalg.svd(R[..., 3:, 3:], compute_uv=False)
 
 

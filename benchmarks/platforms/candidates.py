@@ -178,8 +178,8 @@ def _numpy_batch(platform: Platform) -> Evaluate:
     return evaluate
 
 
-def _values(matrices: Array) -> tuple[Array, Array]:
-    R: Array = np.linalg.qr(matrices, mode="r")  # type: ignore[assignment]
+def _values(matrices: Array) -> tuple[Any, Any]:
+    R: Any = np.linalg.qr(matrices, mode="r")
     return np.linalg.svd(R[..., :3, :3], compute_uv=False), np.linalg.svd(R[..., 3:, 3:], compute_uv=False)
 
 

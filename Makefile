@@ -88,7 +88,7 @@ bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechani
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
-		--extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
+		--extra dask --extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
 	@for lock in $(LOCK) $(BENCH_LOCK); do \

@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-scenes figures-chain search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-platform bench-scenes figures-chain search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -79,6 +79,9 @@ bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; ma
 
 figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
 	$(BIN)/python -m benchmarks.chains $(ARGS)
+
+bench-platform: $(STAMP) ## velocity indices beside numpy, Eigen and CasADi's C; make bench-platform ARGS='--rounds 20'
+	$(BIN)/python -m benchmarks.platforms $(ARGS)
 
 bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
 	$(BIN)/python -m benchmarks.scenes $(ARGS)

@@ -5,17 +5,17 @@ Exit codes: 0 done; 1 the thing asked for fell short; 2 bad input, one line a mi
 
 from __future__ import annotations
 
-import contextlib
 import json
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import click
 
 import codegen
+from codegen import cli_trade
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
+from codegen.progress import progress as _progress
 
 _LIBRARY = Path("generated")
 
@@ -374,23 +374,8 @@ def report(folder: tuple[Path, ...], target: Path) -> None:
     click.echo(f"{target}: {len(found)} folders of results")
 
 
-@contextlib.contextmanager
-def _progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
-    """A progress bar on a terminal, silence in a pipe."""
-    if not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(words, total=total)
-
-        def advance(name: str) -> None:
-            bar.update(task, advance=1, description=f"{words} {name}")
-
-        yield advance
+for _command in cli_trade.COMMANDS:
+    jointgen.add_command(_command)
 
 
 def main() -> None:

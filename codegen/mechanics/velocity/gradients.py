@@ -1,9 +1,10 @@
 """Gradients of D and C by the pose and by the joints: 42 directions, eigenvectors held fixed.
 
 Every index changes by ``tr(M' dJ)`` times itself. For a unit vector u of a value k and the motion x of the platform
-that belongs to it (u and what accompanies it), ``k^2 = |J x|^2`` and ``d log k = (J x)' dJ x / k^2``, so that M is an outer
-product; for D it is ``J X X'`` with the columns of T^-1 in the place of u. The vectors' own changes do not matter at
-first order; where values are equal, some vector of theirs gives a slope in one of the directions that there are.
+that belongs to it (u and what accompanies it), ``k^2 = |J x|^2`` and ``d log k = (J x)' dJ x / k^2``, so that M is an
+outer product; for D it is ``J X X'`` with the columns of T^-1 in the place of u. The vectors' own changes do not
+matter at first order; where values are equal, some vector of theirs gives a slope in one of the directions that there
+are.
 
 ``dJ`` of a leg: ``dl = dp + do - dB``, ``de = (I - e e') dl / |l|``, ``dp = w x p + R dp'``.
 """

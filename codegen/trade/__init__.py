@@ -1,0 +1,1 @@
+"""The measured trade: what accuracy costs on this machine, which variant is the cheapest that suffices."""

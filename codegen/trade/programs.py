@@ -1,0 +1,68 @@
+"""Routines of a variant, kept between runs: their generation takes seconds, their measurement less.
+
+They are kept under the content hash of the sources that make them, in the user's cache folder (``XDG_CACHE_HOME``).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import pickle
+import tempfile
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+import codegen
+from codegen import build
+from codegen.emit.environment import template_folder
+from codegen.emit.routine import Routine
+from codegen.spec.request import Variant
+
+_MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "mechanics", "passes", "spec")
+"""What the programs of a joint depend on, below the package."""
+
+
+def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
+    """Give the routines of a variant as `codegen.build.routines` does, from the cache where it has them."""
+    name = hashlib.sha256(repr((variant, tuple(outputs), fma)).encode()).hexdigest()[:24]
+    path = cache_folder() / f"{name}.pickle"
+    if path.exists():
+        kept: tuple[Routine, ...] = pickle.loads(path.read_bytes())
+        return kept
+    made = build.routines(variant, outputs, fma)
+    _keep(path, pickle.dumps(made))
+    return made
+
+
+def builds_folder() -> Path:
+    """Where compiled routines are kept."""
+    folder = cache_folder() / "builds"
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+def _keep(path: Path, content: bytes) -> None:
+    """Write a file that other processes see whole or not at all."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as handle:
+        handle.write(content)
+    Path(handle.name).replace(path)
+
+
+@cache
+def cache_folder() -> Path:
+    """The folder of what these sources made; other sources have another."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    folder = Path(base) / "jointgen" / _fingerprint()
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def _fingerprint() -> str:
+    root = Path(codegen.__file__).parent
+    digest = hashlib.sha256()
+    for place in (*(root / maker for maker in _MAKERS), template_folder() / "c", template_folder() / "measure"):
+        for path in [place] if place.is_file() else sorted(p for p in place.rglob("*") if p.suffix in (".py", ".j2")):
+            content = path.read_bytes()
+            digest.update(f"{path.name} {len(content)}\n".encode() + content)
+    return digest.hexdigest()[:24]

@@ -1,0 +1,112 @@
+"""The budget's verdicts: what is called proven is bounded, what is called impossible is beyond the best."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from codegen.measure.pose_domain import PoseDomain
+from codegen.trade.accuracy import AccuracyRequest
+from codegen.trade.budget import Answer, answered, worst_inputs
+from codegen.trade.builds import BASE
+from codegen.trade.domain_text import read_domain
+from tests.cli.runs import REPOSITORY, invoke
+
+pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+REQUEST = AccuracyRequest(("ball",), form="conventional", output="phi")
+FAR = replace(REQUEST, domain=PoseDomain(distance=1e6))
+
+
+@pytest.fixture(autouse=True)
+def _few_builds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Double and float: two libraries to compile; a short search."""
+    monkeypatch.setattr("codegen.trade.budget._SAMPLES", 64)
+    monkeypatch.setattr("codegen.trade.budget._SEARCH_ROUNDS", 1)
+    monkeypatch.setattr("codegen.trade.budget.builds", lambda is_full: BASE)
+
+
+def chosen(answer: Answer) -> tuple[str, str]:
+    return answer.verdict, answer.chosen.build
+
+
+def test_a_generous_budget_is_proven() -> None:
+    answer = answered(REQUEST, 1e-3)
+    assert answer.verdict == "PROVEN"
+    assert not answer.losers
+    best = answer.chosen
+    assert 0 < best.sampled <= best.searched <= best.guaranteed <= 1e-3
+
+
+def test_between_the_number_types_double_is_proven_and_float_loses() -> None:
+    answer = answered(REQUEST, 1e-10)
+    assert chosen(answer) == ("PROVEN", "double")
+    assert all(loser.build == "float" and loser.searched > 1e-10 for loser in answer.losers)
+
+
+def test_between_search_and_bound_it_is_measured() -> None:
+    known = answered(REQUEST, 1e-10).chosen
+    answer = answered(REQUEST, 3 * known.searched)
+    assert chosen(answer) == ("MEASURED", "double")
+    assert answer.chosen.guaranteed > 3 * known.searched
+
+
+def test_far_from_the_origin_it_is_impossible_and_the_relative_position_is_the_cure() -> None:
+    answer = answered(FAR, 1e-13)
+    assert answer.verdict == "IMPOSSIBLE"
+    assert answer.chosen.floor > 1e-11
+    (cure,) = answer.cures
+    assert "relative position" in cure.name
+    assert cure.searched < 1e-15
+
+
+def test_drifted_attitudes_are_cured_by_orthonormalising() -> None:
+    answer = answered(replace(REQUEST, domain=PoseDomain(drift=1e-6)), 1e-9)
+    assert answer.verdict == "IMPOSSIBLE"
+    assert [cure.name for cure in answer.cures] == ["orthonormalise A_i and A_j"]
+
+
+def test_the_worst_pose_is_told_to_the_bit() -> None:
+    answer = answered(FAR, 1e-13)
+    inputs = worst_inputs(FAR, answer.chosen)
+    assert inputs == worst_inputs(FAR, answered(FAR, 1e-13).chosen)
+    assert float.fromhex(inputs["r_i"][0]) == pytest.approx(0.36e6, rel=1e-5)
+    A = np.array([float.fromhex(entry) for entry in inputs["A_i"]]).reshape(3, 3)
+    np.testing.assert_allclose(A @ A.T, np.eye(3), atol=1e-15)
+
+
+def test_a_domain_is_read_and_its_mistakes_are_told_at_once() -> None:
+    assert read_domain("r=2, s=0.5 distance=1e6") == PoseDomain(r=2.0, s=0.5, distance=1e6)
+    result = invoke("budget", "ball", "--max-error", "1e-8", "--domain", "q=1 r=-1 s=nan d")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 4
+
+
+def command(*words: str) -> tuple[Any, Any]:
+    result = invoke("budget", *words, "--form", "conventional", "--output", "phi", "--json")
+    return result.exit_code, json.loads(result.stdout)
+
+
+def test_the_exit_code_says_whether_the_budget_can_be_met() -> None:
+    code, data = command("ball", "--max-error", "1e-8")
+    assert (code, data["verdict"]) == (0, "PROVEN")
+    code, data = command("ball", "--max-error", "1e-30")
+    assert (code, data["verdict"]) == (1, "IMPOSSIBLE")
+
+
+def test_every_type_of_joint_of_a_scene_is_judged() -> None:
+    code, data = command(str(REPOSITORY / "examples/in_line_engine.toml"), "--max-error", "1e-8")
+    assert code == 0
+    names = [one["request"]["joints"][0] for one in data]
+    assert names == ["revolute", "translational"]
+    assert all(one["domain"]["s"] < 1.0 for one in data)
+
+
+def test_no_error_is_no_budget() -> None:
+    result = invoke("budget", "bal", "--max-error", "0")
+    assert result.exit_code == 2
+    assert [line.partition(":")[0] for line in result.stderr.splitlines()] == ["--max-error", "joint bal"]

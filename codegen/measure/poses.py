@@ -7,7 +7,7 @@ The sequence is scrambled with a fixed seed, so that every run sees the same pos
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -94,6 +94,7 @@ def poses_at(
     domain: PoseDomain,
     points: Points,
     is_converged: bool,
+    fixed: Mapping[int, DoubleDouble] | None = None,
 ) -> Poses:
     """Make poses of points of the unit cube.
 
@@ -104,6 +105,7 @@ def poses_at(
         domain: bounds.
         points: [poses, dimensions]; see `sobol_points`.
         is_converged: whether the constraint is met; else it is off by the domain's misfit.
+        fixed: angles of the joint, by their number, that are not drawn.
     """
     draw = _Sequence(points)
     lengths = {argument.name: argument.length for argument in arguments}
@@ -111,7 +113,7 @@ def poses_at(
     A_i = _attitude(draw)
     (s_i, C_i), (s_j, C_j) = (_joint_frame(draw, domain.s) for _ in range(2))
     parameters = _screw_parameters(draw) if joint.is_screw else []
-    alpha, offset, H = _relative(joint, variant, domain, draw, parameters)
+    alpha, offset, H = _relative(joint, variant, domain, draw, parameters, fixed or {})
     A_j = _times(_times(_times(A_i, C_i), H), _transposed(C_j))
     arm = _plus(s_i, _apply(C_i, offset))
     r_j = _minus(_plus(r_i, _apply(A_i, arm)), _apply(A_j, s_j))
@@ -202,7 +204,12 @@ def _joint_frame(draw: _Sequence, size: float) -> tuple[Vector, Matrix]:
 
 
 def _relative(
-    joint: JointType, variant: Variant, domain: PoseDomain, draw: _Sequence, parameters: Vector
+    joint: JointType,
+    variant: Variant,
+    domain: PoseDomain,
+    draw: _Sequence,
+    parameters: Vector,
+    fixed: Mapping[int, DoubleDouble],
 ) -> tuple[Vector, Vector, Matrix]:
     """Coordinates of the joint, ``C_i^T d'`` and H (S1 Table 3)."""
     zero = draw.zero
@@ -210,6 +217,7 @@ def _relative(
     angles = draw.vector(joint.rotations, domain.angle)
     if joint.rotations == 3:
         angles[1] = DoubleDouble.of(angles[1].high * (domain.pitch_angle / domain.angle))
+    angles = [fixed.get(k, angle) for k, angle in enumerate(angles)]
     H = _relative_rotation(joint, variant, [angle.sine_and_cosine() for angle in angles], zero)
     offset = {0: [], 1: [zero, zero], 2: [], 3: []}[joint.translations] + shifts
     if joint.is_screw:

@@ -232,10 +232,25 @@ class Scalariser:
         kept = [value for value in values if not self._is_zero(value)]
         if not kept:
             return self._builder.constant(0)
-        result = kept[0]
-        for value in kept[1:]:
+        result, *others = self._differences_first(kept)
+        for value in others:
             result = self._builder.emit(Op.ADD, result, value)
         return result
+
+    def _differences_first(self, values: list[int]) -> list[int]:
+        """Begin with the difference of two inputs: far from the origin ``r_j - r_i`` is exact, ``r_j + s_j`` is not."""
+        plus = next((value for value in values if self._op(value) is Op.INPUT), None)
+        minus = next((value for value in values if self._is_negated_input(value)), None)
+        if plus is None or minus is None:
+            return values
+        return [plus, minus, *(value for value in values if value not in (plus, minus))]
+
+    def _op(self, position: int) -> Op:
+        return self._builder.instructions[position].op
+
+    def _is_negated_input(self, position: int) -> bool:
+        instruction = self._builder.instructions[position]
+        return instruction.op is Op.NEGATE and self._op(instruction.operands[0]) is Op.INPUT
 
     def _is_zero(self, position: int) -> bool:
         value = self._builder.value_of(position)

@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-scenes figures-accuracy figures-chain search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-platform bench-scenes figures-accuracy figures-chain search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -83,12 +83,15 @@ figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
 figures-accuracy: $(STAMP) ## measure the trade of accuracy and speed, draw the figures of docs/accuracy.md
 	$(BIN)/python -m benchmarks.accuracy $(ARGS)
 
+bench-platform: $(STAMP) ## velocity indices beside numpy, Eigen and CasADi's C; make bench-platform ARGS='--rounds 20'
+	$(BIN)/python -m benchmarks.platforms $(ARGS)
+
 bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
 	$(BIN)/python -m benchmarks.scenes $(ARGS)
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
-		--extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
+		--extra dask --extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
 	@for lock in $(LOCK) $(BENCH_LOCK); do \

@@ -261,9 +261,17 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
 @click.option("--poses", type=click.Path(path_type=Path), help="Evaluate at the poses of a CSV or npy file.")
 @click.option("--grid", help="Evaluate on a grid: x=-0.3:0.3:61,yaw=-20deg:20deg:41 (x y z in m, roll pitch yaw).")
 @click.option("--format", "kind", default="csv", show_default=True, help="Of the results: csv or npz.")
+@click.option("--dask", "cluster", help="Address of a Dask scheduler that evaluates the poses (extra dask).")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 def platform(
-    file: Path, variant: str | None, real: str, poses: Path | None, grid: str | None, kind: str, target: Path
+    file: Path,
+    variant: str | None,
+    real: str,
+    poses: Path | None,
+    grid: str | None,
+    kind: str,
+    cluster: str | None,
+    target: Path,
 ) -> None:
     """Emit velocity indices of a six-legged platform (a TOML file); evaluate them at many poses."""
     from codegen import output
@@ -280,7 +288,7 @@ def platform(
         files = generate_platform(read, real, advance)
     if where is not None:
         with _progress(where.pieces, "evaluating") as advance:
-            table = evaluated(where, advance)
+            table = evaluated(where, advance, cluster)
         files |= table.files | platform_report(read, table)
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import statistics
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from typing import Any
 import jinja2
 import numpy as np
 
+from benchmarks.chain_speed import pinocchio
 from codegen.chains.generate import generate_chain
 from codegen.chains.programs import FUSED
 from codegen.measure.compile import compile_sources
@@ -38,12 +38,13 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The routine beside the recursion."""
+    """The routine beside the recursion, and beside Pinocchio where it is."""
 
     chain: str
     operations: int
     routine: Side
     recursion: Side
+    pinocchio: Side | None
     difference: float
 
 
@@ -62,13 +63,26 @@ def measured(chain: Chain, folder: Path) -> Result:
         (folder / name).write_text((HERE / name).read_text())
     sources = [folder / name for name in ("driver.c", "table_driven.c", f"{chain.name}.c")]
     compile_sources(sources, folder / "timed", FLAGS)
-    routine, recursion = (json.loads(_output(folder, str(k))) for k in range(2))
+    routine, recursion = (json.loads(_output([str(folder / "timed"), str(k)])) for k in range(2))
     manifest = json.loads(files["manifest.json"])
     entry = next(f for f in manifest["functions"] if f["symbol"] == f"jg_{chain.name}_all")
-    times = np.array(json.loads(_output(folder)))
-    sides = [Side(statistics.median(times[:, k]), _instructions(folder, k)) for k in range(2)]
+    timed = [str(folder / "timed")]
+    times = np.array(json.loads(_output(timed)))
+    sides = [Side(float(np.median(times[:, k])), _instructions([*timed, str(k)], k)) for k in range(2)]
     difference = _difference(chain, entry, routine, recursion)
-    return Result(chain.name, entry["operations"]["total"], sides[0], sides[1], difference)
+    other = None
+    if pinocchio.prefix() is not None:
+        (folder / "table").write_text(pinocchio.table(chain, *_state(chain)))
+        command = [str(pinocchio.compiled(folder.parent)), str(folder / "table")]
+        difference = max(difference, _difference(chain, entry, routine, json.loads(_output([*command, "once"]))))
+        nanoseconds = float(np.median(json.loads(_output(command))))
+        other = Side(nanoseconds, _instructions([*command, "once"], 0))
+    return Result(chain.name, entry["operations"]["total"], sides[0], sides[1], other, difference)
+
+
+def _state(chain: Chain) -> tuple[Sequence[Any], Sequence[float]]:
+    """Coordinates of the file, and velocities."""
+    return [link.coordinate for link in chain.links], [1 + k / 8 for k in range(len(chain.links))]
 
 
 def _driver(chain: Chain) -> str:
@@ -81,8 +95,8 @@ def _driver(chain: Chain) -> str:
         cuts=len(chain.cuts),
         gravity=_numbers(chain.gravity),
         frames=[_row(node, inertia) for node, inertia in zip(tree.nodes, inertias, strict=False)],
-        q=_numbers([link.coordinate for link in chain.links]),
-        qd=_numbers([1 + k / 8 for k in range(len(chain.links))]),
+        q=_numbers(_state(chain)[0]),
+        qd=_numbers(_state(chain)[1]),
     )
 
 
@@ -120,16 +134,15 @@ def _dense(values: Sequence[float], pattern: Any) -> np.ndarray[Any, Any]:
     return dense
 
 
-def _output(folder: Path, *arguments: str) -> str:
-    done = subprocess.run([str(folder / "timed"), *arguments], capture_output=True, text=True, check=True)
-    return done.stdout
+def _output(command: Sequence[str]) -> str:
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
-def _instructions(folder: Path, task: int) -> int:
+def _instructions(command: Sequence[str], task: int) -> int:
     """Instructions of one evaluation, by valgrind."""
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"]
-    command += [f"--toggle-collect=task_{task}", str(folder / "timed"), str(task)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"]
+    valgrind.append(f"--toggle-collect=task_{task}")
+    done = subprocess.run([*valgrind, *command], capture_output=True, text=True, check=True)
     found = re.search(r"Collected *: *(\d+)", done.stderr)
     assert found, done.stderr
     return int(found[1])

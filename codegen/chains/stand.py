@@ -35,5 +35,5 @@ def _check_freedom(ready: Mechanism, closed: Branch) -> None:
     values = np.linalg.svd(J, compute_uv=False)
     rank = int((values > RANK_TOLERANCE * values.max(initial=0.0)).sum())
     if rank > len(part.w):
-        what = f"there are {len(part.v)} independent coordinates, and the cuts leave {size - rank} free"
-        raise SpecificationError([Mistake("independent", what, f"name {size - rank} of them")])
+        what = f"the cuts leave {size - rank} free, and coordinates that are said to be independent: {len(part.v)}"
+        raise SpecificationError([Mistake("independent", what, f"name {size - rank}")])

@@ -27,7 +27,7 @@ _PRECISION = 64
 _EXACT_BITS = 24
 """Dyadic constants as short as this are exact in every number type."""
 
-_FREE = LEAVES | PROJECTIONS | {Op.NEGATE, Op.SINCOS}
+_FREE = LEAVES | PROJECTIONS | {Op.NEGATE, Op.SINCOS, Op.ABS, Op.SELECT}
 _UNITS = {Op.SIN: 2, Op.COS: 2, Op.SINE_OF: 2, Op.COSINE_OF: 2, Op.ATAN2: 3}
 """Unit roundoffs that a function is off by; every other operation one."""
 
@@ -226,6 +226,10 @@ class _Sweep:
                 return x[0]
             case Op.ATAN2:
                 return self._arb(0, _HALF_TURN)
+            case Op.ABS:
+                return abs(x[0])
+            case Op.SELECT:
+                return x[2] if x[0] < x[1] else x[3] if x[0] >= x[1] else x[2].union(x[3])
         raise InternalError(f"no enclosure of {op}")
 
     def _angle_slopes(self, y: Ball, x: Ball) -> list[Ball]:
@@ -235,6 +239,14 @@ class _Sweep:
             return [x / square, -y / square]
         steep = self._arb(0, 1 / self._box.reach if self._box.reach else float("inf"))
         return [steep, steep]
+
+    def _choice_slopes(self, a: Ball, b: Ball) -> list[Ball]:
+        """Derivatives of a choice; where the box does not decide it, an error of what is compared is not bounded."""
+        if a < b or a >= b:
+            taken = bool(a < b)
+            return [self._zero, self._zero, *((self._one, self._zero) if taken else (self._zero, self._one))]
+        part = self._arb(0.5, 0.5)
+        return [self._arb(0, float("inf")), self._arb(0, float("inf")), part, part]
 
     def _partials_of(self, position: int) -> list[Ball]:
         if position not in self._partials:
@@ -270,4 +282,8 @@ class _Sweep:
                 return [self._one]
             case Op.ATAN2:
                 return self._angle_slopes(x[0], x[1])
+            case Op.ABS:
+                return [self._one if x[0] > 0 else -self._one if x[0] < 0 else self._arb(0, 1)]
+            case Op.SELECT:
+                return self._choice_slopes(x[0], x[1])
         raise InternalError(f"no derivative of {op}")

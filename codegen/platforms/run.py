@@ -10,6 +10,7 @@ import numpy as np
 from codegen.errors import Mistake, SpecificationError
 from codegen.measure.compile import compiler
 from codegen.platforms.attitudes import Array
+from codegen.platforms.cluster import sweep_on
 from codegen.platforms.grid import Poses, for_grid, grid, poses_of_file
 from codegen.platforms.results import check_format, results_file
 from codegen.platforms.sweep import Progress, kernel, pieces, sweep
@@ -85,9 +86,21 @@ def chosen_poses(platform: Platform, file: Path | None, text: str | None, kind: 
     return Sweep(platform, poses_of_file(file, platform), kind)
 
 
-def evaluated(wanted: Sweep, progress: Progress = lambda _: None) -> Table:
-    """Evaluate all wanted quantities at all poses."""
+def evaluated(wanted: Sweep, progress: Progress = lambda _: None, cluster: str | None = None) -> Table:
+    """Evaluate all wanted quantities at all poses.
+
+    Args:
+        wanted: what and where.
+        progress: told each piece.
+        cluster: address of a Dask scheduler; this machine if left out.
+
+    Raises:
+        SpecificationError: Dask is not installed, or there is no scheduler.
+    """
     compiled = kernel(wanted.platform)
-    values = sweep(compiled, wanted.poses, progress)
+    if cluster is None:
+        values = sweep(compiled, wanted.poses, progress)
+    else:
+        values = sweep_on(cluster, wanted.platform, wanted.poses, len(compiled.names()), progress)
     columns = (*wanted.poses.names, *compiled.names())
     return Table(wanted.poses, columns, values, results_file(columns, values, wanted.kind))

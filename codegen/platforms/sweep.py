@@ -30,7 +30,7 @@ from codegen.spec.platform import Platform
 CHUNK = 10_000
 """Poses of one call: the arrays of a call stay in the caches of a core; no power of two, which would be slow."""
 
-FLAGS = ("-std=c99", "-O2", "-march=native", "-ffp-contract=off")
+FLAGS = ("-std=c99", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno")
 
 Progress = Callable[[str], None]
 """Told each piece that is finished."""

@@ -140,7 +140,7 @@ def test_the_guide_holds_the_slider_by_what_newton_says() -> None:
 
 def _places(reference: OneFreedom, body: str, angle: float, rate: float) -> Array:
     """Acceleration of a centre of mass at constant rate."""
-    return np.asarray(reference.bodies[body].motion(angle)[2].ravel() * rate**2)
+    return np.asarray(reference.bodies[body].motion(angle)[2] * rate**2)
 
 
 def test_free_running_of_the_slider_crank_keeps_to_the_energy_integral() -> None:

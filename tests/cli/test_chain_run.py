@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from .runs import contents, invoke, refused, snapshot
+from .runs import contents, finish, invoke, refused, snapshot, spawn
 
 CHAINS = Path(__file__).parents[2] / "examples" / "chains"
 CRANK = CHAINS / "spatial_slider_crank.toml"
@@ -131,3 +131,19 @@ def test_a_table_is_read_from_the_folder_of_the_chain(tmp_path: Path, pendulum: 
     columns = table(tmp_path / "run")
     expected = [2 * 9.81 * np.cos(q) for q in columns["rod.q"]]
     assert columns["rod.effort"] == pytest.approx(expected, abs=1e-12)
+
+
+def test_two_runs_with_different_hash_seeds_write_the_same_files(tmp_path: Path) -> None:
+    found = []
+    for seed in ("1", "2"):
+        target = tmp_path / f"run{seed}"
+        code, _, err = finish(
+            spawn("chain", CRANK, "--inverse", "--outputs", "5", "--animation", "-o", target, PYTHONHASHSEED=seed)
+        )
+        assert (code, err) == (0, "")
+        found.append(contents(target))
+    summaries = [json.loads(files.pop("summary.json")) for files in found]
+    for told in summaries:
+        assert told.pop("wall_time") > 0
+    assert found[0] == found[1]
+    assert summaries[0] == summaries[1]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codegen import build
@@ -60,7 +60,7 @@ def given_poses(variant: Variant, program: Program, is_converged: bool, real: st
 
 
 @pytest.mark.parametrize("real", REALS)
-@RANDOM
+@settings(parent=RANDOM, max_examples=60)
 @given(
     programs(ops=(*FUSED_OPS, Op.DIVIDE)),
     inputs_of(st.floats(-3, 3, width=32, allow_subnormal=False)),

@@ -16,6 +16,8 @@ import sympy
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from .jets import FUNCTIONS, Jet, jet
+
 Array = NDArray[np.float64]
 q = sympy.Symbol("q", real=True)
 
@@ -37,17 +39,23 @@ class Body:
     A: sympy.Matrix
 
     @cached_property
-    def motion(self) -> Callable[[float], list[Array]]:
-        """r, r', r'', A, A', A'' by q."""
-        return values(*(f.diff(q, k) if k else f for f in (self.r, self.A) for k in range(3)))
+    def _place(self) -> Callable[[Jet], list[Any]]:
+        place: Callable[[Jet], list[Any]] = sympy.lambdify(q, [*self.r, *self.A], modules=[FUNCTIONS], cse=True)
+        return place
+
+    def motion(self, at: float) -> list[Array]:
+        """r, r', r'', A, A', A'' at q."""
+        jets = [jet(entry) for entry in self._place(Jet(float(at), 1.0))]
+        columns = [np.array([getattr(one, part) for one in jets]) for part in ("f", "d", "dd")]
+        return [values[:3] for values in columns] + [values[3:].reshape(3, 3) for values in columns]
 
     def terms(self, at: float) -> tuple[float, float, Array, Array]:
         """Twice the kinetic energy for qd = 1 with its slope; r and r'."""
         r, dr, ddr, A, dA, ddA = self.motion(at)
         w, dw = vee(A.T @ dA), vee(A.T @ ddA + dA.T @ dA)
         inertia, mass = np.array(self.inertia, dtype=np.float64), float(self.mass)
-        m = mass * float(dr.ravel() @ dr.ravel()) + float(w @ inertia @ w)
-        return m, 2 * (mass * float(dr.ravel() @ ddr.ravel()) + float(w @ inertia @ dw)), r.ravel(), dr.ravel()
+        m = mass * float(dr @ dr) + float(w @ inertia @ w)
+        return m, 2 * (mass * float(dr @ ddr) + float(w @ inertia @ dw)), r, dr
 
 
 def vee(W: Array) -> Array:

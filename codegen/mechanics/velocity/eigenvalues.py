@@ -136,10 +136,7 @@ def _threefold(stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr) -> tuple[
     (square,) = stage("sine_2", weighted, words="sin^2(3 phi), the discriminant over 108")
     (cofactor,) = stage("xy", x * y - u * u, words="cofactor of B_33")
     (determinant,) = stage("det", z * cofactor + v * C[1] + w * C[2], words="det B")
-    big_c, big_s = stage("z", determinant / 2, sympy.sqrt(square), words="cos 3 phi and sin 3 phi, but for rounding")
-    (norm,) = stage("norm", sympy.sqrt(big_c * big_c + big_s * big_s), words="1 but for rounding")
-    (inverse,) = stage("inverse", Select(norm, TINY, 0, 1 / norm), words="its inverse")
-    c, s = stage("cs", big_c * inverse, big_s * inverse, words="cos 3 phi, sin 3 phi")
+    c, s = stage("cs", determinant / 2, sympy.sqrt(square), words="cos 3 phi, sin 3 phi")
     return c, s
 
 

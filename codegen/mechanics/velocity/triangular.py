@@ -55,15 +55,16 @@ class Reflections:
         signed = stages.stage(f"signed_{name}", _one(Select(x[0], 0, -norm, norm)), f"x_{name} with the sign of v_1")[0]
         head = stages.stage(f"v_{name}", _one(x[0] + signed), "first component of v; the others stay as they are")[0]
         weight = stages.stage(f"y_{name}", _one(signed * head), "|v|^2 / 2")[0]
-        beta = stages.stage(
-            f"beta_{name}", _one(Select(norm, limit, 0, 1 / weight)), "the reflection is I - beta v v^T"
-        )[0]
+        quotient = stages.stage(f"q_{name}", _one(1 / weight), "1 / weight")[0]
+        beta = stages.stage(f"beta_{name}", _one(Select(norm, limit, 0, quotient)), "the reflection is I - beta v v^T")[
+            0
+        ]
         v = [head, *x[1:]]
         for k in (k for k in range(len(self.columns)) if k not in (*self._finished, column)):
             self._reflect(f"{name}_{k + 1}", k, rows, v, beta)
         value = Select(norm, limit, 0, -signed) if self.are_values_judged else -signed
         diagonal = stages.stage(f"r_{name}", _one(value), f"diagonal {step + 1} of R")[0]
-        inverse = stages.stage(f"i_{name}", _one(Select(norm, limit, 0, -1 / signed)), "its inverse, or 0")[0]
+        inverse = stages.stage(f"i_{name}", _one(-beta * head), "its inverse, or 0")[0]
         self.inverses.append(inverse)
         self._finish(column, rows, diagonal)
 

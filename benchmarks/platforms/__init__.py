@@ -1,0 +1,1 @@
+"""Velocity indices of a platform: our routines beside numpy, Eigen and C written by CasADi."""

@@ -101,4 +101,29 @@ def _again(target: str, largest: float, bounds: str, options: dict[str, Any]) ->
     return shlex.join(words)
 
 
-COMMANDS = (accuracy, budget)
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option("-o", "folder", type=click.Path(path_type=Path), help="Write extremes.json and extremes.md.")
+def extremes(as_json: bool, folder: Path | None) -> None:
+    """Tables of digits at extremes: far away, after many turns, near singular poses, huge and tiny numbers, NaN."""
+    from codegen import output
+    from codegen.report.extreme_sheets import extreme_files, extreme_sheets
+    from codegen.trade.extreme_table import as_data
+    from codegen.trade.extremes import TABLES, extreme_tables
+
+    if folder is not None:
+        output.check_target(folder)
+    with progress(len(TABLES), "measuring") as advance:
+        result = as_data(extreme_tables(advance))
+    if folder is not None:
+        output.replace(folder, extreme_files(result))
+        click.echo(f"{folder}: {len(result)} tables")
+    elif as_json:
+        click.echo(json.dumps(result, indent=1))
+    else:
+        from codegen.report import tables
+
+        tables.show(extreme_sheets(result))
+
+
+COMMANDS = (accuracy, budget, extremes)

@@ -179,6 +179,18 @@ def _unit_quaternion(draw: _Sequence) -> Vector:
     return [small * s, small * c, large * sine, large * cosine]
 
 
+def _turns_in_sequence(angles: Vector) -> Vector:
+    """Unit quaternion of ``Rz(a1) Ry(a2) Rx(a3)``."""
+    half = DoubleDouble.of(0.5)
+    (s1, c1), (s2, c2), (s3, c3) = ((half * angle).sine_and_cosine() for angle in angles)
+    return [
+        c1 * c2 * c3 + s1 * s2 * s3,
+        c1 * c2 * s3 - s1 * s2 * c3,
+        c1 * s2 * c3 + s1 * c2 * s3,
+        s1 * c2 * c3 - c1 * s2 * s3,
+    ]
+
+
 def _rotation(q: Vector) -> Matrix:
     """Rotation of a unit quaternion (w, x, y, z)."""
     w, x, y, z = q
@@ -224,7 +236,7 @@ def _relative(
         offset = [zero, zero, _advance(angles[0], parameters)]
     offset = (offset + [zero] * 3)[:3]
     if variant.rows == "quaternion":
-        q = _unit_quaternion(draw)
+        q = _turns_in_sequence(angles) if fixed else _unit_quaternion(draw)
         return [*shifts, *q], offset, _rotation(q)
     return [*shifts, *angles], offset, H
 

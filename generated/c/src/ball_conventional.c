@@ -34,15 +34,15 @@ void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
     /* d_ij_world = r_j + s_j - r_i - s_i, world axes */
-    const jg_real d_ij_world_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real d_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0 - s_i_world_0;
     phi[0] = d_ij_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    const jg_real d_ij_world_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1 - s_i_world_1;
     phi[1] = d_ij_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    const jg_real d_ij_world_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2 - s_i_world_2;
     phi[2] = d_ij_world_2;
 }
 
@@ -275,15 +275,15 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
     /* d_ij_world = r_j + s_j - r_i - s_i, world axes */
-    const jg_real d_ij_world_0 = r_j[0] + s_j_world_0 - r_i[0] - s_i_world_0;
+    const jg_real d_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0 - s_i_world_0;
     phi[0] = d_ij_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    const jg_real d_ij_world_1 = r_j[1] + s_j_world_1 - r_i[1] - s_i_world_1;
+    const jg_real d_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1 - s_i_world_1;
     phi[1] = d_ij_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    const jg_real d_ij_world_2 = r_j[2] + s_j_world_2 - r_i[2] - s_i_world_2;
+    const jg_real d_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2 - s_i_world_2;
     phi[2] = d_ij_world_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);

@@ -101,9 +101,9 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_2 = r_j[2] + s_j_world_2 - r_i[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] + s_j_world_1 - r_i[1];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     phi_q[6] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[7] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
     /* h_j_world = h_j, world axes */
@@ -116,7 +116,7 @@ void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
     phi_q[9] = g_i_cross_h_j_world_0;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real e_ij_world_0 = r_j[0] + s_j_world_0 - r_i[0];
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     phi_q[10] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[11] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];

@@ -434,11 +434,11 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] + s_j_world_0 - r_i[0];
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real e_ij_world_1 = r_j[1] + s_j_world_1 - r_i[1];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real e_ij_world_2 = r_j[2] + s_j_world_2 - r_i[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real t36 = omega_i_world_0 * e_ij_world_0 + omega_i_world_1 * e_ij_world_1 + omega_i_world_2 *
         e_ij_world_2;
     /* v_0_world = (omega_i . omega_i) r_j + (omega_i . omega_i) s_j - (omega_i . omega_i) r_i + (-(r_j . ... */

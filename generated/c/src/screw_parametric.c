@@ -122,11 +122,11 @@ void jg_screw_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] + s_j_world_0 - r_i[0];
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] + s_j_world_1 - r_i[1];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] + s_j_world_2 - r_i[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     phi_q[3] = e_ij_in_i_2;

@@ -51,7 +51,7 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + r_j[0] - r_i[0];
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
@@ -96,7 +96,7 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
         + (t7 * h_star_in_j_0 + g_star_in_j_2 * t8 - (t5 * h_star_in_j_2 + g_star_in_j_0 * t10)) * C_j[4] + (t5 *
         h_star_in_j_1 + g_star_in_j_0 * t9 - (t6 * h_star_in_j_0 + g_star_in_j_1 * t8)) * C_j[5];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = s_j_world_1 + r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
@@ -112,7 +112,7 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
         C_j[3] + (t29 * h_star_in_j_0 + g_star_in_j_2 * t30 - (t27 * h_star_in_j_2 + g_star_in_j_0 * t32)) * C_j[4]
         + (t27 * h_star_in_j_1 + g_star_in_j_0 * t31 - (t28 * h_star_in_j_0 + g_star_in_j_1 * t30)) * C_j[5];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = s_j_world_2 + r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;

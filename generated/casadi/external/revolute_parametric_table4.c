@@ -268,7 +268,7 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + r_j[0] - r_i[0];
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     const jg_real t21 = e_ij_world_0 * omega_i[2];
     jac_phi_q_v_A_i[18] = t21;
     jac_phi_q_v_A_i[1] = v_j[0] * t15 + v_j[1] * t17 + v_j[2] * t18 - (s_j_cross_omega_j_in_j_0 * t15 +
@@ -335,7 +335,7 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t61 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t62 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = s_j_world_1 + r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real t65 = e_ij_world_1 * omega_i[2];
     jac_phi_q_v_A_i[20] = t65;
     jac_phi_q_v_A_i[7] = v_j[0] * t60 + v_j[1] * t61 + v_j[2] * t62 - (s_j_cross_omega_j_in_j_0 * t60 +
@@ -373,7 +373,7 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t88 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t89 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = s_j_world_2 + r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real t92 = e_ij_world_2 * omega_i[2];
     jac_phi_q_v_A_i[22] = t92;
     jac_phi_q_v_A_i[13] = v_j[0] * t87 + v_j[1] * t88 + v_j[2] * t89 - (s_j_cross_omega_j_in_j_0 * t87 +

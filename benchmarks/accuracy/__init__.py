@@ -1,0 +1,1 @@
+"""The trade of accuracy and speed."""

@@ -1,0 +1,32 @@
+"""All tables of extremes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from codegen.trade.extreme_numbers import multipliers, nans
+from codegen.trade.extreme_places import angles, distances, drifts, turns
+from codegen.trade.extreme_rank import gimbal_lock, singular_values
+from codegen.trade.extreme_table import ExtremeTable
+from codegen.trade.newton import newton_table
+
+TABLES: tuple[Callable[[], ExtremeTable], ...] = (
+    distances,
+    angles,
+    turns,
+    drifts,
+    singular_values,
+    gimbal_lock,
+    multipliers,
+    nans,
+    newton_table,
+)
+
+
+def extreme_tables(progress: Callable[[str], None] = lambda _: None) -> tuple[ExtremeTable, ...]:
+    """Compute every table; ``progress`` is told the name of each."""
+    found = []
+    for table in TABLES:
+        found.append(table())
+        progress(found[-1].name)
+    return tuple(found)

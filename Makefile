@@ -71,8 +71,8 @@ bench-engine: $(STAMP) ## run the in-line engine, write benchmarks/engine/result
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
 
-bench-chains: $(STAMP) ## the routines of chains beside a recursion that reads a table
-	$(BIN)/python -m benchmarks.chain_speed $(ARGS)
+bench-chains: $(BENCH_STAMP) ## the routines of chains beside a recursion that reads a table
+	$(BENCH_BIN)/python -m benchmarks.chain_speed $(ARGS)
 
 bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
 	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)

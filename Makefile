@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-platform bench-scenes figures-chain search lock clean help figures-accuracy
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-platform bench-scenes figures-accuracy figures-chain search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -82,6 +82,7 @@ figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
 
 bench-platform: $(STAMP) ## velocity indices beside numpy, Eigen and CasADi's C; make bench-platform ARGS='--rounds 20'
 	$(BIN)/python -m benchmarks.platforms $(ARGS)
+
 figures-accuracy: $(STAMP) ## measure the trade of accuracy and speed, draw the figures of docs/accuracy.md
 	$(BIN)/python -m benchmarks.accuracy $(ARGS)
 

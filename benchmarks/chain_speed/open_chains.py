@@ -70,16 +70,26 @@ def _difference(ours: Array, theirs: Array) -> float:
     return float(np.abs(ours - theirs).max() / scale) if scale else float(np.abs(ours).max())
 
 
+def _depth_first(chain: Chain, carrier: str) -> list[int]:
+    """Numbers of the links that hang on a carrier, each followed by those that hang on it."""
+    hung = [(k, link.name) for k, link in enumerate(chain.links) if link.parent == carrier]
+    return [number for k, name in hung for number in (k, *_depth_first(chain, name))]
+
+
 class Pinocchio:
-    """An open chain as a model of Pinocchio, made from the rows of its file."""
+    """An open chain as a model of Pinocchio, made from the rows of its file.
+
+    Joints are added depth first: the composite bodies of its inertia matrix take a subtree for a run of joints.
+    """
 
     def __init__(self, chain: Chain) -> None:
         import pinocchio as pin
 
         self._pin, self._model = pin, pin.Model()
         self._model.gravity.linear = np.array(chain.gravity, float)
+        self._order = _depth_first(chain, BASE)
         numbers = {BASE: 0}
-        for link in chain.links:
+        for link in (chain.links[k] for k in self._order):
             numbers[link.name] = self._hang(link, numbers[link.parent])
         self._ends = [
             self._model.addFrame(
@@ -92,11 +102,12 @@ class Pinocchio:
     def evaluate(self, q: Array, qd: Array) -> tuple[Array, Array, Array]:
         """Inertia matrix, bias forces with gravity, and Jacobians of the end effectors in their own axes."""
         pin, model, data = self._pin, self._model, self._data
+        q, qd, back = q[self._order], qd[self._order], np.argsort(self._order)
         upper = np.triu(pin.crba(model, data, q))
         M = upper + np.triu(upper, 1).T
         bias = np.array(pin.nonLinearEffects(model, data, q, qd))
-        D_E = [np.array(pin.computeFrameJacobian(model, data, q, end, pin.LOCAL)) for end in self._ends]
-        return M, bias, np.concatenate(D_E)
+        D_E = np.concatenate([pin.computeFrameJacobian(model, data, q, end, pin.LOCAL) for end in self._ends])
+        return M[np.ix_(back, back)], bias[back], D_E[:, back]
 
     def _hang(self, link: Link, parent: int) -> int:
         pin, is_revolute = self._pin, link.type == "revolute"

@@ -68,7 +68,8 @@ def step(chain: Chain, folder: Path) -> Step:
     library.nanoseconds.restype = ctypes.c_double
     with threadpool_limits(1):
         times = np.array([[library.nanoseconds(side, _BLOCK) for side in (0, 1)] for _ in range(ROUNDS)])
-    return Step(*map(float, np.median(times, axis=0)), float(np.median(times[:, 0] / times[:, 1])), difference)
+    routine_time, generic_time = map(float, np.median(times, axis=0))
+    return Step(routine_time, generic_time, float(np.median(times[:, 0] / times[:, 1])), difference)
 
 
 def _library(chain: Chain, folder: Path) -> ctypes.CDLL:

@@ -71,8 +71,8 @@ bench-engine: $(STAMP) ## run the in-line engine, write benchmarks/engine/result
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
 
-bench-chains: $(STAMP) ## the routines of chains beside a recursion that reads a table
-	$(BIN)/python -m benchmarks.chain_speed $(ARGS)
+bench-chains: $(BENCH_STAMP) ## the routines of chains beside a recursion that reads a table
+	$(BENCH_BIN)/python -m benchmarks.chain_speed $(ARGS)
 
 bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
 	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)
@@ -80,11 +80,11 @@ bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; ma
 figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
 	$(BIN)/python -m benchmarks.chains $(ARGS)
 
-figures-accuracy: $(STAMP) ## measure the trade of accuracy and speed, draw the figures of docs/accuracy.md
-	$(BIN)/python -m benchmarks.accuracy $(ARGS)
-
 bench-platform: $(STAMP) ## velocity indices beside numpy, Eigen and CasADi's C; make bench-platform ARGS='--rounds 20'
 	$(BIN)/python -m benchmarks.platforms $(ARGS)
+
+figures-accuracy: $(STAMP) ## measure the trade of accuracy and speed, draw the figures of docs/accuracy.md
+	$(BIN)/python -m benchmarks.accuracy $(ARGS)
 
 bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
 	$(BIN)/python -m benchmarks.scenes $(ARGS)

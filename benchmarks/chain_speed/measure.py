@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,14 +58,14 @@ def measured(chain: Chain, folder: Path) -> Result:
     files = generate_chain(chain)
     for path in (f"{chain.name}.h", f"{chain.name}.c", "jg_real.h", "manifest.json"):
         (folder / path).write_bytes(files[path])
-    (folder / "driver.c").write_text(_driver(chain))
+    for name in ("driver.c", "table.h"):
+        (folder / name).write_text(rendered(f"{name}.j2", chain))
     for name in ("table_driven.h", "table_driven.c"):
         (folder / name).write_text((HERE / name).read_text())
     sources = [folder / name for name in ("driver.c", "table_driven.c", f"{chain.name}.c")]
     compile_sources(sources, folder / "timed", FLAGS)
     routine, recursion = (json.loads(_output([str(folder / "timed"), str(k)])) for k in range(2))
-    manifest = json.loads(files["manifest.json"])
-    entry = next(f for f in manifest["functions"] if f["symbol"] == f"jg_{chain.name}_all")
+    entry = fused_entry(files, chain)
     timed = [str(folder / "timed")]
     times = np.array(json.loads(_output(timed)))
     sides = [Side(float(np.median(times[:, k])), _instructions([*timed, str(k)], k)) for k in range(2)]
@@ -80,16 +80,23 @@ def measured(chain: Chain, folder: Path) -> Result:
     return Result(chain.name, entry["operations"]["total"], sides[0], sides[1], other, difference)
 
 
+def fused_entry(files: Mapping[str, bytes], chain: Chain) -> Any:
+    """What the manifest says of the routine of all six quantities."""
+    manifest = json.loads(files["manifest.json"])
+    return next(f for f in manifest["functions"] if f["symbol"] == f"jg_{chain.name}_all")
+
+
 def _state(chain: Chain) -> tuple[Sequence[Any], Sequence[float]]:
     """Coordinates of the file, and velocities."""
     return [link.coordinate for link in chain.links], [1 + k / 8 for k in range(len(chain.links))]
 
 
-def _driver(chain: Chain) -> str:
+def rendered(template: str, chain: Chain, **more: Any) -> str:
+    """A source of this folder for a chain."""
     tree = Tree(chain)
     inertias = [of_link(link) for link in chain.links] + [Inertia()] * (2 * len(chain.cuts))
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    return environment.from_string((HERE / "driver.c.j2").read_text()).render(
+    return environment.from_string((HERE / template).read_text()).render(
         name=chain.name,
         links=len(chain.links),
         cuts=len(chain.cuts),
@@ -97,6 +104,7 @@ def _driver(chain: Chain) -> str:
         frames=[_row(node, inertia) for node, inertia in zip(tree.nodes, inertias, strict=False)],
         q=_numbers(_state(chain)[0]),
         qd=_numbers(_state(chain)[1]),
+        **more,
     )
 
 

@@ -1,15 +1,14 @@
 """Pinocchio on the same chain: its model is made from a table of frames, the program is compiled once.
 
-It needs Pinocchio's and Eigen's headers; compiling takes minutes. ``PINOCCHIO_PREFIX`` names the folder that holds
-``include`` and ``lib``, such as the ``cmeel.prefix`` of ``pip install pin``.
+Headers and library are those of the package ``pin`` (extra ``bench``); compiling takes minutes.
 """
 
 from __future__ import annotations
 
-import os
 import subprocess
 from collections.abc import Iterator, Sequence
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +29,11 @@ _LIMITS = {
 
 
 def prefix() -> Path | None:
-    """Where Pinocchio is; None where it is not."""
-    named = os.environ.get("PINOCCHIO_PREFIX")
-    return Path(named) if named and (Path(named) / "include/pinocchio").is_dir() else None
+    """The folder with Pinocchio's ``include`` and ``lib``; None where the package is not installed."""
+    found = find_spec("pinocchio")
+    if found is None or found.origin is None:
+        return None
+    return next((folder for folder in Path(found.origin).parents if (folder / "include/pinocchio").is_dir()), None)
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -73,5 +74,10 @@ def values(program: Program, inputs: dict[str, np.ndarray]) -> dict[str, np.ndar
 
 
 def evaluated(chain: Chain, names: tuple[str, ...], inputs: dict[str, np.ndarray], progressive: bool = True) -> dict:
-    """Quantities of a chain as dense arrays."""
-    return values(simplify(chain_program(chain, names, progressive)), inputs)
+    """Quantities of a chain as dense arrays; they are derived once."""
+    return values(_derived(chain, names, progressive), inputs)
+
+
+@cache
+def _derived(chain: Chain, names: tuple[str, ...], progressive: bool) -> Program:
+    return simplify(chain_program(chain, names, progressive))

@@ -52,20 +52,29 @@ def accuracy(joint: tuple[str, ...], as_json: bool, folder: Path | None, **optio
 @click.option("--rows", help="Rows of the parametric form: regular, table4, or quaternion (rot3 only).")
 @click.option("--derivative", help="exact or substituted.")
 @click.option("--output", default="all", show_default=True, help="Which routine: a quantity, a product, or all.")
+@click.option(
+    "-o", "folder", type=click.Path(path_type=Path), help="Write the package of the chosen routine of a joint."
+)
 @click.option("--worst", is_flag=True, help="Print the inputs of the worst pose instead, as hexadecimal numbers.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-def budget(target: str, largest: float, bounds: str, worst: bool, as_json: bool, **options: Any) -> None:
+def budget(
+    target: str, largest: float, bounds: str, folder: Path | None, worst: bool, as_json: bool, **options: Any
+) -> None:
     """Find the cheapest routine of a joint, or of each joint of a scene FILE, with errors within a budget."""
     from codegen.report.budget_text import budget_lines
     from codegen.trade.budget import answered, check_error, document, worst_inputs
 
     requests = _budget_requests(target, bounds, options)
     check_error(largest, requests)
+    if folder is not None:
+        _check_package(folder, target, requests)
     found = []
     for request in requests:
         with progress(1000, "judging") as advance:
             answer = answered(request, largest, advance)
         found.append(document(request, largest, answer))
+        if folder is not None and answer.verdict != "IMPOSSIBLE":
+            _write_package(folder, request, answer.chosen)
         if worst:
             click.echo(json.dumps({"inputs": worst_inputs(request, answer.chosen)}, indent=1))
         elif not as_json:
@@ -75,6 +84,31 @@ def budget(target: str, largest: float, bounds: str, worst: bool, as_json: bool,
         click.echo(json.dumps(found if len(found) > 1 else found[0], indent=1))
     if any(one["verdict"] == "IMPOSSIBLE" for one in found):
         raise click.exceptions.Exit(1)
+
+
+def _check_package(folder: Path, target: str, requests: list[Any]) -> None:
+    """Refuse what cannot be written, before any work is done."""
+    from codegen import output
+    from codegen.errors import Mistake, SpecificationError
+
+    if Path(target).suffix:
+        what = f"is for one joint, and {target} has {len(requests)} types"
+        raise SpecificationError([Mistake("-o", what, "leave it out, or give a joint; jointgen scene emits a scene")])
+    output.check_target(folder)
+
+
+def _write_package(folder: Path, request: Any, chosen: Any) -> None:
+    """Write the routine that was chosen."""
+    from codegen import build, output
+    from codegen.errors import Mistake, SpecificationError
+    from codegen.trade.budget import package_options
+
+    options = package_options(request, chosen)
+    if options.real not in ("double", "float"):
+        what = f"{chosen.routine} is in {options.real}, which is measured and not emitted"
+        raise SpecificationError([Mistake("--max-error", what, "allow a larger error")])
+    output.replace(folder, build.generate(options))
+    click.echo(f"{folder}: {chosen.routine}", err=True)
 
 
 def _budget_requests(target: str, bounds: str, options: dict[str, Any]) -> list[Any]:

@@ -30,6 +30,7 @@ from codegen.emit.routine import Parameter, Routine
 from codegen.errors import InternalError
 from codegen.measure.errors import number_type
 from codegen.measure.evaluations import parameters
+from codegen.measure.short_trigonometry import short_sincos
 
 SAME_BITS = ("-ffp-contract=off", "-fno-tree-slp-vectorize")
 """Flags under which the bits are those of the Program, with every compiler."""
@@ -52,7 +53,8 @@ class Build:
         compiler: command.
         flags: besides the language.
         fma: whether the program to compile is the one with fused products and sums.
-        trigonometry: ``libm``, ``own`` (polynomials, no calls), or ``given``: sines and cosines are inputs.
+        trigonometry: ``libm``, ``own`` (polynomials, no calls), ``given``: sines and cosines are inputs, or ``short``.
+        degree: of the polynomials, where they are short.
     """
 
     name: str
@@ -62,6 +64,7 @@ class Build:
     flags: tuple[str, ...] = O2
     fma: bool = False
     trigonometry: str = "libm"
+    degree: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -210,6 +213,7 @@ def _source(routine: Routine, build: Build) -> str:
     else:
         header = "long_double.h" if build.real == "long double" else "jointgen/jg_real.h"
         head = [f'#include "{header}"']
+        head += [short_sincos(build.degree)] if build.trigonometry == "short" else []
         text, prototype = definition(symbol, declared, program)[0], declaration(symbol, declared)
     return render(
         "measure/poses.c.j2",

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from codegen.report.sheets import Document
 from codegen.report.svg import drawn
 
-_MARKERS = "osD^v<>phPX*d"
+_MARKERS = "osD^v<>phPX*d8H+x|_"
 _WIDTH, _HEIGHT = 7.5, 4.5
 
 
@@ -29,7 +29,7 @@ def pareto(document: Document, joint: str) -> str:
         axis = figure.subplots()
         for marker, build in zip(_MARKERS, dict.fromkeys(build for _, build, _, _ in points), strict=False):
             own = [(x, y) for _, name, x, y in points if name == build]
-            axis.scatter(*zip(*own, strict=True), marker=marker, facecolor="none", edgecolor="black", label=build)
+            axis.plot(*zip(*own, strict=True), marker, color="black", markerfacecolor="none", label=build)
         line = sorted((x, y) for routine, build, x, y in points if (routine, build) in fronts)
         axis.step(*zip(*line, strict=True), where="post", color="black", linewidth=0.8, label="front")
         axis.set_xscale("log")

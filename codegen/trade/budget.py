@@ -29,6 +29,7 @@ from codegen.measure.pose_boxes import pose_box
 from codegen.measure.pose_domain import Block, PoseDomain
 from codegen.measure.poses import Points, Poses, exactly, poses_at, sobol_points
 from codegen.measure.routine_builds import Build, Built, built
+from codegen.spec.request import Options
 from codegen.trade.accuracy import AccuracyRequest, blocks_of, joint_subject
 from codegen.trade.builds import builds, prepared_for
 from codegen.trade.programs import builds_folder, routines
@@ -139,7 +140,7 @@ def answered(request: AccuracyRequest, largest: float, progress: Progress = lamb
 
 def _by_time(request: AccuracyRequest) -> list[tuple[Built, float]]:
     """All candidates and their times, fastest first; those that need other inputs are cures."""
-    made = _made(request, [build for build in builds(is_full=True) if build.trigonometry != "given"])
+    made = _made(request, [build for build in builds(is_full=True) if build.trigonometry in ("libm", "own")])
     timers = [one.timer(_inputs(one, request.domain)) for one in made]
     times = [[timer() for timer in timers] for _ in range(_TIMES)][2:]
     medians = [statistics.median(line[k] for line in times) for k in range(len(made))]
@@ -270,6 +271,24 @@ def worst_inputs(request: AccuracyRequest, judgement: Judgement) -> dict[str, li
     used = [argument.name for argument in one.routine.program.used_arguments()]
     given = poses.given(number_type(one.build.real))
     return {name: [float(x).hex() for x in given[name][:, 0]] for name in used}
+
+
+def package_options(request: AccuracyRequest, judgement: Judgement) -> Options:
+    """The request that generates the package of a candidate."""
+    choice = next(build for build in builds(is_full=True) if build.name == judgement.build)
+    found = (v for v in request.variants() if judgement.routine.startswith(v.routine_stem(request.output)))
+    variant = max(found, key=lambda variant: len(variant.stem))
+    return Options(
+        (variant.joint,),
+        variant.form,
+        variant.rows,
+        variant.derivative,
+        variant.variation,
+        real=choice.real,
+        outputs=(request.output,),
+        batch=choice.lanes if choice.lanes > 1 else None,
+        fma=choice.fma,
+    )
 
 
 def document(request: AccuracyRequest, largest: float, answer: Answer) -> dict[str, Any]:

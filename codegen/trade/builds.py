@@ -7,10 +7,13 @@ from dataclasses import replace
 
 from codegen.emit.routine import Routine
 from codegen.errors import Mistake, SpecificationError
+from codegen.ir.ops import Op
 from codegen.measure.routine_builds import NATIVE, SAME_BITS, Build
+from codegen.measure.short_trigonometry import DEGREES
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.given_trigonometry import given_trigonometry
 
+_FUNCTIONS = frozenset({Op.SIN, Op.COS, Op.SINCOS, Op.ATAN2})
 _STRICT_NATIVE = (*NATIVE, *SAME_BITS)
 
 BASE = (Build("double"), Build("float", "float"))
@@ -27,6 +30,9 @@ _FURTHER = (
     Build("float, 8 lanes, sin and cos given", "float", lanes=8, flags=_STRICT_NATIVE, trigonometry="given"),
     Build("long double", "long double"),
 )
+_SHORT = tuple(
+    Build(f"double, sin and cos of degree {degree}", trigonometry="short", degree=degree) for degree in DEGREES
+)
 _CLANG = (
     Build("double, clang", compiler="clang", flags=("-O2", "-ffp-contract=off")),
     Build("double, clang, -O3 native", compiler="clang", flags=NATIVE),
@@ -42,7 +48,7 @@ def builds(is_full: bool) -> tuple[Build, ...]:
     if shutil.which("gcc") is None:
         raise SpecificationError([Mistake("compiler", "there is no gcc", "install gcc")])
     clang = _CLANG if shutil.which("clang") else ()
-    return (*BASE, *_FURTHER, *clang) if is_full else BASE
+    return (*BASE, *_FURTHER, *_SHORT, *clang) if is_full else BASE
 
 
 def prepared_for(routine: Routine, build: Build) -> Routine | None:
@@ -53,5 +59,7 @@ def prepared_for(routine: Routine, build: Build) -> Routine | None:
     if build.trigonometry == "given":
         given = given_trigonometry(program)
         return None if given is program else replace(routine, program=given)
-    has_angles = any(i.op.value in ("sin", "cos", "sincos", "atan2") for i in program.instructions)
-    return None if build.trigonometry == "own" and not has_angles else routine
+    functions = {instruction.op for instruction in program.instructions} & _FUNCTIONS
+    if build.trigonometry == "short":
+        return routine if functions - {Op.ATAN2} else None
+    return None if build.trigonometry == "own" and not functions else routine

@@ -22,6 +22,9 @@ from codegen.spec.request import Variant
 _MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "mechanics", "passes", "spec")
 """What the programs of a joint depend on, below the package."""
 
+_HEADERS = ("c", "measure")
+"""Templates that compiled routines depend on."""
+
 
 def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
     """Give the routines of a variant as `codegen.build.routines` does, from the cache where it has them."""
@@ -35,9 +38,10 @@ def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -
     return made
 
 
+@cache
 def builds_folder() -> Path:
-    """Where compiled routines are kept."""
-    folder = cache_folder() / "builds"
+    """Where routines are kept that were compiled with the headers that these templates give."""
+    folder = cache_folder() / f"builds-{_digest(template_folder(), [template_folder() / part for part in _HEADERS])}"
     folder.mkdir(exist_ok=True)
     return folder
 
@@ -60,9 +64,14 @@ def cache_folder() -> Path:
 
 def _fingerprint() -> str:
     root = Path(codegen.__file__).parent
+    return _digest(root, [root / maker for maker in _MAKERS])
+
+
+def _digest(root: Path, places: Sequence[Path]) -> str:
+    """Content hash of files, and of those in folders."""
     digest = hashlib.sha256()
-    for place in (*(root / maker for maker in _MAKERS), template_folder() / "c", template_folder() / "measure"):
+    for place in places:
         for path in [place] if place.is_file() else sorted(p for p in place.rglob("*") if p.suffix in (".py", ".j2")):
             content = path.read_bytes()
-            digest.update(f"{path.name} {len(content)}\n".encode() + content)
+            digest.update(f"{path.relative_to(root)} {len(content)}\n".encode() + content)
     return digest.hexdigest()[:24]

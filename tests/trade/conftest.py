@@ -13,6 +13,11 @@ from codegen.trade import programs
 def _own_cache(request: pytest.FixtureRequest) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(request.config.cache.mkdir("jointgen-trade")))
-        programs.cache_folder.cache_clear()
+        _forget()
         yield
+    _forget()
+
+
+def _forget() -> None:
     programs.cache_folder.cache_clear()
+    programs.builds_folder.cache_clear()

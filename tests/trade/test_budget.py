@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -96,6 +97,24 @@ def test_the_exit_code_says_whether_the_budget_can_be_met() -> None:
     assert (code, data["verdict"]) == (0, "PROVEN")
     code, data = command("ball", "--max-error", "1e-30")
     assert (code, data["verdict"]) == (1, "IMPOSSIBLE")
+
+
+def test_the_chosen_routine_is_written(tmp_path: Path) -> None:
+    words = ("ball", "--max-error", "1e-3", "--form", "conventional", "--output", "phi", "--json")
+    result = invoke("budget", *words, "-o", tmp_path / "out")
+    assert result.exit_code == 0, result.stderr
+    data = json.loads(result.stdout)
+    manifest = json.loads((tmp_path / "out/manifest.json").read_text())
+    (function,) = manifest["functions"]
+    assert function["symbol"] == data["chosen"]["routine"]
+    assert function["real"] == data["chosen"]["build"]
+
+
+def test_a_scene_is_no_package_of_one_joint(tmp_path: Path) -> None:
+    scene = REPOSITORY / "examples/in_line_engine.toml"
+    result = invoke("budget", scene, "--max-error", "1e-3", "-o", tmp_path / "out")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("-o: ")
 
 
 def test_every_type_of_joint_of_a_scene_is_judged() -> None:

@@ -125,7 +125,7 @@ def test_gimbal_lock_takes_a_coordinate_and_no_row() -> None:
 @pytest.mark.parametrize("variant", LINEAR, ids=lambda variant: variant.file_stem)
 def test_multipliers_from_1e_300_to_1e300_change_no_bit(variant: Variant) -> None:
     routine = routine_of(variant, "phi_q_t_lambda_q")
-    assert [scaling_error(routine, exponent) for exponent in (-900, -500, 500, 996)] == [0.0] * 4
+    assert [scaling_error(routine, exponent) for exponent in (-996, -500, 500, 996)] == [0.0] * 4
 
 
 @pytest.mark.parametrize("variant", LINEAR, ids=lambda variant: variant.file_stem)

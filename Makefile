@@ -77,17 +77,17 @@ bench-chains: $(BENCH_STAMP) ## the routines of chains beside a recursion that r
 bench-peers: $(BENCH_STAMP) ## lay our routines beside other code generators; make bench-peers ARGS='--joints ball'
 	$(BENCH_BIN)/python -m benchmarks.peers $(ARGS)
 
-figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
-	$(BIN)/python -m benchmarks.chains $(ARGS)
-
 bench-platform: $(STAMP) ## velocity indices beside numpy, Eigen and CasADi's C; make bench-platform ARGS='--rounds 20'
 	$(BIN)/python -m benchmarks.platforms $(ARGS)
+
+bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
+	$(BIN)/python -m benchmarks.scenes $(ARGS)
 
 figures-accuracy: $(STAMP) ## measure the trade of accuracy and speed, draw the figures of docs/accuracy.md
 	$(BIN)/python -m benchmarks.accuracy $(ARGS)
 
-bench-scenes: $(STAMP) ## straight-line code against loops for 1 to 1000 mechanisms; make bench-scenes ARGS='--sets 20'
-	$(BIN)/python -m benchmarks.scenes $(ARGS)
+figures-chain: $(STAMP) ## run the simulations of S2 and draw them into docs/
+	$(BIN)/python -m benchmarks.chains $(ARGS)
 
 lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the newest
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \

@@ -94,7 +94,7 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
 )
 @click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
-@click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto, always or never.")
+@click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto or never.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 @click.option("--measure", is_flag=True, help="Say in the README what each simplification saves on this machine.")
 def scene(file: Path, form: str | None, copies: int | None, real: str, loops: str, target: Path, measure: bool) -> None:

@@ -60,7 +60,7 @@ def _lines(found: Sequence[Measured]) -> list[str]:
         "",
         f"{told['scene']}. {told['compiler']}, `{told['flags']}`, {told['processor']}.",
         "",
-        "- *straight*: every set written out (`--loops never`). *loops*: one set in a loop (`--loops always`); its",
+        "- *straight*: every set written out (`--loops never`). *loops*: one set in a loop (`--loops auto`); its",
         "  results are those of *straight*, bit for bit.",
         "- *library*: the library's conventional routine of each joint, called in a loop with run-time geometry, its",
         "  entries added to the same nonzeros of the scene.",

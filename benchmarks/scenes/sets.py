@@ -32,7 +32,7 @@ from codegen.spec.scene_file.copies import copied
 from flopcount.count import count
 
 ENGINE = Path(__file__).resolve().parents[2] / "examples" / "in_line_engine.toml"
-SHAPES = {"straight": "never", "loops": "always"}
+SHAPES = {"straight": "never", "loops": "auto"}
 """Name of a shape -> the option that gives it."""
 
 STEP = Fraction(1, 10)

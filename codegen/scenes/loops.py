@@ -7,10 +7,10 @@ from codegen.ir.program import Program
 from codegen.passes import simplify
 from codegen.passes.unroll import unroll, unroll_short
 
-LOOPS = ("auto", "always", "never")
+LOOPS = ("auto", "never")
 """Values of the option."""
 
-LEAST = {"auto": 4, "always": 2}
+LEAST = 2
 """Instances from which on they are run in a loop, see docs/decisions.md."""
 
 
@@ -23,6 +23,6 @@ def decided(looped: Looped, loops: str) -> Program | Looped:
     """
     if len(looped.loops) == 1 and looped.is_straight:
         return looped.loops[0].program
-    if loops == "never" or max(loop.count for loop in looped.loops) < LEAST[loops]:
+    if loops == "never" or max(loop.count for loop in looped.loops) < LEAST:
         return simplify(unroll(looped))
-    return unroll_short(looped, LEAST[loops])
+    return unroll_short(looped, LEAST)

@@ -264,9 +264,9 @@ def test_a_scene_may_hold_several_kinds_and_single_parts(tmp_path: Path) -> None
         assert all((emitted_values[name] == expected[name]).all() for name in FOUR)
 
 
-def test_short_loops_are_written_out_where_loops_are_not_wanted() -> None:
+def test_equal_parts_are_run_in_loops_unless_that_is_not_wanted() -> None:
     assert isinstance(decided(loops("both"), "never"), Program)
-    assert isinstance(decided(loops("both"), "always"), Looped)
+    assert isinstance(decided(loops("both"), "auto"), Looped)
 
 
 def test_any_other_value_of_the_option_is_refused() -> None:

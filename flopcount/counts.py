@@ -60,8 +60,8 @@ class Counts:
 
     @property
     def roundings(self) -> int:
-        """Number of rounded results: a fused multiply-add rounds once."""
-        return self.total - self.fma
+        """Number of rounded results: a fused multiply-add rounds once, a choice not at all."""
+        return self.total - self.fma - self.select
 
     def __add__(self, other: Counts) -> Counts:
         return Counts(*(getattr(self, kind.name) + getattr(other, kind.name) for kind in fields(self)))

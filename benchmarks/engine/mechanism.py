@@ -9,13 +9,8 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from codegen.dynamics import jacobian, residual
-from codegen.ir.program import Program
-from codegen.passes import simplify
-from codegen.scenes.motion import BETA
-from codegen.scenes.programs import estimate, program
+from codegen.scenes.equations import equations
 from codegen.scenes.run import Prepared, Settings, prepare, run
-from codegen.simulate.compiled import compiled
 from codegen.spec.scene_file import read_scene
 
 FORMS = ("conventional", "parametric")
@@ -32,17 +27,7 @@ def engine(form: str, sets: int = 1) -> Prepared:
 def engine_with_less(form: str, left_out: tuple[str, ...]) -> Prepared:
     """One engine whose Jacobian lacks terms of `codegen.dynamics.jacobian.SECOND`."""
     ready = engine(form)
-    values, slopes = _programs(form)
-    residuals = residual.residual(ready.system, ready.layout, values, ready.inertia, BETA)
-    slope = jacobian.jacobian(ready.system, ready.layout, slopes, ready.inertia, left_out=left_out)
-    return replace(ready, equations=compiled(ready.scene.name, simplify(residuals), simplify(slope)))
-
-
-@cache
-def _programs(form: str) -> tuple[Program, Program]:
-    """What residual and Jacobian are made of."""
-    system = engine(form).system
-    return program(system, residual.INDEX2, estimate), program(system, jacobian.INDEX2, estimate)
+    return replace(ready, equations=equations(ready.system, "index2", left_out))
 
 
 def seconds(runs: Sequence[tuple[Prepared, Settings]], rounds: int) -> list[float]:

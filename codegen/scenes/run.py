@@ -8,17 +8,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from codegen.dynamics.layout import Layout
+from codegen.dynamics.layout import Layout, layout
 from codegen.errors import Mistake, SpecificationError
 from codegen.ir.program import Program
 from codegen.measure.constraints import Array, Pose
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
+from codegen.scenes.equations import equations, quantities
 from codegen.scenes.generate import Judged, judge
-from codegen.scenes.motion import dae
-from codegen.scenes.programs import estimate, program
 from codegen.scenes.state import euler_parameters, program_arrays, rate_matrix
-from codegen.simulate.compiled import Compiled, compiled
+from codegen.simulate.compiled import Compiled
 from codegen.simulate.ida import FAILURES, Ida, Statistics, Tolerances
 from codegen.simulate.start import Motion, consistent_motion
 from codegen.spec.plane import InPlane, in_plane
@@ -128,20 +127,21 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     plane = in_plane(scene) if scene.motion == "planar" else None
     judged = judge(with_forms(plane.scene if plane else scene, settings.form))
     system = System(judged.assembly)
-    equations = dae(system, f"index{settings.index}", settings.left_out, choose=estimate)
-    values = program(system, ("phi_q", "gamma", "force"), estimate)
+    form = f"index{settings.index}"
+    state = layout(system, form)
+    values = quantities(system, ("phi_q", "gamma", "force"))
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
     motion = _motion(system, values, inertia, judged.pose, _velocity(system))
-    y, ydot = _state(system, equations.layout, judged.pose, motion)
+    y, ydot = _state(system, state, judged.pose, motion)
     return Prepared(
         scene,
         plane,
         judged,
         system,
-        equations.layout,
+        state,
         values,
         inertia,
-        compiled(scene.name, equations.residual, equations.jacobian),
+        equations(system, form, settings.left_out),
         motion,
         y,
         ydot,

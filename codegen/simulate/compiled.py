@@ -7,10 +7,11 @@ import textwrap
 from dataclasses import dataclass
 
 import codegen
-from codegen.emit.c import definition
+from codegen.emit.c import any_definition
 from codegen.emit.environment import render
 from codegen.emit.package import banner
-from codegen.emit.routine import Parameter
+from codegen.emit.routine import Parameter, Subject
+from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.simulate.library import library
 
@@ -34,31 +35,31 @@ class Compiled:
     library: ctypes.CDLL
 
 
-def compiled(name: str, residual: Program, jacobian: Program) -> Compiled:
+def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> Compiled:
     """Compile the equations of motion.
 
     Args:
-        name: of the scene.
+        subject: what they are of.
         residual: with the output ``residual``.
         jacobian: with the output ``jacobian``.
 
     Raises:
         SpecificationError: there is no C compiler.
     """
-    loaded = library(ida_source(name, residual, jacobian))
+    loaded = library(ida_source(subject, residual, jacobian))
     pattern = jacobian.output("jacobian").sparsity
     addresses = [ctypes.cast(loaded[name], ctypes.c_void_p).value for name in ("jg_ida_residual", "jg_ida_jacobian")]
     return Compiled(addresses[0] or 0, addresses[1] or 0, pattern.ncol, pattern.nonzeros, loaded)
 
 
-def ida_source(name: str, residual: Program, jacobian: Program) -> str:
+def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:
     """Write the C source of the functions that IDA calls."""
     pattern = jacobian.output("jacobian").sparsity
     return render(
         "c/ida.c.j2",
         banner=banner(codegen.__version__),
-        name=name,
-        functions=[definition(*declared(program), program)[0] for program in (residual, jacobian)],
+        name=subject.stem,
+        functions=[any_definition(*declared(p), p, subject, "static void")[0] for p in (residual, jacobian)],
         residual=_call(residual),
         jacobian=_call(jacobian),
         size=pattern.ncol,
@@ -68,15 +69,16 @@ def ida_source(name: str, residual: Program, jacobian: Program) -> str:
     )
 
 
-def declared(program: Program) -> tuple[str, tuple[Parameter, ...]]:
+def declared(program: Program | Looped) -> tuple[str, tuple[Parameter, ...]]:
     """Symbol and parameters of a function that evaluates a program: arguments it uses, then nonzeros of outputs."""
     words = ("column-major", "", "")
     inputs = [Parameter(a.name, "in", a.shape, a.length, *words) for a in program.used_arguments()]
-    outputs = [Parameter(o.name, "out", (len(o.values), 1), len(o.values), *words) for o in program.outputs]
+    sizes = [(output.name, output.sparsity.nonzeros) for output in program.outputs]
+    outputs = [Parameter(name, "out", (size, 1), size, *words) for name, size in sizes]
     return f"evaluate_{program.outputs[0].name}", (*inputs, *outputs)
 
 
-def _call(program: Program) -> str:
+def _call(program: Program | Looped) -> str:
     symbol, parameters = declared(program)
     return f"{symbol}({', '.join(parameter.name for parameter in parameters)});"
 

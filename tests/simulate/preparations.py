@@ -1,19 +1,13 @@
-"""Scenes ready to run, each prepared once for all tests.
-
-The ways to evaluate the equations are chosen in a hurry: any choice gives the same quantities.
-"""
+"""Scenes ready to run, each prepared once for all tests."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
-from unittest import mock
 
 from codegen.scenes import run
-from codegen.scenes.motion import dae
 from codegen.scenes.motion_record import Record, record
-from codegen.scenes.programs import estimate
 from codegen.scenes.run import Prepared, Settings, prepare
 from codegen.spec.scene_file import read_scene
 
@@ -30,8 +24,7 @@ def prepared(text: str, motion: str, form: str, derivative: str = "exact", index
     """A scene file in a motion, form and index."""
     scene = read_scene(text, "scene.toml")
     scene = replace(scene, motion=motion, wanted=replace(scene.wanted, derivative=derivative))
-    with mock.patch.object(run, "dae", partial(dae, choose=estimate)):
-        return prepare(scene, Settings(form=form, index=index))
+    return prepare(scene, Settings(form=form, index=index))
 
 
 def told(ready: Prepared, duration: float, tolerance: float = 1e-8, outputs: int = 100) -> Record:

@@ -1,0 +1,54 @@
+"""The equations of motion of a scene, ready to be called: equal mechanisms of it are derived once and run in loops."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+from codegen.dynamics.layout import layout
+from codegen.emit.scene_subject import SceneSubject
+from codegen.ir.looped import Looped
+from codegen.ir.program import Program
+from codegen.mechanics.plan import plan
+from codegen.mechanics.system import System
+from codegen.scenes.compose import compose
+from codegen.scenes.generate import row_names
+from codegen.scenes.loops import decided
+from codegen.scenes.motion import jacobian_program, residual_program
+from codegen.scenes.programs import estimate, program
+from codegen.simulate.compiled import Compiled, compiled
+
+
+def equations(system: System, form: str, left_out: Collection[str] = ()) -> Compiled:
+    """Derive and compile residual and Jacobian.
+
+    Args:
+        system: the scene.
+        form: ``index2`` or ``index1``, see `codegen.scenes.motion.dae`.
+        left_out: terms that the Jacobian lacks.
+
+    Raises:
+        SpecificationError: there is no C compiler.
+    """
+
+    def residual(part: System) -> Program:
+        return residual_program(part, form, choose=estimate)
+
+    def jacobian(part: System) -> Program:
+        return jacobian_program(part, form, left_out, choose=estimate)
+
+    planned = plan(system.assembly)
+    subject = SceneSubject(system, layout(system, form), row_names(system.assembly), planned)
+    if form == "index1":  # what loops run over is laid out for index 2
+        return compiled(subject, residual(system), jacobian(system))
+    return compiled(subject, _composed(system, residual, "auto"), _composed(system, jacobian, "auto"))
+
+
+def quantities(system: System, names: tuple[str, ...]) -> Program:
+    """Lower quantities of a scene in a hurry, section by section."""
+    found = _composed(system, lambda part: program(part, names, estimate), "never")
+    assert isinstance(found, Program)
+    return found
+
+
+def _composed(system: System, lowered: Callable[[System], Program], loops: str) -> Program | Looped:
+    return decided(compose(plan(system.assembly), lowered), loops)

@@ -143,7 +143,7 @@ def test_all_mistakes_of_a_scene_are_told_at_once(tmp_path: Path) -> None:
     [
         (("--form", "parametrik"), '--form: there is no "parametrik"; did you mean "parametric"?'),
         (("--real", "flaot"), '--real: there is no "flaot"; did you mean "float"?'),
-        (("--form", "relative"), "relative coordinates are not there yet; use auto, conventional or parametric"),
+        (("--form", "relative", "--measure"), "--measure: is not there in relative coordinates; leave it out"),
         (("--copies", "0"), "--copies"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",

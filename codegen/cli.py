@@ -14,6 +14,7 @@ import click
 
 import codegen
 from codegen import cli_trade
+from codegen.cli_chain import chain, generate_relative, simulate_chain, told
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 from codegen.progress import progress as _progress
 
@@ -105,7 +106,7 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 
     check_options(form, real, loops)
     if form == "relative":
-        _generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
+        generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
         return
     if measure:
         compiler()
@@ -118,105 +119,6 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
-
-
-@jointgen.command()
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("--kinematics", "mode", flag_value="kinematics", help="Motion from that of the independent coordinates.")
-@click.option("--inverse", "mode", flag_value="inverse", help="Besides, efforts and reactions.")
-@click.option("--forward", "mode", flag_value="forward", help="Motion under forces.")
-@click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the integrator.")
-@click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
-@click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
-@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
-@click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
-    """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
-    if mode is None:
-        _generate_chain(file, real, target)
-    else:
-        _run_chain(file, target, animation, {"mode": mode, **options})
-
-
-def _generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
-    """The routines of a scene by relative coordinates."""
-    from codegen import output, scenes
-    from codegen.chains.relative import relative
-
-    mistakes = [
-        Mistake(name, "is not there in relative coordinates", "leave it out") for name, on in given.items() if on
-    ]
-    if mistakes:
-        raise SpecificationError(mistakes)
-    output.check_target(target)
-    read, left_out = scenes.read(file, copies)
-    found = relative(read)
-    for line in (*left_out, *found.notes):
-        click.echo(line, err=True)
-    _write_chain(found.chain, real, target)
-
-
-def _generate_chain(file: Path, real: str, target: Path) -> None:
-    from codegen import output
-    from codegen.chains.read import read
-    from codegen.scenes.generate import check_options
-
-    check_options(None, real)
-    output.check_target(target)
-    described, _ = read(file)
-    _write_chain(described, real, target)
-
-
-def _write_chain(described: Any, real: str, target: Path) -> None:
-    from codegen import output
-    from codegen.chains.generate import generate_chain, steps
-    from codegen.chains.stand import check_start
-
-    check_start(described)
-    with _progress(steps(described), "generating") as advance:
-        files = generate_chain(described, real, advance)
-    output.replace(target, files)
-    functions = len(json.loads(files[output.MANIFEST])["functions"])
-    click.echo(f"{target}: {functions} functions in {len(files)} files")
-
-
-def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
-    from codegen import output
-    from codegen.chains.read import read
-    from codegen.chains.simulate import Settings, check, simulated
-    from codegen.measure.compile import compiler
-    from codegen.report.chain_pictures import chain_pictures
-
-    settings = Settings(**options)
-    output.check_target(target)
-    read_chain, tables = read(file)
-    check(read_chain, settings)
-    compiler()
-    with _progress(settings.outputs, "running") as advance:
-        result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
-    output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
-    _told(file, target, result)
-
-
-def _simulate_chain(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
-    """Forward dynamics of a chain; what only scenes have is refused."""
-    given = {"--form": options.pop("form"), "--copies": copies, "--through-singular": options.pop("through_singular")}
-    given["--index"] = options.pop("index") != 2
-    mistakes = [Mistake(name, "is for scenes, and this is a chain", "leave it out") for name, on in given.items() if on]
-    if mistakes:
-        raise SpecificationError(mistakes)
-    _run_chain(file, target, animation, {"mode": "forward", **options})
-
-
-def _told(file: Path, target: Path, result: Any) -> None:
-    """Tell a run; it fell short where it stopped before its end."""
-    click.echo(f"{target}: {result.words}")
-    for line in result.notes:
-        click.echo(f"{file}: {line}", err=True)
-    if result.failure:
-        click.echo(f"{file}: {result.failure}", err=True)
-        raise click.exceptions.Exit(1)
 
 
 @jointgen.command()
@@ -239,7 +141,7 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     from codegen.scenes.simulate import check_settings, check_tools, simulated
 
     if is_chain(file):
-        _simulate_chain(file, target, animation, copies, options)
+        simulate_chain(file, target, animation, copies, options)
         return
     settings = Settings(**options)
     check_settings(settings)
@@ -251,7 +153,7 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     with _progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
-    _told(file, target, result)
+    told(file, target, result)
 
 
 @jointgen.command()
@@ -382,7 +284,7 @@ def report(folder: tuple[Path, ...], target: Path) -> None:
     click.echo(f"{target}: {len(found)} folders of results")
 
 
-for _command in cli_trade.COMMANDS:
+for _command in (chain, *cli_trade.COMMANDS):
     jointgen.add_command(_command)
 
 

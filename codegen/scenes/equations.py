@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 
 from codegen.dynamics.layout import layout
 from codegen.emit.scene_subject import SceneSubject
-from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.mechanics.plan import plan
 from codegen.mechanics.system import System
+from codegen.passes import simplify
+from codegen.passes.unroll import unroll
 from codegen.scenes.compose import compose
 from codegen.scenes.generate import row_names
 from codegen.scenes.loops import decided
@@ -40,15 +41,9 @@ def equations(system: System, form: str, left_out: Collection[str] = ()) -> Comp
     subject = SceneSubject(system, layout(system, form), row_names(system.assembly), planned)
     if form == "index1":  # what loops run over is laid out for index 2
         return compiled(subject, residual(system), jacobian(system))
-    return compiled(subject, _composed(system, residual, "auto"), _composed(system, jacobian, "auto"))
+    return compiled(subject, *(decided(compose(planned, lowered), "auto") for lowered in (residual, jacobian)))
 
 
 def quantities(system: System, names: tuple[str, ...]) -> Program:
     """Lower quantities of a scene in a hurry, section by section."""
-    found = _composed(system, lambda part: program(part, names, estimate), "never")
-    assert isinstance(found, Program)
-    return found
-
-
-def _composed(system: System, lowered: Callable[[System], Program], loops: str) -> Program | Looped:
-    return decided(compose(plan(system.assembly), lowered), loops)
+    return simplify(unroll(compose(plan(system.assembly), lambda part: program(part, names, estimate))))

@@ -1,0 +1,111 @@
+"""The commands of chains: their routines, their runs, and scenes as chains."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from codegen.errors import Mistake, SpecificationError
+from codegen.progress import progress
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--kinematics", "mode", flag_value="kinematics", help="Motion from that of the independent coordinates.")
+@click.option("--inverse", "mode", flag_value="inverse", help="Besides, efforts and reactions.")
+@click.option("--forward", "mode", flag_value="forward", help="Motion under forces.")
+@click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the integrator.")
+@click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
+@click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
+@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
+@click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
+def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
+    """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
+    if mode is None:
+        _generate_chain(file, real, target)
+    else:
+        _run_chain(file, target, animation, {"mode": mode, **options})
+
+
+def generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
+    """The routines of a scene by relative coordinates."""
+    from codegen import output, scenes
+    from codegen.chains.relative import relative
+
+    mistakes = [
+        Mistake(name, "is not there in relative coordinates", "leave it out") for name, on in given.items() if on
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    output.check_target(target)
+    read, left_out = scenes.read(file, copies)
+    found = relative(read)
+    for line in (*left_out, *found.notes):
+        click.echo(line, err=True)
+    _write_chain(found.chain, real, target)
+
+
+def _generate_chain(file: Path, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.read import read
+    from codegen.scenes.generate import check_options
+
+    check_options(None, real)
+    output.check_target(target)
+    described, _ = read(file)
+    _write_chain(described, real, target)
+
+
+def _write_chain(described: Any, real: str, target: Path) -> None:
+    from codegen import output
+    from codegen.chains.generate import generate_chain, steps
+    from codegen.chains.stand import check_start
+
+    check_start(described)
+    with progress(steps(described), "generating") as advance:
+        files = generate_chain(described, real, advance)
+    output.replace(target, files)
+    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    click.echo(f"{target}: {functions} functions in {len(files)} files")
+
+
+def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    from codegen import output
+    from codegen.chains.read import read
+    from codegen.chains.simulate import Settings, check, simulated
+    from codegen.measure.compile import compiler
+    from codegen.report.chain_pictures import chain_pictures
+
+    settings = Settings(**options)
+    output.check_target(target)
+    read_chain, tables = read(file)
+    check(read_chain, settings)
+    compiler()
+    with progress(settings.outputs, "running") as advance:
+        result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
+    output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
+    told(file, target, result)
+
+
+def simulate_chain(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
+    """Forward dynamics of a chain; what only scenes have is refused."""
+    given = {"--form": options.pop("form"), "--copies": copies, "--through-singular": options.pop("through_singular")}
+    given["--index"] = options.pop("index") != 2
+    mistakes = [Mistake(name, "is for scenes, and this is a chain", "leave it out") for name, on in given.items() if on]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    _run_chain(file, target, animation, {"mode": "forward", **options})
+
+
+def told(file: Path, target: Path, result: Any) -> None:
+    """Tell a run; it fell short where it stopped before its end."""
+    click.echo(f"{target}: {result.words}")
+    for line in result.notes:
+        click.echo(f"{file}: {line}", err=True)
+    if result.failure:
+        click.echo(f"{file}: {result.failure}", err=True)
+        raise click.exceptions.Exit(1)

@@ -1,8 +1,9 @@
-"""Order the instructions by latency: none stands where it would wait for an operand, as long as another need not wait.
+"""Order the instructions by latency: none waits for an operand as long as another need not wait.
 
-Depth-first order keeps few values alive, but in it nearly every operation takes the result of the one before. A processor
-looks ahead by some hundred instructions only, and then stands still. Here the instructions are issued one after the other on
-a model of a processor, the first in the given order whose operands have come: the order stays as it is where nothing waits.
+Depth-first order keeps few values alive, but in it nearly every operation takes the result of the one before. A
+processor looks ahead by some hundred instructions only, and then stands still. Here the instructions are issued one
+after the other on a model of a processor, always the first in the given order whose operands have come: the order
+stays as it is where nothing waits.
 """
 
 from __future__ import annotations

@@ -67,7 +67,11 @@ def angle(stages: Stages, name: str, A: sympy.Matrix) -> Angle:
     mean, last = stage("mean", trace / 3, -third / 3, words="mean of the eigenvalues; b_33")
     off = [A[0, 1], A[0, 2], A[1, 2]]
     squares = stage(
-        "squares", d * d, last * last, sum(entry * entry for entry in off), words="squares of differences, b_33, entries"
+        "squares",
+        d * d,
+        last * last,
+        sum(entry * entry for entry in off),
+        words="squares of differences, b_33, entries",
     )
     (square,) = stage("square", squares[0] / 12 + squares[1] / 4 + squares[2] / 3, words="p^2")
     (p,) = stage("p", sympy.sqrt(square), words="|B| / sqrt 6")
@@ -112,10 +116,8 @@ def three_of(stages: Stages, name: str, found: Angle) -> tuple[sympy.Expr, ...]:
     return tuple(stages.stage(f"lambda_{name}", values, "eigenvalues"))
 
 
-def _threefold(
-    stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr
-) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
-    """Cosine, sine and square of the sine of 3 phi, of the deviator with p = 1; ``B^2 = adj B + 2 I`` but for a trace."""
+def _threefold(stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
+    """Cosine, sine and its square, of 3 phi, of the deviator with p = 1; ``B^2 = adj B + 3 I``."""
     x, minus_y, z, u, v, w = B
     C = stage("BB", v * w - u * z, u * w + v * minus_y, u * v - w * x, words="entries 12, 13, 23 of B^2")
     (minus,) = stage("cofactor", x * minus_y + u * u, words="minus the cofactor of B_33")

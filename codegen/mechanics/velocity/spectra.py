@@ -11,7 +11,6 @@ from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.eigenvalues import all_three, largest
 from codegen.mechanics.velocity.triangular import TINY, Triangle
 
-
 _HALF = sympy.Rational(1, 2)
 
 
@@ -23,13 +22,13 @@ class Spectrum:
         D: product of the three.
         values: in descending order; none where only their product is known.
         C: the condition number; wrong where the least value is lost.
-        lost: 1 where the least value cannot be told from 0, and 0 elsewhere; none where nobody asks.
+        lost: 1 where the least value cannot be told from 0, and 0 elsewhere.
     """
 
     D: sympy.Expr
     values: tuple[sympy.Expr, ...] = ()
     C: sympy.Expr | None = None
-    lost: sympy.Expr | None = None
+    lost: sympy.Expr = sympy.Integer(0)
 
 
 def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:

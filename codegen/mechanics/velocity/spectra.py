@@ -28,7 +28,7 @@ class Spectrum:
     D: sympy.Expr
     values: tuple[sympy.Expr, ...] = ()
     C: sympy.Expr | None = None
-    lost: sympy.Expr = sympy.Integer(0)
+    lost: sympy.Expr = 0
 
 
 def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:

@@ -1,4 +1,4 @@
-"""Indices as CasADi externals have exact derivatives: those that CasADi itself finds, also where values are repeated."""
+"""Indices as CasADi externals have exact derivatives, those that CasADi finds, also where values are repeated."""
 
 from __future__ import annotations
 

@@ -21,10 +21,12 @@ from codegen.measure.evaluations import Task, measured
 from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.attitude import attitude_program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.plan import Plan, plan
 from codegen.mechanics.system import System
 from codegen.parallel import parallel
+from codegen.passes import simplify
 from codegen.scenes.bill import Bill, bill
 from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
@@ -231,6 +233,8 @@ def _built(job: _Job) -> tuple[Program | Looped, bytes]:
 def _program(system: System, job: _Job) -> Program:
     assembly = system.assembly
     match job.output:
+        case "orthonormalise" | "check_orthonormal":
+            return simplify(attitude_program(job.output, len(assembly.scene.bodies), assembly.arrays.is_planar))
         case "mass":
             return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
         case "residual":

@@ -23,11 +23,12 @@ from codegen.errors import Mistake, SpecificationError
 from codegen.measure.adversary import searched
 from codegen.measure.bounds import ARITHMETICS, rounding_bounds
 from codegen.measure.double_double import DoubleDouble
+from codegen.measure.draw import Points, sobol_points
 from codegen.measure.errors import number_type
 from codegen.measure.judge import block_errors, true_values
 from codegen.measure.pose_boxes import pose_box
 from codegen.measure.pose_domain import Block, PoseDomain
-from codegen.measure.poses import Points, Poses, exactly, poses_at, sobol_points
+from codegen.measure.poses import Poses, exactly, poses_at
 from codegen.measure.routine_builds import Build, Built, built
 from codegen.spec.request import Options
 from codegen.trade.accuracy import AccuracyRequest, blocks_of, joint_subject

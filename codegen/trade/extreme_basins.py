@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.measure.attitudes import turned
+from codegen.measure.draw import sobol_points
 from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
-from codegen.measure.poses import sobol_points
 from codegen.spec.request import Variant
 from codegen.trade.extreme_rank import rank_variants
 from codegen.trade.extreme_table import Cell, ExtremeTable, poses_of, routine_of

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.measure.double_double import DoubleDouble
+from codegen.measure.draw import sobol_points
 from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
-from codegen.measure.poses import poses_at, sobol_points
+from codegen.measure.poses import poses_at
 from codegen.mechanics.joints import JOINTS
 from codegen.spec.request import Variant
 from codegen.trade.accuracy import joint_subject

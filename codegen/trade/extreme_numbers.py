@@ -12,8 +12,8 @@ from codegen.measure.errors import number_type
 from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import blocks_of
 from codegen.trade.extreme_table import REALS, Cell, ExtremeTable, poses_of, routine_of
+from codegen.trade.specimens import blocks_of
 
 Inputs = dict[str, NDArray[np.floating]]
 

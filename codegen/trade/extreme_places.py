@@ -15,7 +15,6 @@ from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import Poses
 from codegen.mechanics.joints import JOINTS
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import blocks_of
 from codegen.trade.extreme_table import (
     POSES,
     REALS,
@@ -27,6 +26,7 @@ from codegen.trade.extreme_table import (
     poses_of,
     routine_of,
 )
+from codegen.trade.specimens import blocks_of
 
 DISTANCES = tuple(10.0**k for k in (0, 3, 6, 9, 12))
 DRIFTS = tuple(10.0**k for k in (-12, -10, -8, -6, -4, -2))

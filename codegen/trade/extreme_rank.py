@@ -15,8 +15,8 @@ from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import poses_at
 from codegen.mechanics.joints import JOINTS
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import joint_subject
 from codegen.trade.extreme_table import Cell, ExtremeTable, routine_of
+from codegen.trade.specimens import joint_subject
 
 _GRID = 72
 """Angles over a turn; 0, half and quarter turns are among them."""

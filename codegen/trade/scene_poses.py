@@ -7,7 +7,6 @@ many of the domain's `s`; poses that do not close or leave that box are those of
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -94,7 +93,7 @@ class SceneSampler:
         size = self.motion.size
         return [M[i][j] for M in A for j in range(size) for i in range(size)]
 
-    def _still(self, count: int) -> Mapping[str, Vector]:
+    def _still(self, count: int) -> dict[str, Vector]:
         zero = _of_row(np.zeros(count))
         return {"revolutions": [zero] * self.motion.system.assembly.counted, "t": [zero]}
 

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from codegen.measure.pose_domain import PoseDomain
-from codegen.trade.accuracy import AccuracyRequest
 from codegen.trade.budget import Answer, answered, worst_inputs
 from codegen.trade.builds import BASE
 from codegen.trade.domain_text import read_domain
+from codegen.trade.requests import AccuracyRequest
 from tests.cli.runs import REPOSITORY, invoke
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -26,9 +26,9 @@ FAR = replace(REQUEST, domain=PoseDomain(distance=1e6))
 @pytest.fixture(autouse=True)
 def _few_builds(monkeypatch: pytest.MonkeyPatch) -> None:
     """Double and float: two libraries to compile; a short search."""
-    monkeypatch.setattr("codegen.trade.budget._SAMPLES", 64)
-    monkeypatch.setattr("codegen.trade.budget._SEARCH_ROUNDS", 1)
-    monkeypatch.setattr("codegen.trade.budget.builds", lambda is_full: BASE)
+    monkeypatch.setattr("codegen.trade.judgement.SAMPLES", 64)
+    monkeypatch.setattr("codegen.trade.judgement.SEARCH_ROUNDS", 1)
+    monkeypatch.setattr("codegen.trade.requests.builds", lambda is_full: BASE)
 
 
 def chosen(answer: Answer) -> tuple[str, str]:
@@ -68,7 +68,7 @@ def test_far_from_the_origin_it_is_impossible_and_the_relative_position_is_the_c
 def test_drifted_attitudes_are_cured_by_orthonormalising() -> None:
     answer = answered(replace(REQUEST, domain=PoseDomain(drift=1e-6)), 1e-9)
     assert answer.verdict == "IMPOSSIBLE"
-    assert [cure.name for cure in answer.cures] == ["orthonormalise A_i and A_j"]
+    assert [cure.name for cure in answer.cures] == ["orthonormalise the attitudes"]
 
 
 def test_the_worst_pose_is_told_to_the_bit() -> None:
@@ -110,19 +110,26 @@ def test_the_chosen_routine_is_written(tmp_path: Path) -> None:
     assert function["real"] == data["chosen"]["build"]
 
 
-def test_a_scene_is_no_package_of_one_joint(tmp_path: Path) -> None:
-    scene = REPOSITORY / "examples/in_line_engine.toml"
-    result = invoke("budget", scene, "--max-error", "1e-3", "-o", tmp_path / "out")
+def test_the_routine_of_a_scene_is_judged_and_written(tmp_path: Path) -> None:
+    words = ("--max-error", "1e-8", "--form", "conventional", "--output", "phi", "--json")
+    result = invoke("budget", REPOSITORY / "examples/four_bar.toml", *words, "-o", tmp_path / "out")
+    assert result.exit_code == 0, result.stderr
+    data = json.loads(result.stdout)
+    assert (data["verdict"], data["chosen"]["build"]) == ("PROVEN", "double")
+    assert data["request"] == {"scene": "four_bar", "form": "conventional", "output": "phi"}
+    assert data["domain"]["s"] < 1.0
+    (function,) = json.loads((tmp_path / "out/manifest.json").read_text())["functions"]
+    assert f"{function['symbol']} --form conventional" == data["chosen"]["routine"]
+
+
+def test_what_a_scene_has_no_choice_of_is_refused() -> None:
+    scene = str(REPOSITORY / "examples/four_bar.toml")
+    result = invoke("budget", scene, "--max-error", "1e-8", "--rows", "regular", "--derivative", "exact")
     assert result.exit_code == 2
-    assert result.stderr.startswith("-o: ")
-
-
-def test_every_type_of_joint_of_a_scene_is_judged() -> None:
-    code, data = command(str(REPOSITORY / "examples/in_line_engine.toml"), "--max-error", "1e-8")
-    assert code == 0
-    names = [one["request"]["joints"][0] for one in data]
-    assert names == ["revolute", "translational"]
-    assert all(one["domain"]["s"] < 1.0 for one in data)
+    assert [line.partition(":")[0] for line in result.stderr.splitlines()] == ["--rows", "--derivative"]
+    result = invoke("budget", scene, "--max-error", "0", "--form", "free", "--output", "phy", "--domain", "distance=1")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 4
 
 
 def test_no_error_is_no_budget() -> None:

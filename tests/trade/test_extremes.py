@@ -17,7 +17,6 @@ from codegen.measure.poses import exactly
 from codegen.measure.routine_builds import NATIVE, O2, Build, built
 from codegen.spec.request import Variant
 from codegen.trade import extremes
-from codegen.trade.accuracy import blocks_of
 from codegen.trade.extreme_basins import basins_of
 from codegen.trade.extreme_engine import singular_values_at
 from codegen.trade.extreme_nan import COMPILED, compiled, nan_patterns
@@ -25,6 +24,7 @@ from codegen.trade.extreme_numbers import LINEAR, Change, multiplied, scaling_er
 from codegen.trade.extreme_places import DISTANCES, DRIFTING, DRIFTS, angles, drifts, turns
 from codegen.trade.extreme_rank import least_singular_value, rank_variants
 from codegen.trade.extreme_table import POSES, ExtremeTable, digits, digits_of_given, least_digits, poses_of, routine_of
+from codegen.trade.specimens import blocks_of
 from tests.cli.runs import invoke
 
 DOUBLE, FLOAT = 15.0, 6.0

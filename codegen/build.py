@@ -65,6 +65,9 @@ PRICES = Prices()
 STARTS = range(2)
 """Seeds from which the search starts where nothing is on record."""
 
+Check = Callable[[Routine], Program]
+"""Gives the program of the conditions on the inputs of a routine."""
+
 Progress = Callable[[str], None]
 """Told the name of each variant that is finished."""
 
@@ -264,6 +267,7 @@ class _Job:
     specification: str
     fma: bool
     batch: int | None = None
+    check: Check | None = None
 
     @property
     def name(self) -> str:
@@ -283,7 +287,9 @@ def _emit_unit(job: _Job) -> Unit:
     for routine in built:
         name = routine.subject.routine_stem(routine.output)
         serialised[routine.output] = name, casadi.serialised(casadi.casadi_function(name, routine.program))
-    return unit(subject, built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch)
+    return unit(
+        subject, built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch, job.check
+    )
 
 
 def variants(options: Options) -> tuple[Variant, ...]:
@@ -296,12 +302,13 @@ def variants(options: Options) -> tuple[Variant, ...]:
     return chosen if options.has_joints else ()
 
 
-def generate(options: Options, progress: Progress = lambda _: None) -> dict[str, bytes]:
+def generate(options: Options, progress: Progress = lambda _: None, check: Check | None = None) -> dict[str, bytes]:
     """Generate a package in memory.
 
     Args:
         options: what is asked for.
         progress: told each variant as it is done.
+        check: gives the conditions that a routine asserts in debug builds; a function of a module, or a partial one.
 
     Returns:
         Path below the package's folder -> content.
@@ -317,9 +324,13 @@ def generate(options: Options, progress: Progress = lambda _: None) -> dict[str,
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
     groups: list[tuple[Variant | None, tuple[str, ...]]] = [(variant, options.of_joints) for variant in chosen]
     groups += [(None, options.of_attitudes)] if options.of_attitudes else []
-    jobs = [_Job(*group, options.real, specification, options.fma, options.batch) for group in groups]
+    jobs = [
+        _Job(*group, options.real, specification, options.fma, options.batch, check if group[0] else None)
+        for group in groups
+    ]
     units = parallel(_emit_unit, jobs, lambda job: progress(job.name))
-    return package(units, codegen.__version__, options.real, specification, options.fma, options.batch)
+    has_choices = check is not None
+    return package(units, codegen.__version__, options.real, specification, options.fma, options.batch, has_choices)
 
 
 def dump(options: Options, stage: str) -> Iterator[str]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -16,9 +16,11 @@ from codegen.emit.c import entries, sparsity_functions
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
+from codegen.emit.guarded import guarded
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.routine import Routine
 from codegen.emit.unit_subject import UnitSubject
+from codegen.ir.program import Program
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 
@@ -79,12 +81,18 @@ def unit(
     casadi: Mapping[str, tuple[str, bytes]],
     fma: bool = False,
     batch: int | None = None,
+    check: Callable[[Routine], Program] | None = None,
 ) -> Unit:
-    """Emit the routines of one source file; ``fma`` says whether their programs are contracted."""
+    """Emit the routines of one source file.
+
+    ``fma`` says whether their programs are contracted, ``check`` gives the conditions that they assert in debug builds.
+    """
     header, source = f"jointgen/{subject.header}.h", f"src/{subject.file_stem}.c"
     options = _options_line(subject, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
+    if check is not None:
+        emitted = [e if e.storage == "dense" else guarded(e, check(e.routine)) for e in emitted]
     text = render(
         "c/source.c.j2",
         file=f"{subject.file_stem}.c",
@@ -125,7 +133,13 @@ def _options_line(subject: UnitSubject, real: str, fma: bool) -> str:
 
 
 def package(
-    units: Sequence[Unit], version: str, real: str, specification: str, fma: bool = False, batch: int | None = None
+    units: Sequence[Unit],
+    version: str,
+    real: str,
+    specification: str,
+    fma: bool = False,
+    batch: int | None = None,
+    choices: bool = False,
 ) -> dict[str, bytes]:
     """Assemble the files of a package.
 
@@ -136,6 +150,7 @@ def package(
         specification: hash of the request.
         fma: whether the programs are contracted.
         batch: joints in a group of the batch routines; none if there are no such routines.
+        choices: whether the sources have absolute values and choices.
 
     Returns:
         Path below the package's folder -> content.
@@ -145,7 +160,7 @@ def package(
     headers = [*names, *dict.fromkeys(b.header for b in batches)]
     files: dict[str, str] = {
         "c/include/jointgen/jg_real.h": render(
-            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch
+            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch, choices=choices
         ),
         "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=headers),
     }

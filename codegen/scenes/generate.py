@@ -44,6 +44,9 @@ from codegen.spec.sections import alike
 from flopcount.count import count
 from flopcount.counts import Counts
 
+Check = Callable[[Routine, Pose], Program]
+"""Gives the conditions on the inputs of a routine, by the pose at t = 0."""
+
 Progress = Callable[[str], None]
 """Told what is finished."""
 
@@ -120,6 +123,7 @@ def generate_scene(
     progress: Progress = lambda _: None,
     measure: bool = False,
     loops: str = "auto",
+    check: Check | None = None,
 ) -> dict[str, bytes]:
     """Generate the package of a scene in memory.
 
@@ -130,6 +134,7 @@ def generate_scene(
         progress: told each routine as it is done.
         measure: whether the README tells what the steps of the bill take on this machine.
         loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
+        check: gives the conditions that a routine of straight-line code asserts in debug builds.
 
     Returns:
         Path below the package's folder -> content.
@@ -164,11 +169,13 @@ def generate_scene(
     )
     casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
     first = start(system, judged.pose, state)
-    return scene_files(
-        ScenePackage(
-            scene.name, routines, codegen.__version__, specification, real, scene_record(subject), casadi, first, text
-        )
-    )
+    record = scene_record(subject)
+    made_of = ScenePackage(scene.name, routines, codegen.__version__, specification, real, record, casadi, first, text)
+    if check is not None:
+        straight = [routine for routine in routines if isinstance(routine.program, Program)]
+        checks = {routine.output: check(routine, judged.pose) for routine in straight}
+        made_of = replace(made_of, choices=True, checks=checks)
+    return scene_files(made_of)
 
 
 def _bill(judged: Judged, routines: Sequence[Routine], form: str | None) -> Bill:

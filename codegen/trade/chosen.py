@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from codegen import build
+from codegen.errors import InternalError
 from codegen.measure.routine_builds import Build
 from codegen.scenes.generate import generate_scene
 from codegen.spec.request import QUANTITIES, Options
+from codegen.trade.domain_checks import joint_check, scene_check
 from codegen.trade.judgement import Judgement
 from codegen.trade.requests import AccuracyRequest, Request, SceneRequest
 
@@ -23,14 +26,20 @@ def chosen_real(request: Request, judgement: Judgement) -> str:
 
 
 def chosen_files(request: Request, judgement: Judgement) -> dict[str, bytes]:
-    """Generate the package of a candidate: path -> content."""
+    """Generate the package of a candidate: path -> content.
+
+    Where ``JG_ASSERT_DOMAIN`` is defined its routines assert that their inputs are in the domain.
+    """
     if isinstance(request, SceneRequest):
         names = QUANTITIES if request.output == "all" else (request.output,)
         scene = replace(request.scene, wanted=replace(request.scene.wanted, quantities=names))
         form = judgement.routine.partition(" --form ")[2]
-        return generate_scene(scene, form or None, chosen_real(request, judgement))
-    assert isinstance(request, AccuracyRequest)
-    return build.generate(_options(request, judgement))
+        real = chosen_real(request, judgement)
+        return generate_scene(scene, form or None, real, check=partial(scene_check, request.domain, real))
+    if not isinstance(request, AccuracyRequest):
+        raise InternalError("a request that nothing is generated for")
+    options = _options(request, judgement)
+    return build.generate(options, check=partial(joint_check, request.domain, options.real))
 
 
 def _options(request: AccuracyRequest, judgement: Judgement) -> Options:

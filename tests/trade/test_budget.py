@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,11 +13,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from codegen.measure.errors import number_type
+from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
+from codegen.spec.request import Variant
 from codegen.trade.budget import Answer, answered, worst_inputs
 from codegen.trade.builds import BASE
+from codegen.trade.domain_checks import joint_check
 from codegen.trade.domain_text import read_domain
+from codegen.trade.programs import routines
 from codegen.trade.requests import AccuracyRequest
+from codegen.trade.specimens import sample
 from tests.cli.runs import REPOSITORY, invoke
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -108,6 +116,46 @@ def test_the_chosen_routine_is_written(tmp_path: Path) -> None:
     (function,) = manifest["functions"]
     assert function["symbol"] == data["chosen"]["routine"]
     assert function["real"] == data["chosen"]["build"]
+    assert exit_code_at_zero(function, tmp_path) == 0
+    assert exit_code_at_zero(function, tmp_path, "-DJG_ASSERT_DOMAIN") == -signal.SIGABRT
+    assert exit_code_at_zero(function, tmp_path, "-DJG_ASSERT_DOMAIN", "-DNDEBUG") == 0
+
+
+def exit_code_at_zero(function: Any, folder: Path, *flags: str) -> int:
+    """Call the routine with attitudes that are zero, and so no rotations."""
+    main = folder / "main.c"
+    call = f"{function['symbol']}(zeros, zeros, zeros, zeros, zeros, phi)"
+    main.write_text(
+        '#include "jointgen/jointgen.h"\n'
+        f"int main(void) {{ static const jg_real zeros[24]; jg_real phi[3]; {call}; return 0; }}\n"
+    )
+    warnings = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror")
+    sources = [str(main), str(folder / "out" / function["source"])]
+    program = folder / "main"
+    command = ["gcc", *warnings, *flags, f"-I{folder / 'out/c/include'}", *sources, "-o", str(program), "-lm"]
+    subprocess.run(command, check=True)
+    return subprocess.run([str(program)], capture_output=True, check=False).returncode
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_the_assertions_hold_just_in_the_domain(real: str) -> None:
+    domain = PoseDomain(s=0.2, drift=1e-6 if real == "double" else 0.0)
+    routine = next(r for r in routines(Variant("translational", "conventional", None)) if r.output == "phi")
+    check = joint_check(domain, real, routine)
+    for is_converged in (True, False):
+        given = sample(routine, domain, 64, is_converged).given(number_type(real))
+        assert outside(check, given) == 0
+    for name, entry, value in (("r_i", 0, 1.1), ("A_j", 4, 0.9), ("geometry", 12, 0.2), ("r_j", 2, np.nan)):
+        spoilt = given[name].copy()
+        spoilt[entry] = value
+        assert outside(check, given | {name: spoilt}) >= 1
+    apart = given | {"r_j": given["r_i"] + np.array([[0.0], [0.0], [2.0]], dtype=given["r_i"].dtype)}
+    assert outside(check, apart) >= 1
+
+
+def outside(check: Any, given: Any) -> float:
+    """Most conditions that are broken at a pose."""
+    return float(np.max(by_program(check)(given)["outside"][0]))
 
 
 def test_the_routine_of_a_scene_is_judged_and_written(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from flopcount.count import count
 
 EQUATIONS = {
     "orthonormalise": "X -> (X + X^-T) / 2, Higham, Computing the polar decomposition, 1986",
-    "check_orthonormal": "cof A = det(A) A^-T",
+    "check_orthonormal": "A = cof A = det(A) A^-T, det A = 1",
 }
 
 

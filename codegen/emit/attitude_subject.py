@@ -14,7 +14,7 @@ ATTITUDE = "attitude"
 
 ATTITUDE_BRIEFS = {
     "orthonormalise": "The rotation nearest to A, by three steps of Newton's method for the polar factor",
-    "check_orthonormal": "How far A is from a rotation: norm (Frobenius) of A less its matrix of cofactors",
+    "check_orthonormal": "How far A is from a rotation: norm of A less its cofactors, and of det A less 1",
 }
 """What each routine does, in a line."""
 
@@ -23,7 +23,7 @@ ATTITUDE_DETAILS = {
         "To rounding where no singular value of A is off 1 by more than 0.02; 0.1 leaves 1e-9. A mirrored A stays "
         "mirrored, a singular one gives no numbers. A and the result must not overlap."
     ),
-    "check_orthonormal": ("0 for a rotation, 2 sqrt(3) for a mirrored one. Entries off by e give about 4 e."),
+    "check_orthonormal": ("0 for rotations only; 4 for a mirrored one. Entries off by e give about 4 e."),
 }
 """What a user must know besides."""
 

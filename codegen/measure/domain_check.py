@@ -16,7 +16,7 @@ import sympy
 from codegen.ir.lower.staged import Select, Stages
 from codegen.ir.program import Program
 from codegen.measure.bounds import Box
-from codegen.mechanics.attitude import cofactor_matrix
+from codegen.mechanics.attitude import defects
 from codegen.passes import simplify
 
 OUTSIDE = "outside"
@@ -31,7 +31,7 @@ class Conditions:
 
     Attributes:
         rotations: matrices, column-major, and their size.
-        tolerance: of the norm of ``A - cof A``.
+        tolerance: of the norm that ``check_orthonormal`` gives.
         lengths: vectors [3], and what they may be long.
         apart: pairs of vectors, and how far they may be apart.
     """
@@ -59,7 +59,7 @@ def domain_check(program: Program, box: Box, conditions: Conditions) -> Program:
     ]
     for (name, first), size in conditions.rotations:
         if name in given:
-            broken.append(_turned(stages, given[name], first, size, conditions.tolerance))
+            broken.append(_turned(stages, name, given[name], first, size, conditions.tolerance))
     for (name, first), length in conditions.lengths:
         if name in given:
             broken.append(_beyond(_square(given[name][first : first + 3]), length**2))
@@ -77,10 +77,10 @@ def _beyond(value: Any, limit: float) -> Any:
     return Select(value, _exact(limit), sympy.S.Zero, sympy.S.One)
 
 
-def _turned(stages: Stages, entries: Sequence[Any], first: int, size: int, tolerance: float) -> Any:
+def _turned(stages: Stages, name: str, entries: Sequence[Any], first: int, size: int, tolerance: float) -> Any:
     A = sympy.eye(3)
     A[:size, :size] = sympy.Matrix(size, size, entries[first : first + size * size]).T
-    return _beyond(_square(list(A - cofactor_matrix(A))), tolerance**2)
+    return _beyond(_square(defects(stages, A, f"_{name}_{first}")), tolerance**2)
 
 
 def _square(entries: Sequence[Any]) -> Any:

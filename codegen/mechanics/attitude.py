@@ -2,7 +2,7 @@
 
 The polar factor of A, the rotation nearest to it in the Frobenius norm, by Newton's method ``X -> (X + X^-T) / 2``
 (Higham 1986). An error e becomes e^2 / 2, so that three steps leave rounding of errors up to 0.02. Since
-``X^-T = cof X / det X``, A is a rotation just if ``A = cof A``.
+``X^-T = cof X / det X``, A is a rotation just if ``A = cof A`` and ``det A = 1`` (0 meets the first, too).
 """
 
 from __future__ import annotations
@@ -47,8 +47,7 @@ def _quantity(stages: Stages, quantity: str, A: Any, size: int, ending: str) -> 
             X = _newton_step(stages, X, f"{ending}_{step + 1}")
         return list(X[:size, :size].T)
     if quantity == "check_orthonormal":
-        cofactors = stages.stage(f"cof{ending}", cofactor_matrix(A), "cofactors of A")
-        apart = stages.stage(f"apart{ending}", A - cofactors, "A - cof A")
+        apart = stages.stage(f"apart{ending}", sympy.Matrix(defects(stages, A, ending)), "A - cof A, det A - 1")
         return [sympy.sqrt(sum((entry**2 for entry in apart), sympy.S.Zero))]
     raise InternalError(f"no quantity {quantity} of attitudes")
 
@@ -56,10 +55,19 @@ def _quantity(stages: Stages, quantity: str, A: Any, size: int, ending: str) -> 
 def _newton_step(stages: Stages, X: Any, ending: str) -> Any:
     """``(X + X^-T) / 2``."""
     cofactors = stages.stage(f"cof{ending}", cofactor_matrix(X), "cofactors of X")
-    expansion = sum((X[0, k] * cofactors[0, k] for k in range(3)), sympy.S.Zero)
-    determinant = stages.stage(f"det{ending}", sympy.Matrix([expansion]), "det X")[0]
+    determinant = stages.stage(f"det{ending}", sympy.Matrix([_expansion(X, cofactors)]), "det X")[0]
     half = stages.stage(f"half{ending}", sympy.Matrix([sympy.Rational(1, 2) / determinant]), "1 / (2 det X)")[0]
     return stages.stage(f"X{ending}", X / 2 + half * cofactors, "(X + X^-T) / 2")
+
+
+def _expansion(A: Any, cofactors: Any) -> Any:
+    return sum((A[0, k] * cofactors[0, k] for k in range(3)), sympy.S.Zero)
+
+
+def defects(stages: Stages, A: Any, ending: str) -> list[Any]:
+    """What is zero for rotations and for no other [3, 3] matrix: ``A - cof A`` and ``det A - 1``, 10 numbers."""
+    cofactors = stages.stage(f"cof{ending}", cofactor_matrix(A), "cofactors of A")
+    return [*(A - cofactors), _expansion(A, cofactors) - 1]
 
 
 def cofactor_matrix(A: Any) -> Any:

@@ -88,14 +88,16 @@ def test_a_mirrored_attitude_stays_mirrored_and_a_singular_one_gives_no_numbers(
 
 
 @each_build
-def test_the_check_is_the_distance_from_the_matrix_of_cofactors(choice: Build, tmp_path: Path) -> None:
+def test_the_check_is_the_distance_from_the_cofactors_and_0_for_rotations_only(choice: Build, tmp_path: Path) -> None:
     exact, off = rotations(16), drifted(16, 1e-2)
     mirrored = exact * np.array([-1.0, 1.0, 1.0])
     assert np.max(run(CHECK, choice, exact, tmp_path)) <= 16 * HALF_ULP[choice.real]
-    expected = [np.linalg.norm(A - np.linalg.det(A) * np.linalg.inv(A).T) for A in off]
+    cofactors = [np.linalg.det(A) * np.linalg.inv(A).T for A in off]
+    expected = [np.hypot(np.linalg.norm(A - C), np.linalg.det(A) - 1) for A, C in zip(off, cofactors, strict=True)]
     few = 16 * HALF_ULP[choice.real]
     np.testing.assert_allclose(run(CHECK, choice, off, tmp_path)[:, 0], expected, rtol=0, atol=few)
-    np.testing.assert_allclose(run(CHECK, choice, mirrored, tmp_path)[:, 0], 2 * 3**0.5, atol=few)
+    np.testing.assert_allclose(run(CHECK, choice, mirrored, tmp_path)[:, 0], 4.0, atol=few)
+    np.testing.assert_allclose(run(CHECK, choice, 0 * exact, tmp_path)[:, 0], 1.0)
 
 
 # --- branches

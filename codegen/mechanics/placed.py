@@ -42,6 +42,7 @@ class Ends:
         arrays: layout of the bodies.
         dropped: rows of the system that are left out.
         varying: side and number of a coordinate of an attachment -> number in the argument ``geometry``.
+        number: of the joint.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Ends:
     arrays: Arrays
     dropped: frozenset[int] = frozenset()
     varying: Mapping[tuple[int, int], int] = field(default_factory=dict)
+    number: int = 0
 
 
 @dataclass(frozen=True)
@@ -245,16 +247,16 @@ class Placed:
         """Write the blocks of a quantity for the scene.
 
         Args:
-            row_kind: what its rows are, ``constraints`` or ``displacements``.
+            row_kind: what its rows are, ``constraints``, ``joints`` or ``displacements``.
             column_kind: what its columns are, ``displacements`` or ``one``.
             blocks: of the quantity between bodies i and j.
         """
         columns = self.columns()
         for block in blocks:
             is_displaced = row_kind == "displacements", column_kind == "displacements"
-            row = columns[block.row] if is_displaced[0] else block.row + self.ends.first_row
+            row = self._row(row_kind, block.row)
             column = columns[block.column] if is_displaced[1] else block.column
-            if row is None or column is None or (not is_displaced[0] and self._is_dropped(row, block.expression)):
+            if row is None or column is None or (row_kind == "constraints" and self._is_dropped(row, block.expression)):
                 continue
             expression = self.written(block.expression)
             if self.ends.arrays.is_planar:
@@ -263,6 +265,12 @@ class Placed:
                     expression, rows, self._normals.get(block.column) if is_displaced[1] else None
                 )
             yield Block(row, column, expression)
+
+    def _row(self, kind: str, row: int) -> int | None:
+        """The row of the system for a row of a quantity; None for the ground."""
+        if kind == "joints":
+            return self.ends.number
+        return self.columns()[row] if kind == "displacements" else row + self.ends.first_row
 
     @cached_property
     def _normals(self) -> dict[int, Any]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cache, cached_property, reduce
 
 Coefficient = int | Fraction
 """Integers stay integers: their arithmetic is fast."""
@@ -104,6 +104,7 @@ def number(value: Coefficient) -> Polynomial:
     return Polynomial({(): int(value) if value == int(value) else value})
 
 
+@cache
 def atom(index: int) -> Polynomial:
     """A single atom."""
     return Polynomial({(index,): 1})

@@ -34,6 +34,7 @@ class Space:
         self.product_hints: dict[Polynomial, list[tuple[Polynomial, Polynomial]]] = {}
         self._relation = relation
         self._numbers: dict[Primitive, int] = {}
+        self._vectors: dict[Primitive, Vector] = {}
         self._atom_numbers: dict[Atom, int] = {}
 
     def primitive(self, description: Primitive) -> int:
@@ -45,7 +46,9 @@ class Space:
 
     def vector(self, description: Primitive) -> Vector:
         """A primitive as a vector."""
-        return Vector({self.primitive(description): ONE})
+        if description not in self._vectors:
+            self._vectors[description] = Vector({self.primitive(description): ONE})
+        return self._vectors[description]
 
     def scalar(self, kind: str, *key: Any) -> Polynomial:
         """An atom as a scalar."""

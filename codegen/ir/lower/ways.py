@@ -23,7 +23,8 @@ def lay_out(layout: Layout) -> list[tuple[Alternative, ...]]:
     while position < len(layout.nodes):
         node = layout.nodes[position]
         base = node.alternatives or _alternatives(layout, node.key)
-        node.alternatives = tuple(dict.fromkeys((*base, *_with_known(layout, node.key))))
+        known = tuple(_with_known(layout, node.key))
+        node.alternatives = tuple(dict.fromkeys((*base, *known))) if known else base
         position += 1
     return [node.alternatives or () for node in layout.nodes]
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.scenes.read import text_of
-from codegen.spec.chain import Chain, Table
+from codegen.spec.chain import Chain
 from codegen.spec.chain_file import read_chain
+from codegen.spec.chain_motions import Table
 
 
 def read(file: Path) -> tuple[Chain, Mapping[str, str]]:

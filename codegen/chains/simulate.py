@@ -22,7 +22,8 @@ from codegen.chains.undetermined import undetermined
 from codegen.errors import Mistake, SpecificationError
 from codegen.measure.threads import one_thread
 from codegen.simulate.limits import limit_mistakes, run_manifest
-from codegen.spec.chain import Chain, Independent, Table
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Independent, Table
 
 Array = NDArray[np.float64]
 

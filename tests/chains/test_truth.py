@@ -13,7 +13,9 @@ from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.record import balance, record
 from codegen.chains.run import Run
-from codegen.spec.chain import Chain, Harmonic, JointForce
+from codegen.spec.chain import Chain
+from codegen.spec.chain_forces import JointForce
+from codegen.spec.chain_motions import Harmonic
 from tests.reference import quick_return as planar
 from tests.reference import spatial_slider_crank as spatial
 from tests.reference.one_freedom import OneFreedom

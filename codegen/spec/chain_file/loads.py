@@ -6,17 +6,9 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from codegen.errors import Mistake
-from codegen.spec.chain import (
-    Condition,
-    EffectorForce,
-    Harmonic,
-    Independent,
-    JointForce,
-    Motion,
-    Polynomial,
-    Table,
-)
 from codegen.spec.chain_file.entries import ChainEntry, ConditionEntry, ForceEntry, IndependentEntry
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
+from codegen.spec.chain_motions import Harmonic, Independent, Motion, Polynomial, Table
 from codegen.spec.scene_file.text import nearest_known, quoted, shown
 
 _MOTIONS = ("polynomial", "harmonic", "table")

@@ -5,13 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from codegen.errors import Mistake, SpecificationError
-from codegen.spec.chain import (
-    CHAIN_QUANTITIES,
-    CLOSURE_QUANTITIES,
-    EFFECTOR_QUANTITIES,
-    MASS_QUANTITIES,
-    Chain,
-)
+from codegen.spec.chain import CHAIN_QUANTITIES, CLOSURE_QUANTITIES, EFFECTOR_QUANTITIES, MASS_QUANTITIES, Chain
 from codegen.spec.chain_file.entries import ChainEntry
 from codegen.spec.chain_file.hung import cut_mistakes, frame_mistakes, make_cut, make_effector
 from codegen.spec.chain_file.links import make_link, mass_mistakes, massless_mistakes, tree_mistakes

@@ -28,7 +28,7 @@ def read(file: Path) -> tuple[Chain, Mapping[str, str]]:
     chain = read_chain(text_of(file), str(file))
     tables: dict[str, str] = {}
     mistakes: list[Mistake] = []
-    for independent in chain.independents:
+    for independent in (*chain.independents, *chain.base_independents):
         if isinstance(independent.motion, Table):
             path = file.parent / independent.motion.file
             try:

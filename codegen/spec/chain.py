@@ -22,6 +22,9 @@ JOINT_TYPES = ("revolute", "prismatic")
 BASES = ("fixed", "moving")
 """Whether pose, velocity and acceleration of link 0 are inputs of the routines."""
 
+BASE_COORDINATES = ("base x", "base y", "base z", "base roll", "base pitch", "base yaw")
+"""Coordinates of a moving base in a run: its origin in m, and turns about x, the new y and the newest z in rad."""
+
 CHAIN_QUANTITIES = (
     "frames",
     "closure",
@@ -157,6 +160,7 @@ class Chain:
         base: one of `BASES`.
         assemble: whether the coordinates in the rows are guesses, from which cuts that are open are to be closed.
         quantities: of `CHAIN_QUANTITIES`; empty for all that the chain has.
+        base_independents: `BASE_COORDINATES` of a moving base, as far as they are named; the others rest at 0.
     """
 
     name: str
@@ -170,6 +174,7 @@ class Chain:
     base: str = "fixed"
     assemble: bool = False
     quantities: tuple[str, ...] = ()
+    base_independents: tuple[Independent, ...] = ()
 
     @property
     def wanted(self) -> tuple[str, ...]:

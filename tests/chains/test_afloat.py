@@ -85,9 +85,7 @@ def test_efforts_on_a_prescribed_base_are_those_of_the_routines_that_take_its_mo
 
 
 def test_a_free_base_falls_and_momentum_along_the_ground_stays() -> None:
-    heavy = (
-        ARM + '[[link]]\nname = "deck"\nparent = "base"\ntype = "prismatic"\nd = 0.1\nmass = 9\ninertia = [1, 2, 3]\n'
-    )
+    deck = '[[link]]\nname = "deck"\nparent = "base"\ntype = "prismatic"\nd = 0.1\nmass = 9\ninertia = [1, 2, 3]\n'
     fast = '[[independent]]\njoint = "base y"\nspeed = 0.7\n[[independent]]\njoint = "upper"\nspeed = 2.0\n'
     rest = "".join(f'[[independent]]\njoint = "{name}"\n' for name in ("lower", "deck"))
     ready = generated(afloat(read_chain(ARM + deck + fast + rest, "arm.toml")))

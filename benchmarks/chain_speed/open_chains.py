@@ -39,18 +39,22 @@ class Agreement:
     D_E: float
 
 
-def agreement() -> Agreement:
+def agreement(count: int = CHAINS, states: int = STATES) -> Agreement:
     """Compare random chains of 3 to 10 links, two end effectors each, in random states.
+
+    Args:
+        count: of chains.
+        states: of each.
 
     Raises:
         ArithmeticError: they do not agree to `TOLERANCE`.
     """
-    chains = [tree(100 + k, 3 + k % 8, 0, 2)[0] for k in range(CHAINS)]
+    chains = [tree(100 + k, 3 + k % 8, 0, 2)[0] for k in range(count)]
     evaluations = callables([simplify(chain_program(chain, _quantities(chain))) for chain in chains])
     found = np.zeros(3)
     for k, (chain, evaluate) in enumerate(zip(chains, evaluations, strict=True)):
         other, random = Pinocchio(chain), np.random.default_rng(k)
-        for _ in range(STATES):
+        for _ in range(states):
             q, qd = random.normal(size=(2, len(chain.links)))
             ours = evaluate(q=q, qd=qd)
             pairs = zip((ours["M"], ours["f_C"] - ours["f_G"], ours["D_E"]), other.evaluate(q, qd), strict=True)

@@ -10,7 +10,8 @@ from pathlib import Path
 from codegen.chains.read import read
 from codegen.chains.simulate import Settings, Simulated, simulated
 from codegen.spec.angles import PI
-from codegen.spec.chain import Chain, Link, Polynomial
+from codegen.spec.chain import Chain, Link
+from codegen.spec.chain_motions import Polynomial
 
 _FOLDER = Path(__file__).parents[2] / "examples" / "chains"
 

@@ -26,8 +26,8 @@ SLOW = "numpy, pose by pose"
 
 
 @click.command()
-@click.option("--poses", default=20_000, show_default=True, help="Poses of one evaluation.")
-@click.option("--rounds", default=7, show_default=True, help="Interleaved rounds; the fastest counts.")
+@click.option("--poses", default=4_000, show_default=True, help="Poses of one evaluation.")
+@click.option("--rounds", default=60, show_default=True, help="Interleaved rounds; the fastest counts.")
 @click.option("-o", "target", type=click.Path(path_type=Path, file_okay=False), default=HERE, help="Where to.")
 def main(poses: int, rounds: int, target: Path) -> None:
     """Time D and C of all four blocks for random poses around home."""

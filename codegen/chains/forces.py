@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.spec.chain import Chain, Condition, EffectorForce, JointForce
+from codegen.spec.chain import Chain
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
 
 Array = NDArray[np.float64]
 

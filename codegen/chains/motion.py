@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from codegen.errors import Mistake, SpecificationError
-from codegen.spec.chain import Chain, Harmonic, Motion, Polynomial, Table
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Harmonic, Motion, Polynomial, Table
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.scenes.read import text_of
-from codegen.spec.chain import Chain, Table
+from codegen.spec.chain import Chain
 from codegen.spec.chain_file import read_chain
+from codegen.spec.chain_motions import Table
 
 
 def read(file: Path) -> tuple[Chain, Mapping[str, str]]:
@@ -27,7 +28,7 @@ def read(file: Path) -> tuple[Chain, Mapping[str, str]]:
     chain = read_chain(text_of(file), str(file))
     tables: dict[str, str] = {}
     mistakes: list[Mistake] = []
-    for independent in chain.independents:
+    for independent in (*chain.independents, *chain.base_independents):
         if isinstance(independent.motion, Table):
             path = file.parent / independent.motion.file
             try:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains import forward, prescribed
+from codegen.chains.afloat import afloat
 from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism, mechanism
 from codegen.chains.motion import function, motions
@@ -22,7 +23,8 @@ from codegen.chains.undetermined import undetermined
 from codegen.errors import Mistake, SpecificationError
 from codegen.measure.threads import one_thread
 from codegen.simulate.limits import limit_mistakes, run_manifest
-from codegen.spec.chain import Chain, Independent, Table
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Independent, Table
 
 Array = NDArray[np.float64]
 
@@ -83,6 +85,7 @@ def simulated(
     Raises:
         SpecificationError: the chain cannot be run.
     """
+    chain = afloat(chain)
     check(chain, settings)
     with one_thread():
         equations = Generated(chain, settings.mode != "kinematics")
@@ -146,8 +149,6 @@ def check(chain: Chain, settings: Settings) -> None:
         SpecificationError: all mistakes at once.
     """
     mistakes = [*limit_mistakes(settings.tolerance, settings.duration, settings.outputs)]
-    if chain.base == "moving":
-        mistakes.append(Mistake("base", "is moving, and a run has no motion for it", 'use base = "fixed"'))
     if settings.mode != "kinematics" and not any(link.mass or any(map(any, link.inertia)) for link in chain.links):
         mistakes.append(Mistake("link", "no link has a mass", "give masses, or ask for --kinematics"))
     if settings.mode == "forward":

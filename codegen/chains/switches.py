@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from codegen.spec.chain import Condition
+from codegen.spec.chain_forces import Condition
 
 
 @dataclass(frozen=True, slots=True)

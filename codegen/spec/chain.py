@@ -1,4 +1,4 @@
-"""A kinematic chain as data: a tree of links, the cuts that close its loops, and what moves it (S2).
+"""A kinematic chain as data: a tree of links, the cuts that close its loops, its end effectors (S2).
 
 Numbers are exact: the decimal that stands in the file; multiples of pi are kept to 50 digits. Lengths in m, angles in
 rad, masses in kg, times in s. A frame is placed on a link by the six constants of S2 Table 1,
@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from codegen.spec.chain_forces import EffectorForce, JointForce
+from codegen.spec.chain_motions import Independent
 from codegen.spec.scene import Matrix, Vector
 
 BASE = "base"
@@ -19,6 +21,9 @@ JOINT_TYPES = ("revolute", "prismatic")
 
 BASES = ("fixed", "moving")
 """Whether pose, velocity and acceleration of link 0 are inputs of the routines."""
+
+BASE_COORDINATES = ("base x", "base y", "base z", "base roll", "base pitch", "base yaw")
+"""Coordinates of a moving base in a run: its origin in m, and turns about x, the new y and the newest z in rad."""
 
 CHAIN_QUANTITIES = (
     "frames",
@@ -139,105 +144,6 @@ class Effector:
 
 
 @dataclass(frozen=True, slots=True)
-class Polynomial:
-    """``sum of coefficients[k] t^k``, m or rad; one coefficient is a constant."""
-
-    coefficients: tuple[Fraction, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Harmonic:
-    """``mean + amplitude sin(frequency t + phase)``, m or rad; frequency in rad/s."""
-
-    mean: Fraction
-    amplitude: Fraction
-    frequency: Fraction
-    phase: Fraction
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """Values in a CSV file of two columns, t in s and the coordinate; its path is from the folder of the chain file."""
-
-    file: str
-
-
-Motion = Polynomial | Harmonic | Table
-
-
-@dataclass(frozen=True, slots=True)
-class Independent:
-    """An independent coordinate.
-
-    Attributes:
-        joint: name of the link whose inner joint it is.
-        motion: for kinematics and inverse dynamics; None where none is given.
-        position: m or rad at t = 0, for forward dynamics; None for the motion's, or the row's without a motion.
-        speed: m/s or rad/s at t = 0; None for the motion's, or 0 without a motion.
-    """
-
-    joint: str
-    motion: Motion | None = None
-    position: Fraction | None = None
-    speed: Fraction | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """When a switched force acts: while ``lower <= q <= upper`` and q moves in the direction.
-
-    Attributes:
-        joint: name of the link whose coordinate q is.
-        lower: m or rad; None for no bound.
-        upper: m or rad; None for no bound.
-        direction: 1 while q grows, -1 while it falls, 0 always.
-    """
-
-    joint: str
-    lower: Fraction | None
-    upper: Fraction | None
-    direction: int
-
-
-@dataclass(frozen=True, slots=True)
-class JointForce:
-    """``constant - stiffness (q - rest) - damping qd`` on a joint coordinate.
-
-    Attributes:
-        joint: name of the link.
-        constant: N or N m.
-        stiffness: N/m or N m/rad.
-        damping: N s/m or N m s/rad.
-        rest: m or rad.
-        when: None for always.
-    """
-
-    joint: str
-    constant: Fraction = Fraction(0)
-    stiffness: Fraction = Fraction(0)
-    damping: Fraction = Fraction(0)
-    rest: Fraction = Fraction(0)
-    when: Condition | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class EffectorForce:
-    """A constant wrench on the chain at an effector, besides the effector's own.
-
-    Attributes:
-        effector: its name.
-        force: [3] N, axes of the effector.
-        moment: [3] N m about its origin, likewise.
-        when: None for always.
-    """
-
-    effector: str
-    force: Vector
-    moment: Vector
-    when: Condition | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class Chain:
     """A complex kinematic chain.
 
@@ -254,6 +160,7 @@ class Chain:
         base: one of `BASES`.
         assemble: whether the coordinates in the rows are guesses, from which cuts that are open are to be closed.
         quantities: of `CHAIN_QUANTITIES`; empty for all that the chain has.
+        base_independents: `BASE_COORDINATES` of a moving base, as far as they are named; the others rest at 0.
     """
 
     name: str
@@ -267,6 +174,7 @@ class Chain:
     base: str = "fixed"
     assemble: bool = False
     quantities: tuple[str, ...] = ()
+    base_independents: tuple[Independent, ...] = ()
 
     @property
     def wanted(self) -> tuple[str, ...]:

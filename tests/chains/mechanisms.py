@@ -9,19 +9,9 @@ from typing import Any
 import numpy as np
 
 from codegen.spec.angles import PI
-from codegen.spec.chain import (
-    BASE,
-    Chain,
-    Condition,
-    Cut,
-    Frame,
-    Independent,
-    JointForce,
-    Link,
-    Motion,
-    Polynomial,
-    Row,
-)
+from codegen.spec.chain import BASE, Chain, Cut, Frame, Link, Row
+from codegen.spec.chain_forces import Condition, JointForce
+from codegen.spec.chain_motions import Independent, Motion, Polynomial
 from tests.reference.quick_return import CUT, CUTTING, DRIVE
 
 RIGHT = PI / 2

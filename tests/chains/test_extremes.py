@@ -11,7 +11,7 @@ import pytest
 from codegen.chains.position import nearest
 from codegen.chains.start import coordinates, start
 from codegen.errors import SpecificationError
-from codegen.spec.chain import Harmonic, Independent, Polynomial
+from codegen.spec.chain_motions import Harmonic, Independent, Polynomial
 from tests.reference import quick_return as planar
 from tests.reference import spatial_slider_crank as spatial
 

@@ -10,7 +10,8 @@ import pytest
 
 from codegen.chains.motion import function, motions
 from codegen.errors import SpecificationError
-from codegen.spec.chain import Chain, Harmonic, Independent, Motion, Polynomial, Table
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Harmonic, Independent, Motion, Polynomial, Table
 
 from .mechanisms import quick_return
 

@@ -15,7 +15,8 @@ from codegen.chains.factor import RankLoss, factor, least_singular_value
 from codegen.chains.generated import Generated
 from codegen.chains.rotation import quaternion, rotation_vector, rotation_vector_slope
 from codegen.chains.undetermined import undetermined
-from codegen.spec.chain import Chain, Independent, Polynomial
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Independent, Polynomial
 
 from .mechanisms import spatial_slider_crank, three_cranks
 from .runs import generated, prescribed_run

@@ -16,7 +16,9 @@ from codegen.chains.record import Record, balance, record
 from codegen.chains.reduced import reduced
 from codegen.chains.run import Run
 from codegen.chains.state import generalised
-from codegen.spec.chain import Chain, EffectorForce, Independent, JointForce, Link, Polynomial
+from codegen.spec.chain import Chain, Link
+from codegen.spec.chain_forces import EffectorForce, JointForce
+from codegen.spec.chain_motions import Independent, Polynomial
 from tests.mechanics.chain.trees import NONE, tree
 
 from .mechanisms import four_bar

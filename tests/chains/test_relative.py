@@ -15,7 +15,9 @@ from codegen.chains.relative import relative
 from codegen.chains.stand import check_start
 from codegen.errors import SpecificationError
 from codegen.mechanics.chain.model import kept_rows
-from codegen.spec.chain import Chain, JointForce, Polynomial
+from codegen.spec.chain import Chain
+from codegen.spec.chain_forces import JointForce
+from codegen.spec.chain_motions import Polynomial
 from codegen.spec.scene import Scene
 from codegen.spec.scene_file import read_scene
 from flopcount.count import count

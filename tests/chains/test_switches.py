@@ -7,7 +7,9 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from codegen.spec.chain import BASE, Chain, Condition, Effector, EffectorForce, Frame, Independent, JointForce, Row
+from codegen.spec.chain import BASE, Chain, Effector, Frame, Row
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
+from codegen.spec.chain_motions import Independent
 
 from .mechanisms import ZERO, link, row
 from .runs import by_table, forward_run

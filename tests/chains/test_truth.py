@@ -13,7 +13,9 @@ from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.record import balance, record
 from codegen.chains.run import Run
-from codegen.spec.chain import Chain, Harmonic, JointForce
+from codegen.spec.chain import Chain
+from codegen.spec.chain_forces import JointForce
+from codegen.spec.chain_motions import Harmonic
 from tests.reference import quick_return as planar
 from tests.reference import spatial_slider_crank as spatial
 from tests.reference.one_freedom import OneFreedom
@@ -82,15 +84,18 @@ def test_position_velocity_and_acceleration_of_the_slider_are_right_to_1e_10(nam
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_efforts_of_the_crank_are_right_to_1e_10(name: str) -> None:
-    """In N m for the spatial slider-crank; of the drive's 165 521 N m for the quick return, whose efforts are large."""
+def test_efforts_of_the_crank_are_right_to_1e_10_or_to_rounding_of_the_greatest(name: str) -> None:
+    """In N m. The efforts of the quick return reach 5e6 N m, where half a unit of the last digit is 5e-10 N m."""
     _, reference, offset = CASES[name]
     _, run = done(name)
-    scale = 1.0 if name.startswith("slider") else planar.DRIVE
-    for state in run.states:
+    efforts = [
+        reference.effort(q[0] + offset, qd[0], qdd[0])
+        for q, qd, qdd in zip(*(columns(run, part) for part in ("q", "qd", "qdd")), strict=True)
+    ]
+    rounding = 2.0**-53 * np.max(np.abs(efforts))
+    for state, effort in zip(run.states, efforts, strict=True):
         assert state.loads is not None
-        effort = reference.effort(state.q[0] + offset, state.qd[0], state.qdd[0])
-        assert abs(state.loads.tau[0] - effort) < 1e-10 * scale
+        assert abs(state.loads.tau[0] - effort) < max(1e-10, 32 * rounding)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 from codegen.errors import SpecificationError
 from codegen.spec.angles import PI, cosine_and_sine, quarter_turns
-from codegen.spec.chain import Polynomial
 from codegen.spec.chain_file import read_chain, schema_text
 from codegen.spec.chain_file.angle import parsed
+from codegen.spec.chain_motions import Polynomial
 from tests.mechanics.chain.trees import EXAMPLES
 
 jsonschema = pytest.importorskip("jsonschema")

@@ -12,7 +12,8 @@ from codegen.chains.relative.pose import Pose, row_of
 from codegen.chains.relative.spanning import Branch, spanning
 from codegen.chains.relative.steps import Step, coordinates, steps
 from codegen.errors import Mistake, SpecificationError
-from codegen.spec.chain import BASE, Chain, Cut, Frame, JointForce, Link
+from codegen.spec.chain import BASE, Chain, Cut, Frame, Link
+from codegen.spec.chain_forces import JointForce
 from codegen.spec.placement import rotation, transposed
 from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Joint, Marker, Scene
 

@@ -12,7 +12,8 @@ from codegen.chains.factor import RANK_TOLERANCE
 from codegen.chains.generated import Generated
 from codegen.chains.interpreted import interpreted
 from codegen.chains.mechanism import characteristic_length
-from codegen.spec.chain import Chain, Independent, Polynomial
+from codegen.spec.chain import Chain
+from codegen.spec.chain_motions import Independent, Polynomial
 from codegen.spec.scene import Drive
 
 _LATE = 1e-3

@@ -1,30 +1,27 @@
 """Inertia matrix M, bias force f_C and gravity force f_G of the tree, by composite bodies.
 
 ``M qdd + f_C = f_G + tau + ...``. All links carried by a joint move as one body when it alone accelerates: F and N are
-the force and the moment about the joint's origin that this takes. Mass properties are those of
-`codegen.mechanics.chain.grouping`; axes are those of the base.
+the force and the moment about the joint's origin that this takes; axes are those of the base.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import sympy
 
 from codegen.mechanics.chain.bias import Bias
+from codegen.mechanics.chain.bodies import Bodies
 from codegen.mechanics.chain.geometry import Geometry, combined
-from codegen.mechanics.chain.grouping import Inertia, regrouped
+from codegen.mechanics.chain.grouping import Inertia
 from codegen.mechanics.chain.tree import ROOT, Node
 from codegen.mechanics.chain.vectors import (
     ZERO,
-    Rows,
     Vector,
     added,
     cross,
     dot,
     is_zero,
-    rows,
     scaled,
     times,
 )
@@ -42,11 +39,7 @@ class Composite:
     def __init__(self, geometry: Geometry, bias: Bias, progressive: bool) -> None:
         self._geometry, self._bias, self._progressive = geometry, bias, progressive
         self._tree = geometry.tree
-        self._own = regrouped(self._tree)
-        self._masses: dict[int, Any] = {}
-        self._moments: dict[int, Vector] = {}
-        self._hung: dict[int, Rows] = {}
-        self._wholes: dict[int, Rows] = {}
+        self._bodies = Bodies(geometry)
         self._needed: dict[int, tuple[Vector, Vector]] = {}
         self._wrenches: dict[int, tuple[Vector, Vector]] = {}
 
@@ -67,9 +60,9 @@ class Composite:
         """Force or moment on the joint that accelerates."""
         k = node.number
         if node.type == "prismatic":
-            return self._mass(k)
-        z, own = self._geometry.z(k), self._own[k].I[2][2]
-        if self._has_children(k):
+            return self._bodies.mass(k)
+        z, own = self._geometry.z(k), self._bodies.own[k].I[2][2]
+        if self._bodies.has_children(k):
             return own + dot(z, self._of_children(k))
         return own
 
@@ -121,105 +114,18 @@ class Composite:
 
     def _unit(self, k: int) -> tuple[Vector, Vector]:
         x, y, z = self._geometry.axes(k)
-        own = self._own[k]
+        own = self._bodies.own[k]
         if self._tree.nodes[k].type == "prismatic":
-            return scaled(self._mass(k), z), cross(self._moment(k), z)
-        if not self._has_children(k):
+            return scaled(self._bodies.mass(k), z), cross(self._bodies.moment(k), z)
+        if not self._bodies.has_children(k):
             return combined((x, y, z), (-own.S[1], own.S[0], 0)), combined((x, y, z), own.I[2])
-        return cross(z, self._moment(k)), added(self._of_children(k), combined((x, y, z), own.I[2]))
+        return cross(z, self._bodies.moment(k)), added(self._of_children(k), combined((x, y, z), own.I[2]))
 
     def _of_children(self, k: int) -> Vector:
         """Moment of what hangs on a link, when it turns with unit acceleration."""
         return self._geometry.named(
-            "I", k, times(self._hung_inertia(k), self._geometry.z(k)), "moment of what hangs on it"
+            "I", k, times(self._bodies.hung_inertia(k), self._geometry.z(k)), "moment of what hangs on it"
         )
-
-    def _has_children(self, k: int) -> bool:
-        """Whether anything that hangs on a link has mass properties."""
-        return any(
-            self._mass(child.number) or not is_zero((*self._moment(child.number), *_all(self._whole(child.number))))
-            for child in self._tree.children[k]
-        )
-
-    # --- composite bodies
-
-    def _mass(self, k: int) -> Any:
-        if k not in self._masses:
-            children = self._tree.children[k]
-            self._masses[k] = self._own[k].m + sum(self._mass(child.number) for child in children)
-        return self._masses[k]
-
-    def _moment(self, k: int) -> Vector:
-        """Mass moment of what a link carries, with itself, about its origin."""
-        if k not in self._moments:
-            own = combined(self._geometry.axes(k), self._own[k].S)
-            hung = [self._moved_moment(child) for child in self._tree.children[k]]
-            self._moments[k] = self._geometry.named("S", k, added(own, *hung), "mass moment of what the link carries")
-        return self._moments[k]
-
-    def _moved_moment(self, child: Node) -> Vector:
-        """Mass moment of a composite body about the parent's origin."""
-        k = child.number
-        if not self._mass(k):
-            return self._moment(k)
-        value = added(self._moment(k), scaled(self._mass(k), self._geometry.offset(k)))
-        return self._geometry.named("P", k, value, "about the parent's origin")
-
-    def _hung_inertia(self, k: int) -> Rows:
-        """Inertia of what hangs on a link about its origin."""
-        if k not in self._hung:
-            parts = [self._shifted(child) for child in self._tree.children[k]]
-            total = rows(added(*columns) for columns in zip(*parts, strict=True)) if parts else rows([ZERO] * 3)
-            self._hung[k] = self._symmetric("H", k, total, "inertia of what hangs on the link")
-        return self._hung[k]
-
-    def _whole(self, k: int) -> Rows:
-        """Inertia of what a link carries, with itself, about its origin."""
-        if k not in self._wholes:
-            own = self._own_inertia(k)
-            hung = self._hung_inertia(k)
-            total = rows(added(a, b) for a, b in zip(own, hung, strict=True))
-            self._wholes[k] = self._symmetric("W", k, total, "inertia of what the link carries")
-        return self._wholes[k]
-
-    def _own_inertia(self, k: int) -> Rows:
-        """``zz I`` and dyads of the axes of a link."""
-        x, y, z = self._geometry.axes(k)
-        (xx, xy, xz), (_, yy, yz), (_, _, zz) = self._own[k].I
-        named = self._geometry.named
-        if not any((xy, xz, yz)):
-            axis, excess = (x, xx - zz) if xx != zz else (y, yy - zz)
-            by_axis = named("i", k, scaled(excess, axis), "inertia by an axis")
-            return rows(((zz if i == j else 0) + axis[i] * by_axis[j] for j in range(3)) for i in range(3))
-        by_x = named("i", k, combined((x, y, z), ((xx - zz) / 2, xy, xz)), "inertia by x")
-        by_y = named("j", k, scaled(yz, z), "inertia by y")
-        return rows(
-            ((zz if i == j else 0) + _dyad(x, by_x, i, j) + _dyad(y, by_y, i, j) for j in range(3)) for i in range(3)
-        )
-
-    def _shifted(self, child: Node) -> Rows:
-        """Inertia of a composite body about the parent's origin."""
-        k = child.number
-        offset, whole = self._geometry.offset(k), self._whole(k)
-        if is_zero(offset):
-            return whole
-        S, P = self._moment(k), self._moved_moment(child)
-        both = scaled(2, S) if P is S else added(S, P)
-        total = self._geometry.named("Q", k, both, "sum of the mass moments about both origins")
-        t = self._geometry.named("t", k, (x * y for x, y in zip(offset, total, strict=True)), "offset times it")
-        return rows(
-            (
-                whole[i][j] + (t[(i + 1) % 3] + t[(i + 2) % 3] if i == j else -(offset[i] * P[j] + S[i] * offset[j]))
-                for j in range(3)
-            )
-            for i in range(3)
-        )
-
-    def _symmetric(self, name: str, k: int, matrix: Rows, words: str) -> Rows:
-        """Name the six entries of a symmetric matrix."""
-        xx, yy, zz = self._geometry.named(name, k, (matrix[i][i] for i in range(3)), words)
-        yz, zx, xy = self._geometry.named(f"{name}o", k, (matrix[1][2], matrix[0][2], matrix[0][1]), f"{words}, mixed")
-        return rows([(xx, xy, zx), (xy, yy, yz), (zx, yz, zz)])
 
     # --- forces
 
@@ -247,7 +153,7 @@ class Composite:
         return self._wrenches[k]
 
     def _own_wrench(self, k: int) -> tuple[Vector, Vector]:
-        own, bias = self._own[k], self._bias
+        own, bias = self._bodies.own[k], self._bias
         F, N = ZERO, ZERO
         if own.m:
             F = added(F, scaled(own.m, bias.a(k)))
@@ -263,7 +169,7 @@ class Composite:
         if not any((xx, xy, xz, yy, yz, zz)):
             return ZERO
         if any((xy, xz, yz)):
-            inertia = self._symmetric("J", k, self._own_inertia(k), "inertia of the link")
+            inertia = self._bodies.symmetric("J", k, self._bodies.own_inertia(k), "inertia of the link")
             w = self._bias.w(k)
             momentum = self._geometry.named("L", k, times(inertia, w), "angular momentum")
             return added(times(inertia, self._bias.e(k)), cross(w, momentum))
@@ -273,12 +179,3 @@ class Composite:
             return turning
         axis = self._geometry.axes(k)[number]
         return added(turning, scaled(-excess, cross(axis, self._bias.of_axis(k, number))))
-
-
-def _all(matrix: Rows) -> Sequence[Any]:
-    return [entry for row in matrix for entry in row]
-
-
-def _dyad(a: Vector, b: Vector, i: int, k: int) -> Any:
-    """Entry of ``a b^T + b a^T``."""
-    return 2 * a[i] * b[i] if i == k else a[i] * b[k] + a[k] * b[i]

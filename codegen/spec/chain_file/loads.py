@@ -6,17 +6,10 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from codegen.errors import Mistake
-from codegen.spec.chain import (
-    Condition,
-    EffectorForce,
-    Harmonic,
-    Independent,
-    JointForce,
-    Motion,
-    Polynomial,
-    Table,
-)
+from codegen.spec.chain import BASE_COORDINATES
 from codegen.spec.chain_file.entries import ChainEntry, ConditionEntry, ForceEntry, IndependentEntry
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
+from codegen.spec.chain_motions import Harmonic, Independent, Motion, Polynomial, Table
 from codegen.spec.scene_file.text import nearest_known, quoted, shown
 
 _MOTIONS = ("polynomial", "harmonic", "table")
@@ -27,8 +20,9 @@ _EFFECTOR_KEYS = frozenset({"force", "moment"})
 def independent_mistakes(entry: ChainEntry, links: Sequence[str]) -> Iterator[Mistake]:
     """Check the independent coordinates."""
     seen: set[str] = set()
+    known = (*links, *(BASE_COORDINATES if entry.base == "moving" else ()))
     for part in entry.independent:
-        yield from _joint_mistakes(part.joint, part.place, links)
+        yield from _joint_mistakes(part.joint, part.place, known)
         if part.joint is not None and part.joint in seen:
             yield Mistake(part.place, f"the coordinate of {quoted(part.joint)} is named twice", "name it once")
         seen |= {part.joint} if part.joint is not None else set()
@@ -37,7 +31,7 @@ def independent_mistakes(entry: ChainEntry, links: Sequence[str]) -> Iterator[Mi
             yield Mistake(part.place, f"has {' and '.join(motions)}", "give one motion")
         if "polynomial" in part.given and not part.polynomial and "polynomial" not in part.wrong:
             yield Mistake(f"{part.place}: polynomial", "is empty", "give at least the constant")
-    if entry.cut and not entry.independent:
+    if entry.cut and not _of(entry, is_base=False):
         what = "a chain with cuts has dependent coordinates, and no coordinate is said to be independent"
         yield Mistake(entry.place, what, "write [[independent]] for each degree of freedom")
 
@@ -76,12 +70,22 @@ def _condition_mistakes(entry: ConditionEntry, links: Sequence[str]) -> Iterator
 
 
 def make_independents(entry: ChainEntry) -> tuple[Independent, ...]:
-    """Make the independent coordinates; all of them where there are no cuts and none is named."""
-    if entry.independent:
-        return tuple(
-            Independent(part.joint or "", _motion(part), part.position, part.speed) for part in entry.independent
-        )
-    return tuple(Independent(link.name or "") for link in entry.link)
+    """Make the independent coordinates of links; all of them where there are no cuts and none is named."""
+    return _of(entry, is_base=False) or tuple(Independent(link.name or "") for link in entry.link)
+
+
+def make_base_independents(entry: ChainEntry) -> tuple[Independent, ...]:
+    """Make the coordinates of a moving base that are named."""
+    return _of(entry, is_base=True)
+
+
+def _of(entry: ChainEntry, is_base: bool) -> tuple[Independent, ...]:
+    known = BASE_COORDINATES if entry.base == "moving" else ()
+    return tuple(
+        Independent(part.joint or "", _motion(part), part.position, part.speed)
+        for part in entry.independent
+        if (part.joint in known) == is_base
+    )
 
 
 def _motion(entry: IndependentEntry) -> Motion | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.spec.chain import (
+    BASE_COORDINATES,
     CHAIN_QUANTITIES,
     CLOSURE_QUANTITIES,
     EFFECTOR_QUANTITIES,
@@ -15,7 +16,13 @@ from codegen.spec.chain import (
 from codegen.spec.chain_file.entries import ChainEntry
 from codegen.spec.chain_file.hung import cut_mistakes, frame_mistakes, make_cut, make_effector
 from codegen.spec.chain_file.links import make_link, mass_mistakes, massless_mistakes, tree_mistakes
-from codegen.spec.chain_file.loads import force_mistakes, independent_mistakes, make_forces, make_independents
+from codegen.spec.chain_file.loads import (
+    force_mistakes,
+    independent_mistakes,
+    make_base_independents,
+    make_forces,
+    make_independents,
+)
 from codegen.spec.scene_file.entry import read_entry
 from codegen.spec.scene_file.names import name_mistakes, routine_name_mistakes
 from codegen.spec.scene_file.reading import bounded
@@ -58,6 +65,9 @@ def _tree_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
     if not asked or set(asked) & set(MASS_QUANTITIES):
         yield from massless_mistakes(entry)
     links = _links(entry)
+    for link in entry.link:
+        if entry.base == "moving" and link.name in BASE_COORDINATES:
+            yield Mistake(link.place, "has the name of a coordinate of the base", "give it another name")
     for cut in entry.cut:
         yield from cut_mistakes(cut, links)
     for effector in entry.effector:
@@ -99,4 +109,5 @@ def _chain(entry: ChainEntry) -> Chain:
         entry.base,
         entry.assemble,
         tuple(name for name in CHAIN_QUANTITIES if name in asked),
+        make_base_independents(entry),
     )

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from codegen.spec.chain import BASE, Chain, Cut, Effector, Frame, Independent, Link, Row
+from codegen.spec.chain import BASE, Chain, Cut, Effector, Frame, Link, Row
 from codegen.spec.chain_file import read_chain
+from codegen.spec.chain_motions import Independent
 from tests.mechanics.chain.series import move
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "chains"

@@ -191,13 +191,14 @@ def platform(
     read = with_options(read_platform(text_of(file), str(file)), variant, real)
     where = chosen_poses(read, poses, grid, kind)
     with _progress(steps(read), "generating") as advance:
-        files = generate_platform(read, real, advance)
+        package = generate_platform(read, real, advance)
+    files: dict[str, output.Content] = {**package}
     if where is not None:
         with _progress(where.pieces, "evaluating") as advance:
-            table = evaluated(where, advance, cluster)
-        files |= table.files | platform_report(read, table)
+            table = evaluated(where, advance, cluster, output.room(target))
+        files |= {**table.files, **platform_report(read, table)}
     output.replace(target, files)
-    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    functions = len(json.loads(package[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
     if where is not None:
         click.echo(table.words)

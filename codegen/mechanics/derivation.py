@@ -37,9 +37,15 @@ class Derivation:
     def __init__(self, form: Formulation) -> None:
         self.form = form
         self._virtual = Variation(form.algebra, form.stages, form.virtual, form.partials)
+        self._quantities: dict[str, SymbolicOutput] = {}
 
     def quantity(self, name: str) -> SymbolicOutput:
         """Derive one of the quantities of `codegen.spec.request`, ``phi_q_v_q`` or ``branch``."""
+        if name not in self._quantities:
+            self._quantities[name] = self._derived(name)
+        return self._quantities[name]
+
+    def _derived(self, name: str) -> SymbolicOutput:
         form = self.form
         size = form.column_count
         match name:

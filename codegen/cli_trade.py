@@ -34,7 +34,7 @@ def accuracy(joint: tuple[str, ...], as_json: bool, folder: Path | None, **optio
     cases = request.cases()
     if folder is not None:
         output.check_target(folder)
-    with progress(len(cases), "measuring") as advance:
+    with progress(2 * len(cases), "measuring") as advance:
         result = document(request, measured(request, advance))
     if folder is not None:
         output.replace(folder, accuracy_files(result))

@@ -97,7 +97,7 @@ class Built:
         for output, length in zip(self.routine.program.outputs, lengths, strict=True):
             part = out[:, offset : offset + length * self.build.lanes]
             lanes = part.reshape(len(out), length, self.build.lanes)
-            found[output.name] = np.moveaxis(lanes, 1, 0).reshape(length, -1)[:, :poses]
+            found[output.name] = np.moveaxis(lanes, 1, 0).reshape(length, len(out) * self.build.lanes)[:, :poses]
             offset += length * self.build.lanes
         return found
 
@@ -144,9 +144,11 @@ class Built:
         values = np.concatenate(rows) if rows else np.zeros((0, next(iter(inputs.values())).shape[1]))
         poses, lanes = values.shape[1], self.build.lanes
         values = np.pad(values, ((0, 0), (0, -poses % lanes)), mode="edge")
-        groups = values.reshape(len(values), -1, lanes)
+        groups = values.reshape(len(values), values.shape[1] // lanes, lanes)
         kind = number_type(self.build.real)
-        return np.ascontiguousarray(np.moveaxis(groups, 0, 1), dtype=kind).reshape(groups.shape[1], -1), poses
+        return np.ascontiguousarray(np.moveaxis(groups, 0, 1), dtype=kind).reshape(
+            groups.shape[1], len(values) * lanes
+        ), poses
 
     def _run(self, packed: NDArray[Any], out: NDArray[Any], rounds: int, stride: int) -> None:
         self.library.run(

@@ -15,9 +15,10 @@ from codegen.emit.routine import Routine
 from codegen.measure.compile import compiler_version
 from codegen.measure.errors import Figures, figures, truth
 from codegen.measure.routine_builds import Build, Built, built
+from codegen.parallel import parallel
 from codegen.trade.builds import BASE, prepared_for
 from codegen.trade.programs import builds_folder
-from codegen.trade.requests import Request
+from codegen.trade.requests import Case, Request
 from codegen.trade.specimens import blocks_of, routine_name, sample
 
 STATES = {True: "converged", False: "mid-iteration"}
@@ -62,7 +63,9 @@ class Candidate:
 
 
 def measured(request: Request, progress: Progress = lambda _: None) -> tuple[Candidate, ...]:
-    """Measure; the candidates of a joint, or of a scene, are timed in turn.
+    """Measure; the candidates of a joint, or of a scene, are timed in turn, alone.
+
+    ``progress`` is told each case twice, when its routine is made and when it is judged.
 
     Raises:
         SpecificationError: the request cannot be met.
@@ -70,13 +73,19 @@ def measured(request: Request, progress: Progress = lambda _: None) -> tuple[Can
     chosen = request.builds()
     found: list[Candidate] = []
     cases = request.cases()
+    made = parallel(_routine, cases, lambda case: progress(case.name))
     for group in dict.fromkeys(case.group for case in cases):
         rows: list[_Row] = []
-        for case in (case for case in cases if case.group == group):
-            rows += list(_judged(case.routine(), request, chosen, builds_folder()))
-            progress(case.name)
+        for case, routine in zip(cases, made, strict=True):
+            if case.group == group:
+                rows += list(_judged(routine, request, chosen, builds_folder()))
+                progress(case.name)
         found += _timed(group, rows, len(chosen) > len(BASE) and request.is_counted)
     return tuple(found)
+
+
+def _routine(case: Case) -> Routine:
+    return case.routine()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,6 +7,9 @@ import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from codegen.attitudes import attitude_routines
 from codegen.emit.joint_subject import JointSubject
 from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.routine_builds import Built, built
@@ -14,6 +17,8 @@ from codegen.trade.builds import prepared_for
 from codegen.trade.judgement import SAFETY, Judgement, judged, timing_inputs
 from codegen.trade.programs import builds_folder
 from codegen.trade.specimens import routine_name
+
+_ORTHONORMALISE = "orthonormalise the attitudes"
 
 TIMES = 15
 """Rounds of a timer."""
@@ -35,7 +40,7 @@ def cures(domain: PoseDomain, candidates: Sequence[tuple[Built, float]], best: J
     )
     given = prepared_for(one.routine, replace(one.build, trigonometry="given")) if one.build.lanes == 1 else None
     tries: list[tuple[str, Built, PoseDomain]] = [
-        ("orthonormalise the attitudes", one, replace(domain, drift=0.0)),
+        (_ORTHONORMALISE, one, replace(domain, drift=0.0)),
     ]
     if isinstance(one.routine.subject, JointSubject):
         relative = replace(domain, r=0.0, distance=0.0)
@@ -48,5 +53,15 @@ def cures(domain: PoseDomain, candidates: Sequence[tuple[Built, float]], best: J
         if changed is not one or where != domain:
             found = judged(changed, best.nanoseconds, where, 0.0)
             time = statistics.median(changed.timer(timing_inputs(changed, domain))() for _ in range(TIMES))
+            time += _orthonormalising(one) if name == _ORTHONORMALISE else 0.0
             if found.searched < best.searched / SAFETY:
                 yield Cure(name, found.searched, time)
+
+
+def _orthonormalising(one: Built) -> float:
+    """Time that it takes to orthonormalise all attitudes of a routine, in its own build, ns."""
+    (routine,) = attitude_routines(("orthonormalise",))
+    attitudes = [a.length / 9 for a in one.routine.program.used_arguments() if a.name in ("A", "A_i", "A_j")]
+    inputs = {"A": np.repeat(np.eye(3).reshape(9, 1), 64, axis=1)}
+    timer = built(routine, one.build, builds_folder()).timer(inputs)
+    return float(sum(attitudes) * statistics.median(timer() for _ in range(TIMES)))

@@ -127,7 +127,7 @@ class AccuracyRequest:
         return tuple(Case(v.joint, v.file_stem, partial(self._routine, v)) for v in self.variants())
 
     def _routine(self, variant: Variant) -> Routine:
-        return next(r for r in routines(variant) if r.output == self.output)
+        return routines(variant, (self.output,))[0]
 
     def builds(self) -> tuple[Build, ...]:
         """All builds; those of the whole library are `codegen.trade.builds.BASE`."""

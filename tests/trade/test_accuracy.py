@@ -80,6 +80,14 @@ def test_builds_evaluate_the_program(build: Build, tmp_path: Path) -> None:
         np.testing.assert_allclose(found[name], expected, rtol=0, atol=2e-15)
 
 
+def test_an_output_without_entries_has_no_values_and_no_figures(tmp_path: Path) -> None:
+    variant = Variant("rigid", "parametric", "regular", "substituted")
+    (routine,) = routines(variant, ("phi_q_t_lambda_q",))
+    poses = sample_poses(blocks_joint(routine), variant, routine.program.arguments, DOMAIN, 5, is_converged=True)
+    found = built(routine, Build("double"), tmp_path).values(poses.given(np.float64))
+    assert found["phi_q_t_lambda_q"].shape == (len(routine.straight.outputs[0].values), 5)
+
+
 def test_a_spoilt_value_shows_in_the_figures() -> None:
     routine = next(r for r in routines(VARIANT) if r.output == "phi")
     program = routine.straight

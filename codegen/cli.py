@@ -123,7 +123,8 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
+@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric; or relative.")
+@click.option("--derivative", help="Of parametric joints: exact or substituted; as the file says if left out.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")

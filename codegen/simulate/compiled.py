@@ -13,8 +13,8 @@ from codegen.emit.package import banner
 from codegen.emit.routine import Parameter, Subject
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
-from codegen.simulate.library import library
 from codegen.simulate.factors import blocks, lu_header
+from codegen.simulate.library import library
 
 
 @dataclass(frozen=True, slots=True)

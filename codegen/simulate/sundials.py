@@ -68,7 +68,7 @@ ADDRESSES = (
 
 
 def _words(address: int) -> Any:
-    """The first words of a linear solver or of its operations: every version has as many of both, and more."""
+    """Words of a linear solver, or of its operations; only those are read that every version has."""
     return (c_void_p * 12).from_address(address)
 
 
@@ -83,6 +83,7 @@ class Sundials:
             function.argtypes = arguments
             setattr(self, name, function)
 
+    @cache  # noqa: B019 - the one instance lives as long as the program
     def address(self, name: str) -> int:
         """Address of a function."""
         return ctypes.cast(self._find(name), c_void_p).value or 0
@@ -101,8 +102,8 @@ class Sundials:
     def linear_solver(self, context: c_void_p, content: int, setup: int, solve: int) -> c_void_p:
         """Make a direct linear solver of two compiled operations; `SUNLinSolFreeEmpty` gives its memory back.
 
-        Where the operations stand depends on the version of SUNDIALS; it is read off a solver that SUNDIALS makes, whose
-        operations are known by their addresses.
+        Where the operations stand depends on the version of SUNDIALS; it is read off a solver that SUNDIALS makes,
+        whose operations are known by their addresses.
 
         Args:
             context: of SUNDIALS.

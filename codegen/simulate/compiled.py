@@ -44,9 +44,6 @@ class Compiled:
     library: ctypes.CDLL
 
 
-_FUNCTIONS = ("residual", "jacobian", "start", "end", "setup", "solve")
-
-
 def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> Compiled:
     """Compile the equations of motion.
 
@@ -60,8 +57,12 @@ def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | L
     """
     loaded = library(ida_source(subject, residual, jacobian), {"jg_lu.h": lu_header()})
     pattern = jacobian.output("jacobian").sparsity
-    addresses = [ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0 for name in _FUNCTIONS]
-    return Compiled(*addresses, pattern.ncol, pattern.nonzeros, loaded)
+    residual_at, jacobian_at, start, end, setup, solve = (
+        ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0
+        for name in ("residual", "jacobian", "start", "end", "setup", "solve")
+    )
+    size, nonzeros = pattern.ncol, pattern.nonzeros
+    return Compiled(residual_at, jacobian_at, start, end, setup, solve, size, nonzeros, loaded)
 
 
 def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:

@@ -77,6 +77,7 @@ class Sundials:
 
     def __init__(self, libraries: list[ctypes.CDLL]) -> None:
         self._libraries = libraries
+        self._found: tuple[int, tuple[int, ...]] | None = None
         for name, (result, arguments) in _SIGNATURES.items():
             function = self._find(name)
             function.restype = result
@@ -114,17 +115,25 @@ class Sundials:
         Raises:
             SpecificationError: the layout is not understood.
         """
-        kind, *known = (self.address(f"SUNLinSol{name}_Dense") for name in ("GetType", "Setup", "Solve"))
-        with self._dense_solver(context) as dense:
-            table = next((k for k in (1, 2) if dense[k] and _words(dense[k])[0] == kind), None)
-            operations = [] if table is None else list(_words(dense[table]))
-        if table is None or not set(known) <= set(operations):
-            raise SpecificationError([Mistake("SUNDIALS", "its linear solvers have an unknown layout", REMEDY)])
+        table, places = self._layout(context)
         made = self.SUNLinSolNewEmpty(context)
         _words(made)[0] = content
-        for address, own in ((kind, kind), *zip(known, (setup, solve), strict=True)):
-            _words(_words(made)[table])[operations.index(address)] = own
+        operations = (self.address("SUNLinSolGetType_Dense"), setup, solve)
+        for place, operation in zip(places, operations, strict=True):
+            _words(_words(made)[table])[place] = operation
         return c_void_p(made)
+
+    def _layout(self, context: c_void_p) -> tuple[int, tuple[int, ...]]:
+        """Where a solver has its operations, and where among them type, factorisation and solution stand."""
+        if self._found is None:
+            kind, *known = (self.address(f"SUNLinSol{name}_Dense") for name in ("GetType", "Setup", "Solve"))
+            with self._dense_solver(context) as dense:
+                table = next((k for k in (1, 2) if dense[k] and _words(dense[k])[0] == kind), None)
+                operations = [] if table is None else list(_words(dense[table]))
+            if table is None or not set(known) <= set(operations):
+                raise SpecificationError([Mistake("SUNDIALS", "its linear solvers have an unknown layout", REMEDY)])
+            self._found = table, tuple(operations.index(address) for address in (kind, *known))
+        return self._found
 
     @contextmanager
     def _dense_solver(self, context: c_void_p) -> Iterator[Any]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from benchmarks.batch.report import setting
-from benchmarks.engine import charts, measure, report
+from benchmarks.engine import charts, compare, measure, report
 
 
 @click.command()
@@ -33,6 +33,7 @@ def main(rounds: int, sizes: tuple[int, ...], target: Path) -> None:
         "work_precision": precise,
         "without_terms": measure.without_terms(rounds),
         "by_size": measure.by_size(sizes, rounds),
+        "others": compare.compared(sizes, rounds),
     }
     (target / "piston.svg").write_text(charts.piston_chart(curves))
     (target / "work_precision.svg").write_text(charts.work_precision_chart(precise))

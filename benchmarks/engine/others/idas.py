@@ -1,7 +1,7 @@
-"""CasADi's idas on a residual that CasADi derives: all derivatives by its own differentiation, evaluated by its interpreter.
+"""CasADi's idas on equations that CasADi derives: its own differentiation, its own interpreter.
 
-The engine in absolute coordinates, index 2 after Gear, Gupta and Leimkuhler, as our conventional form; redundant rows are
-left out by hand.
+The engine in absolute coordinates, index 2 after Gear, Gupta and Leimkuhler, as our conventional form; redundant rows
+are left out by hand.
 """
 
 from __future__ import annotations

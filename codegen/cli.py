@@ -14,7 +14,7 @@ import click
 
 import codegen
 from codegen import cli_trade
-from codegen.cli_chain import chain, generate_relative, simulate_chain, told
+from codegen.cli_chain import chain, generate_relative, simulate_chain, simulate_relative, told
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 from codegen.progress import progress as _progress
 
@@ -143,6 +143,9 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
 
     if is_chain(file):
         simulate_chain(file, target, animation, copies, options)
+        return
+    if options["form"] == "relative":
+        simulate_relative(file, target, animation, copies, options)
         return
     settings = Settings(**options)
     check_settings(settings)

@@ -17,6 +17,7 @@ OTHERS_WORDS = (
 
 def markdown(document: dict[str, Any]) -> str:
     """Write ``results.md``."""
+    sizes = sorted({int(sets) for row in document["others"]["rows"] for sets in row["seconds"]})
     parts = [
         "# In-line engine",
         "",
@@ -64,7 +65,7 @@ def markdown(document: dict[str, Any]) -> str:
         "1 s at an error of 1e-6 m: at the loosest setting (tolerance, or step in s) with that error for one engine.",
         "All programs in one process, round by round. Where a cell is empty a run takes longer than 4 s.",
         "",
-        *_others(document["others"], [row["sets"] for row in document["by_size"]]),
+        *_others(document["others"], sizes),
         "",
         *OTHERS_WORDS,
         "",

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.utilities import RigidBodyInertia
 
 from codegen.measure.constraints import Array
 from codegen.spec.scene import Scene
 
-NAME = "Exudyn"
+exudyn: Any = importlib.import_module("exudyn")
+utilities: Any = importlib.import_module("exudyn.utilities")
+
 SETTINGS = tuple(1.0 / steps for steps in (200, 500, 1000, 2000, 5000, 10000, 20000, 50000))
 """Steps, s."""
 
@@ -72,15 +73,13 @@ def _system(scene: Scene, sets: int, step: float, outputs: int) -> tuple[Any, An
 
 
 def _sensor(mbs: Any, body: Any) -> Any:
-    from exudyn.utilities import SensorBody
-
     kind = exudyn.OutputVariableType.Position
-    return mbs.AddSensor(SensorBody(bodyNumber=body, storeInternal=True, outputVariableType=kind))
+    return mbs.AddSensor(utilities.SensorBody(bodyNumber=body, storeInternal=True, outputVariableType=kind))
 
 
 def _body(mbs: Any, scene: Scene, k: int, shift: Array) -> Any:
     body = scene.bodies[k]
-    inertia = RigidBodyInertia(float(body.mass), np.array(body.inertia, dtype=np.float64))
+    inertia = utilities.RigidBodyInertia(float(body.mass), np.array(body.inertia, dtype=np.float64))
     return mbs.CreateRigidBody(
         inertia=inertia,
         referencePosition=list(shift + np.array(body.position, dtype=np.float64)),

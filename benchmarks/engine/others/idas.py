@@ -16,7 +16,6 @@ import numpy as np
 from codegen.measure.constraints import Array
 from codegen.spec.scene import Scene
 
-NAME = "CasADi idas"
 SETTINGS = tuple(10.0 ** -(k / 2) for k in range(8, 21))
 """Relative and absolute tolerances, from loose to tight."""
 

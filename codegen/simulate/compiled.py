@@ -13,7 +13,7 @@ from codegen.emit.package import banner
 from codegen.emit.routine import Parameter, Subject
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
-from codegen.simulate.factors import blocks, lu_header
+from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
 
 
@@ -55,7 +55,7 @@ def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | L
     Raises:
         SpecificationError: there is no C compiler.
     """
-    loaded = library(ida_source(subject, residual, jacobian), {"jg_lu.h": lu_header()})
+    loaded = library(ida_source(subject, residual, jacobian), lu_headers())
     pattern = jacobian.output("jacobian").sparsity
     residual_at, jacobian_at, start, end, setup, solve = (
         ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0

@@ -51,6 +51,7 @@ def blocks(pattern: Sparsity) -> Blocks:
     return Blocks(tuple(starts.tolist()), *(tuple(places.tolist()) for places in in_order))
 
 
-def lu_header() -> str:
-    """Write ``jg_lu.h``."""
-    return render("simulate/jg_lu.h.j2", banner=banner(codegen.__version__), chosen=repr(CHOSEN), kept=repr(KEPT))
+def lu_headers() -> dict[str, str]:
+    """Write the headers of the factorisation: name -> text; sources include ``jg_lu.h``."""
+    values = {"banner": banner(codegen.__version__), "chosen": repr(CHOSEN), "kept": repr(KEPT)}
+    return {name: render(f"simulate/{name}.j2", **values) for name in ("jg_pivots.h", "jg_lu.h")}

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from codegen.ir.program import Sparsity
-from codegen.simulate.factors import blocks, lu_header
+from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ Solve = Callable[[Sparsity, Array, Array], tuple[int, Array]]
 
 @pytest.fixture(scope="module")
 def solve() -> Solve:
-    function = library(SOURCE, {"jg_lu.h": lu_header()}).solve
+    function = library(SOURCE, lu_headers()).solve
 
     def solved(pattern: Sparsity, values: Array, b: Array) -> tuple[int, Array]:
         """Solve with matrices [count, nonzeros] one after the other; the code and the solutions [count, n]."""

@@ -14,7 +14,7 @@ from codegen.spec.scene import Scene
 exudyn: Any = importlib.import_module("exudyn")
 utilities: Any = importlib.import_module("exudyn.utilities")
 
-SETTINGS = tuple(1.0 / steps for steps in (200, 500, 1000, 2000, 5000, 10000, 20000, 50000))
+SETTINGS = tuple(1.0 / steps for steps in (500, 1000, 2000, 5000, 5400, 6000, 10000, 20000, 50000))
 """Steps, s."""
 
 _FIXED = {

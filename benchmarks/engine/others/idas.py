@@ -16,7 +16,7 @@ import numpy as np
 from codegen.measure.constraints import Array
 from codegen.spec.scene import Scene
 
-SETTINGS = tuple(10.0 ** -(k / 2) for k in range(8, 21))
+SETTINGS = tuple(10.0 ** -(k / 4) for k in range(16, 41))
 """Relative and absolute tolerances, from loose to tight."""
 
 _SCALE = 1e8

@@ -10,7 +10,9 @@ import numpy as np
 from codegen.measure.constraints import Array
 from codegen.spec.scene import Scene
 
-SETTINGS = tuple(1.0 / steps for steps in (200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000, 200000))
+SETTINGS = tuple(
+    1.0 / steps for steps in (200, 500, 560, 600, 700, 1000, 2000, 5000, 10000, 20000, 50000, 100000, 200000)
+)
 """Steps, s. The tie is as stiff as the step allows."""
 
 _ENGINE = """

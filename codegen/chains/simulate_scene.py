@@ -49,7 +49,7 @@ def simulated_relative(scene: Scene, settings: Settings, progress: Progress = la
     """
     refuse(scene)
     found = relative(scene)
-    settings = replace(settings, mode=_mode(found))
+    settings = replace(settings, mode=_mode(scene, found))
     simulate.check(found.chain, settings)
     with one_thread():
         equations = Generated(found.chain)
@@ -96,13 +96,18 @@ def refuse(scene: Scene) -> None:
         raise SpecificationError(mistakes)
 
 
-def _mode(found: Relative) -> str:
+def _mode(scene: Scene, found: Relative) -> str:
     """Motion under forces, or as drives say; drives of some freedoms only are refused."""
-    driven = [one.motion is not None for one in found.chain.independents]
-    if any(driven) and not all(driven):
-        what = "drives leave freedoms, which relative coordinates integrate only without drives"
+    drives = sum(coordinate.drive is not None for joint in scene.joints for coordinate in joint.coordinates)
+    driven = sum(one.motion is not None for one in found.chain.independents)
+    if not drives:
+        return "forward"
+    if drives != driven or driven != len(found.chain.independents):
+        what = (
+            f"{drives} drives for {len(found.chain.independents)} freedoms: relative coordinates take as many or none"
+        )
         raise SpecificationError([Mistake("drive", what, "drive all freedoms or none, or use another form")])
-    return "inverse" if driven and all(driven) else "forward"
+    return "inverse"
 
 
 def _with_speeds(scene: Scene, found: Relative, ready: Mechanism, equations: Generated) -> tuple[Mechanism, float]:

@@ -1,4 +1,4 @@
-"""``jointgen simulate --form relative``: the motion and the reactions of the other forms."""
+"""``jointgen simulate --form relative``: motion, reactions and efforts."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ import pytest
 from codegen.chains.simulate import Settings
 from codegen.chains.simulate_scene import refuse, simulated_relative
 from codegen.errors import SpecificationError
-from codegen.scenes import run
-from codegen.scenes.motion_record import record
-from codegen.spec.scene import Scene
+from codegen.spec.scene import Drive, Scene
 from codegen.spec.scene_file import read_scene
+from tests.simulate.engine import holding_torque, motion, reactions, truth
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -24,32 +23,39 @@ def example(name: str) -> Scene:
     return read_scene((EXAMPLES / f"{name}.toml").read_text(), name)
 
 
-@pytest.mark.parametrize("name", ["in_line_engine_driven", "in_line_engine"])
-def test_relative_and_absolute_coordinates_give_one_motion(name: str) -> None:
-    scene = example("in_line_engine")
-    if name.endswith("driven"):
-        scene = driven(scene)
-    relative = simulated_relative(scene, Settings("forward", 0.3, 30, 1e-9)).trajectory
-    prepared = run.prepare(replace(scene, motion="planar"), run.Settings())
-    absolute = record(prepared, run.run(prepared, run.Settings(0.3, 30, 1e-9))).trajectory
-    limits = {"r": 1e-6, "v": 1e-5, "w": 1e-4, "a": 1e-3, "al": 1e-2}
-    found = {word: np.max(np.abs(getattr(relative, word) - getattr(absolute, word))) for word in limits}
-    assert {word: error for word, error in found.items() if error > limits[word]} == {}
-    # In the plane of an engine its loop determines these.
-    for joint in ("main bearing", "crank pin", "piston pin"):
-        difference = relative.reaction[joint][:, :2] - absolute.reaction[joint][:, :2]
-        assert np.max(np.abs(difference)) < 1e-3 * np.max(np.abs(absolute.reaction[joint]))
-    for joint, effort in absolute.effort.items():
-        assert np.max(np.abs(relative.effort[joint] - effort)) < 1e-4 * np.max(np.abs(effort))
+def test_a_scene_moves_and_reacts_as_one_degree_of_freedom_does() -> None:
+    found = simulated_relative(example("in_line_engine"), Settings("forward", 0.3, 30, 1e-10)).trajectory
+    true = truth(found.t)
+    assert np.max(np.abs(found.r[..., :2] - true.r)) < 1e-8
+    assert np.max(np.abs(found.v[..., :2] - true.v)) < 1e-7
+    assert np.max(np.abs(found.a[..., :2] - true.a)) < 1e-5
+    assert np.max(np.abs(found.w[..., 2] - true.omega)) < 1e-7
+    assert np.max(np.abs(found.al[..., 2] - true.omegadot)) < 1e-5
+    assert np.max(np.abs(found.alpha["main bearing"][:, 0] - true.angle[:, 0])) < 1e-8
+    for joint, force in reactions(true).items():
+        assert np.max(np.abs(found.reaction[joint][:, :2] - force)) < 1e-6 * np.max(np.abs(force))
 
 
-def driven(scene: Scene) -> Scene:
-    from codegen.spec.scene import Drive
+def test_a_driven_scene_tells_the_effort_of_its_drive() -> None:
+    found = simulated_relative(driven(example("in_line_engine")), Settings("forward", 0.3, 30)).trajectory
+    angle, speed = 15 * found.t, np.full_like(found.t, 15.0)
+    assert np.max(np.abs(found.r[..., :2] - motion(angle, speed).r)) < 1e-9
+    effort = holding_torque(angle, speed)
+    assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
 
-    bearing = scene.joints[0]
+
+def driven(scene: Scene, count: int = 1) -> Scene:
+    """The first joints of a scene turn at 15 rad/s."""
     drive = Drive(Fraction(0), Fraction(15))
-    loaded = replace(bearing, coordinates=(replace(bearing.coordinates[0], drive=drive),))
-    return replace(scene, joints=(loaded, *scene.joints[1:]))
+    joints = [
+        replace(joint, coordinates=(replace(joint.coordinates[0], drive=drive),)) for joint in scene.joints[:count]
+    ]
+    return replace(scene, joints=(*joints, *scene.joints[count:]))
+
+
+def test_more_drives_than_freedoms_are_refused() -> None:
+    with pytest.raises(SpecificationError, match="2 drives for 1 freedoms"):
+        simulated_relative(driven(example("in_line_engine"), 2), Settings("forward"))
 
 
 def test_what_a_chain_does_not_have_is_refused_at_once() -> None:

@@ -21,10 +21,12 @@ from importlib import resources
 from typing import Any
 
 import codegen
+from codegen.attitudes import attitude_routines
 from codegen.emit.joint_subject import JointSubject
 from codegen.emit.package import Unit, package, specification_hash, unit
 from codegen.emit.prepared import prepare_geometry
 from codegen.emit.routine import Routine
+from codegen.emit.unit_subject import UnitSubject
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir import text
 from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, lower, notation
@@ -33,7 +35,7 @@ from codegen.ir.lower.record import Records, fingerprint, replayed
 from codegen.ir.lower.search import Choice, Graph, searched
 from codegen.ir.program import Program
 from codegen.mechanics import frames
-from codegen.mechanics.derivation import Derivation
+from codegen.mechanics.derivation import AS_IT_STANDS, Derivation
 from codegen.mechanics.equations import equations
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
@@ -43,7 +45,7 @@ from codegen.passes import simplify
 from codegen.passes.contract_fma import contract_fma
 from codegen.spec.joints import JointType
 from codegen.spec.request import (
-    OUTPUTS,
+    BRANCH,
     PREPARE,
     PRODUCTS,
     QUANTITIES,
@@ -62,6 +64,9 @@ PRICES = Prices()
 
 STARTS = range(2)
 """Seeds from which the search starts where nothing is on record."""
+
+Check = Callable[[Routine], Program]
+"""Gives the program of the conditions on the inputs of a routine."""
 
 Progress = Callable[[str], None]
 """Told the name of each variant that is finished."""
@@ -129,7 +134,7 @@ class Model:
         Args:
             outputs: what to evaluate.
             is_substituted: whether the joint relation takes the place of the rotation matrices; by default where the
-                derivative is substituted, but never in ``phi``.
+                derivative is substituted, but never in ``phi`` and ``branch``.
             choose: among the ways to evaluate them; what is on record, or a search.
         """
         programs = self.programs(outputs, is_substituted, choose or choices_for)
@@ -145,11 +150,11 @@ class Model:
         return [simplify(program) for program in lower(arguments, inputs, parts, PRICES, choose)]
 
     def _parts(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None) -> list[Part]:
-        """Outputs by the frames they are written in; ``phi`` comes first, as everywhere."""
+        """Outputs by the frames they are written in, in the order in which they come."""
         inserted = bool(self.form.substitution) if is_substituted is None else is_substituted
         groups: dict[bool, list[SymbolicOutput]] = {}
         for output in outputs:
-            groups.setdefault(inserted and output.name != "phi", []).append(output)
+            groups.setdefault(inserted and output.name not in AS_IT_STANDS, []).append(output)
         return [Part(places(self.form, self.variant, key), tuple(group)) for key, group in groups.items()]
 
 
@@ -190,7 +195,7 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
         singles: tuple[str, ...] = (*QUANTITIES, *PRODUCTS)
         fused: tuple[str, ...] = QUANTITIES
     else:
-        singles = tuple(name for name in OUTPUTS if name in outputs and name != "all")
+        singles = tuple(name for name in (*QUANTITIES, *PRODUCTS, BRANCH) if name in outputs)
         fused = singles or QUANTITIES
     routines = {name: (name,) for name in singles}
     return routines | ({"all": fused} if len(fused) > 1 or "all" in outputs else {})
@@ -256,43 +261,54 @@ def casadi_function(
 
 @dataclass(frozen=True, slots=True)
 class _Job:
-    variant: Variant
+    variant: Variant | None
     outputs: tuple[str, ...]
     real: str
     specification: str
     fma: bool
     batch: int | None = None
+    check: Check | None = None
+
+    @property
+    def name(self) -> str:
+        """For the progress."""
+        return self.variant.file_stem if self.variant else "attitude"
 
 
 def _emit_unit(job: _Job) -> Unit:
-    """All stages for one variant, in a worker process."""
+    """All stages for one variant, or for attitudes, in a worker process."""
     from codegen.emit import casadi
 
-    built = routines(job.variant, job.outputs, job.fma)
-    serialised = {
-        routine.output: casadi.serialised(
-            casadi.casadi_function(job.variant.routine_stem(routine.output), routine.program)
-        )
-        for routine in built
-    }
-    return unit(job.variant, built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch)
+    if job.variant is None:
+        built, subject = attitude_routines(job.outputs, job.fma), UnitSubject.of_attitudes()
+    else:
+        built, subject = routines(job.variant, job.outputs, job.fma), UnitSubject.of_variant(job.variant)
+    serialised = {}
+    for routine in built:
+        name = routine.subject.routine_stem(routine.output)
+        serialised[routine.output] = name, casadi.serialised(casadi.casadi_function(name, routine.program))
+    return unit(
+        subject, built, codegen.__version__, job.real, job.specification, serialised, job.fma, job.batch, job.check
+    )
 
 
 def variants(options: Options) -> tuple[Variant, ...]:
-    """Choose the variants of a request.
+    """Choose the variants of a request; none where it asks for routines of attitudes only.
 
     Raises:
         SpecificationError: the options cannot be met; all mistakes at once.
     """
-    return selected_variants(options, JOINTS, PAIRS)
+    chosen = selected_variants(options, JOINTS, PAIRS)
+    return chosen if options.has_joints else ()
 
 
-def generate(options: Options, progress: Progress = lambda _: None) -> dict[str, bytes]:
+def generate(options: Options, progress: Progress = lambda _: None, check: Check | None = None) -> dict[str, bytes]:
     """Generate a package in memory.
 
     Args:
         options: what is asked for.
         progress: told each variant as it is done.
+        check: gives the conditions that a routine asserts in debug builds; a function of a module, or a partial one.
 
     Returns:
         Path below the package's folder -> content.
@@ -306,11 +322,15 @@ def generate(options: Options, progress: Progress = lambda _: None) -> dict[str,
     asked |= {"fma": True} if options.fma else {}
     asked |= {"batch": options.batch} if options.batch else {}
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
+    groups: list[tuple[Variant | None, tuple[str, ...]]] = [(variant, options.of_joints) for variant in chosen]
+    groups += [(None, options.of_attitudes)] if options.of_attitudes else []
     jobs = [
-        _Job(variant, options.outputs, options.real, specification, options.fma, options.batch) for variant in chosen
+        _Job(*group, options.real, specification, options.fma, options.batch, check if group[0] else None)
+        for group in groups
     ]
-    units = parallel(_emit_unit, jobs, lambda job: progress(job.variant.file_stem))
-    return package(units, codegen.__version__, options.real, specification, options.fma, options.batch)
+    units = parallel(_emit_unit, jobs, lambda job: progress(job.name))
+    has_choices = check is not None
+    return package(units, codegen.__version__, options.real, specification, options.fma, options.batch, has_choices)
 
 
 def dump(options: Options, stage: str) -> Iterator[str]:
@@ -329,10 +349,10 @@ def dump(options: Options, stage: str) -> Iterator[str]:
         )
     for variant in variants(options):
         if stage == "program":
-            for routine in routines(variant, options.outputs, options.fma):
+            for routine in routines(variant, options.of_joints, options.fma):
                 yield f"# {variant.routine_stem(routine.output)}\n{text.dump(routine.straight)}"
             continue
         symbolic = model(variant)
-        for name, quantities in quantities_of(options.outputs).items():
+        for name, quantities in quantities_of(options.of_joints).items():
             if name != "all":
                 yield f"# {variant.stem}_{name}\n{symbolic.text(quantities)}"

@@ -50,7 +50,11 @@ def joints(as_json: bool) -> None:
 @click.option("--derivative", help="exact or substituted.")
 @click.option("--variation", help="Axes of the virtual rotations: body or world.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
-@click.option("--outputs", help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all.")
+@click.option(
+    "--outputs",
+    help="Comma-separated: phi, phi_q, phi_q_t_lambda_q, gamma, phi_q_v, phi_q_t_lambda, all; "
+    "also branch, orthonormalise, check_orthonormal.",
+)
 @click.option("--batch", help="Besides, routines for groups of so many joints: 2, 4, 8 or 16.")
 @click.option("--geometry", default="runtime", show_default=True, help="runtime, or prepared once for all steps.")
 @click.option("--matrices", default="orthonormal", show_default=True, help="orthonormal, or raw: phi from A as it is.")
@@ -191,13 +195,14 @@ def platform(
     read = with_options(read_platform(text_of(file), str(file)), variant, real)
     where = chosen_poses(read, poses, grid, kind)
     with _progress(steps(read), "generating") as advance:
-        files = generate_platform(read, real, advance)
+        package = generate_platform(read, real, advance)
+    files: dict[str, output.Content] = {**package}
     if where is not None:
         with _progress(where.pieces, "evaluating") as advance:
-            table = evaluated(where, advance, cluster)
-        files |= table.files | platform_report(read, table)
+            table = evaluated(where, advance, cluster, output.room(target))
+        files |= {**table.files, **platform_report(read, table)}
     output.replace(target, files)
-    functions = len(json.loads(files[output.MANIFEST])["functions"])
+    functions = len(json.loads(package[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
     if where is not None:
         click.echo(table.words)

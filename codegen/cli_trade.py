@@ -22,16 +22,19 @@ from codegen.progress import progress
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-o", "folder", type=click.Path(path_type=Path), help="Write accuracy.json, tables and Pareto fronts.")
 def accuracy(joint: tuple[str, ...], as_json: bool, folder: Path | None, **options: Any) -> None:
-    """Measure errors and times of the routines of JOINT..., in many builds; without arguments all, in two."""
+    """Measure errors and times of the routines of JOINT..., in many builds; without arguments all, in two.
+
+    A scene FILE in the place of joints: the routines of that mechanism.
+    """
     from codegen import output
     from codegen.report.accuracy_files import accuracy_files, accuracy_sheets
-    from codegen.trade.accuracy import AccuracyRequest, document, measured
+    from codegen.trade.accuracy import document, measured
 
-    request = AccuracyRequest(joint, **options)
-    variants = request.variants()
+    request = _request(joint, "", options)
+    cases = request.cases()
     if folder is not None:
         output.check_target(folder)
-    with progress(len(variants), "measuring") as advance:
+    with progress(len(cases), "measuring") as advance:
         result = document(request, measured(request, advance))
     if folder is not None:
         output.replace(folder, accuracy_files(result))
@@ -52,78 +55,80 @@ def accuracy(joint: tuple[str, ...], as_json: bool, folder: Path | None, **optio
 @click.option("--rows", help="Rows of the parametric form: regular, table4, or quaternion (rot3 only).")
 @click.option("--derivative", help="exact or substituted.")
 @click.option("--output", default="all", show_default=True, help="Which routine: a quantity, a product, or all.")
-@click.option(
-    "-o", "folder", type=click.Path(path_type=Path), help="Write the package of the chosen routine of a joint."
-)
+@click.option("-o", "folder", type=click.Path(path_type=Path), help="Write the package of the chosen routine.")
 @click.option("--worst", is_flag=True, help="Print the inputs of the worst pose instead, as hexadecimal numbers.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def budget(
     target: str, largest: float, bounds: str, folder: Path | None, worst: bool, as_json: bool, **options: Any
 ) -> None:
-    """Find the cheapest routine of a joint, or of each joint of a scene FILE, with errors within a budget."""
+    """Find the cheapest routine of a joint, or of a scene FILE, with errors within a budget."""
+    from codegen import output
     from codegen.report.budget_text import budget_lines
     from codegen.trade.budget import answered, check_error, document, worst_inputs
 
-    requests = _budget_requests(target, bounds, options)
-    check_error(largest, requests)
+    request = _request((target,), bounds, options)
+    check_error(largest, [request])
     if folder is not None:
-        _check_package(folder, target, requests)
-    found = []
-    for request in requests:
-        with progress(1000, "judging") as advance:
-            answer = answered(request, largest, advance)
-        found.append(document(request, largest, answer))
-        if folder is not None and answer.verdict != "IMPOSSIBLE":
-            _write_package(folder, request, answer.chosen)
-        if worst:
-            click.echo(json.dumps({"inputs": worst_inputs(request, answer.chosen)}, indent=1))
-        elif not as_json:
-            for line in budget_lines(found[-1], _again(target, largest, bounds, options)):
-                click.echo(line)
-    if as_json:
-        click.echo(json.dumps(found if len(found) > 1 else found[0], indent=1))
-    if any(one["verdict"] == "IMPOSSIBLE" for one in found):
+        output.check_target(folder)
+    with progress(1000, "judging") as advance:
+        answer = answered(request, largest, advance)
+    found = document(request, largest, answer)
+    if folder is not None and answer.verdict != "IMPOSSIBLE":
+        _write_package(folder, request, answer.chosen)
+    if worst:
+        click.echo(json.dumps({"inputs": worst_inputs(request, answer.chosen)}, indent=1))
+    elif as_json:
+        click.echo(json.dumps(found, indent=1))
+    else:
+        for line in budget_lines(found, _again(target, largest, bounds, options)):
+            click.echo(line)
+    if answer.verdict == "IMPOSSIBLE":
         raise click.exceptions.Exit(1)
-
-
-def _check_package(folder: Path, target: str, requests: list[Any]) -> None:
-    """Refuse what cannot be written, before any work is done."""
-    from codegen import output
-    from codegen.errors import Mistake, SpecificationError
-
-    if Path(target).suffix:
-        what = f"is for one joint, and {target} has {len(requests)} types"
-        raise SpecificationError([Mistake("-o", what, "leave it out, or give a joint; jointgen scene emits a scene")])
-    output.check_target(folder)
 
 
 def _write_package(folder: Path, request: Any, chosen: Any) -> None:
     """Write the routine that was chosen."""
-    from codegen import build, output
+    from codegen import output
     from codegen.errors import Mistake, SpecificationError
-    from codegen.trade.budget import package_options
+    from codegen.trade.chosen import chosen_files, chosen_real
 
-    options = package_options(request, chosen)
-    if options.real not in ("double", "float"):
-        what = f"{chosen.routine} is in {options.real}, which is measured and not emitted"
+    real = chosen_real(request, chosen)
+    if real not in ("double", "float"):
+        what = f"{chosen.routine} is in {real}, which is measured and not emitted"
         raise SpecificationError([Mistake("--max-error", what, "allow a larger error")])
-    output.replace(folder, build.generate(options))
+    output.replace(folder, chosen_files(request, chosen))
     click.echo(f"{folder}: {chosen.routine}", err=True)
 
 
-def _budget_requests(target: str, bounds: str, options: dict[str, Any]) -> list[Any]:
-    """A request for the joint, or one for each type of joint in a scene file."""
-    from codegen.trade.accuracy import AccuracyRequest
+def _request(targets: tuple[str, ...], bounds: str, options: dict[str, Any]) -> Any:
+    """A request for joints, or for the scene of a file."""
     from codegen.trade.domain_text import read_domain
+    from codegen.trade.requests import AccuracyRequest
 
-    if Path(target).suffix not in (".toml", ".urdf", ".xml"):
-        return [AccuracyRequest((target,), domain=read_domain(bounds), **options)]
+    if not any(Path(target).suffix in (".toml", ".urdf", ".xml") for target in targets):
+        return AccuracyRequest(targets, domain=read_domain(bounds), **options)
+    return _scene_request(targets, bounds, options)
+
+
+def _scene_request(targets: tuple[str, ...], bounds: str, options: dict[str, Any]) -> Any:
     from codegen import scenes
-    from codegen.trade.scene_domain import scene_domain, scene_joints
+    from codegen.errors import Mistake, SpecificationError
+    from codegen.trade.domain_text import read_domain
+    from codegen.trade.requests import SceneRequest
+    from codegen.trade.scene_domain import scene_domain
 
-    scene, _ = scenes.read(Path(target), None)
-    domain = read_domain(bounds, scene_domain(scene))
-    return [AccuracyRequest((joint,), domain=domain, **options) for joint in scene_joints(scene)]
+    mistakes = [
+        Mistake(f"--{name}", "is of joints; a scene has its rows and derivative in its file", "leave it out")
+        for name in ("rows", "derivative")
+        if options.get(name) is not None
+    ]
+    if len(targets) > 1:
+        mistakes.append(Mistake(" ".join(targets), "are several, and a scene is measured alone", "give one file"))
+    if mistakes:
+        raise SpecificationError(mistakes)
+    scene, _ = scenes.read(Path(targets[0]), None)
+    kept = {name: value for name, value in options.items() if name not in ("rows", "derivative")}
+    return SceneRequest(scene, domain=read_domain(bounds, scene_domain(scene)), **kept)
 
 
 def _again(target: str, largest: float, bounds: str, options: dict[str, Any]) -> str:

@@ -12,12 +12,19 @@ import ctypes
 import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import IO
 
 from codegen.errors import Mistake, OutputError
 
 MANIFEST = "manifest.json"
+
+Writer = Callable[[IO[bytes]], None]
+"""Writes a file that is too large to be held in memory."""
+
+Content = bytes | Writer
+"""Of a file."""
 
 
 def check_target(target: Path) -> None:
@@ -42,12 +49,18 @@ def _obstacle(target: Path) -> str | None:
         return f"is not empty and holds no {MANIFEST} of jointgen"
     if Path.cwd().is_relative_to(target):
         return "is the current directory or holds it, and cannot be replaced from inside"
-    parent = target.parent
-    while not parent.exists() and parent != parent.parent:
-        parent = parent.parent
+    parent = room(target)
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
         return f"{parent} is not a directory that can be written"
     return None
+
+
+def room(target: Path) -> Path:
+    """The nearest folder above the target that exists: on the same disk."""
+    parent = Path(os.path.realpath(target)).parent
+    while not parent.exists() and parent != parent.parent:
+        parent = parent.parent
+    return parent
 
 
 def _symbols(target: Path) -> set[str] | None:
@@ -67,7 +80,7 @@ def functions_lost(target: Path, files: Mapping[str, bytes]) -> int:
     return len((_symbols(target) or set()) - new)
 
 
-def replace(target: Path, files: Mapping[str, bytes]) -> None:
+def replace(target: Path, files: Mapping[str, Content]) -> None:
     """Put the files in the place of the target directory; a link stays a link to the new content.
 
     Raises:
@@ -138,11 +151,15 @@ def _staging(target: Path) -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _write(folder: Path, files: Mapping[str, bytes]) -> None:
+def _write(folder: Path, files: Mapping[str, Content]) -> None:
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
+        if isinstance(content, bytes):
+            path.write_bytes(content)
+        else:
+            with path.open("wb") as file:
+                content(file)
 
 
 def differences(target: Path, files: Mapping[str, bytes]) -> list[str]:

@@ -7,7 +7,7 @@ under the hash of everything it is made from. Tests of the search choose for the
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -32,7 +32,13 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
     folder = cache_dir / fingerprint()
     folder.mkdir(parents=True, exist_ok=True)
     forget_old(cache_dir)
-    lower, lower_scene = build.Model.programs, scene_programs.cheapest_of
+    named, lower, lower_scene = build.Model.program, build.Model.programs, scene_programs.cheapest_of
+
+    def program(model: build.Model, names: Iterable[str]) -> Program:
+        """Without deriving the quantities, where the program is kept."""
+        wanted = tuple(names)
+        kept: Program = _kept(folder, (model.variant, wanted), lambda: named(model, wanted))
+        return kept
 
     def programs(
         model: build.Model, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose
@@ -51,6 +57,7 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
         return _kept(folder, (assembly, names, choose.__name__), made) if is_kept else made()
 
     with (
+        mock.patch.object(build.Model, "program", program),
         mock.patch.object(build.Model, "programs", programs),
         mock.patch.object(scene_programs, "cheapest_of", cheapest_of),
     ):

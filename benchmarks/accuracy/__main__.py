@@ -14,10 +14,11 @@ from codegen.report.extreme_sheets import extreme_sheets
 from codegen.report.newton_figure import newton_figure
 from codegen.report.pareto import pareto
 from codegen.report.tables import markdown
-from codegen.trade.accuracy import SAMPLES, AccuracyRequest, document, measured
+from codegen.trade.accuracy import document, measured
 from codegen.trade.extreme_table import as_data
 from codegen.trade.extremes import extreme_tables
 from codegen.trade.newton import PAIRINGS, residuals
+from codegen.trade.requests import SAMPLES, AccuracyRequest
 
 HERE = Path(__file__).resolve().parent
 FIGURES = HERE.parents[1] / "docs" / "figures"

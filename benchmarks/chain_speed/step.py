@@ -1,9 +1,9 @@
 """A whole step of inverse dynamics beside the generic one: recursion, pseudo-inverse by SVD of all rows.
 
 Both are C and call the LAPACK that SciPy brings. From coordinates, rates and independent accelerations they give
-accelerations, efforts and reactions. Ours: the generated routine, QR with pivoting of the rows that bind, as
-`codegen.chains.factor` has it. Generic: the recursion, ``dgesdd`` of all six rows of each cut, the pseudo-inverse
-multiplied out, as `numpy.linalg.pinv` does.
+accelerations, efforts and reactions. Ours: the generated routine, then the rows that bind as `codegen.chains.factor`
+has them, LU with the condition number where they are square, else QR with pivoting. Generic: the recursion,
+``dgesdd`` of all six rows of each cut, the pseudo-inverse multiplied out, as `numpy.linalg.pinv` does.
 """
 
 from __future__ import annotations
@@ -83,15 +83,16 @@ def _library(chain: Chain, folder: Path) -> ctypes.CDLL:
     sources = [folder / name for name in ("step.c", "table_driven.c", f"{chain.name}.c")]
     compile_sources(sources, folder / "step.so", (*FLAGS, "-fPIC", "-shared"))
     library = ctypes.CDLL(str(folder / "step.so"))
-    for name in ("geqp3", "orgqr", "trtrs", "gesdd"):
+    for name in ("getrf", "getrs", "geqp3", "orgqr", "trtrs", "gesdd"):
         ctypes.c_void_p.in_dll(library, name).value = _address(f"d{name}")
     return library
 
 
-def _layout(chain: Chain, entry: Mapping[str, Any]) -> dict[str, list[int]]:
-    """Numbers of rows and coordinates, and where the stored entries of J and M stand."""
+def _layout(chain: Chain, entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Numbers of rows and coordinates, whether J_w is square, and where the stored entries of J and M stand."""
     v = [chain.index(one.joint) for one in chain.independents]
-    found = {"rows": list(kept_rows(chain)), "v": v, "w": [k for k in range(len(chain.links)) if k not in v]}
+    rows, w = list(kept_rows(chain)), [k for k in range(len(chain.links)) if k not in v]
+    found: dict[str, Any] = {"rows": rows, "v": v, "w": w, "is_square": len(rows) == len(w)}
     for name in ("J", "M"):
         pattern = entry["sparsity"][name]
         found[f"{name}_row"] = pattern["row"]

@@ -1,4 +1,7 @@
-"""``python -m benchmarks.platforms``: time the candidates in one run, write the results beside this file."""
+"""``python -m benchmarks.platforms``: time the candidates in one run, write the results beside this file.
+
+The figure of docs/platform.md, the loss of digits, is drawn too.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +15,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from benchmarks.platforms.candidates import HERE, Array, Evaluate, candidates
+from benchmarks.platforms.loss import loss_figure
 from codegen.measure.compile import compiler_version
 from codegen.spec.platform_file import read_platform
 
+FIGURE = HERE.parent.parent / "docs" / "figures" / "platform_loss.svg"
 FILE = HERE.parent.parent / "examples" / "platforms" / "octahedral.toml"
 REFERENCE = "numpy, batch QR and SVD"
 SLOW = "numpy, pose by pose"
@@ -38,6 +43,7 @@ def main(poses: int, rounds: int, target: Path) -> None:
     target.mkdir(parents=True, exist_ok=True)
     (target / "results.json").write_text(json.dumps(times, indent=1) + "\n")
     (target / "results.md").write_text(report(times))
+    FIGURE.write_text(loss_figure())
     click.echo(report(times))
 
 

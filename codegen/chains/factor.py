@@ -1,7 +1,8 @@
-"""Solve with the Jacobian of the dependent coordinates: QR with pivoting by LAPACK, SVD where its rank is in doubt.
+"""Solve with the Jacobian of the dependent coordinates: LU where it is square and sound, else QR with pivoting.
 
-The matrix has no dimension: lengths are divided by the characteristic one. Nothing is truncated: a matrix that lacks
-rank is told with its singular values and the coordinates that are free to move.
+Both are LAPACK's; SVD says what is wrong where the rank is in doubt. The matrix has no dimension: lengths are divided
+by the characteristic one. Nothing is truncated: a matrix that lacks rank is told with its singular values and the
+coordinates that are free to move.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ Array = NDArray[np.float64]
 
 RANK_TOLERANCE = 1e-10
 """A pivot, or a singular value, below this part of the largest is 0."""
+
+_SOUND = 1e6
+"""Condition number up to which LU is taken; beyond, QR decides on the rank."""
 
 
 class RankLoss(Exception):
@@ -35,15 +39,44 @@ class RankLoss(Exception):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Factor:
+class Square:
+    """A factorisation ``P A = L U`` of a matrix [n, n] far from singular.
+
+    Attributes:
+        A: the matrix.
+        packed: [n, n] L and U.
+        pivots: [n] of P, as LAPACK has them.
+    """
+
+    A: Array
+    packed: Array
+    pivots: NDArray[np.int32]
+
+    def solve(self, b: Array) -> Array:
+        """Give x with ``A x = b``; b [n] or [n, k]."""
+        return np.asarray(lapack.dgetrs(self.packed, self.pivots, b)[0])
+
+    def solve_transposed(self, c: Array) -> Array:
+        """Give f [n] with ``A^T f = c``."""
+        return np.asarray(lapack.dgetrs(self.packed, self.pivots, c, trans=1)[0])
+
+    def undetermined(self) -> Array:
+        """Give the basis [n, 0] of the f with ``A^T f = 0``: there are none."""
+        return np.zeros((len(self.A), 0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tall:
     """A factorisation ``A P = Q R`` of a matrix [m, n] of full column rank.
 
     Attributes:
+        A: the matrix.
         Q: [m, n].
         R: [n, n].
         order: [n] columns in the order of P.
     """
 
+    A: Array
     Q: Array
     R: Array
     order: NDArray[np.intp]
@@ -66,6 +99,9 @@ class Factor:
         return np.asarray(scipy.linalg.null_space(self.Q.T, rcond=1e-8))
 
 
+Factor = Square | Tall
+
+
 def factor(A: Array) -> Factor:
     """Factorise.
 
@@ -73,15 +109,25 @@ def factor(A: Array) -> Factor:
         RankLoss: the columns depend on each other.
     """
     if not A.shape[1]:
-        return Factor(np.zeros((len(A), 0)), np.zeros((0, 0)), np.zeros(0, dtype=np.intp))
+        return Tall(A, np.zeros((len(A), 0)), np.zeros((0, 0)), np.zeros(0, dtype=np.intp))
     if A.shape[0] < A.shape[1]:
         raise diagnosed(A)
+    if A.shape[0] == A.shape[1]:
+        packed, swaps, singular = lapack.dgetrf(A)
+        found = Square(A, packed, swaps)
+        if not singular and _size(A) * _size(found.solve(np.eye(len(A)))) < _SOUND:
+            return found
     packed, order, tau, _, _ = lapack.dgeqp3(A)
     R = np.triu(packed[: A.shape[1]])
     pivots = np.abs(np.diagonal(R))
     if not pivots[-1] > RANK_TOLERANCE * pivots[0]:
         raise diagnosed(A)
-    return Factor(lapack.dorgqr(packed, tau)[0], R, np.asarray(order - 1, dtype=np.intp))
+    return Tall(A, lapack.dorgqr(packed, tau)[0], R, np.asarray(order - 1, dtype=np.intp))
+
+
+def _size(A: Array) -> float:
+    """The norm that belongs to sums of absolute values."""
+    return float(np.abs(A).sum(axis=0).max())
 
 
 def diagnosed(A: Array) -> RankLoss:

@@ -98,8 +98,7 @@ def _turn(before: Factor, A: Array) -> float:
     """1 if a Jacobian has the orientation of the one before, else -1."""
     if not A.shape[1]:
         return 1.0
-    own = float(np.sign(np.prod(np.diagonal(before.R))))
-    return own * float(np.sign(np.linalg.det(before.Q.T @ A[:, before.order])))
+    return float(np.sign(np.linalg.det(before.solve(A))))
 
 
 def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> Branch:

@@ -58,7 +58,7 @@ def _between(states: list[State], t: float) -> str:
 
 def _kinematic(mechanism: Mechanism, t: float, q: Array, qd_v: Array, qdd_v: Array) -> State:
     found = rates(mechanism.equations, mechanism.part, q, qd_v)
-    least = least_singular_value(found.factor.R)
+    least = least_singular_value(found.factor.A)
     return State(t, q, found.qd, found.acceleration(qdd_v), least)
 
 

@@ -135,40 +135,33 @@ def rates(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Rates
     Raises:
         RankLoss: the pose is singular.
     """
-    found, N = _tangent(equations, part, q)
-    qd = N @ qd_v
-    return Rates(part, found, N, qd, _bias(part, found, equations.gamma(q, qd)))
+    tangent = _Tangent(equations, part, q)
+    return tangent.rates(qd_v, equations.gamma(q, tangent.N @ qd_v))
 
 
 def reduced(equations: Equations, part: Partition, q: Array, qd_v: Array) -> Reduced:
-    """Reduce a chain.
-
-    Args:
-        equations: of the chain.
-        part: its coordinates and rows.
-        q: [n], closed.
-        qd_v: [nv].
+    """Reduce a chain at a closed pose: its rates, as `rates` has them, with inertia and forces.
 
     Raises:
         RankLoss: the pose is singular.
     """
-    found, N = _tangent(equations, part, q)
-    qd = N @ qd_v
-    terms = equations.terms(q, qd)
-    return Reduced(Rates(part, found, N, qd, _bias(part, found, terms.gamma)), terms)
+    tangent = _Tangent(equations, part, q)
+    terms = equations.terms(q, tangent.N @ qd_v)
+    return Reduced(tangent.rates(qd_v, terms.gamma), terms)
 
 
-def _tangent(equations: Equations, part: Partition, q: Array) -> tuple[Factor, Array]:
-    """The factor of the dependent columns of J, and N."""
-    J = equations.jacobian(q)
-    found = factor(part.dependent(J))
-    N = np.zeros((len(q), len(part.v)))
-    N[part.v, np.arange(len(part.v))] = 1.0
-    N[part.w] = -part.units[part.w, None] * found.solve(part.binding(J[:, part.v]))
-    return found, N
+class _Tangent:
+    """What follows from the pose alone: the factor of the dependent columns of J, and N."""
 
+    def __init__(self, equations: Equations, part: Partition, q: Array) -> None:
+        J = equations.jacobian(q)
+        self.part, self.factor = part, factor(part.dependent(J))
+        self.N = np.zeros((len(q), len(part.v)))
+        self.N[part.v, np.arange(len(part.v))] = 1.0
+        self.N[part.w] = -part.units[part.w, None] * self.factor.solve(part.binding(J[:, part.v]))
 
-def _bias(part: Partition, found: Factor, gamma: Array) -> Array:
-    a = np.zeros(len(part.units))
-    a[part.w] = -part.units[part.w] * found.solve(part.binding(gamma))
-    return a
+    def rates(self, qd_v: Array, gamma: Array) -> Rates:
+        """The rates, with gamma_R at them."""
+        part, a = self.part, np.zeros(len(self.N))
+        a[part.w] = -part.units[part.w] * self.factor.solve(part.binding(gamma))
+        return Rates(part, self.factor, self.N, self.N @ qd_v, a)

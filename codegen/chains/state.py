@@ -91,4 +91,4 @@ def loaded(
     wrenches = mechanism.forces.at_effectors(active).ravel()
     power = float(qd @ (found.terms.f_G + force))
     loads = Loads(tau, effort, reaction, wrenches, found.kinetic_energy(), power)
-    return State(t, q, qd, qdd, least_singular_value(found.rates.factor.R), loads)
+    return State(t, q, qd, qdd, least_singular_value(found.rates.factor.A), loads)

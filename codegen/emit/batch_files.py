@@ -10,21 +10,21 @@ from codegen.emit import trigonometry
 from codegen.emit.batch import LAYOUTS, BatchRoutine, batch_record, batch_routine
 from codegen.emit.c import Entry
 from codegen.emit.environment import render
-from codegen.spec.request import Variant
+from codegen.emit.unit_subject import UnitSubject
 
 
 @dataclass(frozen=True, slots=True)
 class BatchUnit:
-    """The batch routines of one variant.
+    """The batch routines of one source file.
 
     Attributes:
-        variant: form and options.
+        subject: what they are of.
         lanes: joints in a group.
         source: text of the source file.
         routines: what it defines.
     """
 
-    variant: Variant
+    subject: UnitSubject
     lanes: int
     source: str
     routines: tuple[BatchRoutine, ...]
@@ -32,33 +32,35 @@ class BatchUnit:
     @property
     def file(self) -> str:
         """Name of the source file."""
-        return f"{self.variant.file_stem}_batch{self.lanes}.c"
+        return f"{self.subject.file_stem}_batch{self.lanes}.c"
 
     @property
     def header(self) -> str:
         """Name of the header, without ending; the variants of a joint share it."""
-        return f"{self.variant.joint}_batch{self.lanes}"
+        return f"{self.subject.header}_batch{self.lanes}"
 
 
 def batch_unit(
-    variant: Variant, entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int
+    subject: UnitSubject, entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int
 ) -> BatchUnit:
-    """Emit the batch routines of one variant: those of its functions that store nonzeros or vectors."""
+    """Emit the batch routines of one source file: those of its functions that store nonzeros or vectors."""
     emitted = tuple(
-        batch_routine(entry.routine, entry.parameters, lanes) for entry in entries if entry.storage != "dense"
+        batch_routine(entry.routine, entry.parameters, lanes, subject.object)
+        for entry in entries
+        if entry.storage != "dense"
     )
     source = render(
         "c/batch_source.c.j2",
-        file=f"{variant.file_stem}_batch{lanes}.c",
+        file=f"{subject.file_stem}_batch{lanes}.c",
         banner=banner,
         options=options,
         specification=specification,
-        header=f"jointgen/{variant.joint}_batch{lanes}.h",
+        header=f"jointgen/{subject.header}_batch{lanes}.h",
         lanes=lanes,
         vectors="jointgen/jg_batch.h",
         functions=[routine.text for routine in emitted],
     )
-    return BatchUnit(variant, lanes, source, emitted)
+    return BatchUnit(subject, lanes, source, emitted)
 
 
 def batch_headers(units: Sequence[BatchUnit], lanes: int, banner: str, specification: str) -> Mapping[str, str]:
@@ -87,10 +89,11 @@ def vector_headers(lanes: int, banner: str, choices: bool = False) -> dict[str, 
 
 
 def _header(header: str, units: Sequence[BatchUnit], lanes: int, banner: str, specification: str) -> str:
-    joint = units[0].variant.joint
+    subject = units[0].subject
+    many = {"joint": "joints", "body": "bodies"}[subject.object]
     introduction = [
-        f"Constraint routines of the {joint} joint for many joints at once, {lanes} in a group; {joint}.h has those",
-        "for one joint and describes the arguments. Arrays of one call must not overlap.",
+        f"{subject.topic} for many {many} at once, {lanes} in a group; {subject.header}.h has those",
+        f"for one {subject.object} and describes the arguments. Arrays of one call must not overlap.",
     ]
     entries = [entry for unit in units for routine in unit.routines for entry in routine.entries]
     return render(

@@ -13,6 +13,7 @@ from codegen.emit.c import any_definition
 from codegen.emit.environment import render
 from codegen.emit.packed import packed
 from codegen.emit.parameters import parameters
+from codegen.emit.platform_subject import PlatformSubject
 from codegen.emit.routine import Routine
 from codegen.ir.looped import Looped
 from codegen.ir.program import Argument, Program, Result, Sparsity
@@ -23,6 +24,12 @@ from codegen.passes.differentiate_looped import differentiate_looped
 
 EXTERNALS = ("phi", "phi_q_v", "phi_q_t_lambda")
 """The quantities that residuals are made of: those that a solver differentiates."""
+
+SMOOTH = {"lengths": "", "D": "", "det": "", "C": "smooth"}
+"""The quantities of platforms that have a derivative wherever the pose is not singular -> the variant that it takes.
+
+C of the other variants has none where its greatest or least value is repeated.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +77,13 @@ class External:
 
 
 def has_external(routine: Routine) -> bool:
-    """Whether there is an external: a single quantity of the constraints that depends on something."""
-    return routine.output in EXTERNALS and bool(routine.program.used_arguments())
+    """Whether there is an external: a single quantity that a solver differentiates and that depends on something."""
+    if not routine.program.used_arguments():
+        return False
+    if isinstance(routine.subject, PlatformSubject):
+        variant = SMOOTH.get(routine.output)
+        return variant is not None and variant in ("", routine.subject.platform.wanted.variant)
+    return routine.output in EXTERNALS
 
 
 def external_name(stem: str, output: str) -> str:

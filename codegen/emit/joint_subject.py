@@ -10,7 +10,7 @@ from codegen.emit.routine import Member, Preparation, Words
 from codegen.ir.looped import Looped
 from codegen.ir.program import Argument, Program, Result
 from codegen.spec.joints import JointType
-from codegen.spec.request import PREPARE, Variant
+from codegen.spec.request import BRANCH, PREPARE, Variant
 
 _Members = tuple[Member, ...]
 
@@ -35,9 +35,15 @@ _BRIEF: dict[str, str] = {
     "gamma": "Right-hand side gamma of phi_q a = gamma at acceleration level",
     "phi_q_v": "Product phi_q v, without forming phi_q",
     "phi_q_t_lambda": "Product phi_q^T lambda, without forming phi_q",
+    "branch": "Branch of the joint: 1 where it is closed as it was meant, negative where on another branch",
     "all": "All quantities at once, sub-expressions shared",
     "prepare": "What the routines of this variant need of the geometry, to be computed once",
 }
+
+BRANCH_WORDS = (
+    "Where phi is 0 a negative value says that axes meant to be parallel are antiparallel, or that the joint is half a "
+    "turn off: start again from another pose. Rows table4 also hold at -alpha; there it is less than 1."
+)
 
 _ACCELERATION = (
     "a holds the classical accelerations: rddot of each body, in the axes of its delta r, and the rate of the "
@@ -51,6 +57,7 @@ _OUTPUT_WORDS: dict[str, tuple[str, str]] = {
     "gamma": ("constraint rows", "m/s^2 or 1/s^2"),
     "phi_q_v": ("constraint rows", "m/s or 1/s"),
     "phi_q_t_lambda": ("virtual displacements", "N, N m"),
+    "branch": ("cosine of the angle that the joint is off", "1"),
 }
 
 
@@ -95,7 +102,7 @@ class JointSubject:
     def output(self, output: Result) -> Words:
         """Axes and unit of an output."""
         frame, unit = _OUTPUT_WORDS.get(output.name, ("partial derivatives by the entries of an argument", "mixed"))
-        return Words(frame if output.name == "phi" else f"{frame}; {axes(self.variant)}", unit)
+        return Words(frame if output.name in ("phi", "branch") else f"{frame}; {axes(self.variant)}", unit)
 
     def brief(self, output: str) -> str:
         """What a routine does, in a line."""
@@ -105,6 +112,8 @@ class JointSubject:
         """What a user must know besides, sentence by sentence."""
         if output == PREPARE:
             return ["Call it again when the geometry changes."]
+        if output == BRANCH:
+            return [BRANCH_WORDS]
         details = [f"Virtual displacements: {axes(self.variant)}."]
         details.append(
             "phi takes A_i and A_j as they are, derivatives take them as rotations."

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -16,31 +16,34 @@ from codegen.emit.c import entries, sparsity_functions
 from codegen.emit.casadi_external import EXTERNALS, external_name, external_source
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
+from codegen.emit.guarded import guarded
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.routine import Routine
+from codegen.emit.unit_subject import UnitSubject
+from codegen.ir.program import Program
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """The emitted routines of one variant: one source file.
+    """The emitted routines of one source file.
 
     Attributes:
-        variant: form and options.
+        subject: what they are of.
         source: text of the source file.
         declarations: for the header: comment lines and declaration of each function.
         records: for the manifest, one a function.
-        casadi: output -> serialised CasADi function.
+        casadi: output -> name and serialised form of the CasADi function.
         external: text of the source of the CasADi externals; empty in single precision, which CasADi does not call.
         batch: the routines for many joints, where they were asked for.
     """
 
-    variant: Variant
+    subject: UnitSubject
     source: str
     declarations: tuple[tuple[tuple[str, ...], str], ...]
     records: tuple[dict[str, Any], ...]
-    casadi: Mapping[str, bytes]
+    casadi: Mapping[str, tuple[str, bytes]]
     external: str
     batch: BatchUnit | None = None
 
@@ -70,23 +73,29 @@ def specification_hash(
 
 
 def unit(
-    variant: Variant,
+    subject: UnitSubject,
     routines: Sequence[Routine],
     version: str,
     real: str,
     specification: str,
-    casadi: Mapping[str, bytes],
+    casadi: Mapping[str, tuple[str, bytes]],
     fma: bool = False,
     batch: int | None = None,
+    check: Callable[[Routine], Program] | None = None,
 ) -> Unit:
-    """Emit the routines of one variant; ``fma`` says whether their programs are contracted."""
-    header, source = f"jointgen/{variant.joint}.h", f"src/{variant.file_stem}.c"
-    options = _options_line(variant, real, fma)
+    """Emit the routines of one source file.
+
+    ``fma`` says whether their programs are contracted, ``check`` gives the conditions that they assert in debug builds.
+    """
+    header, source = f"jointgen/{subject.header}.h", f"src/{subject.file_stem}.c"
+    options = _options_line(subject, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
+    if check is not None:
+        emitted = [e if e.storage == "dense" else guarded(e, check(e.routine)) for e in emitted]
     text = render(
         "c/source.c.j2",
-        file=f"{variant.file_stem}.c",
+        file=f"{subject.file_stem}.c",
         banner=banner(version),
         options=options,
         specification=specification,
@@ -102,15 +111,15 @@ def unit(
     ]
     declarations += [(tuple(comment(entry)), entry.signature) for entry in emitted]
     return Unit(
-        variant,
+        subject,
         text,
         tuple(declarations),
         tuple(entry_record(entry, f"c/include/{header}", f"c/{source}", real) for entry in emitted),
         casadi,
         ""
-        if real == "float"
-        else external_source(routines, f"{variant.file_stem}.c", header, banner(version), options, specification),
-        batch_unit(variant, emitted, banner(version), options, specification, batch) if batch else None,
+        if real == "float" or not subject.has_externals
+        else external_source(routines, f"{subject.file_stem}.c", header, banner(version), options, specification),
+        batch_unit(subject, emitted, banner(version), options, specification, batch) if batch else None,
     )
 
 
@@ -119,46 +128,46 @@ def _patterns(routines: Sequence[Routine]) -> dict[str, str]:
     return {symbol: text for routine in routines for symbol, text, _ in sparsity_functions(routine)}
 
 
-def _options_line(variant: Variant, real: str, fma: bool) -> str:
-    words = [f"joint {variant.joint}", f"form {variant.form}"]
-    words += [f"rows {variant.rows}"] if variant.rows else []
-    words += [f"derivative {variant.derivative}", f"variation {variant.variation}", f"real {real}"]
-    words += ["matrices raw"] if variant.matrices == "raw" else []
-    words += ["geometry prepared"] if variant.geometry == "prepared" else []
-    words += ["fma"] if fma else []
-    return ", ".join(words)
+def _options_line(subject: UnitSubject, real: str, fma: bool) -> str:
+    return ", ".join([*subject.options, f"real {real}", *subject.further, *(["fma"] if fma else [])])
 
 
 def package(
-    units: Sequence[Unit], version: str, real: str, specification: str, fma: bool = False, batch: int | None = None
+    units: Sequence[Unit],
+    version: str,
+    real: str,
+    specification: str,
+    fma: bool = False,
+    batch: int | None = None,
+    choices: bool = False,
 ) -> dict[str, bytes]:
     """Assemble the files of a package.
 
     Args:
-        units: emitted variants, in order.
+        units: emitted variants and attitudes, in order.
         version: of jointgen.
         real: default number type, ``double`` or ``float``.
         specification: hash of the request.
         fma: whether the programs are contracted.
         batch: joints in a group of the batch routines; none if there are no such routines.
+        choices: whether the sources have absolute values and choices.
 
     Returns:
         Path below the package's folder -> content.
     """
-    joints = list(dict.fromkeys(u.variant.joint for u in units))
+    names = list(dict.fromkeys(u.subject.header for u in units))
     batches = [u.batch for u in units if u.batch]
-    headers = [*joints, *dict.fromkeys(b.header for b in batches)]
+    headers = [*names, *dict.fromkeys(b.header for b in batches)]
     files: dict[str, str] = {
         "c/include/jointgen/jg_real.h": render(
-            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch
+            "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=batch, choices=choices
         ),
         "c/include/jointgen/jointgen.h": render("c/jointgen.h.j2", banner=banner(version), headers=headers),
     }
-    for joint in joints:
-        files[f"c/include/jointgen/{joint}.h"] = _header(
-            joint, [u for u in units if u.variant.joint == joint], version, specification
-        )
-    files |= {f"c/src/{u.variant.file_stem}.c": u.source for u in units}
+    for name in names:
+        same = [u for u in units if u.subject.header == name]
+        files[f"c/include/jointgen/{name}.h"] = _header(name, same, version, specification)
+    files |= {f"c/src/{u.subject.file_stem}.c": u.source for u in units}
     files |= batch_headers(batches, batch, banner(version), specification) if batch else {}
     files |= {f"c/src/{b.file}": b.source for b in batches}
     sources = sorted(path.removeprefix("c/") for path in files if path.startswith("c/src/"))
@@ -170,30 +179,30 @@ def package(
     casadi = [_casadi_record(u, output) for u in units for output in u.casadi]
     told = batch_manifest(batches, batch) if batch else None
     files["manifest.json"] = manifest(version, real, specification, records, casadi, fma, told)
-    files |= {f"casadi/external/{u.variant.file_stem}.c": u.external for u in units if u.external}
+    files |= {f"casadi/external/{u.subject.file_stem}.c": u.external for u in units if u.external}
     content = {path: text.encode() for path, text in files.items()}
-    return content | {_casadi_file(u.variant, output): data for u in units for output, data in u.casadi.items()}
+    return content | {_casadi_file(name): data for u in units for name, data in u.casadi.values()}
 
 
-def _casadi_file(variant: Variant, output: str) -> str:
-    return f"casadi/{variant.routine_stem(output).removeprefix('jg_')}.casadi"
+def _casadi_file(name: str) -> str:
+    return f"casadi/{name.removeprefix('jg_')}.casadi"
 
 
 def _casadi_record(emitted: Unit, output: str) -> dict[str, Any]:
-    variant = emitted.variant
-    name = variant.routine_stem(output)
-    record = {"name": name, "file": _casadi_file(variant, output), **asdict(variant), "output": output}
+    subject = emitted.subject
+    name, _ = emitted.casadi[output]
+    record = {"name": name, "file": _casadi_file(name), **subject.record, "output": output}
     if output in EXTERNALS and emitted.external:
         record["external"] = {
-            "name": external_name(variant.stem, output),
-            "source": f"casadi/external/{variant.file_stem}.c",
+            "name": external_name(subject.stem, output),
+            "source": f"casadi/external/{subject.file_stem}.c",
         }
     return record
 
 
-def _header(joint: str, units: Sequence[Unit], version: str, specification: str) -> str:
+def _header(name: str, units: Sequence[Unit], version: str, specification: str) -> str:
     introduction = [
-        f"Constraint routines of the {joint} joint between bodies i and j.",
+        f"{units[0].subject.title}.",
         "",
         "Matrices are column-major. Entries ending in _nz store the structural nonzeros in compressed columns, in the",
         "pattern given by the _sparsity function; entries ending in _dense store the whole matrix. Arrays of one call",
@@ -201,10 +210,10 @@ def _header(joint: str, units: Sequence[Unit], version: str, specification: str)
     ]
     return render(
         "c/header.h.j2",
-        name=joint,
+        name=name,
         banner=banner(version),
         specification=specification,
         introduction=introduction,
-        guard=joint.upper(),
+        guard=name.upper(),
         declarations=[declaration for u in units for declaration in u.declarations],
     )

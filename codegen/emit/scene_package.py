@@ -14,12 +14,14 @@ from codegen.emit.c import Entry, entries, sparsity_functions, sparsity_symbol
 from codegen.emit.casadi_external import external_name, external_source, has_external
 from codegen.emit.comments import comment
 from codegen.emit.environment import render
+from codegen.emit.guarded import guarded
 from codegen.emit.literals import literal
 from codegen.emit.manifest import entry_record, manifest
 from codegen.emit.package import banner
 from codegen.emit.packed import packed
 from codegen.emit.routine import Parameter, Routine
 from codegen.ir.ops import Constant
+from codegen.ir.program import Program
 
 _WIDTH = 108
 
@@ -43,6 +45,7 @@ class ScenePackage:
         more: further files: path -> text.
         batch: what the manifest says of batch routines.
         choices: whether routines choose between values.
+        checks: output -> conditions that its routine asserts in debug builds.
     """
 
     name: str
@@ -59,11 +62,12 @@ class ScenePackage:
     more: Mapping[str, str] = field(default_factory=dict)
     batch: dict[str, Any] | None = None
     choices: bool = False
+    checks: Mapping[str, Program] = field(default_factory=dict)
 
 
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
     """Write the files of a scene or chain: path below its folder -> content."""
-    emitted = [entry for routine in package.routines for entry in entries(routine)]
+    emitted = [_checked(entry, package) for routine in package.routines for entry in entries(routine)]
     patterns = _patterns(package)
     files = {
         f"{package.name}.h": _header(package, emitted, list(patterns)),
@@ -84,6 +88,11 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
         )
     content = {path: text.encode() for path, text in files.items()}
     return content | {f"casadi/{output}.casadi": data for output, data in package.casadi.items()}
+
+
+def _checked(entry: Entry, package: ScenePackage) -> Entry:
+    check = package.checks.get(entry.routine.output)
+    return entry if check is None or entry.storage == "dense" else guarded(entry, check)
 
 
 def real_header(version: str, real: str, choices: bool, has_batch: bool = False) -> str:

@@ -8,6 +8,8 @@ from functools import cached_property
 from typing import Any
 
 from codegen.dynamics.layout import Layout
+from codegen.emit.attitude_subject import ATTITUDE_BRIEFS, ATTITUDE_DETAILS
+from codegen.emit.joint_subject import BRANCH_WORDS
 from codegen.emit.routine import Member, Preparation, Words
 from codegen.errors import InternalError
 from codegen.ir.looped import Axis, Looped
@@ -15,7 +17,10 @@ from codegen.ir.program import Argument, Program, Result
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.plan import Plan, Series
 from codegen.mechanics.system import System
+from codegen.spec.request import BRANCH
 from codegen.spec.scene import COORDINATE_UNITS
+
+_WITHOUT_AXES = ("phi", "branch", *ATTITUDE_BRIEFS)
 
 _OUTPUTS: dict[str, tuple[str, str, str]] = {
     "phi": ("Constraints phi of all joints", "constraint rows", "m or 1"),
@@ -32,6 +37,9 @@ _OUTPUTS: dict[str, tuple[str, str, str]] = {
     ),
     "phi_q_v": ("Product phi_q v, without forming phi_q", "constraint rows", "m/s or 1/s"),
     "phi_q_t_lambda": ("Product phi_q^T lambda, without forming phi_q", "virtual displacements", "N, N m"),
+    "branch": ("Branch of each joint: 1 where it is closed as it was meant, negative where not", "joints", "1"),
+    "orthonormalise": (ATTITUDE_BRIEFS["orthonormalise"], "bodies", "1"),
+    "check_orthonormal": (ATTITUDE_BRIEFS["check_orthonormal"], "bodies", "1"),
     "mass": ("Mass matrix M, constant", "virtual displacements x virtual displacements", "kg, kg m^2"),
     "force": (
         "Right-hand side of M a + phi_q^T lambda = force: applied and gyroscopic forces",
@@ -108,8 +116,13 @@ class SceneSubject:
     def output(self, output: Result) -> Words:
         """Axes, unit and parts of an output."""
         _, frame, unit = _OUTPUTS.get(output.name, ("", "partial derivatives by the entries of an argument", "mixed"))
-        axes = frame if output.name == "phi" else f"{frame}; {self.axes}"
-        told = {"constraint rows": self._rows, "virtual displacements": self.displacements}
+        axes = frame if output.name in _WITHOUT_AXES else f"{frame}; {self.axes}"
+        told = {
+            "constraint rows": self._rows,
+            "virtual displacements": self.displacements,
+            "joints": self._joints,
+            "bodies": self._matrices if output.name == "orthonormalise" else self._numbers,
+        }
         if frame not in told:
             return Words(axes, unit)
         if self.plan is None:
@@ -160,6 +173,10 @@ class SceneSubject:
 
     def details(self, output: str, program: Program | Looped, preparation: Preparation | None) -> Sequence[str]:
         """What a user must know besides, sentence by sentence."""
+        if output in ATTITUDE_DETAILS:
+            return [ATTITUDE_DETAILS[output]]
+        if output == BRANCH:
+            return [BRANCH_WORDS]
         details = [f"Virtual displacements: {self.axes}.", "The parts of A are taken as rotations."]
         if any(variant.derivative == "substituted" for variant in self.assembly.forms.values()):
             details.append("Joint relations are inserted before differentiation: exact on tangent directions only.")
@@ -243,6 +260,20 @@ class SceneSubject:
         screws = [p for p in self.assembly.placed if p.joint.type == "screw" and not p.form.coordinates]
         for k, placed in enumerate(screws):
             yield f"revolutions_{placed.ends.name}", k, (1, 1), "whole turns"
+
+    def _matrices(self, word: str) -> Iterator[Member]:
+        yield from ((f"{word}_{body}", k, shape, words) for body, (_, k, shape, words) in self._with_bodies)
+
+    def _numbers(self, word: str) -> Iterator[Member]:
+        yield from ((f"{word}_{body}", k, (1, 1), "norm") for k, body in enumerate(self._bodies))
+
+    @property
+    def _with_bodies(self) -> Iterator[tuple[str, Member]]:
+        return zip(self._bodies, self._attitudes(), strict=True)
+
+    def _joints(self, word: str) -> Iterator[Member]:
+        for placed in self.assembly.placed:
+            yield f"{word}_{placed.ends.name}", placed.ends.number, (1, 1), "cosine of the angle that the joint is off"
 
     def _rows(self, word: str) -> Iterator[Member]:
         number = {row: k for k, row in enumerate(self.assembly.rows)}

@@ -14,14 +14,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
 
-from codegen.errors import InternalError
 from codegen.ir.ops import LEAVES, PROJECTIONS, Constant, Op
 from codegen.ir.program import Program
-
-Ball = Any
-"""An Arb ball."""
+from codegen.measure.enclosures import Ball, Enclosures
 
 _PRECISION = 64
 _EXACT_BITS = 24
@@ -30,9 +26,6 @@ _EXACT_BITS = 24
 _FREE = LEAVES | PROJECTIONS | {Op.NEGATE, Op.SINCOS, Op.ABS, Op.SELECT}
 _UNITS = {Op.SIN: 2, Op.COS: 2, Op.SINE_OF: 2, Op.COSINE_OF: 2, Op.ATAN2: 3}
 """Unit roundoffs that a function is off by; every other operation one."""
-
-
-_HALF_TURN = 3.15
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +110,8 @@ class _Sweep:
         self._box = box
         self._arithmetic = arithmetic
         self._are_inputs_rounded = are_inputs_rounded
-        self._zero, self._one = flint.arb(0), flint.arb(1)
+        self._over = Enclosures(box.reach)
+        self._zero = flint.arb(0)
         self._values: list[Ball] = []
         self._errors: list[Ball] = []
         self._drifts: list[Ball] = []
@@ -127,7 +121,7 @@ class _Sweep:
 
     def bound(self, output: int) -> float:
         """Sum error times derivative over all values that an output depends on."""
-        adjoints = {output: self._one}
+        adjoints = {output: self._over.one}
         total = self._zero
         for position in sorted(self._ancestors(output), reverse=True):
             adjoint = adjoints.pop(position)
@@ -135,7 +129,7 @@ class _Sweep:
             for operand, partial in zip(
                 self._program.instructions[position].operands, self._partials_of(position), strict=True
             ):
-                term = adjoint if partial is self._one else adjoint * partial
+                term = adjoint if partial is self._over.one else adjoint * partial
                 adjoints[operand] = adjoints[operand] + term if operand in adjoints else term
         upper = total.abs_upper()
         return float(upper.mid() + upper.rad()) * (1 + 2.0**-50) if total.is_finite() else float("inf")
@@ -168,10 +162,10 @@ class _Sweep:
             value *= self._arb.pi() ** instruction.constant.pi_power
             drift, error = self._zero, self._constant_error(instruction.constant, value)
         else:
-            value = self._value(op, operands)
+            value = self._over.value(op, operands)
             error = self._zero if self._is_free(op) else self._rounding(op, value)
             drift = self._zero
-            for operand, partial in zip(instruction.operands, self._slopes(op, operands, value), strict=True):
+            for operand, partial in zip(instruction.operands, self._over.slopes(op, operands), strict=True):
                 drift = drift + abs(partial) * self._drifts[operand]
         drift = drift + error
         known = self._box.ranges.get(position)
@@ -202,88 +196,9 @@ class _Sweep:
             return limit
         return value
 
-    def _value(self, op: Op, x: list[Ball]) -> Ball:
-        match op:
-            case Op.NEGATE:
-                return -x[0]
-            case Op.ADD:
-                return x[0] + x[1]
-            case Op.SUBTRACT:
-                return x[0] - x[1]
-            case Op.MULTIPLY:
-                return x[0] * x[1]
-            case Op.DIVIDE:
-                return x[0] / x[1]
-            case Op.FMA:
-                return x[0] * x[1] + x[2]
-            case Op.SQRT:
-                return x[0].sqrt()
-            case Op.SIN | Op.SINE_OF:
-                return x[0].sin()
-            case Op.COS | Op.COSINE_OF:
-                return x[0].cos()
-            case Op.SINCOS:
-                return x[0]
-            case Op.ATAN2:
-                return self._arb(0, _HALF_TURN)
-            case Op.ABS:
-                return abs(x[0])
-            case Op.SELECT:
-                return x[2] if x[0] < x[1] else x[3] if x[0] >= x[1] else x[2].union(x[3])
-        raise InternalError(f"no enclosure of {op}")
-
-    def _angle_slopes(self, y: Ball, x: Ball) -> list[Ball]:
-        """Derivatives of the angle of (y, x); where the box holds the origin, what the reach says of them."""
-        square = x * x + y * y
-        if square > 0:
-            return [x / square, -y / square]
-        steep = self._arb(0, 1 / self._box.reach if self._box.reach else float("inf"))
-        return [steep, steep]
-
-    def _choice_slopes(self, a: Ball, b: Ball) -> list[Ball]:
-        """Derivatives of a choice; where the box does not decide it, an error of what is compared is not bounded."""
-        if a < b or a >= b:
-            taken = bool(a < b)
-            return [self._zero, self._zero, *((self._one, self._zero) if taken else (self._zero, self._one))]
-        part = self._arb(0.5, 0.5)
-        return [self._arb(0, float("inf")), self._arb(0, float("inf")), part, part]
-
     def _partials_of(self, position: int) -> list[Ball]:
         if position not in self._partials:
             instruction = self._program.instructions[position]
             operands = [self._values[operand] for operand in instruction.operands]
-            self._partials[position] = self._slopes(instruction.op, operands, self._values[position])
+            self._partials[position] = self._over.slopes(instruction.op, operands)
         return self._partials[position]
-
-    def _slopes(self, op: Op, x: list[Ball], value: Ball) -> list[Ball]:
-        """Enclose the partial derivatives of an operation."""
-        match op:
-            case Op.CONSTANT | Op.INPUT:
-                return []
-            case Op.NEGATE:
-                return [-self._one]
-            case Op.ADD:
-                return [self._one, self._one]
-            case Op.SUBTRACT:
-                return [self._one, -self._one]
-            case Op.MULTIPLY:
-                return [x[1], x[0]]
-            case Op.DIVIDE:
-                return [1 / x[1], -x[0] / x[1] ** 2]
-            case Op.FMA:
-                return [x[1], x[0], self._one]
-            case Op.SQRT:
-                return [1 / (2 * x[0].sqrt())]
-            case Op.SIN | Op.SINE_OF:
-                return [x[0].cos()]
-            case Op.COS | Op.COSINE_OF:
-                return [-x[0].sin()]
-            case Op.SINCOS:
-                return [self._one]
-            case Op.ATAN2:
-                return self._angle_slopes(x[0], x[1])
-            case Op.ABS:
-                return [self._one if x[0] > 0 else -self._one if x[0] < 0 else self._arb(0, 1)]
-            case Op.SELECT:
-                return self._choice_slopes(x[0], x[1])
-        raise InternalError(f"no derivative of {op}")

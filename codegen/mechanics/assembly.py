@@ -20,7 +20,7 @@ from codegen.ir.program import Argument
 from codegen.mechanics import frames
 from codegen.mechanics.arrays import PLANAR, SPATIAL, Arrays
 from codegen.mechanics.blocks import gathered
-from codegen.mechanics.derivation import Derivation
+from codegen.mechanics.derivation import AS_IT_STANDS, Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.merged import merged
@@ -39,6 +39,7 @@ KINDS = {
     "phi_q_v": ("constraints", "one"),
     "phi_q_v_q": ("constraints", "displacements"),
     "phi_q_t_lambda": ("displacements", "one"),
+    "branch": ("joints", "one"),
 }
 """What the rows and columns of a quantity are."""
 
@@ -101,6 +102,7 @@ class Assembly:
                 self.arrays,
                 self.dropped,
                 varying_of(self.varying, number),
+                number,
             )
             found.append(Placed(joint, form, ends))
             row += form.row_count
@@ -177,16 +179,16 @@ class Assembly:
 
         Joints whose frames are axes of their bodies are evaluated together where they hang together: they share
         vectors. Any other joint is a group of its own, since it shares little but its joint frames; two where its
-        derivative is substituted, because ``phi`` never is.
+        derivative is substituted, because ``phi`` and ``branch`` never are.
         """
         names = tuple(names)
         sharing = [p for p in self.placed if not (p.form.coordinates or self._is_substituted(p) or p.has_own_frames)]
         groups = [(group, names, False) for group in connected(sharing)]
         substituted = [placed for placed in self.placed if self._is_substituted(placed)]
-        groups.append((substituted, tuple(name for name in names if name == "phi"), False))
+        groups.append((substituted, tuple(name for name in names if name in AS_IT_STANDS), False))
         for placed in self.placed:
             if placed in substituted:
-                groups.append(([placed], tuple(name for name in names if name != "phi"), True))
+                groups.append(([placed], tuple(name for name in names if name not in AS_IT_STANDS), True))
             elif placed not in sharing:
                 groups.append(([placed], names, False))
         return [self._part(*group) for group in groups if group[0] and group[1]]
@@ -203,14 +205,15 @@ class Assembly:
 
     def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
         """The rows and columns of a derived quantity that the system has."""
-        chosen = {"constraints": self.rows, "displacements": self.columns, "one": (0,)}
+        joints = tuple(range(len(self.placed)))
+        chosen = {"constraints": self.rows, "displacements": self.columns, "joints": joints, "one": (0,)}
         rows, columns = KINDS[name]
         return chosen[rows], chosen[columns]
 
     def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
         rows, columns = KINDS[name]
         derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates
-        sizes = {"constraints": self.all_rows, "displacements": derived, "one": 1}
+        sizes = {"constraints": self.all_rows, "displacements": derived, "joints": len(self.placed), "one": 1}
         blocks: list[Block] = []
         for placed in joints:
             _, derivation = _derived(self.forms[placed.joint.name], self.translations)

@@ -22,6 +22,9 @@ from codegen.mechanics.formulation import Formulation, height
 from codegen.mechanics.terms import assemble, expand, scalar_products
 from codegen.mechanics.variation import Variation, coefficient, gradient
 
+AS_IT_STANDS = ("phi", "branch")
+"""Quantities that never take the joint relation for granted: they say whether it holds."""
+
 
 def is_matrix(expression: Any) -> bool:
     """Whether an expression is a vector or matrix, not a scalar."""
@@ -34,9 +37,15 @@ class Derivation:
     def __init__(self, form: Formulation) -> None:
         self.form = form
         self._virtual = Variation(form.algebra, form.stages, form.virtual, form.partials)
+        self._quantities: dict[str, SymbolicOutput] = {}
 
     def quantity(self, name: str) -> SymbolicOutput:
-        """Derive one of the quantities of `codegen.spec.request.OUTPUTS`, except ``all``, or ``phi_q_v_q``."""
+        """Derive one of the quantities of `codegen.spec.request`, ``phi_q_v_q`` or ``branch``."""
+        if name not in self._quantities:
+            self._quantities[name] = self._derived(name)
+        return self._quantities[name]
+
+    def _derived(self, name: str) -> SymbolicOutput:
         form = self.form
         size = form.column_count
         match name:
@@ -56,6 +65,8 @@ class Derivation:
             case "phi_q_t_lambda":
                 blocks = tuple(Block(row, 0, block) for row, block in self.force_blocks)
                 return SymbolicOutput("phi_q_t_lambda", (size, 1), blocks)
+            case "branch":
+                return SymbolicOutput("branch", (1, 1), (Block(0, 0, form.branch),))
         raise InternalError(f"no derivation of {name}")
 
     @cached_property

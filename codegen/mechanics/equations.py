@@ -12,6 +12,7 @@ _CONVENTIONAL: dict[str, str] = {
     "gamma": "second time derivative of S1 Table 1",
     "phi_q_v": "S1 Eq. (5) along the velocity",
     "phi_q_t_lambda": "S1 Eqs. (1), (5)",
+    "branch": "attitudes that satisfy S1 Table 1",
     "all": "S1 Table 1, Eqs. (4)-(9)",
 }
 
@@ -22,6 +23,7 @@ _PARAMETRIC: dict[str, str] = {
     "gamma": "second time derivative of S1 Eq. (12)",
     "phi_q_v": "S1 Eqs. (19), (27) along the velocity",
     "phi_q_t_lambda": "S1 Eqs. (1), (13)",
+    "branch": "trace of H^T C_i^T A_ij C_j, SPEC S1.2",
     "all": "S1 Eqs. (12)-(38), Tables 3-5",
 }
 

@@ -24,7 +24,8 @@ from codegen.mechanics.blocks import gathered
 from codegen.mechanics.coordinate_load import CoordinateLoad
 from codegen.mechanics.gyroscopic import Gyroscopic
 from codegen.mechanics.merged import merged
-from codegen.mechanics.placed import Ends, Placed, about_normal, rational
+from codegen.mechanics.normal_turns import about_normal
+from codegen.mechanics.placed import Ends, Placed, rational
 from codegen.mechanics.places import WORLD, places
 from codegen.mechanics.spring import BALL, SpringLaw, spring_law
 from codegen.spec.placement import IDENTITY

@@ -24,6 +24,7 @@ from codegen.mechanics.basic import (
     theta_axis,
     theta_variation,
 )
+from codegen.mechanics.branch import conventional_branch, parametric_branch
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
 from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
@@ -50,6 +51,7 @@ class Formulation:
         substitution: what the joint relation makes of ``A_ij`` and ``d'_ij`` (derivative ``substituted``), else empty.
         reduction: stages that derivatives express by others, where they meet terms that cancel.
         coordinates: number of alphas.
+        branch: positive where the joint is closed as it was meant, see `codegen.mechanics.branch`.
     """
 
     algebra: Algebra
@@ -65,6 +67,7 @@ class Formulation:
     substitution: dict[Any, Any] = field(default_factory=dict)
     reduction: dict[Any, Any] = field(default_factory=dict)
     coordinates: int = 0
+    branch: Any = sympy.S.One
 
     @property
     def row_count(self) -> int:
@@ -169,6 +172,7 @@ def _conventional(joint: JointType, variant: Variant, translations: str) -> Form
         _turning_axes() if translations == "body" else {},
         partials=SCREW_PARTIALS if joint.is_screw else {},
         reduction=RELATIVE_REDUCTION if variant.variation == "body" else _world_reduction(stages),
+        branch=conventional_branch(joint.conventional, algebra),
     )
 
 
@@ -244,6 +248,7 @@ def _parametric(joint: JointType, variant: Variant, translations: str) -> Formul
         substitution={A_ij: rotation_of_alpha, dp_ij: d_of_alpha} if substituted else {},
         reduction=RELATIVE_REDUCTION,
         coordinates=count,
+        branch=parametric_branch(joint.rotations, algebra),
     )
 
 

@@ -14,12 +14,14 @@ from typing import Any
 
 import sympy
 
-from codegen.ir.lower import Block, Dot, Places
+from codegen.ir.lower import Block, Places
 from codegen.mechanics import frames
 from codegen.mechanics.arrays import BODY_SYMBOLS, Arrays, body_symbol, normal_symbol
 from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
 from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
+from codegen.mechanics.links import Link, aligned_axes, contracted
+from codegen.mechanics.normal_turns import about_normal
 from codegen.mechanics.places import BODY_I, BODY_J, JOINT_I, JOINT_J, STAR, WORLD
 from codegen.spec.markers import markers
 from codegen.spec.scene import Joint, Marker, Matrix
@@ -42,6 +44,7 @@ class Ends:
         arrays: layout of the bodies.
         dropped: rows of the system that are left out.
         varying: side and number of a coordinate of an attachment -> number in the argument ``geometry``.
+        number: of the joint.
     """
 
     name: str
@@ -53,6 +56,7 @@ class Ends:
     arrays: Arrays
     dropped: frozenset[int] = frozenset()
     varying: Mapping[tuple[int, int], int] = field(default_factory=dict)
+    number: int = 0
 
 
 @dataclass(frozen=True)
@@ -245,16 +249,16 @@ class Placed:
         """Write the blocks of a quantity for the scene.
 
         Args:
-            row_kind: what its rows are, ``constraints`` or ``displacements``.
+            row_kind: what its rows are, ``constraints``, ``joints`` or ``displacements``.
             column_kind: what its columns are, ``displacements`` or ``one``.
             blocks: of the quantity between bodies i and j.
         """
         columns = self.columns()
         for block in blocks:
             is_displaced = row_kind == "displacements", column_kind == "displacements"
-            row = columns[block.row] if is_displaced[0] else block.row + self.ends.first_row
+            row = self._row(row_kind, block.row)
             column = columns[block.column] if is_displaced[1] else block.column
-            if row is None or column is None or (not is_displaced[0] and self._is_dropped(row, block.expression)):
+            if row is None or column is None or (row_kind == "constraints" and self._is_dropped(row, block.expression)):
                 continue
             expression = self.written(block.expression)
             if self.ends.arrays.is_planar:
@@ -263,6 +267,12 @@ class Placed:
                     expression, rows, self._normals.get(block.column) if is_displaced[1] else None
                 )
             yield Block(row, column, expression)
+
+    def _row(self, kind: str, row: int) -> int | None:
+        """The row of the system for a row of a quantity; None for the ground."""
+        if kind == "joints":
+            return self.ends.number
+        return self.columns()[row] if kind == "displacements" else row + self.ends.first_row
 
     @cached_property
     def _normals(self) -> dict[int, Any]:
@@ -277,65 +287,6 @@ class Placed:
     def written(self, expression: Any) -> Any:
         """An expression of the formulation in the symbols of the scene."""
         return expression.xreplace(self.symbols)
-
-
-@dataclass(frozen=True)
-class Link:
-    """A rotation between two frames: ``matrix`` turns components in ``end`` to components in ``start``."""
-
-    name: str
-    start: str
-    end: str
-    matrix: Any
-
-    @property
-    def reversed(self) -> Link:
-        """The same rotation the other way."""
-        return Link(self.name, self.end, self.start, self.matrix.T)
-
-
-def contracted(links: list[Link], passed: set[str], name: str) -> list[Link]:
-    """Join links that meet in a frame that is none of its own, under a name, and drop those that end there."""
-    for frame in sorted(passed):
-        meeting = [link if link.end == frame else link.reversed for link in links if frame in (link.start, link.end)]
-        links = [link for link in links if frame not in (link.start, link.end)]
-        if len(meeting) == 2:
-            first, second = meeting[0], meeting[1].reversed
-            links.append(Link(name, first.start, second.end, first.matrix * second.matrix))
-    return links
-
-
-def about_normal(expression: Any, rows: Any | None, columns: Any | None) -> Any:
-    """Keep of a block the turn about the normal of the plane.
-
-    The normal comes first in a scalar product: its frame is that of components that are written out in the other.
-
-    Args:
-        expression: matrix, vector, row or scalar.
-        rows: the normal, where the rows of the block are turns.
-        columns: the normal, where its columns are turns.
-    """
-    if columns is not None:
-        is_row = is_matrix(expression) and expression.shape[0] == 1
-        expression = Dot(columns, _turned(expression)) if is_row else sympy.MatMul(expression, columns)
-    if rows is not None:
-        is_column = is_matrix(expression) and expression.shape[1] == 1
-        expression = Dot(rows, expression) if is_column else sympy.MatMul(sympy.Transpose(rows), expression)
-    return expression
-
-
-def _turned(row: Any) -> Any:
-    return row.arg if isinstance(row, sympy.Transpose) else sympy.Transpose(row)
-
-
-def aligned_axes(matrix: Any) -> dict[int, tuple[int, int]]:
-    """The columns of a rotation that are axes: k -> sign and number of the axis."""
-    found = {}
-    for k in range(3):
-        axes = [(int(entry), i) for i, entry in enumerate(matrix.col(k)) if abs(entry) == 1]
-        if axes and sum(1 for entry in matrix.col(k) if entry != 0) == 1:
-            found[k] = axes[0]
-    return found
 
 
 def geometry_symbol(number: int) -> Any:

@@ -35,6 +35,8 @@ _ARGUMENTS = {
 _OUTPUTS = {
     **KINDS,
     **FORCES,
+    "orthonormalise": ("attitudes", "one"),
+    "check_orthonormal": ("bodies", "one"),
     "mass": ("displacements", "displacements"),
     "residual": ("state", "one"),
     "jacobian": ("state", "state"),
@@ -184,6 +186,8 @@ def _lengths(system: System) -> dict[str, tuple[int, ...]]:
     return {
         "positions": (arrays.position * bodies,),
         "attitudes": (arrays.attitude * bodies,),
+        "bodies": (bodies,),
+        "joints": (len(assembly.placed),),
         "coordinates": (coordinates,),
         "revolutions": (assembly.counted,),
         "displacements": displacements,

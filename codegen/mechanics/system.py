@@ -109,6 +109,7 @@ class System:
         chosen = {
             "constraints": (*self.assembly.rows, *drives),
             "displacements": self.assembly.columns,
+            "joints": tuple(range(len(self.assembly.placed))),
             "one": (0,),
         }
         rows, columns = _kinds(name)
@@ -124,9 +125,10 @@ class System:
     def _shape(self, name: str) -> tuple[int, int]:
         assembly = self.assembly
         displacements = assembly.arrays.derived * len(assembly.scene.bodies) + assembly.coordinates
-        sizes = {"constraints": assembly.all_rows + len(self.drives), "displacements": displacements, "one": 1}
-        rows, columns = _kinds(name)
-        return sizes[rows], sizes[columns]
+        rows, joints = assembly.all_rows + len(self.drives), len(assembly.placed)
+        sizes = {"constraints": rows, "displacements": displacements, "joints": joints, "one": 1}
+        kinds = _kinds(name)
+        return sizes[kinds[0]], sizes[kinds[1]]
 
     def _drive_rows(self, name: str) -> SymbolicOutput:
         assembly = self.assembly

@@ -16,23 +16,8 @@ from codegen.ir.builder import Builder
 from codegen.ir.ops import Op
 from codegen.ir.program import Instruction, Program
 from codegen.passes.drop_unused import drop_unused
+from codegen.passes.latency import LATENCY
 from codegen.passes.rewrite import Rebuilding, negated
-
-_LATENCY: dict[Op, int] = {
-    Op.ADD: 4,
-    Op.SUBTRACT: 4,
-    Op.MULTIPLY: 4,
-    Op.FMA: 4,
-    Op.DIVIDE: 13,
-    Op.SQRT: 18,
-    Op.SIN: 60,
-    Op.COS: 60,
-    Op.SINCOS: 80,
-    Op.ATAN2: 100,
-    Op.ABS: 1,
-    Op.SELECT: 5,
-}
-"""Cycles until a result is ready, about, on processors of today; what is missing is there at once."""
 
 
 def contract_fma(program: Program) -> Program:
@@ -78,7 +63,7 @@ def _ready(program: Program) -> list[int]:
     ready: list[int] = []
     for instruction in program.instructions:
         start = max((ready[operand] for operand in instruction.operands), default=0)
-        ready.append(start + _LATENCY.get(instruction.op, 0))
+        ready.append(start + LATENCY.get(instruction.op, 0))
     return ready
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -14,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.platforms.attitudes import Array, argument_name, attitude_array
+from codegen.platforms.spool import pieces
 from codegen.spec.placement import IDENTITY
 from codegen.spec.platform import Platform
 
@@ -112,7 +112,11 @@ def poses_of_file(file: Path, platform: Platform) -> Poses:
         what = f"has {table.shape[1] if table.ndim == 2 else 0} columns"
         remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}, column by column)"
         raise SpecificationError([Mistake(str(file), what, remedy)])
-    wrong = _wrong_attitudes(name, table[:, 3:])
+    wrong = [
+        first + k
+        for first, last in pieces(len(table))
+        for k in _wrong_attitudes(name, np.asarray(table[first:last, 3:]))
+    ]
     if wrong:
         raise SpecificationError(
             Mistake(f"{file}: pose {k + 1}", f"{name} is no rotation", "correct it, or give more digits")
@@ -163,10 +167,8 @@ def _number(text: str, is_angle: bool) -> float:
 def _table(file: Path) -> Array:
     try:
         if file.suffix == ".npy":
-            return np.asarray(np.load(file, allow_pickle=False), dtype=float)
-        with file.open(newline="") as lines:
-            rows = [row for row in csv.reader(lines) if row]
-        return np.array([[float(word) for word in row] for row in rows[1:]])
+            return np.asarray(np.load(file, mmap_mode="r", allow_pickle=False), dtype=float)
+        return np.loadtxt(file, delimiter=",", comments=None, skiprows=1, ndmin=2)
     except OSError as error:
         what = f"cannot be read ({error.strerror or error})"
     except ValueError as error:

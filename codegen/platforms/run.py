@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from codegen.errors import Mistake, SpecificationError
 from codegen.measure.compile import compiler
+from codegen.output import Writer
 from codegen.platforms.attitudes import Array
 from codegen.platforms.cluster import sweep_on
 from codegen.platforms.grid import Poses, for_grid, grid, poses_of_file
 from codegen.platforms.results import check_format, results_file
-from codegen.platforms.sweep import Progress, kernel, pieces, sweep
+from codegen.platforms.spool import Spool, pieces, spool
+from codegen.platforms.sweep import Progress, kernel, sweep
 from codegen.spec.platform import Platform
 
 
@@ -45,17 +45,17 @@ class Table:
         poses: where.
         columns: names.
         values: [columns, poses].
-        files: path -> content.
+        files: path -> what writes it.
     """
 
     poses: Poses
     columns: tuple[str, ...]
-    values: Array
-    files: dict[str, bytes]
+    values: Spool
+    files: dict[str, Writer]
 
     def column(self, name: str) -> Array:
-        """The values [poses] of a column."""
-        return np.asarray(self.values[self.columns.index(name)])
+        """The values [poses] of a column, read when they are looked at."""
+        return self.values.column(self.columns.index(name))
 
     @property
     def words(self) -> str:
@@ -64,7 +64,9 @@ class Table:
         if "status" not in self.columns:
             return told
         status = self.column("status")
-        singular, none = int((status % 8 >= 4).sum()), int((status >= 8).sum())
+        parts = [status[first:last] for first, last in pieces(self.poses.count)]
+        singular = sum(int((part % 8 >= 4).sum()) for part in parts)
+        none = sum(int((part >= 8).sum()) for part in parts)
         return f"{told}: {singular} singular, {none} without a number"
 
 
@@ -86,21 +88,26 @@ def chosen_poses(platform: Platform, file: Path | None, text: str | None, kind: 
     return Sweep(platform, poses_of_file(file, platform), kind)
 
 
-def evaluated(wanted: Sweep, progress: Progress = lambda _: None, cluster: str | None = None) -> Table:
+def evaluated(
+    wanted: Sweep, progress: Progress = lambda _: None, cluster: str | None = None, folder: Path | None = None
+) -> Table:
     """Evaluate all wanted quantities at all poses.
 
     Args:
         wanted: what and where.
         progress: told each piece.
         cluster: address of a Dask scheduler; this machine if left out.
+        folder: where there is room for the numbers; that for temporary files if left out.
 
     Raises:
         SpecificationError: Dask is not installed, or there is no scheduler.
+        OutputError: there is no room.
     """
     compiled = kernel(wanted.platform)
-    if cluster is None:
-        values = sweep(compiled, wanted.poses, progress)
-    else:
-        values = sweep_on(cluster, wanted.platform, wanted.poses, len(compiled.names()), progress)
     columns = (*wanted.poses.names, *compiled.names())
-    return Table(wanted.poses, columns, values, results_file(columns, values, wanted.kind))
+    found = spool(len(columns), wanted.poses.count, folder)
+    if cluster is None:
+        sweep(compiled, wanted.poses, found, progress)
+    else:
+        sweep_on(cluster, wanted.platform, wanted.poses, found, progress)
+    return Table(wanted.poses, columns, found, results_file(columns, found, wanted.kind))

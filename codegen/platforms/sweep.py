@@ -1,15 +1,17 @@
 """Evaluate a routine at many poses: compiled batch code, piece by piece, on all cores.
 
-Calls through ctypes release the lock of the interpreter, so that threads share the arrays and nothing is copied.
+Calls through ctypes release the lock of the interpreter. A few pieces are under way at a time, whatever their number.
 """
 
 from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -24,11 +26,9 @@ from codegen.platforms.attitudes import Array
 from codegen.platforms.generate import LANES, batch_header, batch_routines, batch_source
 from codegen.platforms.grid import Poses
 from codegen.platforms.programs import routine
+from codegen.platforms.spool import Spool, pieces
 from codegen.simulate.library import library
 from codegen.spec.platform import Platform
-
-CHUNK = 10_000
-"""Poses of one call: the arrays of a call stay in the caches of a core; no power of two, which would be slow."""
 
 FLAGS = ("-std=c99", "-O2", "-march=native", "-ffp-contract=off", "-fno-math-errno")
 
@@ -91,34 +91,34 @@ def kernel(platform: Platform) -> Kernel:
     return Kernel(platform, inputs, tuple(p for p in declared if p.direction == "out"), function, loaded)
 
 
-def sweep(compiled: Kernel, poses: Poses, progress: Progress = lambda _: None, threads: int | None = None) -> Array:
+def sweep(
+    compiled: Kernel, poses: Poses, found: Spool, progress: Progress = lambda _: None, threads: int | None = None
+) -> None:
     """Evaluate all poses.
 
     Args:
         compiled: the code.
         poses: where.
+        found: gets [columns, poses]: what tells a pose, then the results.
         progress: told each piece.
         threads: how many; all cores if left out.
 
-    Returns:
-        [columns, poses] what tells a pose, then the results.
+    Raises:
+        OutputError: there is no room for what is found.
     """
-    found = np.empty((len(poses.names) + len(compiled.names()), poses.count))
 
-    def piece(bounds: tuple[int, int]) -> None:
+    def piece(bounds: tuple[int, int]) -> int:
         first, last = bounds
-        found[: len(poses.names), first:last] = poses.columns(first, last)
-        found[len(poses.names) :, first:last] = compiled.evaluate(poses, first, last)
+        found.put(first, np.vstack([poses.columns(first, last), compiled.evaluate(poses, first, last)]))
+        return last
 
-    with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
-        for bounds, _ in zip(pieces(poses.count), pool.map(piece, pieces(poses.count)), strict=True):
-            progress(f"{bounds[1]} poses")
-    return found
-
-
-def pieces(count: int) -> Iterator[tuple[int, int]]:
-    """First pose and end of each piece."""
-    return ((first, min(first + CHUNK, count)) for first in range(0, count, CHUNK))
+    count = threads or len(os.sched_getaffinity(0))
+    waiting = pieces(poses.count)
+    with ThreadPoolExecutor(count) as pool:
+        running = deque(pool.submit(piece, bounds) for bounds in islice(waiting, 2 * count))
+        while running:
+            progress(f"{running.popleft().result()} poses")
+            running.extend(pool.submit(piece, bounds) for bounds in islice(waiting, 1))
 
 
 def _names(parameter: Parameter) -> list[str]:

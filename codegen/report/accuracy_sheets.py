@@ -38,7 +38,8 @@ def accuracy_sheet(document: Document, joint: str) -> Sheet:
         "spread",
         "instructions",
     )
-    title = f"Accuracy of the {joint} joint, {document['samples']} poses converged and as many in mid-iteration"
+    kind = "scene" if "scene" in document["request"] else "joint"
+    title = f"Accuracy of the {joint} {kind}, {document['samples']} poses converged and as many in mid-iteration"
     return Sheet(title, columns, tuple(rows), _NOTES)
 
 

@@ -19,22 +19,26 @@ _CEILING = 1000.0
 _NEAR = 100.0
 """Condition number of the contour around singular poses."""
 
+_MOST = 400
+"""Values of an axis that are drawn."""
+
 _UNITS = {"x": "m", "y": "m", "z": "m", "roll": "rad", "pitch": "rad", "yaw": "rad"}
 
 
 def index_maps(table: Table) -> str | None:
     """Draw C of the four blocks over the first two axes of a grid that have several values; None if there are not two.
 
-    Further axes are cut in the middle of their values.
+    Further axes are cut in the middle of their values; of a long axis every second, or third, ... value is drawn.
     """
     long = [k for k, axis in enumerate(table.poses.axes) if len(axis) > 1][:2]
     if len(long) < 2 or "C_sigma" not in table.columns:
         return None
-    slices = [slice(None) if k in long else len(axis) // 2 for k, axis in enumerate(table.poses.axes)]
     sizes = [len(axis) for axis in table.poses.axes]
-    maps = [table.column(f"C_{words.partition(':')[0]}").reshape(sizes)[tuple(slices)] for words in _BLOCKS]
+    shown = [slice(None, None, -(-size // _MOST)) for size in sizes]
+    slices = tuple(shown[k] if k in long else size // 2 for k, size in enumerate(sizes))
+    maps = [np.array(table.column(f"C_{words.partition(':')[0]}").reshape(sizes)[slices]) for words in _BLOCKS]
     names = [table.poses.names[k] for k in long]
-    ends = [table.poses.axes[k] for k in long]
+    ends = [table.poses.axes[k][shown[k]] for k in long]
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots(2, 2, sharex=True, sharey=True)

@@ -21,10 +21,12 @@ from codegen.measure.evaluations import Task, measured
 from codegen.measure.mobility import Mobility, mobility
 from codegen.measure.mobility_text import lines
 from codegen.mechanics.assembly import Assembly
+from codegen.mechanics.attitude import attitude_program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.plan import Plan, plan
 from codegen.mechanics.system import System
 from codegen.parallel import parallel
+from codegen.passes import simplify
 from codegen.scenes.bill import Bill, bill
 from codegen.scenes.compose import compose
 from codegen.scenes.forms import Choice, choose_forms, constraint_quantities
@@ -41,6 +43,9 @@ from codegen.spec.scene import SCENE_FORMS, Scene
 from codegen.spec.sections import alike
 from flopcount.count import count
 from flopcount.counts import Counts
+
+Check = Callable[[Routine, Pose], Program]
+"""Gives the conditions on the inputs of a routine, by the pose at t = 0."""
 
 Progress = Callable[[str], None]
 """Told what is finished."""
@@ -118,6 +123,7 @@ def generate_scene(
     progress: Progress = lambda _: None,
     measure: bool = False,
     loops: str = "auto",
+    check: Check | None = None,
 ) -> dict[str, bytes]:
     """Generate the package of a scene in memory.
 
@@ -128,6 +134,7 @@ def generate_scene(
         progress: told each routine as it is done.
         measure: whether the README tells what the steps of the bill take on this machine.
         loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
+        check: gives the conditions that a routine of straight-line code asserts in debug builds.
 
     Returns:
         Path below the package's folder -> content.
@@ -162,11 +169,13 @@ def generate_scene(
     )
     casadi = {job.output: data for job, (_, data) in zip(jobs, built, strict=True)}
     first = start(system, judged.pose, state)
-    return scene_files(
-        ScenePackage(
-            scene.name, routines, codegen.__version__, specification, real, scene_record(subject), casadi, first, text
-        )
-    )
+    record = scene_record(subject)
+    made_of = ScenePackage(scene.name, routines, codegen.__version__, specification, real, record, casadi, first, text)
+    if check is not None:
+        straight = [routine for routine in routines if isinstance(routine.program, Program)]
+        checks = {routine.output: check(routine, judged.pose) for routine in straight}
+        made_of = replace(made_of, choices=True, checks=checks)
+    return scene_files(made_of)
 
 
 def _bill(judged: Judged, routines: Sequence[Routine], form: str | None) -> Bill:
@@ -231,6 +240,8 @@ def _built(job: _Job) -> tuple[Program | Looped, bytes]:
 def _program(system: System, job: _Job) -> Program:
     assembly = system.assembly
     match job.output:
+        case "orthonormalise" | "check_orthonormal":
+            return simplify(attitude_program(job.output, len(assembly.scene.bodies), assembly.arrays.is_planar))
         case "mass":
             return mass(assembly.scene, assembly.arrays, len(assembly.columns), system.arguments())
         case "residual":

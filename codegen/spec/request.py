@@ -30,6 +30,15 @@ PRODUCTS = ("phi_q_v", "phi_q_t_lambda")
 OUTPUTS = (*QUANTITIES, *PRODUCTS, "all")
 """Everything that can be asked for; ``all`` is the fused routine."""
 
+BRANCH = "branch"
+"""The check that a joint was closed as it was meant, not on another branch."""
+
+ATTITUDES = ("orthonormalise", "check_orthonormal")
+"""Routines of a rotation matrix, whatever the joint; a package has them where they are asked for."""
+
+ASKED = (*OUTPUTS, BRANCH, *ATTITUDES)
+"""What ``--outputs`` admits."""
+
 PREPARE = "prepare"
 """The routine that prepares the geometry for all others of its variant."""
 
@@ -94,7 +103,7 @@ class Options:
         derivative: see `Variant`.
         variation: see `Variant`.
         real: ``double`` or ``float``.
-        outputs: names out of `OUTPUTS`; empty means all of them.
+        outputs: names out of `ASKED`; empty means all of `OUTPUTS`.
         batch: joints in a group of the batch routines; none means that there are none.
         fma: whether products and sums are fused, explicitly and alike with every compiler.
         geometry: see `Variant`.
@@ -112,6 +121,21 @@ class Options:
     fma: bool = False
     geometry: str = "runtime"
     matrices: str = "orthonormal"
+
+    @property
+    def of_joints(self) -> tuple[str, ...]:
+        """Those of the outputs that are routines of joints; empty for `OUTPUTS` where none is asked for."""
+        return tuple(name for name in self.outputs if name not in ATTITUDES)
+
+    @property
+    def of_attitudes(self) -> tuple[str, ...]:
+        """Those of the outputs that are routines of attitudes."""
+        return tuple(name for name in ATTITUDES if name in self.outputs)
+
+    @property
+    def has_joints(self) -> bool:
+        """Whether routines of joints are asked for."""
+        return bool(self.of_joints) or not self.outputs
 
 
 def incompatibilities(joint: JointType, variant: Variant) -> list[Mistake]:
@@ -221,7 +245,7 @@ def _unknown_values(options: Options) -> list[Mistake]:
         ("--real", options.real, REALS),
         ("--geometry", options.geometry, GEOMETRIES),
         ("--matrices", options.matrices, MATRICES),
-        *(("--outputs", output, OUTPUTS) for output in options.outputs),
+        *(("--outputs", output, ASKED) for output in options.outputs),
     )
     return _unknown_batch(options.batch) + [
         Mistake(name, f'there is no "{value}"', nearest(value, known))

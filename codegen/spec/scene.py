@@ -46,14 +46,18 @@ SCENE_QUANTITIES = (
     "gamma",
     "phi_q_v",
     "phi_q_t_lambda",
+    "branch",
+    "orthonormalise",
+    "check_orthonormal",
     "mass",
     "force",
     "residual",
 )
-"""What a scene may ask for. ``force`` is the right-hand side of ``M a + phi_q^T lambda = force``; ``residual`` is that
-of an implicit integrator, with its Jacobian."""
+"""What a scene may ask for. ``branch``, ``orthonormalise`` and ``check_orthonormal`` are emitted only if named.
+``force`` is the right-hand side of ``M a + phi_q^T lambda = force``; ``residual`` is that of an implicit integrator,
+with its Jacobian."""
 
-KINEMATIC_QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma", "phi_q_v", "phi_q_t_lambda")
+KINEMATIC_QUANTITIES = SCENE_QUANTITIES[:9]
 """Those that need no mass."""
 
 MOTIONS = ("spatial", "planar")
@@ -205,7 +209,7 @@ class Wanted:
     """What is generated of a scene.
 
     Attributes:
-        quantities: of `SCENE_QUANTITIES`; empty for all.
+        quantities: of `SCENE_QUANTITIES`; empty for what `codegen.scenes.generate.wanted` says.
         rows: of the parametric joints, ``regular`` or ``table4``.
         derivative: of the parametric joints, ``exact`` or ``substituted``.
     """

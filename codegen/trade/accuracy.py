@@ -7,25 +7,19 @@ from __future__ import annotations
 
 import statistics
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from codegen import build
-from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
-from codegen.errors import InternalError, Mistake, SpecificationError, nearest
 from codegen.measure.compile import compiler_version
 from codegen.measure.errors import Figures, figures, truth
-from codegen.measure.pose_domain import Block, PoseDomain, blocks
-from codegen.measure.poses import sample_poses
 from codegen.measure.routine_builds import Build, Built, built
-from codegen.measure.row_names import conventional_rows, parametric_rows
-from codegen.spec.request import OUTPUTS, Options, Variant
-from codegen.trade.builds import builds, prepared_for
-from codegen.trade.programs import builds_folder, routines
+from codegen.trade.builds import BASE, prepared_for
+from codegen.trade.programs import builds_folder
+from codegen.trade.requests import Request
+from codegen.trade.specimens import blocks_of, routine_name, sample
 
-SAMPLES = 4096
 STATES = {True: "converged", False: "mid-iteration"}
 _TIMES = 31
 
@@ -33,60 +27,11 @@ Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class AccuracyRequest:
-    """What is measured.
-
-    Attributes:
-        joints: names in the catalogue; none: every routine of the library, in its plain builds.
-        form: see `codegen.spec.request.Variant`; None means both.
-        rows: see there.
-        derivative: see there.
-        output: of the routines that are measured.
-        samples: poses on the constraint, and as many in mid-iteration.
-        is_counted: whether instructions are counted too, where valgrind is installed.
-        domain: bounds of the poses.
-    """
-
-    joints: tuple[str, ...] = ()
-    form: str | None = None
-    rows: str | None = None
-    derivative: str | None = None
-    output: str = "all"
-    samples: int = SAMPLES
-    is_counted: bool = True
-    domain: PoseDomain = field(default_factory=PoseDomain)
-
-    @property
-    def is_full(self) -> bool:
-        """Whether all builds are measured."""
-        return bool(self.joints)
-
-    def variants(self) -> tuple[Variant, ...]:
-        """Choose the variants.
-
-        Raises:
-            SpecificationError: unknown names or options that do not go together; all mistakes at once.
-        """
-        mistakes = []
-        if self.output not in OUTPUTS:
-            mistakes.append(Mistake("--output", f'there is no "{self.output}"', nearest(self.output, OUTPUTS)))
-        if self.samples < 1:
-            mistakes.append(Mistake("--samples", f"{self.samples} is no number of poses", "give 1 or more"))
-        try:
-            chosen = build.variants(Options(self.joints, self.form, self.rows, self.derivative))
-        except SpecificationError as error:
-            mistakes += error.mistakes
-        if mistakes:
-            raise SpecificationError(mistakes)
-        return chosen
-
-
-@dataclass(frozen=True, slots=True)
 class Candidate:
     """One routine in one build, measured.
 
     Attributes:
-        joint: its name.
+        joint: its name, or that of the scene.
         routine: symbol of the routine.
         build: name of the build.
         flags: compiler and flags.
@@ -116,21 +61,21 @@ class Candidate:
         return max((f.eta for found in self.figures.values() for f in found), default=0.0)
 
 
-def measured(request: AccuracyRequest, progress: Progress = lambda _: None) -> tuple[Candidate, ...]:
-    """Measure; the candidates of a joint are timed in turn.
+def measured(request: Request, progress: Progress = lambda _: None) -> tuple[Candidate, ...]:
+    """Measure; the candidates of a joint, or of a scene, are timed in turn.
 
     Raises:
         SpecificationError: the request cannot be met.
     """
-    chosen = builds(request.is_full)
+    chosen = request.builds()
     found: list[Candidate] = []
-    variants = request.variants()
-    for joint in dict.fromkeys(variant.joint for variant in variants):
-        rows = []
-        for variant in (v for v in variants if v.joint == joint):
-            rows += list(_judged(variant, request, chosen, builds_folder()))
-            progress(variant.file_stem)
-        found += _timed(joint, rows, request.is_full and request.is_counted)
+    cases = request.cases()
+    for group in dict.fromkeys(case.group for case in cases):
+        rows: list[_Row] = []
+        for case in (case for case in cases if case.group == group):
+            rows += list(_judged(case.routine(), request, chosen, builds_folder()))
+            progress(case.name)
+        found += _timed(group, rows, len(chosen) > len(BASE) and request.is_counted)
     return tuple(found)
 
 
@@ -141,9 +86,8 @@ class _Row:
     inputs: Any
 
 
-def _judged(variant: Variant, request: AccuracyRequest, chosen: Sequence[Build], folder: Path) -> Iterator[_Row]:
-    """Compile the routine of a variant in every build and judge its errors."""
-    routine = next(r for r in routines(variant) if r.output == request.output)
+def _judged(routine: Routine, request: Request, chosen: Sequence[Build], folder: Path) -> Iterator[_Row]:
+    """Compile a routine in every build and judge its errors."""
     groups: dict[tuple[bool, str, bool], list[Build]] = {}
     for choice in chosen:
         groups.setdefault((choice.fma, choice.real, choice.trigonometry == "given"), []).append(choice)
@@ -154,36 +98,18 @@ def _judged(variant: Variant, request: AccuracyRequest, chosen: Sequence[Build],
             yield from _against_truth(made, request)
 
 
-def _against_truth(made: Sequence[Built], request: AccuracyRequest) -> Iterator[_Row]:
+def _against_truth(made: Sequence[Built], request: Request) -> Iterator[_Row]:
     """Judge builds of one program in one number type."""
     routine, real = made[0].routine, made[0].build.real
-    subject = joint_subject(routine)
     judged = blocks_of(routine)
     found: list[dict[str, tuple[Figures, ...]]] = [{} for _ in made]
     for is_converged, state in STATES.items():
-        arguments = routine.program.arguments
-        poses = sample_poses(subject.joint, subject.variant, arguments, request.domain, request.samples, is_converged)
+        poses = sample(routine, request.domain, request.samples, is_converged)
         known = truth(routine.straight, poses, real)
         for one, states in zip(made, found, strict=True):
             states[state] = figures(known, one.values(known.inputs), judged, request.domain)
     for one, states in zip(made, found, strict=True):
         yield _Row(one, states, known.inputs)
-
-
-def joint_subject(routine: Routine) -> JointSubject:
-    """The joint that a routine is of."""
-    if not isinstance(routine.subject, JointSubject):
-        raise InternalError(f"{routine.symbol} is not of a joint")
-    return routine.subject
-
-
-def blocks_of(routine: Routine) -> tuple[Block, ...]:
-    """The blocks of a routine's outputs."""
-    subject = joint_subject(routine)
-    variant = subject.variant
-    is_conventional = variant.form == "conventional"
-    rows = conventional_rows(subject.joint) if is_conventional else parametric_rows(subject.joint, variant.rows or "")
-    return tuple(block for output in routine.straight.outputs for block in blocks(output, rows))
 
 
 def _timed(joint: str, rows: Sequence[_Row], is_counted: bool) -> list[Candidate]:
@@ -197,7 +123,7 @@ def _timed(joint: str, rows: Sequence[_Row], is_counted: bool) -> list[Candidate
         found.append(
             Candidate(
                 joint,
-                row.built.routine.symbol,
+                routine_name(row.built.routine),
                 choice.name,
                 " ".join((choice.compiler, *choice.flags)),
                 row.figures,
@@ -218,7 +144,7 @@ def front(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
     return tuple(best)
 
 
-def document(request: AccuracyRequest, candidates: Sequence[Candidate]) -> dict[str, Any]:
+def document(request: Request, candidates: Sequence[Candidate]) -> dict[str, Any]:
     """What was measured, as data: errors under ``candidates``, and what depends on the machine under ``advice``."""
     keep = ("joint", "routine", "build", "flags", "figures")
     rows = [asdict(candidate) for candidate in candidates]
@@ -229,6 +155,7 @@ def document(request: AccuracyRequest, candidates: Sequence[Candidate]) -> dict[
     return {
         "samples": request.samples,
         "domain": asdict(request.domain),
+        "request": request.asked(),
         "output": request.output,
         "candidates": [
             {name: row[name] for name in keep} | {"error": c.error, "eta": c.eta}

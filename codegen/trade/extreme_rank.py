@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.measure.double_double import DoubleDouble
+from codegen.measure.draw import sobol_points
 from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
-from codegen.measure.poses import poses_at, sobol_points
+from codegen.measure.poses import poses_at
 from codegen.mechanics.joints import JOINTS
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import joint_subject
 from codegen.trade.extreme_table import Cell, ExtremeTable, routine_of
+from codegen.trade.specimens import joint_subject
 
 _GRID = 72
 """Angles over a turn; 0, half and quarter turns are among them."""

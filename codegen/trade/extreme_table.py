@@ -17,8 +17,8 @@ from codegen.measure.judge import block_errors, by_program, true_values
 from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import Poses, exactly, sample_poses
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import blocks_of, joint_subject
 from codegen.trade.programs import routines
+from codegen.trade.specimens import blocks_of, joint_subject
 
 POSES = 64
 MOST_DIGITS = 17.0

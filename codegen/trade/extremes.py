@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from codegen.trade.extreme_numbers import multipliers, nans
+from codegen.trade.extreme_basins import basins
+from codegen.trade.extreme_engine import engine_rank
+from codegen.trade.extreme_nan import nans
+from codegen.trade.extreme_numbers import lengths, multipliers
 from codegen.trade.extreme_places import angles, distances, drifts, turns
 from codegen.trade.extreme_rank import gimbal_lock, singular_values
 from codegen.trade.extreme_table import ExtremeTable
@@ -17,8 +20,11 @@ TABLES: tuple[Callable[[], ExtremeTable], ...] = (
     drifts,
     singular_values,
     gimbal_lock,
+    engine_rank,
     multipliers,
+    lengths,
     nans,
+    basins,
     newton_table,
 )
 

@@ -16,16 +16,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.emit.routine import Routine
-from codegen.ir.evaluate import evaluate
 from codegen.measure.attitudes import turned
 from codegen.spec.request import Variant
+from codegen.trade.engine import JOINTS, Place, Pose, closed, columns, dense, inputs
 from codegen.trade.extreme_table import Cell, ExtremeTable, routine_of
 
 Array = NDArray[np.float64]
-
-CRANK, ROD = 0.1, 0.3
-"""Lengths, m."""
 
 _ANGLE = 0.9
 """Of the crank, rad."""
@@ -41,9 +37,6 @@ _TURNING = 0.02
 
 _FLOOR = 1e-13
 _MOST = 60
-_ALONG_X = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-"""Joint frame with its third axis along x."""
-
 _QUANTITIES = ("phi", "phi_q", "phi_q_t_lambda", "phi_q_t_lambda_q")
 
 
@@ -77,34 +70,6 @@ SLOW = 1.8
 """An order below this is warned of."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Pose:
-    """Crank, rod, piston: ``r`` [3, 3], ``A`` [3, 3, 3]; joint coordinates [4], multipliers [24]."""
-
-    r: Array
-    A: Array
-    alpha: Array
-    lam: Array
-
-
-@dataclass(frozen=True, slots=True)
-class _Place:
-    """A joint: type, bodies (None: ground), attachment points and frame on both bodies."""
-
-    type: str
-    bodies: tuple[int | None, int]
-    points: tuple[float, float]
-    frame: Array
-
-
-_JOINTS = (
-    _Place("revolute", (None, 0), (0.0, -CRANK / 2), np.eye(3)),
-    _Place("revolute", (0, 1), (CRANK / 2, -ROD / 2), np.eye(3)),
-    _Place("revolute", (1, 2), (ROD / 2, 0.0), np.eye(3)),
-    _Place("translational", (None, 2), (0.0, 0.0), _ALONG_X),
-)
-
-
 def residuals(pairing: Pairing) -> list[float]:
     """Sizes of the residual, step after step, down to rounding."""
     return [size for size, _ in _iterations(pairing)]
@@ -117,7 +82,7 @@ def solution(pairing: Pairing) -> Pose:
 
 
 def _iterations(pairing: Pairing) -> Iterator[tuple[float, Pose]]:
-    target, now = _closed(_ANGLE), _closed(_ANGLE - _START)
+    target, now = closed(_ANGLE), closed(_ANGLE - _START)
     target = Pose(target.r + _PULL, target.A, target.alpha, target.lam)
     for _ in range(_MOST):
         residual, matrix = _system(pairing, now, target)
@@ -154,16 +119,6 @@ def newton_table() -> ExtremeTable:
     )
 
 
-def _closed(angle: float) -> Pose:
-    """The closed engine at an angle of the crank."""
-    tilt = -math.asin(CRANK / ROD * math.sin(angle))
-    pin = CRANK * np.array([math.cos(angle), math.sin(angle), 0.0])
-    end = np.array([pin[0] + ROD * math.cos(tilt), 0.0, 0.0])
-    A = turned(np.stack([np.eye(3)] * 3), np.array([[0, 0, angle], [0, 0, tilt], [0, 0, 0.0]]))
-    alpha = np.array([angle, tilt - angle, -tilt, end[0]])
-    return Pose(np.array([pin / 2, (pin + end) / 2, end]), A, alpha, np.zeros(24))
-
-
 def _moved(now: Pose, step: Array) -> Pose:
     bodies = step[:18].reshape(3, 6)
     r = now.r + np.einsum("bij,bj->bi", now.A, bodies[:, :3])
@@ -174,30 +129,22 @@ def _system(pairing: Pairing, now: Pose, target: Pose) -> tuple[Array, Array]:
     """Residual [46] and matrix [46, 46]."""
     force, matrix = np.zeros(22), np.zeros((46, 46))
     for body, (part, block) in enumerate(_springs(now, target)):
-        columns = slice(6 * body, 6 * body + 6)
-        force[columns] += part
-        matrix[columns, columns] += block
+        own = slice(6 * body, 6 * body + 6)
+        force[own] += part
+        matrix[own, own] += block
     closure = np.zeros(24)
-    for k, place in enumerate(_JOINTS):
+    for k, place in enumerate(JOINTS):
         values = _joint_values(pairing, place, now, k)
         rows = slice(22 + 6 * k, 28 + 6 * k)
         closure[6 * k : 6 * k + 6] = values["phi"][:, 0]
-        for own, column in _columns(place, k):
+        for own, column in columns(place, k):
             force[column] += values["phi_q_t_lambda"][own, 0]
             matrix[rows, column] += values["phi_q"][:, own]
             matrix[column, rows] += values["phi_q"][:, own].T
             if pairing.has_second:
-                for other, second in _columns(place, k):
+                for other, second in columns(place, k):
                     matrix[column, second] += values["phi_q_t_lambda_q"][own, other]
     return np.concatenate([force, closure]), matrix
-
-
-def _columns(place: _Place, k: int) -> Iterator[tuple[slice, slice]]:
-    """Columns of a joint and of the whole: its bodies that move, its coordinate."""
-    for side, body in enumerate(place.bodies):
-        if body is not None:
-            yield slice(6 * side, 6 * side + 6), slice(6 * body, 6 * body + 6)
-    yield slice(12, 13), slice(18 + k, 19 + k)
 
 
 def _springs(now: Pose, target: Pose) -> Iterator[tuple[Array, Array]]:
@@ -221,34 +168,12 @@ def _vee(M: Array) -> Array:
     return np.array([M[2, 1], M[0, 2], M[1, 0]])
 
 
-def _joint_values(pairing: Pairing, place: _Place, now: Pose, k: int) -> dict[str, Array]:
+def _joint_values(pairing: Pairing, place: Place, now: Pose, k: int) -> dict[str, Array]:
     """Values of one joint, dense; ``phi_q`` is that of the matrix."""
     kinds = {"phi": "exact", "phi_q": pairing.matrix, "phi_q_t_lambda": pairing.residual}
     kinds["phi_q_t_lambda_q"] = pairing.matrix
-    i, j = place.bodies
-    points = [np.array([point, 0.0, 0.0]) for point in place.points]
-    frames = [part for point in points for part in (point, place.frame.ravel(order="F"))]
-    inputs = {
-        "r_i": np.zeros(3) if i is None else now.r[i],
-        "A_i": (np.eye(3) if i is None else now.A[i]).ravel(order="F"),
-        "r_j": now.r[j],
-        "A_j": now.A[j].ravel(order="F"),
-        "alpha": now.alpha[k : k + 1],
-        "geometry": np.concatenate(frames),
-        "lambda": now.lam[6 * k : 6 * k + 6],
-    }
-    given = {name: [float(x) for x in values] for name, values in inputs.items()}
+    given = inputs(place, now, k)
     return {
-        name: _dense(routine_of(Variant(place.type, "parametric", "regular", kinds[name]), name), given)
+        name: dense(routine_of(Variant(place.type, "parametric", "regular", kinds[name]), name), given)
         for name in _QUANTITIES
     }
-
-
-def _dense(routine: Routine, given: dict[str, list[float]]) -> Array:
-    (output,) = routine.straight.outputs
-    matrix = np.zeros((output.sparsity.nrow, output.sparsity.ncol))
-    for (row, column), value in zip(
-        output.sparsity.entries(), evaluate(routine.straight, given)[output.name], strict=True
-    ):
-        matrix[row, column] = value
-    return matrix

@@ -9,9 +9,10 @@ import hashlib
 import os
 import pickle
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TypeVar
 
 import codegen
 from codegen import build
@@ -19,8 +20,10 @@ from codegen.emit.environment import template_folder
 from codegen.emit.routine import Routine
 from codegen.spec.request import Variant
 
-_MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "mechanics", "passes", "spec")
-"""What the programs of a joint depend on, below the package."""
+T = TypeVar("T")
+
+_MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "mechanics", "passes", "scenes", "spec")
+"""What programs depend on, below the package."""
 
 _HEADERS = ("c", "measure")
 """Templates that compiled routines depend on."""
@@ -28,12 +31,22 @@ _HEADERS = ("c", "measure")
 
 def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
     """Give the routines of a variant as `codegen.build.routines` does, from the cache where it has them."""
-    name = hashlib.sha256(repr((variant, tuple(outputs), fma)).encode()).hexdigest()[:24]
+    return kept((variant, tuple(outputs), fma), lambda: build.routines(variant, outputs, fma))
+
+
+def kept(what: object, make: Callable[[], T]) -> T:
+    """Give what was made before, or make and keep it.
+
+    Args:
+        what: it is; its text decides.
+        make: from these sources alone.
+    """
+    name = hashlib.sha256(repr(what).encode()).hexdigest()[:24]
     path = cache_folder() / f"{name}.pickle"
     if path.exists():
-        kept: tuple[Routine, ...] = pickle.loads(path.read_bytes())
-        return kept
-    made = build.routines(variant, outputs, fma)
+        found: T = pickle.loads(path.read_bytes())
+        return found
+    made = make()
     _keep(path, pickle.dumps(made))
     return made
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from codegen.ir.lower.read import is_matrix
+from codegen.ir.lower.factors import is_matrix
 from codegen.mechanics.frames import A_ij, A_j, dp_ij
 from codegen.spec.request import QUANTITIES, Variant
 

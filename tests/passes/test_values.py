@@ -21,6 +21,7 @@ from codegen.passes.absorb_negations import absorb_negations
 from codegen.passes.drop_unused import drop_unused
 from codegen.passes.eliminate_zeros import compress, eliminate_zeros
 from codegen.passes.fold_constants import fold_constants
+from codegen.passes.overlap import overlap
 from codegen.passes.pair_sincos import pair_sincos
 from codegen.passes.schedule import schedule
 from codegen.passes.share_subexpressions import share_subexpressions
@@ -33,6 +34,7 @@ BITWISE: tuple[Pass, ...] = (
     share_subexpressions,
     absorb_negations,
     schedule,
+    overlap,
     pair_sincos,
     drop_unused,
     compress,

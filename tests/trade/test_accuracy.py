@@ -16,9 +16,11 @@ from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import sample_poses
 from codegen.measure.routine_builds import NATIVE, SAME_BITS, Build, built
 from codegen.spec.request import Variant
-from codegen.trade.accuracy import AccuracyRequest, Candidate, blocks_of, document, front, measured
+from codegen.trade.accuracy import Candidate, document, front, measured
 from codegen.trade.builds import BASE, builds
 from codegen.trade.programs import routines
+from codegen.trade.requests import AccuracyRequest
+from codegen.trade.specimens import blocks_of
 from tests.cli.runs import invoke
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -97,7 +99,7 @@ def blocks_joint(routine: Any) -> Any:
 
 
 def test_the_command_writes_data_tables_and_fronts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("codegen.trade.accuracy.builds", lambda _: BASE)
+    monkeypatch.setattr("codegen.trade.requests.builds", lambda _: BASE)
     words = ("ball", "--form", "conventional", "--output", "phi", "--samples", "16")
     for _ in range(2):
         result = invoke("accuracy", *words, "-o", tmp_path / "out")

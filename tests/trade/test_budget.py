@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,11 +13,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from codegen.measure.errors import number_type
+from codegen.measure.judge import by_program
 from codegen.measure.pose_domain import PoseDomain
-from codegen.trade.accuracy import AccuracyRequest
+from codegen.spec.request import Variant
 from codegen.trade.budget import Answer, answered, worst_inputs
 from codegen.trade.builds import BASE
+from codegen.trade.domain_checks import joint_check
 from codegen.trade.domain_text import read_domain
+from codegen.trade.programs import routines
+from codegen.trade.requests import AccuracyRequest
+from codegen.trade.specimens import sample
 from tests.cli.runs import REPOSITORY, invoke
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
@@ -26,9 +34,9 @@ FAR = replace(REQUEST, domain=PoseDomain(distance=1e6))
 @pytest.fixture(autouse=True)
 def _few_builds(monkeypatch: pytest.MonkeyPatch) -> None:
     """Double and float: two libraries to compile; a short search."""
-    monkeypatch.setattr("codegen.trade.budget._SAMPLES", 64)
-    monkeypatch.setattr("codegen.trade.budget._SEARCH_ROUNDS", 1)
-    monkeypatch.setattr("codegen.trade.budget.builds", lambda is_full: BASE)
+    monkeypatch.setattr("codegen.trade.judgement.SAMPLES", 64)
+    monkeypatch.setattr("codegen.trade.judgement.SEARCH_ROUNDS", 1)
+    monkeypatch.setattr("codegen.trade.requests.builds", lambda is_full: BASE)
 
 
 def chosen(answer: Answer) -> tuple[str, str]:
@@ -68,7 +76,7 @@ def test_far_from_the_origin_it_is_impossible_and_the_relative_position_is_the_c
 def test_drifted_attitudes_are_cured_by_orthonormalising() -> None:
     answer = answered(replace(REQUEST, domain=PoseDomain(drift=1e-6)), 1e-9)
     assert answer.verdict == "IMPOSSIBLE"
-    assert [cure.name for cure in answer.cures] == ["orthonormalise A_i and A_j"]
+    assert [cure.name for cure in answer.cures] == ["orthonormalise the attitudes"]
 
 
 def test_the_worst_pose_is_told_to_the_bit() -> None:
@@ -108,21 +116,68 @@ def test_the_chosen_routine_is_written(tmp_path: Path) -> None:
     (function,) = manifest["functions"]
     assert function["symbol"] == data["chosen"]["routine"]
     assert function["real"] == data["chosen"]["build"]
+    assert exit_code_at_zero(function, tmp_path) == 0
+    assert exit_code_at_zero(function, tmp_path, "-DJG_ASSERT_DOMAIN") == -signal.SIGABRT
+    assert exit_code_at_zero(function, tmp_path, "-DJG_ASSERT_DOMAIN", "-DNDEBUG") == 0
 
 
-def test_a_scene_is_no_package_of_one_joint(tmp_path: Path) -> None:
-    scene = REPOSITORY / "examples/in_line_engine.toml"
-    result = invoke("budget", scene, "--max-error", "1e-3", "-o", tmp_path / "out")
+def exit_code_at_zero(function: Any, folder: Path, *flags: str) -> int:
+    """Call the routine with attitudes that are zero, and so no rotations."""
+    main = folder / "main.c"
+    call = f"{function['symbol']}(zeros, zeros, zeros, zeros, zeros, phi)"
+    main.write_text(
+        '#include "jointgen/jointgen.h"\n'
+        f"int main(void) {{ static const jg_real zeros[24]; jg_real phi[3]; {call}; return 0; }}\n"
+    )
+    warnings = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror")
+    sources = [str(main), str(folder / "out" / function["source"])]
+    program = folder / "main"
+    command = ["gcc", *warnings, *flags, f"-I{folder / 'out/c/include'}", *sources, "-o", str(program), "-lm"]
+    subprocess.run(command, check=True)
+    return subprocess.run([str(program)], capture_output=True, check=False).returncode
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_the_assertions_hold_just_in_the_domain(real: str) -> None:
+    domain = PoseDomain(s=0.2, drift=1e-6 if real == "double" else 0.0)
+    routine = next(r for r in routines(Variant("translational", "conventional", None)) if r.output == "phi")
+    check = joint_check(domain, real, routine)
+    for is_converged in (True, False):
+        given = sample(routine, domain, 64, is_converged).given(number_type(real))
+        assert outside(check, given) == 0
+    for name, entry, value in (("r_i", 0, 1.1), ("A_j", 4, 0.9), ("geometry", 12, 0.2), ("r_j", 2, np.nan)):
+        spoilt = given[name].copy()
+        spoilt[entry] = value
+        assert outside(check, given | {name: spoilt}) >= 1
+    apart = given | {"r_j": given["r_i"] + np.array([[0.0], [0.0], [2.0]], dtype=given["r_i"].dtype)}
+    assert outside(check, apart) >= 1
+
+
+def outside(check: Any, given: Any) -> float:
+    """Most conditions that are broken at a pose."""
+    return float(np.max(by_program(check)(given)["outside"][0]))
+
+
+def test_the_routine_of_a_scene_is_judged_and_written(tmp_path: Path) -> None:
+    words = ("--max-error", "1e-8", "--form", "conventional", "--output", "phi", "--json")
+    result = invoke("budget", REPOSITORY / "examples/four_bar.toml", *words, "-o", tmp_path / "out")
+    assert result.exit_code == 0, result.stderr
+    data = json.loads(result.stdout)
+    assert (data["verdict"], data["chosen"]["build"]) == ("PROVEN", "double")
+    assert data["request"] == {"scene": "four_bar", "form": "conventional", "output": "phi"}
+    assert data["domain"]["s"] < 1.0
+    (function,) = json.loads((tmp_path / "out/manifest.json").read_text())["functions"]
+    assert f"{function['symbol']} --form conventional" == data["chosen"]["routine"]
+
+
+def test_what_a_scene_has_no_choice_of_is_refused() -> None:
+    scene = str(REPOSITORY / "examples/four_bar.toml")
+    result = invoke("budget", scene, "--max-error", "1e-8", "--rows", "regular", "--derivative", "exact")
     assert result.exit_code == 2
-    assert result.stderr.startswith("-o: ")
-
-
-def test_every_type_of_joint_of_a_scene_is_judged() -> None:
-    code, data = command(str(REPOSITORY / "examples/in_line_engine.toml"), "--max-error", "1e-8")
-    assert code == 0
-    names = [one["request"]["joints"][0] for one in data]
-    assert names == ["revolute", "translational"]
-    assert all(one["domain"]["s"] < 1.0 for one in data)
+    assert [line.partition(":")[0] for line in result.stderr.splitlines()] == ["--rows", "--derivative"]
+    result = invoke("budget", scene, "--max-error", "0", "--form", "free", "--output", "phy", "--domain", "distance=1")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 4
 
 
 def test_no_error_is_no_budget() -> None:

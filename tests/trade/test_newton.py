@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codegen.trade.newton import CRANK, PAIRINGS, ROD, SLOW, Pairing, newton_table, order, residuals, solution
+from codegen.trade.engine import CRANK, ROD
+from codegen.trade.newton import PAIRINGS, SLOW, Pairing, newton_table, order, residuals, solution
 
 LIMITS = {"exact": (1.8, 2.3), "substituted": (1.8, 2.3), "mixed": (1.2, 1.7), "no second derivative": (0.9, 1.1)}
 

@@ -99,7 +99,7 @@ def test_the_literal_form_loses_half_of_the_digits_at_repeated_values_and_the_ot
 
     def worst(variant: str) -> float:
         outputs = found(SEMI_REGULAR.platform(variant), ("values",), home)
-        return max(errors(outputs, expected, ("values",)))
+        return float(errors(outputs, expected, ("values",)).max())
 
     assert worst("literal") > 1e-10
     assert worst("fast") < 1e-14

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import tracemalloc
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,10 +16,12 @@ from scipy.spatial.transform import Rotation
 from codegen.errors import SpecificationError
 from codegen.platforms.attitudes import attitude_array, rotations_of
 from codegen.platforms.generate import home_arguments
-from codegen.platforms.grid import for_grid, grid, poses_of_file
+from codegen.platforms.grid import Poses, for_grid, grid, poses_of_file
 from codegen.platforms.hexagons import conditions, hexagons
+from codegen.platforms.results import results_file
 from codegen.platforms.run import chosen_poses, evaluated
-from codegen.platforms.sweep import CHUNK, Kernel, kernel, sweep
+from codegen.platforms.spool import CHUNK, spool
+from codegen.platforms.sweep import Kernel, Progress, kernel, sweep
 from codegen.report.platform_report import platform_report
 from codegen.spec.platform import ATTITUDES
 from codegen.spec.platform_file import read_platform
@@ -38,6 +42,13 @@ def compiled() -> Kernel:
     return kernel(PLATFORM)
 
 
+def swept(poses: Poses, progress: Progress = lambda _: None, threads: int | None = None) -> Any:
+    """All that a sweep finds, [columns, poses]."""
+    found = spool(len(poses.names) + len(compiled().names()), poses.count)
+    sweep(compiled(), poses, found, progress, threads)
+    return found.rows(0, poses.count)
+
+
 def test_a_grid_has_every_combination_and_home_where_nothing_is_said() -> None:
     poses = grid("x=-0.2:0.2:3,yaw=-90deg:90deg:5")
     assert poses.count == 15 and poses.names == ("x", "yaw")
@@ -56,7 +67,7 @@ def test_a_grid_around_a_turned_home_turns_about_axes_of_the_base() -> None:
 
 def test_the_compiled_sweep_gives_the_numbers_of_the_program_at_every_pose() -> None:
     poses = grid("x=-0.3:0.3:5,z=0.6:1.2:3,roll=-0.2:0.2:3,yaw=-0.5:0.5:3")
-    values = sweep(compiled(), poses)
+    values = swept(poses)
     columns = poses.columns(0, poses.count)
     where = [
         (np.array([x, 0, z]), Rotation.from_euler("xyz", [roll, 0, yaw]).as_matrix()) for x, z, roll, yaw in columns.T
@@ -70,9 +81,23 @@ def test_the_compiled_sweep_gives_the_numbers_of_the_program_at_every_pose() -> 
 def test_pieces_and_threads_change_no_bit() -> None:
     poses = grid(f"x=-0.3:0.3:{CHUNK // 4 + 3},yaw=-0.5:0.5:9")
     told: list[str] = []
-    many, one = sweep(compiled(), poses, told.append, threads=3), sweep(compiled(), poses, threads=1)
+    many, one = swept(poses, told.append, threads=3), swept(poses, threads=1)
     assert (many == one).all()
     assert len(told) == -(-poses.count // CHUNK)
+
+
+def test_memory_does_not_grow_with_the_number_of_poses(tmp_path: Path) -> None:
+    poses = grid(f"x=-0.3:0.3:{4 * CHUNK},yaw=-0.5:0.5:9")
+    found = spool(2 + len(compiled().names()), poses.count, tmp_path)
+    tracemalloc.start()
+    sweep(compiled(), poses, found, threads=2)
+    with (tmp_path / "poses.npz").open("wb") as file:
+        results_file(("x", "yaw", *compiled().names()), found, "npz")["poses.npz"](file)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < found.columns * found.count * 8 / 3
+    with np.load(tmp_path / "poses.npz") as table:
+        assert (table["status"] == found.rows(0, found.count)[-1]).all()
 
 
 @pytest.mark.parametrize("attitude", ATTITUDES)

@@ -7,15 +7,12 @@ scalar times the rotation between its two frames, and the skew map of a vector.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import GENERAL, Alternative, cross_cost
 from codegen.ir.lower.collect import common_coefficient
+from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.polynomial import ONE, Polynomial, total
 from codegen.ir.lower.quantities import Axis, Dyadic, Vector
-
-if TYPE_CHECKING:
-    from codegen.ir.lower.layout import Layout
 
 _KNOWN = 24
 """How many blocks between the same frames are looked through."""

@@ -9,6 +9,7 @@ import sympy
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Prices
+from codegen.ir.lower.factors import Symbols, is_matrix, transposed_factor
 from codegen.ir.lower.frames import FrameTree, Matrix
 from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.naming import Naming
@@ -16,7 +17,7 @@ from codegen.ir.lower.outputs import Block, SymbolicOutput
 from codegen.ir.lower.places import Places, stand_in
 from codegen.ir.lower.polynomial import ZERO, Polynomial
 from codegen.ir.lower.quantities import Axis, Given, Vector
-from codegen.ir.lower.read import Reader, Symbols, is_matrix, transposed_factor
+from codegen.ir.lower.read import Reader
 from codegen.ir.lower.space import Space
 
 Demand = tuple[int, int, str, Any]
@@ -127,7 +128,7 @@ class Demands:
             vector = self._reader.vector(_transposed(expression), columns[block.column])
             return [(*place, "row", self.layout.vector(vector, columns[block.column]))] if vector else []
         if expression.shape == (3, 1):
-            frame = rows.get(block.row) or self._reader.frame_of(expression)
+            frame = rows.get(block.row) or self._reader.factors.frame_of(expression)
             if frame is None:
                 raise InternalError(f"in which frame is {expression}?")
             if self._reader.raw:
@@ -137,7 +138,10 @@ class Demands:
         if width > 3:
             row_frame, column_frame = rows.get(block.row), columns.get(block.column)
         else:
-            row_frame, column_frame = self._reader.frame_of(expression), self._reader.frame_of(_transposed(expression))
+            row_frame, column_frame = (
+                self._reader.factors.frame_of(expression),
+                self._reader.factors.frame_of(_transposed(expression)),
+            )
         if row_frame is None or column_frame is None:
             raise InternalError(f"between which frames is {expression}?")
         dyadic = self._reader.map(expression, row_frame, column_frame)

@@ -16,6 +16,7 @@ from codegen.ir.lower.outputs import SymbolicOutput
 from codegen.ir.lower.places import Places
 from codegen.ir.lower.scalarise import Entries, Scalariser
 from codegen.ir.lower.search import Choice, Graph
+from codegen.ir.lower.ways import lay_out
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 
@@ -105,7 +106,7 @@ class _Searched:
         self._outputs = part.outputs
         self._demands = Demands(part.places, inputs, prices)
         self._found = {output.name: self._demands.of(output) for output in part.outputs}
-        self._graph: Graph = self._demands.layout.lay_out()
+        self._graph: Graph = lay_out(self._demands.layout)
         nodes = list(dict.fromkeys(demand[3][1] for found in self._found.values() for demand in found))
         self.choices = choose(self._graph, nodes)
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from codegen.ir.lower.alternatives import Alternative, turn_cost
+from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.polynomial import ONE
 from codegen.ir.lower.quantities import Cross, Named, Vector
 from codegen.ir.lower.vector_forms import given, read, sums
-
-if TYPE_CHECKING:
-    from codegen.ir.lower.layout import Layout
 
 
 def alternatives(layout: Layout, kind: str, vector: Vector, frame: str) -> tuple[Alternative, ...]:

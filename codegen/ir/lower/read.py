@@ -6,47 +6,22 @@ between the world and body i. What is left are vectors, their products, and scal
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import sympy
-from sympy.matrices.expressions.matexpr import MatrixExpr
 from sympy.matrices.matrixbase import MatrixBase
 
 from codegen.errors import InternalError
+from codegen.ir.lower.factors import Factors, Symbols, is_power, transposed_factor
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.operators import Dot, Tilde
-from codegen.ir.lower.places import SameAxes, stand_in
+from codegen.ir.lower.places import stand_in
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, number
 from codegen.ir.lower.quantities import Axis, Dyadic, Given, Named, Vector, combined
 from codegen.ir.lower.space import Space
-
-
-@dataclass(frozen=True)
-class Symbols:
-    """What the symbols of a model are.
-
-    Attributes:
-        rotations: rotation matrix -> (a, b), it turns components in frame b to components in frame a.
-        frames: vector symbol -> the frame its components are in.
-        stages: symbol -> definition.
-        axes: frames whose axes have a meaning, so that a vector written in them is a sum of axes.
-        whole: stages that are vectors or scalars of their own, not the sums that define them.
-        constants: vector symbol -> its components, where these are numbers or scalar symbols.
-        same_axes: axis -> sign and axis that stands for it.
-    """
-
-    rotations: Mapping[Any, tuple[str, str]]
-    frames: Mapping[Any, str]
-    stages: Mapping[Any, Any]
-    axes: frozenset[str]
-    whole: frozenset[Any] = frozenset()
-    constants: Mapping[Any, Any] = field(default_factory=dict)
-    same_axes: SameAxes = field(default_factory=dict)
-
 
 Definitions = dict[str, tuple[str, tuple[Polynomial, ...]]]
 """Stage scalar -> function and arguments."""
@@ -62,6 +37,7 @@ class Reader:
     Attributes:
         given: components of vectors that an expression writes out, by frame and name.
         definitions: scalars that are no polynomials: quotients, sines, arc tangents.
+        factors: what rotations among the factors of a product say of frames.
         raw: whether scalar products are taken with the rotation matrices as they are.
     """
 
@@ -70,6 +46,7 @@ class Reader:
         self.given: dict[tuple[str, str], Components] = {}
         self.definitions: Definitions = {}
         self.raw = False
+        self.factors = Factors(symbols)
         self._symbols = symbols
         self._vectors: dict[Any, Vector] = {}
 
@@ -77,7 +54,7 @@ class Reader:
 
     def vector(self, expression: Any, frame: str | None = None) -> Vector:
         """Read a [3] expression whose components are in ``frame``, or in the frame that its factors say."""
-        frame = frame or self.frame_of(expression)
+        frame = frame or self.factors.frame_of(expression)
         if isinstance(expression, sympy.MatAdd):
             return combined((ONE, self.vector(term, frame)) for term in expression.args)
         if isinstance(expression, sympy.MatMul):
@@ -124,21 +101,14 @@ class Reader:
         if not rest:
             return self.vector(first, frame)
         if isinstance(first, Tilde):
-            frame = frame or self.frame_of(sympy.MatMul(*factors))
+            frame = frame or self.factors.frame_of(sympy.MatMul(*factors))
             return self.space.cross(self.vector(first.vector, frame), self._chain(rest, frame))
-        if self._turn(first) is not None:
-            return self._chain(rest, self._turn(first)[1])  # type: ignore[index]
+        if self.factors.turn(first) is not None:
+            return self._chain(rest, self.factors.turn(first)[1])  # type: ignore[index]
         if first.shape[1] == 1:
             raise InternalError("a column inside a product that is a vector")
-        inner = self._frame_within(rest, frame)
+        inner = self.factors.frame_within(rest, frame)
         return self.space.apply(self.map(first, frame, inner), self._chain(rest, inner))
-
-    def _frame_within(self, rest: Sequence[Any], frame: str | None) -> str | None:
-        """The frame that a written-out matrix turns from: that of what stands behind it, where known, or its own."""
-        if not rest:
-            return frame
-        turn = self._turn(rest[0])
-        return turn[0] if turn is not None else self._symbols.frames.get(rest[0], frame)
 
     def _explicit(self, entries: list[Any], frame: str | None) -> Vector:
         if frame is None:
@@ -171,29 +141,6 @@ class Reader:
             return "_".join([*prefixes, *(str(atom).rpartition("_")[2] for atom in atoms)])
         return f"vector_{len(self.given)}"
 
-    def _turn(self, factor: Any) -> tuple[str, str] | None:
-        """Frames that a rotation leads to and from."""
-        if isinstance(factor, sympy.Transpose) and factor.arg in self._symbols.rotations:
-            a, b = self._symbols.rotations[factor.arg]
-            return b, a
-        return self._symbols.rotations.get(factor)
-
-    def frame_of(self, expression: Any) -> str | None:
-        """The frame that the rows of an expression are in, where a factor says it."""
-        turn = self._turn(expression)
-        if turn is not None:
-            return turn[0]
-        if isinstance(expression, sympy.MatrixSymbol):
-            if expression in self._symbols.frames:
-                return self._symbols.frames[expression]
-            return self.frame_of(self._symbols.stages[expression])
-        if isinstance(expression, Tilde):
-            return self.frame_of(expression.vector)
-        if isinstance(expression, sympy.MatAdd | sympy.MatMul):
-            factors = expression.args if isinstance(expression, sympy.MatAdd) else expression.as_coeff_matrices()[1]
-            return next((frame for frame in map(self.frame_of, factors) if frame is not None), None)
-        return None
-
     # --- maps
 
     def map(self, expression: Any, rows: str | None, columns: str | None) -> Dyadic:
@@ -206,7 +153,7 @@ class Reader:
         if isinstance(expression, sympy.MatMul):
             coefficient, factors = expression.as_coeff_matrices()
             return self._map_chain(tuple(factors), rows, columns).times(self.scalar(coefficient))
-        if self._turn(expression) is not None or isinstance(expression, sympy.Identity):
+        if self.factors.turn(expression) is not None or isinstance(expression, sympy.Identity):
             return Dyadic({}, ONE)
         if isinstance(expression, sympy.Transpose):
             return self.map(expression.arg, columns, rows).transposed
@@ -240,12 +187,12 @@ class Reader:
         result = Dyadic({}, ONE)
         frame = rows
         for k, factor in enumerate(factors):
-            turn = self._turn(factor)
+            turn = self.factors.turn(factor)
             if turn is not None:
                 frame = turn[1]
             else:
-                frame = frame or self.frame_of(factor)
-                inner = self._frame_within(factors[k + 1 :], frame)
+                frame = frame or self.factors.frame_of(factor)
+                inner = self.factors.frame_within(factors[k + 1 :], frame)
                 result = self.space.compose(result, self.map(factor, frame, inner))
                 frame = inner
         return result
@@ -269,7 +216,7 @@ class Reader:
         return self._function(expression)
 
     def _dot(self, left: Any, right: Any) -> Polynomial:
-        frame = self.frame_of(left) or self.frame_of(right)
+        frame = self.factors.frame_of(left) or self.factors.frame_of(right)
         u, w = self.vector(left, frame), self.vector(right, frame)
         return self.space.raw_dot(u, w) if self.raw else self.space.dot(u, w)
 
@@ -331,22 +278,3 @@ class Reader:
         if exponent == sympy.Rational(1, 2):
             return "sqrt", (base,)
         raise InternalError(f"no reading of exponent {exponent}")
-
-
-def is_power(expression: Any) -> bool:
-    """Whether a scalar is a product of equal factors."""
-    return isinstance(expression, sympy.Pow) and bool(expression.exp.is_Integer) and expression.exp > 0
-
-
-def is_matrix(expression: Any) -> bool:
-    """Whether an expression is a vector or matrix."""
-    return isinstance(expression, MatrixExpr | MatrixBase)
-
-
-def transposed_factor(factor: Any) -> Any:
-    """The transpose of a factor of a product."""
-    if isinstance(factor, sympy.Transpose):
-        return factor.arg
-    if isinstance(factor, Tilde):
-        return sympy.MatMul(-1, factor)
-    return factor.T if isinstance(factor, MatrixBase) else sympy.Transpose(factor)

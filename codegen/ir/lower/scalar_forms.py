@@ -6,16 +6,12 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import Alternative, Prices, dot_cost
 from codegen.ir.lower.collect import scalar_products
+from codegen.ir.lower.layout import Layout, Signed
 from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
 from codegen.ir.lower.quantities import Vector
-
-if TYPE_CHECKING:
-    from codegen.ir.lower.layout import Layout, Signed
-
 
 _KNOWN = 20
 """How many products are looked through for one that is a factor of another."""

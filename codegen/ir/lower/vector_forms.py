@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from functools import reduce
-from typing import TYPE_CHECKING
 
 from codegen.ir.lower.alternatives import GENERAL, UNIT, Alternative, cross_cost, turn_cost
 from codegen.ir.lower.collect import cross_products
 from codegen.ir.lower.frames import Components
+from codegen.ir.lower.layout import Layout, Signed
 from codegen.ir.lower.polynomial import ONE, Polynomial
 from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Vector
-
-if TYPE_CHECKING:
-    from codegen.ir.lower.layout import Layout, Signed
 
 _KNOWN = 60
 """How many sums are looked through for one that is part of another."""

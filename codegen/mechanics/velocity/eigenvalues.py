@@ -62,28 +62,27 @@ def angle(stages: Stages, name: str, A: sympy.Matrix) -> Angle:
     def stage(what: str, *values: sympy.Expr, words: str) -> list[sympy.Expr]:
         return list(stages.stage(f"{what}_{name}", sympy.Matrix(list(values)), words))
 
-    g = stage("g", A[0, 0] - A[1, 1], A[1, 1] - A[2, 2], A[0, 0] - A[2, 2], words="differences of the diagonal")
-    sums = stage("sums", g[0] + g[2], g[1] - g[0], words="three times the deviator's diagonal 1, 2")
-    trace, third = stage("trace", A[0, 0] + A[1, 1] + A[2, 2], g[1] + g[2], words="trace; minus three times b_33")
-    (mean,) = stage("mean", trace / 3, words="mean of the eigenvalues")
-    b = stage("b", sums[0] / 3, sums[1] / 3, -third / 3, words="diagonal of the deviator")
+    d, *g = stage("g", A[0, 0] - A[1, 1], A[1, 1] - A[2, 2], A[0, 0] - A[2, 2], words="differences of the diagonal")
+    trace, third = stage("trace", A[0, 0] + A[1, 1] + A[2, 2], g[0] + g[1], words="trace; minus three times b_33")
+    mean, last = stage("mean", trace / 3, -third / 3, words="mean of the eigenvalues; b_33")
     off = [A[0, 1], A[0, 2], A[1, 2]]
     squares = stage(
         "squares",
-        b[0] * b[0] + b[1] * b[1] + b[2] * b[2],
-        off[0] * off[0] + off[1] * off[1] + off[2] * off[2],
-        words="squares of the deviator, on and off the diagonal",
+        d * d,
+        last * last,
+        sum(entry * entry for entry in off),
+        words="squares of differences, b_33, entries",
     )
-    (square,) = stage("square", squares[0] / 6 + squares[1] / 3, words="p^2")
+    (square,) = stage("square", squares[0] / 12 + squares[1] / 4 + squares[2] / 3, words="p^2")
     (p,) = stage("p", sympy.sqrt(square), words="|B| / sqrt 6")
     (scale,) = stage("scale", Select(p, TINY, 0, 1 / p), words="1 / p, 0 for a multiple of the identity")
-    x, y, z, u, v, w = stage(
-        "B", *(value * scale for value in (*b, *off)), words="deviator over p: diagonal, then entries 12, 13, 23"
+    d, z, u, v, w = stage(
+        "B", *(value * scale for value in (d, last, *off)), words="over p: b_11 - b_22, b_33, entries 12, 13, 23"
     )
-    (d,) = stage("d", g[0] * scale, words="B_11 - B_22")
-    c, s = _threefold(stage, (x, y, z, u, v, w), d)
-    cosine, sine = _third(stage, c, s)
-    return Angle(mean, p, cosine, sine, c, sympy.Matrix([[x, u, v], [u, y, w], [v, w, z]]))
+    x, minus_y = stage("xy", (d - z) / 2, (d + z) / 2, words="b_11, -b_22")
+    c, s, ss = _threefold(stage, (x, minus_y, z, u, v, w), d)
+    cosine, sine = _third(stage, c, s, ss)
+    return Angle(mean, p, cosine, sine, c, sympy.Matrix([[x, u, v], [u, -minus_y, w], [v, w, z]]))
 
 
 Stage = Callable[..., list[sympy.Expr]]
@@ -117,38 +116,38 @@ def three_of(stages: Stages, name: str, found: Angle) -> tuple[sympy.Expr, ...]:
     return tuple(stages.stage(f"lambda_{name}", values, "eigenvalues"))
 
 
-def _threefold(stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """Cosine and sine of 3 phi, of the deviator with p = 1."""
-    x, y, z, u, v, w = B
-    C = stage("BB", v * w - u * z, u * w - v * y, u * v - w * x, words="off-diagonal entries 12, 13, 23 of B^2")
-    vv, ww = stage("ww", v * v, w * w, words="B_13^2, B_23^2")
-    e, f = stage("e", (vv - ww) - d * z, (vv + ww) + (z * z - 2), words="C_11 - C_22; deviator of C_33")
-    minors = _minors(stage, (d, z, u, v, w), (e, f, *C))
-    groups = stage(
-        "groups",
-        minors[0] ** 2,
-        sum(m**2 for m in minors[1:4]),
-        sum(m**2 for m in minors[4:7]),
-        sum(m**2 for m in minors[7:]),
-        words="squares of the minors of (B, B^2)",
-    )
-    weighted = groups[0] / 48 + groups[1] / 36 + groups[2] / 12 + groups[3] / 9
-    (square,) = stage("sine_2", weighted, words="sin^2(3 phi), the discriminant over 108")
-    (cofactor,) = stage("xy", x * y - u * u, words="cofactor of B_33")
-    (determinant,) = stage("det", z * cofactor + v * C[1] + w * C[2], words="det B")
+def _threefold(stage: Stage, B: tuple[sympy.Expr, ...], d: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
+    """Cosine, sine and its square, of 3 phi, of the deviator with p = 1; ``B^2 = adj B + 3 I``."""
+    x, minus_y, z, u, v, w = B
+    C = stage("BB", v * w - u * z, u * w + v * minus_y, u * v - w * x, words="entries 12, 13, 23 of B^2")
+    (minus,) = stage("cofactor", x * minus_y + u * u, words="minus the cofactor of B_33")
+    e, f = stage("e", (v * v - w * w) - d * z, 1 - minus, words="C_11 - C_22; deviator of C_33")
+    (square,) = stage("sine_2", _discriminant(stage, (d, z, u, v, w), (e, f, *C)), words="sin^2(3 phi)")
+    (determinant,) = stage("det", v * C[1] + w * C[2] - z * minus, words="det B")
     c, s = stage("cs", determinant / 2, sympy.sqrt(square), words="cos 3 phi, sin 3 phi")
-    return c, s
+    return c, s, square
 
 
-def _minors(stage: Stage, b: tuple[sympy.Expr, ...], c: tuple[sympy.Expr, ...]) -> list[sympy.Expr]:
-    """2 x 2 minors of two vectors, the pairs in order."""
-    pairs = [(i, k) for i in range(5) for k in range(i + 1, 5)]
-    return stage("minors", *(b[i] * c[k] - b[k] * c[i] for i, k in pairs), words="2 x 2 minors of B and B^2")
+def _discriminant(stage: Stage, b: tuple[sympy.Expr, ...], c: tuple[sympy.Expr, ...]) -> sympy.Expr:
+    """The Gram determinant of I, B and C = B^2 over 108, by the 2 x 2 minors of both vectors (d, z, u, v, w).
+
+    With the minors ``[ik]`` it is ``[dz]^2 / 48 + ([du]^2 + [dv]^2 + [dw]^2) / 36 + ([zu]^2 + [zv]^2 + [zw]^2) / 12 +
+    ([uv]^2 + [uw]^2 + [vw]^2) / 9``. As B and B^2 commute, ``[vw] = -[du]``, ``3 [zv] = [dv] + 2 [uw]`` and ``3 [zw] =
+    2 [uv] - [dw]``: three minors less. What is left is positive for any values of the others.
+    """
+    pairs = ((0, 1), (0, 2), (1, 2), (0, 3), (2, 4), (0, 4), (2, 3))
+    minors = stage("minors", *(b[i] * c[k] - b[k] * c[i] for i, k in pairs), words="minors of B and B^2")
+    dz, du, zu, dv, uw, dw, uv = minors
+    sums = stage("tangled", dv + uw, dw - uv, words="[dv] + [uw], [dw] - [uv]")
+    parts = stage("forms", dv * sums[0] + dw * sums[1], uv * uv + uw * uw, words="parts of two positive forms")
+    return (
+        dz * dz / 48 + du * du * sympy.Rational(5, 36) + zu * zu / 12 + parts[0] / 27 + parts[1] * sympy.Rational(4, 27)
+    )
 
 
-def _third(stage: Stage, c: sympy.Expr, s: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+def _third(stage: Stage, c: sympy.Expr, s: sympy.Expr, ss: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     """Cosine and sine of a third of an angle in [0, pi]."""
-    ss, cs = stage("powers", s * s, c * s, words="sin^2 3 phi, cos 3 phi sin 3 phi")
+    (cs,) = stage("powers", c * s, words="cos 3 phi sin 3 phi")
     k = [_decimal(text) for text in _TANGENT]
     inner = stage("fit", k[4] + k[5] * c + k[6] * s, k[0] + k[1] * c + k[2] * s + k[3] * cs, words="parts of t")
     (t,) = stage("t", inner[1] + ss * inner[0], words="tan(phi_0 / 2), right to 8e-4")

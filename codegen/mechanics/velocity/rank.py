@@ -8,9 +8,10 @@ import sympy
 
 from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.spectra import Spectrum
-from codegen.mechanics.velocity.triangular import TINY
 
-PARTNERS = {"sigma": "gamma", "gamma": "", "beta": "", "alpha": "beta"}
+_HALF = sympy.Rational(1, 2)
+
+PARTNERS = {"sigma": "gamma", "alpha": "beta"}
 """``|det J| = D_sigma D_gamma = D_beta D_alpha``: where J is singular and gamma (beta) is not, sigma (alpha) is."""
 
 
@@ -32,31 +33,35 @@ def judged(stages: Stages, spectra: dict[str, Spectrum]) -> Judged:
 
     Args:
         stages: gets the steps.
-        spectra: of all four blocks, with three values each.
+        spectra: of all four blocks, with values and what is lost.
     """
-    least = {name: spectrum.values[2] for name, spectrum in spectra.items()}
+    lost = {name: spectrum.lost for name, spectrum in spectra.items()}
 
-    def lower(a: str, x: sympy.Expr, y: sympy.Expr) -> sympy.Expr:
-        return _stage(stages, a, Select(x, y, x, y), "the lesser")
+    def greater(a: str, x: sympy.Expr, y: sympy.Expr) -> sympy.Expr:
+        return _stage(stages, a, Select(x, y, y, x), "the greater")
 
-    any_zero = lower(
-        "of_all", lower("of_v", least["sigma"], least["beta"]), lower("of_w", least["alpha"], least["gamma"])
+    any_lost = greater(
+        "of_all", greater("of_v", lost["sigma"], lost["beta"]), greater("of_w", lost["alpha"], lost["gamma"])
     )
-    found = {}
-    for name, spectrum in spectra.items():
-        last = least[name]
-        if PARTNERS[name]:
-            if_singular = Select(TINY, least[PARTNERS[name]], 0, last)
-            if_singular = _stage(stages, f"if_singular_{name}", if_singular, "least value if J is singular")
-            last = _stage(stages, f"{name}_3", Select(any_zero, TINY, if_singular, last), f"least of {name}")
-        D = _stage(stages, f"volume_{name}", Select(last, TINY, 0, spectrum.D), f"D of {name}")
-        first = _stage(stages, f"{name}_1", Select(spectrum.values[0], TINY, 1, spectrum.values[0]), "not 0")
-        C = _stage(stages, f"C_{name}", first / last, "infinite if singular")
-        found[name] = Spectrum(D, (spectrum.values[0], spectrum.values[1], last), C)
-    bits = [(least["beta"], 1), (least["gamma"], 2), (any_zero, 4)]
-    flags = [_stage(stages, f"bit_{bit}", Select(x, TINY, bit, 0), "rank is lacking") for x, bit in bits]
+    infinity = _stage(stages, "infinity", 1 / (1 - any_lost), "infinite if some value is lost")
+    for name, partner in PARTNERS.items():
+        blame = _stage(stages, f"blame_{name}", any_lost - lost[partner], f"1 if J is singular and {partner} is not")
+        lost[name] = greater(f"lost_{name}_too", lost[name], blame)
     number = _stage(stages, "bit_8", Select(-1, spectra["beta"].values[0], 0, 8), "8 if there is no number")
-    return Judged(found, sympy.Matrix([sum(flags, number)]))
+    status = lost["beta"] + 2 * lost["gamma"] + 4 * any_lost + number
+    return Judged(
+        {name: _without(stages, name, spectrum, lost[name], infinity) for name, spectrum in spectra.items()},
+        sympy.Matrix([status]),
+    )
+
+
+def _without(stages: Stages, name: str, spectrum: Spectrum, lost: sympy.Expr, infinity: sympy.Expr) -> Spectrum:
+    """A spectrum of which the least value is 0 where it is lost."""
+    first, middle, last = spectrum.values
+    last = _stage(stages, f"{name}_3", Select(lost, _HALF, last, 0), f"least of {name}")
+    D = _stage(stages, f"volume_{name}", Select(lost, _HALF, spectrum.D, 0), f"D of {name}")
+    C = _stage(stages, f"C_{name}", Select(lost, _HALF, spectrum.C, infinity), "infinite if singular")
+    return Spectrum(D, (first, middle, last), C)
 
 
 def _stage(stages: Stages, name: str, value: sympy.Expr, words: str) -> sympy.Expr:

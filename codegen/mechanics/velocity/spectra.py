@@ -11,6 +11,8 @@ from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.eigenvalues import all_three, largest
 from codegen.mechanics.velocity.triangular import TINY, Triangle
 
+_HALF = sympy.Rational(1, 2)
+
 
 @dataclass(frozen=True)
 class Spectrum:
@@ -19,12 +21,14 @@ class Spectrum:
     Attributes:
         D: product of the three.
         values: in descending order; none where only their product is known.
-        C: the condition number, where it is not the ratio of the values.
+        C: the condition number; wrong where the least value is lost.
+        lost: 1 where the least value cannot be told from 0, and 0 elsewhere.
     """
 
     D: sympy.Expr
     values: tuple[sympy.Expr, ...] = ()
     C: sympy.Expr | None = None
+    lost: sympy.Expr = 0
 
 
 def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:
@@ -37,12 +41,14 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     """
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
-    greatest = stage("greatest", sympy.sqrt(largest(stages, triangle.name, gram(stages, triangle))), "greatest value")
-    of_inverse = gram_of_inverse(stages, triangle)
-    reciprocal = stage("reciprocal", sympy.sqrt(largest(stages, f"inv_{triangle.name}", of_inverse)), "1 / least value")
-    least = stage("least", Select(product, TINY, 0, 1 / reciprocal), "least value; 0 for a dependent column")
-    least = stage("last", Select(least, limit, 0, least), "least value, or 0")
-    return Spectrum(product, (greatest, _middle(stages, triangle, product, greatest, least), least))
+    first = largest(stages, triangle.name, gram(stages, triangle))
+    last = largest(stages, f"inv_{triangle.name}", gram_of_inverse(stages, triangle))
+    is_rounding = stage("below", Select(1 / limit**2, last, 1, 0), "1 if the least value is rounding")
+    lost = stage("lost", Select(product, TINY, 1, is_rounding), "1 also for a dependent column")
+    C = stage("ratio", sympy.sqrt(first * last), "greatest value over least")
+    greatest = stage("greatest", sympy.sqrt(first), "greatest value")
+    least = stage("least", Select(lost, _HALF, 1 / sympy.sqrt(last), 0), "least value, or 0")
+    return Spectrum(product, (greatest, _middle(stages, triangle, product, greatest, least), least), C, lost)
 
 
 def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:
@@ -59,8 +65,8 @@ def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spect
     square = stage("square_2", Select(second, rest, rest, second), "square of the middle value")
     middle = stage("middle", sympy.sqrt(square), "middle value")
     least = stage("least", Select(middle, TINY, 0, rest / middle), "least value")
-    least = stage("last", Select(least, limit, 0, least), "least value, or 0")
-    return Spectrum(product, (greatest, middle, least))
+    lost = stage("lost", Select(least, limit, 1, 0), "1 if the least value is rounding")
+    return Spectrum(product, (greatest, middle, least), stage("ratio", greatest / least, "greatest over least"), lost)
 
 
 def frobenius(stages: Stages, triangle: Triangle) -> Spectrum:

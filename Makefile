@@ -65,8 +65,8 @@ search: $(STAMP) ## search long for the cheapest routines, put what is found on 
 bench-batch: $(STAMP) ## time the batch routines, write benchmarks/batch/results.md and .json
 	$(BIN)/python -m benchmarks.batch $(ARGS)
 
-bench-engine: $(STAMP) ## run the in-line engine, write benchmarks/engine/results.md, .json and charts
-	$(BIN)/python -m benchmarks.engine $(ARGS)
+bench-engine: $(BENCH_STAMP) ## run the in-line engine, also in other programs; benchmarks/engine/results.md and charts
+	$(BENCH_BIN)/python -m benchmarks.engine $(ARGS)
 
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
@@ -93,7 +93,7 @@ lock: $(STAMP) ## pin the dependencies anew; make lock ARGS=--upgrade takes the 
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
 		--extra dask --extra measure --extra import --extra simulate --extra dev $(ARGS) --output-file $(LOCK) pyproject.toml .ci/requirements.in
 	$(BIN)/pip-compile --quiet --generate-hashes --allow-unsafe --strip-extras --no-header --no-emit-options \
-		--extra measure --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
+		--extra measure --extra simulate --extra bench --constraint $(LOCK) $(ARGS) --output-file $(BENCH_LOCK) pyproject.toml .ci/requirements.in
 	@for lock in $(LOCK) $(BENCH_LOCK); do \
 		printf '%s\n' '# Pinned by "make lock" for Python 3.11 on Linux x86_64. Do not edit.' | cat - $$lock > $$lock.new; \
 		mv $$lock.new $$lock; \

@@ -14,7 +14,7 @@ import click
 
 import codegen
 from codegen import cli_trade
-from codegen.cli_chain import chain, generate_relative, simulate_chain, told
+from codegen.cli_chain import chain, generate_relative, simulate_chain, simulate_relative, told
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 from codegen.progress import progress as _progress
 
@@ -127,7 +127,8 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 
 @jointgen.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric.")
+@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric; or relative.")
+@click.option("--derivative", help="Of parametric joints: exact or substituted; as the file says if left out.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
@@ -146,6 +147,9 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
 
     if is_chain(file):
         simulate_chain(file, target, animation, copies, options)
+        return
+    if options["form"] == "relative":
+        simulate_relative(file, target, animation, copies, options)
         return
     settings = Settings(**options)
     check_settings(settings)

@@ -93,12 +93,42 @@ def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any
 
 def simulate_chain(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
     """Forward dynamics of a chain; what only scenes have is refused."""
-    given = {"--form": options.pop("form"), "--copies": copies, "--through-singular": options.pop("through_singular")}
-    given["--index"] = options.pop("index") != 2
+    given = {"--form": options.pop("form"), "--copies": copies, **_of_bodies(options)}
     mistakes = [Mistake(name, "is for scenes, and this is a chain", "leave it out") for name, on in given.items() if on]
     if mistakes:
         raise SpecificationError(mistakes)
     _run_chain(file, target, animation, {"mode": "forward", **options})
+
+
+def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
+    """Take out the options that only equations of bodies have, with what was given for them."""
+    found = {f"--{name.replace('_', '-')}": options.pop(name) for name in ("derivative", "through_singular")}
+    return {**found, "--index": options.pop("index") != 2}
+
+
+def simulate_relative(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
+    """A scene by relative coordinates."""
+    from codegen import output, scenes
+    from codegen.chains.simulate import Settings
+    from codegen.chains.simulate_scene import simulated_relative
+    from codegen.measure.compile import compiler
+    from codegen.report.run_pictures import run_pictures
+
+    del options["form"]
+    what = "is not there in relative coordinates"
+    mistakes = [Mistake(name, what, "leave it out") for name, on in _of_bodies(options).items() if on]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    settings = Settings("forward", **options)
+    output.check_target(target)
+    read, left_out = scenes.read(file, copies)
+    compiler()
+    for line in left_out:
+        click.echo(line, err=True)
+    with progress(settings.outputs, "simulating") as advance:
+        result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
+    output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
+    told(file, target, result)
 
 
 def told(file: Path, target: Path, result: Any) -> None:

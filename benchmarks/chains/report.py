@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.chains.variants import INERTIAS, LENGTHS, SPEEDS, chain, driven, stroke, turned
-from codegen.chains.simulate import Simulated
+from codegen.chains.simulate import SimulatedChain
 from tests.reference.quick_return import DRIVE, crossings, cutting_work, quick_return
 from tests.reference.spatial_slider_crank import spatial_slider_crank
 
@@ -123,12 +123,12 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
     yield from (f"| {' | '.join(row)} |" for row in rows)
 
 
-def _column(run: Simulated, link: str, name: str) -> Array:
+def _column(run: SimulatedChain, link: str, name: str) -> Array:
     values: Array = getattr(run.record, name)
     return values[:, run.mechanism.chain.index(link)]
 
 
-def _effort(run: Simulated) -> Array:
+def _effort(run: SimulatedChain) -> Array:
     assert run.record.tau is not None
     return run.record.tau[:, 0]
 
@@ -142,7 +142,7 @@ def _below(errors: Array) -> str:
     return f"< 1e{math.ceil(math.log10(max(float(np.max(np.abs(errors))), 1e-15)) + 0.3)}"
 
 
-def _stroke_error(run: Simulated) -> str:
+def _stroke_error(run: SimulatedChain) -> str:
     x = [quick_return().output("x", q, 1.0)[0] for q in run.record.q[:, 0]]
     return _below(_column(run, "slide", "q") - np.array(x))
 

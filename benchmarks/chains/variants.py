@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from codegen.chains.read import read
-from codegen.chains.simulate import Settings, Simulated, simulated
+from codegen.chains.simulate import Settings, SimulatedChain, simulated
 from codegen.spec.angles import PI
 from codegen.spec.chain import Chain, Link
 from codegen.spec.chain_motions import Polynomial
@@ -32,7 +32,7 @@ def chain(name: str) -> Chain:
 
 
 @cache
-def stroke(speed: Fraction) -> Simulated:
+def stroke(speed: Fraction) -> SimulatedChain:
     """Kinematics of the quick return at a speed of its crank, over 1 s."""
     given = chain("quick_return")
     crank = given.independents[0]
@@ -42,7 +42,7 @@ def stroke(speed: Fraction) -> Simulated:
 
 
 @cache
-def driven(inertia: int, duration: float = 2.0) -> Simulated:
+def driven(inertia: int, duration: float = 2.0) -> SimulatedChain:
     """Forward dynamics of the quick return with an inertia of its crank, from where cutting ends."""
     given = chain("quick_return")
     links = tuple(_with_inertia(link, inertia) if link.name == "crank" else link for link in given.links)
@@ -50,7 +50,7 @@ def driven(inertia: int, duration: float = 2.0) -> Simulated:
 
 
 @cache
-def turned(length: Fraction) -> Simulated:
+def turned(length: Fraction) -> SimulatedChain:
     """Inverse dynamics of the slider-crank with a length of its rod, over a turn."""
     given = chain("spatial_slider_crank")
     links = tuple(_with_length(link, length) for link in given.links)

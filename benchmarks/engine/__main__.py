@@ -8,11 +8,14 @@ from pathlib import Path
 import click
 
 from benchmarks.batch.report import setting
-from benchmarks.engine import charts, measure, report
+from benchmarks.engine import charts, compare, measure, report
+
+MOST = 20
+"""Sets in the other programs."""
 
 
 @click.command()
-@click.option("--rounds", default=7, show_default=True, help="Interleaved rounds of each timing.")
+@click.option("--rounds", default=5, show_default=True, help="Interleaved rounds of each timing.")
 @click.option("--sets", "sizes", multiple=True, type=int, default=(1, 5, 20, 100), show_default=True, help="Engines.")
 @click.option(
     "-o",
@@ -33,6 +36,7 @@ def main(rounds: int, sizes: tuple[int, ...], target: Path) -> None:
         "work_precision": precise,
         "without_terms": measure.without_terms(rounds),
         "by_size": measure.by_size(sizes, rounds),
+        "others": compare.compared([sets for sets in sizes if sets <= MOST], rounds),
     }
     (target / "piston.svg").write_text(charts.piston_chart(curves))
     (target / "work_precision.svg").write_text(charts.work_precision_chart(precise))

@@ -110,13 +110,14 @@ def by_size(sizes: Sequence[int], rounds: int, tolerance: float = 1e-6) -> list[
     settings = Settings(duration=1.0, outputs=1, tolerance=tolerance)
     how = [(sets, form) for sets in sizes for form in FORMS]
     times = dict(zip(how, seconds([(engine(form, sets), settings) for sets, form in how], rounds), strict=True))
+    counts = {(sets, form): run(engine(form, sets), settings).statistics for sets, form in how}
     return [
         {
             "sets": sets,
             **{form: times[sets, form] for form in FORMS},
             "ratio": times[sets, "parametric"] / times[sets, "conventional"],
             "printed": PRINTED.get(sets),
-            "steps": {form: run(engine(form, sets), settings).statistics.steps for form in FORMS},
+            "counts": {form: asdict(counts[sets, form]) for form in FORMS},
         }
         for sets in sizes
     ]

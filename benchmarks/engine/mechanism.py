@@ -14,13 +14,19 @@ from codegen.scenes.run import Prepared, Settings, prepare, run
 from codegen.spec.scene_file import read_scene
 
 FORMS = ("conventional", "parametric")
+HOW = {
+    "conventional": Settings(form="conventional"),
+    "parametric": Settings(form="parametric", derivative="substituted"),
+}
+"""The parametric form as S1 has it: the joint relation is inserted before differentiating again."""
+
 FILE = Path(__file__).parents[2] / "examples" / "in_line_engine.toml"
 
 
 @cache
 def engine(form: str, sets: int = 1) -> Prepared:
     """Engines side by side, in space."""
-    return prepare(read_scene(FILE.read_text(), FILE.name, sets), Settings(form=form))
+    return prepare(read_scene(FILE.read_text(), FILE.name, sets), HOW[form])
 
 
 @cache

@@ -7,9 +7,18 @@ from typing import Any
 
 Row = dict[str, Any]
 
+OTHERS_WORDS = (
+    '- *In the plane*: the same engine with `motion = "planar"`, which halves the unknowns.',
+    "- *CasADi idas*: the equations of the conventional form, derived by CasADi and interpreted; SUNDIALS too.",
+    "- *MuJoCo*: a tree with three coordinates an engine; an equality constraint closes the loop. It is soft, here as",
+    "  stiff as the step allows; integrated by RK4.",
+    "- *Exudyn*: absolute coordinates, generalised alpha, which is of second order: it needs 5e3 steps for this error.",
+)
+
 
 def markdown(document: dict[str, Any]) -> str:
     """Write ``results.md``."""
+    sizes = sorted({int(sets) for row in document["others"]["rows"] for sets in row["seconds"]})
     parts = [
         "# In-line engine",
         "",
@@ -47,6 +56,19 @@ def markdown(document: dict[str, Any]) -> str:
         "1 s at a tolerance of 1e-6, sets side by side in one system. The ratio is parametric over conventional.",
         "",
         *_sizes(document["by_size"]),
+        "",
+        "Steps, Newton iterations and evaluations, conventional / parametric:",
+        "",
+        *_counts(document["by_size"]),
+        "",
+        "## Other programs",
+        "",
+        "1 s at an error of 1e-6 m: at the loosest setting (tolerance, or step in s) with that error for one engine.",
+        "All programs in one process, round by round. Where a cell is empty a run takes longer than 4 s.",
+        "",
+        *_others(document["others"], sizes),
+        "",
+        *OTHERS_WORDS,
         "",
     ]
     return "\n".join(parts)
@@ -90,13 +112,42 @@ def _terms(rows: list[Row]) -> list[str]:
 
 
 def _sizes(rows: list[Row]) -> list[str]:
-    head = ("sets", "conventional, s", "parametric, s", "ratio", "per set, s", "steps", "S1, s", "S1, ratio")
+    head = ("sets", "conventional, s", "parametric, s", "ratio", "per set, ms", "S1, s", "S1, ratio")
     cells = []
     for row in rows:
         printed = row["printed"]
         paper = (f"{printed[0]:.2f} / {printed[1]:.2f}", f"{printed[1] / printed[0]:.2f}") if printed else ("", "")
-        per_set = " / ".join(f"{row[form] / row['sets']:.4f}" for form in ("conventional", "parametric"))
-        steps = " / ".join(str(count) for count in row["steps"].values())
+        per_set = " / ".join(f"{1e3 * row[form] / row['sets']:.2f}" for form in ("conventional", "parametric"))
         times = (f"{row['conventional']:.4f}", f"{row['parametric']:.4f}", f"{row['ratio']:.2f}")
-        cells.append((str(row["sets"]), *times, per_set, steps, *paper))
+        cells.append((str(row["sets"]), *times, per_set, *paper))
     return _table(head, cells)
+
+
+def _counts(rows: list[Row]) -> list[str]:
+    names = ("steps", "newton_iterations", "residuals", "jacobians", "error_test_failures")
+    head = ("sets", *(name.replace("_", " ") for name in names))
+    cells = [
+        (str(row["sets"]), *(" / ".join(str(count[name]) for count in row["counts"].values()) for name in names))
+        for row in rows
+    ]
+    return _table(head, cells)
+
+
+def _others(found: Row, sizes: Sequence[int]) -> list[str]:
+    first = found["rows"][0]["seconds"]
+    head = (
+        "program",
+        "setting",
+        "error, m",
+        *(f"{sets} sets, ms" for sets in sizes),
+        "to ours, 1 set",
+        "least error, m",
+    )
+    cells = []
+    for row in found["rows"]:
+        times = (f"{1e3 * row['seconds'][str(n)]:.1f}" if str(n) in row["seconds"] else "" for n in sizes)
+        ratio = f"{row['seconds']['1'] / first['1']:.1f}"
+        finest = f"{row['finest']['error']:.1e} at {row['finest']['setting']:.1e}"
+        cells.append((row["program"], f"{row['setting']:.1e}", f"{row['error']:.1e}", *times, ratio, finest))
+    missing = [f"Not installed: {', '.join(found['missing'])}.", ""] if found["missing"] else []
+    return [*missing, *_table(head, cells)]

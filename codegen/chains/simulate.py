@@ -51,7 +51,7 @@ class Settings:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Simulated:
+class SimulatedChain:
     """The files of a run.
 
     Attributes:
@@ -73,7 +73,7 @@ class Simulated:
 
 def simulated(
     chain: Chain, tables: Mapping[str, str], settings: Settings, progress: Progress = lambda _: None
-) -> Simulated:
+) -> SimulatedChain:
     """Run a chain.
 
     Args:
@@ -95,7 +95,7 @@ def simulated(
         wall_time = time.perf_counter() - began
         found = record(ready, equations, done)
         loose = undetermined(ready, equations, done.states[0]) if settings.mode != "kinematics" else ()
-    numbers = _summary(ready, found, done, settings) | {"undetermined": list(loose), "wall_time": wall_time}
+    numbers = summary(ready, found, done, settings) | {"undetermined": list(loose), "wall_time": wall_time}
     files = {
         "trajectory.csv": as_csv(ready, found),
         "summary.json": json.dumps(numbers, indent=1) + "\n",
@@ -105,7 +105,7 @@ def simulated(
         f"{settings.mode}, {found.t[-1]:g} s, {len(found.t)} outputs, {done.iterations} iterations of Newton's method"
     )
     encoded = {path: text.encode() for path, text in files.items()}
-    return Simulated(encoded, words, tuple(_notes(loose)), done.failure, ready, found)
+    return SimulatedChain(encoded, words, tuple(_notes(loose)), done.failure, ready, found)
 
 
 def run(mechanism: Mechanism, tables: Mapping[str, str], settings: Settings, progress: Progress) -> Run:
@@ -160,7 +160,8 @@ def check(chain: Chain, settings: Settings) -> None:
         raise SpecificationError(mistakes)
 
 
-def _summary(mechanism: Mechanism, found: Record, done: Run, settings: Settings) -> dict[str, Any]:
+def summary(mechanism: Mechanism, found: Record, done: Run, settings: Settings) -> dict[str, Any]:
+    """Tell a run in numbers."""
     chain, part = mechanism.chain, mechanism.part
     numbers: dict[str, Any] = {
         "chain": chain.name,

@@ -1,4 +1,4 @@
-"""A run as small multiples over one time axis, as SVG: bodies, then joint coordinates and the efforts of drives.
+"""A run as small multiples over one time axis, as SVG: bodies, then joints with coordinates, efforts and reactions.
 
 Columns are quantities, rows are bodies and joints. Components differ by colour and by line style, so that a print
 without colour tells them apart.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,55 +15,19 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from codegen.report.motion_rows import CHAINS, STILL, Panel, Row, body_rows, joint_rows
 from codegen.report.svg import drawn
 from codegen.simulate.trajectory import Array, Trajectory
-from codegen.spec.scene import COORDINATE_UNITS, Scene
+from codegen.spec.scene import Scene
 
 MOST = 8
 """Bodies that are drawn, and rows of joints; a note tells of the others."""
-
-_STILL = 1e-7
-"""A component that changes by less than this part of the greatest change of its kind does not move."""
 
 _BINS = 600
 """A curve is drawn by its extremes in as many pieces: more than a screen or a print can tell apart."""
 
 _LINES = (("#0072b2", "-"), ("#d55e00", "--"), ("#009e73", "-."))
-_TRANSLATIONS = (("r", "position", "m"), ("v", "velocity", "m/s"), ("a", "acceleration", "m/s²"))
-_TURNS = (("w", "angular velocity", "rad/s"), ("al", "angular acceleration", "rad/s²"))
-_COORDINATES = (("coordinate", "alpha", ""), ("rate", "alphadot", "/s"))
-_EFFORT = "effort of the drive"
-_FORCES = {"m": "N", "rad": "N m", "m or rad": "N or N m"}
-_CHAINS = (
-    tuple(words for _, words, _ in _TRANSLATIONS),
-    tuple(words for _, words, _ in _TURNS),
-    tuple(words for words, _, _ in _COORDINATES),
-    (_EFFORT,),
-)
-"""Headings in order; each but the first of a chain is the rate of the one before."""
-
 _PANEL_WIDTH, _PANEL_HEIGHT, _LEFT, _TOP, _BOTTOM = 2.7, 1.25, 1.5, 1.0, 0.8
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Panel:
-    """Curves over one pair of axes.
-
-    Attributes:
-        unit: of all of them.
-        curves: name, number of the line style, [n] values.
-    """
-
-    unit: str
-    curves: tuple[tuple[str, int, Array], ...]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Row:
-    """Panels of one body or joint, by the heading of their column."""
-
-    name: str
-    panels: dict[str, Panel]
 
 
 def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
@@ -99,62 +62,10 @@ def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
     return drawn(draw, width, height, layout=None)
 
 
-def body_rows(trajectory: Trajectory) -> list[Row]:
-    """Give the components that move, body by body; bodies at rest have no row."""
-    r, w = trajectory.r, trajectory.w
-    travels, turns = np.ptp(r, axis=0), np.max(np.abs(w), axis=0)
-    moving = {"translations": travels > _STILL * np.max(travels, initial=0.0)}
-    moving["turns"] = turns > _STILL * np.max(turns, initial=0.0)
-    rows = []
-    for k, body in enumerate(trajectory.bodies):
-        panels = {}
-        for kind, quantities in (("translations", _TRANSLATIONS), ("turns", _TURNS)):
-            axes = np.flatnonzero(moving[kind][k])
-            for name, words, unit in quantities if len(axes) else ():
-                values = getattr(trajectory, name)
-                curves = tuple((f"{body}.{name}{'xyz'[i]}", int(i), values[:, k, i]) for i in axes)
-                panels[words] = Panel(unit, curves)
-        if panels:
-            rows.append(Row(body, panels))
-    return rows
-
-
-def joint_rows(trajectory: Trajectory, scene: Scene | None) -> list[Row]:
-    """Give the coordinates that change, and efforts: a row for each joint and unit."""
-    rows = []
-    for joint, alpha in trajectory.alpha.items():
-        effort = trajectory.effort.get(joint, np.zeros((len(trajectory.t), 0)))
-        units, driven = _units(joint, scene, alpha.shape[1], effort.shape[1])
-        names = [f"{joint}.effort{n + 1 if len(driven) > 1 else ''}" for n in range(len(driven))]
-        efforts = dict(zip(driven, zip(names, effort.T, strict=True), strict=True))
-        for unit in dict.fromkeys(units):
-            of_unit = [k for k, other in enumerate(units) if other == unit]
-            panels = dict(_motion_panels(trajectory, joint, unit, [k for k in of_unit if np.ptp(alpha[:, k]) > 0]))
-            if curves := tuple((name, k, values) for k, (name, values) in efforts.items() if k in of_unit):
-                panels[_EFFORT] = Panel(_FORCES[unit], curves)
-            if panels:
-                rows.append(Row(joint, panels))
-    return rows
-
-
-def _units(joint: str, scene: Scene | None, count: int, drives: int) -> tuple[tuple[str, ...], list[int]]:
-    """Unit of each coordinate, and the numbers of those that are driven; without a scene, the first ones."""
-    if scene is None:
-        return ("m or rad",) * count, list(range(drives))
-    found = next(one for one in scene.joints if one.name == joint)
-    driven = [k for k, coordinate in enumerate(found.coordinates) if coordinate.drive is not None]
-    return COORDINATE_UNITS[found.type], driven if drives else []
-
-
-def _motion_panels(trajectory: Trajectory, joint: str, unit: str, moving: list[int]) -> Iterator[tuple[str, Panel]]:
-    for heading, name, suffix in _COORDINATES if moving else ():
-        values = getattr(trajectory, name)[joint]
-        words = " or ".join(one + suffix for one in unit.split(" or "))
-        yield heading, Panel(words, tuple((f"{joint}.{name}{k + 1}", k, values[:, k]) for k in moving))
-
-
 def _notes(trajectory: Trajectory, bodies: list[Row], joints: list[Row]) -> Iterator[str]:
     yield "Positions, velocities and accelerations of centres of mass: world axes; angular ones: body axes."
+    if trajectory.reaction:
+        yield "Reactions: on the second body of a joint, at its point, world axes."
     at_rest = len(trajectory.bodies) - len(bodies)
     yield f"Drawn is what moves{f'; {at_rest} of {len(trajectory.bodies)} bodies do not' if at_rest else ''}."
     if len(bodies) > MOST:
@@ -164,13 +75,13 @@ def _notes(trajectory: Trajectory, bodies: list[Row], joints: list[Row]) -> Iter
 
 
 def _headings(block: list[Row]) -> list[str]:
-    return [heading for chain in _CHAINS for heading in chain if any(heading in row.panels for row in block)]
+    return [heading for chain in CHAINS for heading in chain if any(heading in row.panels for row in block)]
 
 
 def _sizes(block: list[Row], duration: float) -> dict[str, float]:
     """Size of each quantity: the largest of all rows, or what its integral needs to come about."""
     sizes: dict[str, float] = {}
-    for chain in _CHAINS:
+    for chain in CHAINS:
         needed = 0.0
         for heading in chain:
             panels = [row.panels[heading] for row in block if heading in row.panels]
@@ -210,7 +121,7 @@ def _draw_panel(axis: Any, t: Array, panel: Panel, size: float, is_last: bool) -
         line.set_gid(name)
     low = min(float(np.min(values)) for _, _, values in panel.curves)
     high = max(float(np.max(values)) for _, _, values in panel.curves)
-    if high - low < _STILL * size:  # a constant, and not the last digits of one
+    if high - low < STILL * size:  # a constant, and not the last digits of one
         axis.set_ylim(low - 0.1 * size, high + 0.1 * size)
     axis.set_ylabel(panel.unit, fontsize=8, labelpad=2)
     axis.tick_params(labelsize=7, labelbottom=is_last)

@@ -36,6 +36,7 @@ class Settings:
         outputs: number of output times after the start.
         tolerance: of the error test, relative; absolute in m, rad, m/s and rad/s.
         form: of all joints that may have it, in the place of what the scene says.
+        derivative: of the parametric joints, in the place of what the scene says.
         index: 2 (stabilised after Gear, Gupta and Leimkuhler) or 1 (after Baumgarte).
         left_out: second derivatives that the Jacobian lacks, see `codegen.dynamics.jacobian.SECOND`.
         through_singular: go on through singular configurations, on the smooth branch.
@@ -45,6 +46,7 @@ class Settings:
     outputs: int = 200
     tolerance: float = 1e-8
     form: str | None = None
+    derivative: str | None = None
     index: int = 2
     left_out: tuple[str, ...] = ()
     through_singular: bool = False
@@ -125,7 +127,9 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
             Mistake(f'body "{name}"', "has no mass", "give mass (kg) and inertia (kg m^2)") for name in massless
         )
     plane = in_plane(scene) if scene.motion == "planar" else None
-    judged = judge(with_forms(plane.scene if plane else scene, settings.form))
+    chosen = with_forms(plane.scene if plane else scene, settings.form)
+    derivative = settings.derivative or chosen.wanted.derivative
+    judged = judge(replace(chosen, wanted=replace(chosen.wanted, derivative=derivative)))
     system = System(judged.assembly)
     form = f"index{settings.index}"
     state = layout(system, form)

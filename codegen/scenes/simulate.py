@@ -14,6 +14,7 @@ from codegen.scenes.watched_run import Watched, watched_run
 from codegen.simulate.limits import limit_mistakes, run_manifest
 from codegen.simulate.sundials import sundials
 from codegen.simulate.trajectory import Trajectory, as_csv
+from codegen.spec.request import DERIVATIVES
 from codegen.spec.scene import SCENE_FORMS, Scene
 
 
@@ -103,6 +104,9 @@ def check_settings(settings: Settings) -> None:
     mistakes = [*limit_mistakes(settings.tolerance, settings.duration, settings.outputs)]
     if settings.index not in (1, 2):
         mistakes.append(Mistake("--index", f"there is no index {settings.index}", "known: 1, 2"))
+    if settings.derivative not in (None, *DERIVATIVES):
+        what = f'there is no "{settings.derivative}"'
+        mistakes.append(Mistake("--derivative", what, nearest(settings.derivative, DERIVATIVES)))
     if settings.form is not None and settings.form not in SCENE_FORMS:
         mistakes.append(Mistake("--form", f'there is no "{settings.form}"', nearest(settings.form, SCENE_FORMS)))
     if mistakes:

@@ -13,6 +13,7 @@ from codegen.emit.package import banner
 from codegen.emit.routine import Parameter, Subject
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
+from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
 
 
@@ -23,6 +24,10 @@ class Compiled:
     Attributes:
         residual: address of the residual, ``IDAResFn``.
         jacobian: address of the Jacobian, ``IDALsJacFn``.
+        start: address of what makes room for the factors of the Jacobian.
+        end: address of what gives it back.
+        setup: address of the factorisation, an operation of a linear solver.
+        solve: address of the solution with the factors, an operation of a linear solver.
         size: entries of the state.
         nonzeros: of the Jacobian.
         library: keeps it loaded.
@@ -30,6 +35,10 @@ class Compiled:
 
     residual: int
     jacobian: int
+    start: int
+    end: int
+    setup: int
+    solve: int
     size: int
     nonzeros: int
     library: ctypes.CDLL
@@ -46,15 +55,20 @@ def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | L
     Raises:
         SpecificationError: there is no C compiler.
     """
-    loaded = library(ida_source(subject, residual, jacobian))
+    loaded = library(ida_source(subject, residual, jacobian), lu_headers())
     pattern = jacobian.output("jacobian").sparsity
-    addresses = [ctypes.cast(loaded[name], ctypes.c_void_p).value for name in ("jg_ida_residual", "jg_ida_jacobian")]
-    return Compiled(addresses[0] or 0, addresses[1] or 0, pattern.ncol, pattern.nonzeros, loaded)
+    residual_at, jacobian_at, start, end, setup, solve = (
+        ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0
+        for name in ("residual", "jacobian", "start", "end", "setup", "solve")
+    )
+    size, nonzeros = pattern.ncol, pattern.nonzeros
+    return Compiled(residual_at, jacobian_at, start, end, setup, solve, size, nonzeros, loaded)
 
 
 def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:
     """Write the C source of the functions that IDA calls."""
     pattern = jacobian.output("jacobian").sparsity
+    found = blocks(pattern)
     return render(
         "c/ida.c.j2",
         banner=banner(codegen.__version__),
@@ -64,8 +78,17 @@ def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program |
         jacobian=_call(jacobian),
         size=pattern.ncol,
         nonzeros=pattern.nonzeros,
-        pointers=_numbers(pattern.colind),
-        indices=_numbers(pattern.row),
+        blocks=len(found.starts) - 1,
+        tables={
+            name: _numbers(values)
+            for name, values in (
+                ("pointers", pattern.colind),
+                ("indices", pattern.row),
+                ("starts", found.starts),
+                ("columns", found.columns),
+                ("rows", found.rows),
+            )
+        },
     )
 
 

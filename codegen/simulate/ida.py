@@ -1,4 +1,4 @@
-"""IDA on compiled equations: variable-order, variable-step BDF with a sparse direct solver."""
+"""IDA on compiled equations: variable-order, variable-step BDF, the linear algebra compiled with the equations."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from codegen.errors import InternalError
 from codegen.simulate.compiled import Compiled
@@ -78,9 +77,12 @@ class _Hooks(ctypes.Structure):
     """``struct jg_ida`` of the compiled source."""
 
     _fields_ = [
-        *((name, c_void_p) for name in ("array", "data", "pointers", "indices")),
-        ("revolutions", c_void_p),
+        *((name, c_void_p) for name in ("array", "data", "revolutions", "lu")),
     ]
+
+
+_START = ctypes.CFUNCTYPE(ctypes.c_int, c_void_p)
+_END = ctypes.CFUNCTYPE(None, c_void_p)
 
 
 class Ida:
@@ -109,7 +111,6 @@ class Ida:
         revolutions: Array | None = None,
     ) -> None:
         self._library = sundials()
-        self._threads = threadpool_limits(limits=1)  # two that wait for each other take a hundred times as long
         self._equations = equations
         self.y, self.ydot = np.array(y, dtype=np.float64), np.array(ydot, dtype=np.float64)
         self._identity = np.array([1.0 if is_differential else 0.0 for is_differential in differential])
@@ -118,6 +119,7 @@ class Ida:
         self._absolute = share * np.array(tolerances.absolute, dtype=np.float64)
         self._turns = np.array([0.0] if revolutions is None or not len(revolutions) else revolutions, dtype=np.float64)
         self._hooks = _Hooks(*(self._library.address(name) for name in ADDRESSES), self._turns.ctypes.data)
+        self._check(_START(equations.start)(ctypes.addressof(self._hooks)))
         self._context = c_void_p()
         self._create(t, share * tolerances.relative, largest_step)
 
@@ -129,7 +131,9 @@ class Ida:
         self._vectors = [library.N_VMake_Serial(size, array.ctypes.data, self._context) for array in arrays]
         y, ydot, absolute, identity = self._vectors
         self._matrix = library.SUNSparseMatrix(size, size, self._equations.nonzeros, _CSC, self._context)
-        self._solver = library.SUNLinSol_SuperLUMT(y, self._matrix, 1, self._context)
+        self._solver = library.linear_solver(
+            self._context, ctypes.addressof(self._hooks), self._equations.setup, self._equations.solve
+        )
         self._memory = c_void_p(library.IDACreate(self._context))
         self._check(library.IDAInit(self._memory, self._equations.residual, t, y, ydot))
         self._check(library.IDASVtolerances(self._memory, relative, absolute))
@@ -176,10 +180,10 @@ class Ida:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._threads.restore_original_limits()
         library: Any = self._library
         library.IDAFree(byref(self._memory))
-        library.SUNLinSolFree(self._solver)
+        library.SUNLinSolFreeEmpty(self._solver)
+        _END(self._equations.end)(ctypes.addressof(self._hooks))
         library.SUNMatDestroy(self._matrix)
         for vector in self._vectors:
             library.N_VDestroy(vector)

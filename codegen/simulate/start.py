@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 from codegen.ir.evaluate import evaluate
 from codegen.ir.program import Output, Program
@@ -87,5 +89,8 @@ def saddle(M: Array, phi_q: Array, top: Array, bottom: Array) -> tuple[Array, Ar
     matrix = np.block([[M, phi_q.T], [phi_q, np.zeros((rows, rows))]])
     right = np.concatenate([top, bottom])
     scale = 1.0 / np.sqrt(np.maximum(np.max(np.abs(matrix), axis=1), 1e-300))
-    solution = scale * scipy.linalg.lstsq(scale[:, None] * matrix * scale, scale * right)[0]
+    scaled, solution = scale[:, None] * matrix * scale, np.zeros(len(right))
+    count, labels = connected_components(csr_matrix(matrix != 0), directed=False)
+    for part in (np.flatnonzero(labels == number) for number in range(count)):  # mechanisms that do not touch
+        solution[part] = scale[part] * scipy.linalg.lstsq(scaled[np.ix_(part, part)], (scale * right)[part])[0]
     return solution[:size], solution[size:]

@@ -7,16 +7,20 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+from collections.abc import Iterator
+from contextlib import contextmanager
 from ctypes import POINTER, byref, c_double, c_int, c_long, c_void_p
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from codegen.errors import Mistake, SpecificationError
 
 REMEDY = "pip install 'jointgen[simulate]'"
 
-_LIBRARIES = ("core", "nvecserial", "sunmatrixsparse", "sunlinsolsuperlumt", "ida")
+_LIBRARIES = ("core", "nvecserial", "sunmatrixsparse", "sunmatrixdense", "sunlinsoldense", "ida")
 
 _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "SUNContext_Create": (c_int, (c_int, POINTER(c_void_p))),
@@ -26,8 +30,11 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "N_VDestroy": (None, (c_void_p,)),
     "SUNSparseMatrix": (c_void_p, (c_int, c_int, c_int, c_int, c_void_p)),
     "SUNMatDestroy": (None, (c_void_p,)),
-    "SUNLinSol_SuperLUMT": (c_void_p, (c_void_p, c_void_p, c_int, c_void_p)),
+    "SUNDenseMatrix": (c_void_p, (c_int, c_int, c_void_p)),
+    "SUNLinSol_Dense": (c_void_p, (c_void_p, c_void_p, c_void_p)),
     "SUNLinSolFree": (c_int, (c_void_p,)),
+    "SUNLinSolNewEmpty": (c_void_p, (c_void_p,)),
+    "SUNLinSolFreeEmpty": (None, (c_void_p,)),
     "IDACreate": (c_void_p, (c_void_p,)),
     "IDAFree": (None, (POINTER(c_void_p),)),
     "IDAInit": (c_int, (c_void_p, c_void_p, c_double, c_void_p, c_void_p)),
@@ -56,10 +63,13 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 ADDRESSES = (
     "N_VGetArrayPointer",
     "SUNSparseMatrix_Data",
-    "SUNSparseMatrix_IndexPointers",
-    "SUNSparseMatrix_IndexValues",
 )
 """Functions that compiled code calls."""
+
+
+def _words(address: int) -> Any:
+    """Words of a linear solver, or of its operations; only those are read that every version has."""
+    return (c_void_p * 12).from_address(address)
 
 
 class Sundials:
@@ -67,12 +77,14 @@ class Sundials:
 
     def __init__(self, libraries: list[ctypes.CDLL]) -> None:
         self._libraries = libraries
+        self._found: tuple[int, tuple[int, ...]] | None = None
         for name, (result, arguments) in _SIGNATURES.items():
             function = self._find(name)
             function.restype = result
             function.argtypes = arguments
             setattr(self, name, function)
 
+    @cache  # noqa: B019 - the one instance lives as long as the program
     def address(self, name: str) -> int:
         """Address of a function."""
         return ctypes.cast(self._find(name), c_void_p).value or 0
@@ -87,6 +99,51 @@ class Sundials:
             except AttributeError:
                 continue
         raise SpecificationError([Mistake("SUNDIALS", f"its libraries have no {name}", REMEDY)])
+
+    def linear_solver(self, context: c_void_p, content: int, setup: int, solve: int) -> c_void_p:
+        """Make a direct linear solver of two compiled operations; `SUNLinSolFreeEmpty` gives its memory back.
+
+        Where the operations stand depends on the version of SUNDIALS; it is read off a solver that SUNDIALS makes,
+        whose operations are known by their addresses.
+
+        Args:
+            context: of SUNDIALS.
+            content: address that the operations find first in the solver.
+            setup: address of the factorisation.
+            solve: address of the solution.
+
+        Raises:
+            SpecificationError: the layout is not understood.
+        """
+        table, places = self._layout(context)
+        made = self.SUNLinSolNewEmpty(context)
+        _words(made)[0] = content
+        operations = (self.address("SUNLinSolGetType_Dense"), setup, solve)
+        for place, operation in zip(places, operations, strict=True):
+            _words(_words(made)[table])[place] = operation
+        return c_void_p(made)
+
+    def _layout(self, context: c_void_p) -> tuple[int, tuple[int, ...]]:
+        """Where a solver has its operations, and where among them type, factorisation and solution stand."""
+        if self._found is None:
+            kind, *known = (self.address(f"SUNLinSol{name}_Dense") for name in ("GetType", "Setup", "Solve"))
+            with self._dense_solver(context) as dense:
+                table = next((k for k in (1, 2) if dense[k] and _words(dense[k])[0] == kind), None)
+                operations = [] if table is None else list(_words(dense[table]))
+            if table is None or not set(known) <= set(operations):
+                raise SpecificationError([Mistake("SUNDIALS", "its linear solvers have an unknown layout", REMEDY)])
+            self._found = table, tuple(operations.index(address) for address in (kind, *known))
+        return self._found
+
+    @contextmanager
+    def _dense_solver(self, context: c_void_p) -> Iterator[Any]:
+        entry = np.zeros(1)
+        vector, matrix = self.N_VMake_Serial(1, entry.ctypes.data, context), self.SUNDenseMatrix(1, 1, context)
+        solver = self.SUNLinSol_Dense(vector, matrix, context)
+        yield _words(solver)
+        self.SUNLinSolFree(solver)
+        self.SUNMatDestroy(matrix)
+        self.N_VDestroy(vector)
 
     def statistic(self, name: str, memory: c_void_p) -> int:
         """Read a counter of a run."""

@@ -52,6 +52,21 @@ def test_all_bad_options_are_told_at_once(stone: Path, tmp_path: Path) -> None:
     assert snapshot(tmp_path) == before
 
 
+def test_relative_coordinates_refuse_what_only_equations_of_bodies_have(stone: Path, tmp_path: Path) -> None:
+    wrong = ("--form", "relative", "--index", "1", "--through-singular", "--derivative", "exact")
+    lines = refused(invoke("simulate", stone, *wrong, "-o", tmp_path / "run"))
+    assert sorted(line.split(":")[0] for line in lines) == ["--derivative", "--index", "--through-singular"]
+
+
+def test_a_run_by_relative_coordinates_has_the_columns_of_the_others(stone: Path, tmp_path: Path) -> None:
+    heads = []
+    for name, form in (("one", "conventional"), ("other", "relative")):
+        short = ("--duration", "0.2", "--outputs", "4")
+        assert invoke("simulate", stone, "--form", form, *short, "-o", tmp_path / name).exit_code == 0
+        heads.append((tmp_path / name / "trajectory.csv").read_text().splitlines()[0])
+    assert heads[0] == heads[1]
+
+
 def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     (line,) = refused(invoke("simulate", tmp_path / "none.toml", "-o", tmp_path / "run"))
     assert "none.toml: cannot be read (No such file or directory)" in line

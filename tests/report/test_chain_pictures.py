@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from codegen.chains.read import read
-from codegen.chains.simulate import Settings, Simulated, simulated
+from codegen.chains.simulate import Settings, SimulatedChain, simulated
 from codegen.report.animation import page_data
 from codegen.report.chain_pictures import as_scene, as_trajectory, chain_pictures
 from codegen.spec.scene import GROUND
@@ -21,7 +21,7 @@ NAMES = ("quick_return", "spatial_slider_crank")
 
 
 @cache
-def run(name: str) -> Simulated:
+def run(name: str) -> SimulatedChain:
     chain, tables = read(CHAINS / f"{name}.toml")
     return simulated(chain, tables, Settings("inverse", 0.5, 10))
 

@@ -8,7 +8,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from codegen.report.motion_plot import joint_rows, plot, thinned
+from codegen.report.motion_plot import plot, thinned
+from codegen.report.motion_rows import joint_rows
 from codegen.simulate.trajectory import Trajectory, columns
 from codegen.spec.scene import Coordinate, Drive
 
@@ -41,7 +42,7 @@ def texts(svg: str) -> list[str]:
 def without_motion(trajectory: Trajectory) -> Trajectory:
     still = {name: np.zeros_like(trajectory.v) for name in ("v", "w", "a", "al")}
     r = np.broadcast_to(trajectory.r[:1], trajectory.r.shape)
-    return replace(trajectory, r=r, **still, alpha={}, alphadot={}, effort={})
+    return replace(trajectory, r=r, **still, alpha={}, alphadot={}, effort={}, reaction={})
 
 
 def test_each_component_that_moves_has_its_curve_and_no_other_has(drawing):
@@ -120,9 +121,32 @@ def test_an_effort_stands_in_the_row_of_its_coordinate():
     turned = replace(cylindrical, coordinates=(Coordinate(), Coordinate(drive=Drive(Fraction(0), Fraction(1)))))
     effort = {cylindrical.name: trajectory.t[:, None]}
     alpha = {cylindrical.name: trajectory.alpha[cylindrical.name]}
-    rows = joint_rows(replace(trajectory, alpha=alpha, effort=effort), replace(scene, joints=(turned,)))
+    rows = joint_rows(replace(trajectory, alpha=alpha, effort=effort, reaction={}), replace(scene, joints=(turned,)))
     assert [panel.unit for panel in rows[0].panels.values()] == ["m", "m/s"]
     assert [panel.unit for panel in rows[1].panels.values()] == ["rad", "rad/s", "N m"]
+
+
+def test_reactions_that_act_stand_in_the_first_row_of_their_joint():
+    scene, trajectory = tumbling()
+    count = len(trajectory.t)
+    wave = np.sin(trajectory.t)
+    acting = np.zeros((count, 6))
+    acting[:, 0], acting[:, 5] = wave, 1e-12 * wave
+    turning = np.zeros((count, 6))
+    turning[:, 4] = wave
+    reaction = {"one cylindrical": acting, "one rigid": turning}
+    rows = joint_rows(replace(trajectory, reaction=reaction), scene)
+    found = [
+        (row.name, heading, panel.unit, [name for name, _, _ in panel.curves])
+        for row in rows
+        for heading, panel in row.panels.items()
+        if heading.startswith("reaction")
+    ]
+    assert found == [
+        ("one cylindrical", "reaction force", "N", ["one cylindrical.fx"]),
+        ("one rigid", "reaction moment", "N m", ["one rigid.my"]),
+    ]
+    assert [row.name for row in rows].count("one cylindrical") == 2
 
 
 def test_of_many_bodies_eight_are_drawn_and_a_note_tells_of_the_others():
@@ -142,7 +166,7 @@ def test_a_run_without_motion_is_drawn_too():
 def test_a_run_of_one_time_is_drawn_too():
     _, trajectory = engine(2)
     first = {n: getattr(trajectory, n)[:1] for n in ("t", "r", "q", "v", "w", "a", "al")}
-    ElementTree.fromstring(plot(replace(trajectory, **first, alpha={}, alphadot={}, effort={}), "start"))
+    ElementTree.fromstring(plot(replace(trajectory, **first, alpha={}, alphadot={}, effort={}, reaction={}), "start"))
 
 
 def test_hostile_names_stay_text():

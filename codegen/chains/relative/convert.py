@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -21,16 +21,37 @@ _MASSLESS = (ZERO_VECTOR, ZERO_VECTOR, ZERO_VECTOR)
 
 
 @dataclass(frozen=True, slots=True)
+class Carried:
+    """What became of a joint.
+
+    Attributes:
+        coordinates: of each its link, and what the link's coordinate is more than the joint's.
+        end: link on which the joint ends, of the body that hangs on it; "" where the bodies became one link.
+        cut: number of the cut; None for joints of the tree.
+        on_second: whether the body that hangs on it is the joint's second one.
+    """
+
+    coordinates: tuple[tuple[str, Fraction], ...]
+    end: str
+    cut: int | None
+    on_second: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Relative:
     """A scene as a chain.
 
     Attributes:
         chain: of the scene; coordinates are those of the joints, but for a constant.
         notes: how it was made, and what of the scene it leaves out, line by line.
+        bodies: name -> link that the body is on, and its pose there.
+        joints: name -> what became of it.
     """
 
     chain: Chain
     notes: tuple[str, ...]
+    bodies: Mapping[str, tuple[str, Pose]]
+    joints: Mapping[str, Carried]
 
 
 def relative(scene: Scene) -> Relative:
@@ -57,12 +78,13 @@ class _Conversion:
         self._places: dict[str, tuple[str, Pose]] = {GROUND: (BASE, Pose())}
         self._links: list[Link] = []
         self._loads: list[tuple[str, Fraction, Coordinate]] = []
+        self._joints: dict[str, Carried] = {}
 
     def result(self) -> Relative:
         """The chain, when all bodies are hung and all loops cut."""
         for branch in self._spanning.branches:
             self._carry(branch)
-        cuts = tuple(self._cut(joint) for joint in self._spanning.loops)
+        cuts = tuple(self._cut(number, joint) for number, joint in enumerate(self._spanning.loops))
         links = hung(
             self._links, [(self._bodies[name], *place) for name, place in self._places.items() if name != GROUND]
         )
@@ -71,33 +93,38 @@ class _Conversion:
         scene = self._scene
         chain = Chain(scene.name, scene.gravity, tuple(links), cuts, joint_forces=acting, assemble=scene.assemble)
         driven = {name: (offset, c.drive) for name, offset, c in self._loads if c.drive is not None}
-        return Relative(replace(chain, independents=independents(chain, driven)), tuple(self._notes(cuts)))
+        bodies = {name: place for name, place in self._places.items() if name != GROUND}
+        chain = replace(chain, independents=independents(chain, driven))
+        return Relative(chain, tuple(self._notes(cuts)), bodies, self._joints)
 
     def _carry(self, branch: Branch) -> None:
         """Hang a body on its carrier."""
         link, carrier = self._places[branch.carrier]
         if branch.joint is None:
             own = Pose(rotation(self._bodies[branch.body].quaternion), self._bodies[branch.body].position)
-            moved = self._stepped(
-                branch.body, "free", (), steps("free", False), coordinates("free", own), (link, carrier)
-            )
-            self._places[branch.body] = moved
+            start, carried = coordinates("free", own), (link, carrier)
+            end, frame, _ = self._stepped(branch.body, "free", (), steps("free", False), start, carried)
+            self._places[branch.body] = end, frame
             return
         joint = branch.joint
         near, far = (_pose(m) for m in _markers(joint, branch.is_reversed))
         way = steps(joint.type, branch.is_reversed)
         start = coordinates(joint.type, self._apart(joint))
-        end, frame = self._stepped(branch.body, joint.name, joint.coordinates, way, start, (link, carrier @ near))
+        end, frame, found = self._stepped(
+            branch.body, joint.name, joint.coordinates, way, start, (link, carrier @ near)
+        )
         self._places[branch.body] = end, frame @ far.inverse
+        self._joints[joint.name] = Carried(found, end if way else "", None, not branch.is_reversed)
 
-    def _cut(self, joint: Joint) -> Cut:
+    def _cut(self, number: int, joint: Joint) -> Cut:
         """Hang the joint on its second body, or on the one that moves, and cut it from the other."""
         is_reversed = joint.bodies[1] != GROUND
         near, far = (_pose(m) for m in _markers(joint, is_reversed))
         on, off = reversed(joint.bodies) if is_reversed else joint.bodies
         link, place = self._places[on]
         way, start = steps(joint.type, is_reversed), coordinates(joint.type, self._apart(joint))
-        end, frame = self._stepped("", joint.name, joint.coordinates, way, start, (link, place @ near))
+        end, frame, found = self._stepped("", joint.name, joint.coordinates, way, start, (link, place @ near))
+        self._joints[joint.name] = Carried(found, end, number, is_reversed)
         other, place = self._places[off]
         return Cut(joint.name, Frame(other, row_of(place @ far)), Frame(end, row_of(frame)))
 
@@ -109,9 +136,10 @@ class _Conversion:
         way: tuple[Step, ...],
         start: tuple[Fraction, ...],
         place: tuple[str, Pose],
-    ) -> tuple[str, Pose]:
-        """Hang a link for each step; gives the last link and the frame of the joint's end on it."""
+    ) -> tuple[str, Pose, tuple[tuple[str, Fraction], ...]]:
+        """Hang a link for each step; gives the last link, the frame of the joint's end on it, and the coordinates."""
         link, frame = place
+        found: dict[int, tuple[str, Fraction]] = {}
         for number, step in enumerate(way, 1):
             turned = Pose(step.turn)
             row, value = row_of(frame @ turned), start[step.coordinate]
@@ -121,10 +149,11 @@ class _Conversion:
             own = body if body and is_last else name if len(way) == 1 else f"{name} {number}"
             own = self._free_name(own)
             self._links.append(Link(own, link, step.type, row, Fraction(0), ZERO_VECTOR, _MASSLESS))
+            found[step.coordinate] = own, offset
             if loads:
                 self._loads.append((own, offset, loads[step.coordinate]))
             link, frame = own, Pose(transposed(step.turn))
-        return link, frame
+        return link, frame, tuple(found[k] for k in sorted(found))
 
     def _free_name(self, name: str) -> str:
         taken = {BASE, *(link.name for link in self._links)}

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from codegen.build import Model, Progress, model
+from codegen.build import Progress
 from codegen.ir.lower import SymbolicOutput
 from codegen.ir.program import Program
 from codegen.mechanics.formulation import coordinate_count
 from codegen.mechanics.joints import BASIC, JOINTS
 from codegen.mechanics.left_out import conventional_quantities, parametric_quantities
+from codegen.models import Model, model
 from codegen.parallel import parallel
 from codegen.passes.split_geometry import split_geometry
 from codegen.spec.request import QUANTITIES, VARIATIONS, Variant, library_variants

@@ -14,7 +14,7 @@ from unittest import mock
 
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.lower import SymbolicOutput
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.program import Program
@@ -27,38 +27,38 @@ from tests.truth.workshop import fingerprint, forget_old, locked
 
 @pytest.fixture(scope="session", autouse=True)
 def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Keep what `codegen.build.Model.programs` gives for the library, and `codegen.scenes.programs` for scenes."""
+    """Keep what `codegen.models.Model.programs` gives for the library, and `codegen.scenes.programs` for scenes."""
     cache_dir = request.config.cache.mkdir("jointgen-programs")
     folder = cache_dir / fingerprint()
     folder.mkdir(parents=True, exist_ok=True)
     forget_old(cache_dir)
-    named, lower, lower_scene = build.Model.program, build.Model.programs, scene_programs.cheapest_of
+    named, lower, lower_scene = models.Model.program, models.Model.programs, scene_programs.cheapest_of
 
-    def program(model: build.Model, names: Iterable[str]) -> Program:
+    def program(model: models.Model, names: Iterable[str]) -> Program:
         """Without deriving the quantities, where the program is kept."""
         wanted = tuple(names)
         kept: Program = _kept(folder, (model.variant, wanted), lambda: named(model, wanted))
         return kept
 
     def programs(
-        model: build.Model, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose
+        model: models.Model, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None, choose: Choose
     ) -> list[Program]:
         def made() -> list[Program]:
             return lower(model, outputs, is_substituted, choose)
 
         what = (model.variant, [(output.name, output.shape) for output in outputs], is_substituted)
-        return _kept(folder, what, made) if choose is build.choices_for else made()
+        return _kept(folder, what, made) if choose is models.choices_for else made()
 
     def cheapest_of(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:
         def made() -> Program:
             return lower_scene(assembly, names, choose)
 
-        is_kept = choose in (build.choices_for, scene_programs.estimate)
+        is_kept = choose in (models.choices_for, scene_programs.estimate)
         return _kept(folder, (assembly, names, choose.__name__), made) if is_kept else made()
 
     with (
-        mock.patch.object(build.Model, "program", program),
-        mock.patch.object(build.Model, "programs", programs),
+        mock.patch.object(models.Model, "program", program),
+        mock.patch.object(models.Model, "programs", programs),
         mock.patch.object(scene_programs, "cheapest_of", cheapest_of),
     ):
         yield

@@ -9,7 +9,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from codegen.build import model
 from codegen.dynamics.layout import layout
 from codegen.emit.c import entries
 from codegen.emit.routine import Parameter, Routine
@@ -19,6 +18,7 @@ from codegen.ir.program import Output, Result
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.plan import plan
 from codegen.mechanics.system import System
+from codegen.models import model
 from codegen.scenes import read
 from codegen.scenes.compose import compose
 from codegen.scenes.generate import judge

@@ -15,7 +15,7 @@ import click
 from rich.progress import Progress
 
 import codegen
-from codegen import build
+from codegen import build, models
 from codegen.ir.lower.record import fingerprint, recorded, replayed
 from codegen.ir.lower.search import Choice, Graph, searched
 from codegen.mechanics.joints import JOINTS, PAIRS
@@ -45,7 +45,7 @@ class Job:
 
 def search(job: Job) -> tuple[dict[str, str], str]:
     """Search for every routine of a variant; gives the records and a line that says what was found."""
-    symbolic = build.model(job.variant)
+    symbolic = models.model(job.variant)
     records: dict[str, str] = {}
     words = []
     for name, quantities in _routines(job.variant):
@@ -57,7 +57,7 @@ def search(job: Job) -> tuple[dict[str, str], str]:
             graph: Graph, nodes: Sequence[int], found: list[tuple[Graph, Sequence[int], list[Choice]]] = found
         ) -> list[Choice]:
             choices = searched(graph, nodes, range(job.starts), best=4)
-            before = build.records().get(fingerprint(graph, nodes))
+            before = models.records().get(fingerprint(graph, nodes))
             if before is not None:
                 choices.append(replayed(graph, nodes, before))
             found.append((graph, nodes, choices))
@@ -101,7 +101,7 @@ def main(starts: int, routines: str) -> None:
     with Progress(transient=True) as progress:
         task = progress.add_task("search", total=len(jobs))
         results = parallel(search, jobs, lambda job: progress.advance(task))
-    records = dict(build.records()) if names else {}
+    records = dict(models.records()) if names else {}
     records |= {key: record for found, _ in results for key, record in found.items()}
     FILE.write_text(json.dumps(dict(sorted(records.items())), indent=0) + "\n", encoding="utf-8")
     for _, line in results:

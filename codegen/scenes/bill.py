@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from codegen import build
+from codegen import models
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
@@ -145,7 +145,7 @@ def _moving(scene: Scene, joint: Joint) -> tuple[str, ...]:
 
 
 def _in_library(scene: Scene, joint: Joint, variant: Variant) -> Program:
-    return build.model(variant).program(constraint_quantities(scene))
+    return models.model(variant).program(constraint_quantities(scene))
 
 
 def _folded(scene: Scene, joint: Joint, variant: Variant) -> Program:

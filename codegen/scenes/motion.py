@@ -6,7 +6,6 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.build import choices_for
 from codegen.dynamics import jacobian, residual
 from codegen.dynamics.directions import by_motion
 from codegen.dynamics.layout import Layout, layout
@@ -14,6 +13,7 @@ from codegen.ir.lower.lowering import Choose
 from codegen.ir.program import Program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
+from codegen.models import choices_for
 from codegen.passes import simplify
 from codegen.scenes.programs import program
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from codegen.build import PRICES, choices_for
 from codegen.ir.lower import lower, structural_rows
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.lower.search import Choice, Graph, cheapest
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
+from codegen.models import PRICES, choices_for
 from codegen.passes import simplify
 from codegen.passes.select import select
 from codegen.spec.sections import alike

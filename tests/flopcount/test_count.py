@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 
-from codegen import build
+from codegen import build, models
 from codegen.emit.c import entries
 from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
@@ -94,7 +94,7 @@ def test_counts_of_contracted_routines_agree_by_kind(joint: str) -> None:
 
 @pytest.mark.parametrize("pair", PAIRS)
 def test_counts_of_every_pair_agree_by_kind(pair: str) -> None:
-    symbolic = build.model(Variant(pair, "parametric", "regular"))
+    symbolic = models.model(Variant(pair, "parametric", "regular"))
     program = symbolic.program(QUANTITIES)
     routine = Routine(JointSubject(symbolic.joint, symbolic.variant), "all", program, count(program), "")
     assert count_c(entries(routine)[0].text)[routine.symbol] == count(program)

@@ -10,7 +10,7 @@ from functools import cache
 
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.builder import Builder
 from codegen.ir.lower.demands import Demand, Demands
 from codegen.ir.lower.lowering import Part, _Searched
@@ -46,7 +46,7 @@ class Laid:
         searched: the part as `codegen.ir.lower.lowering` has it, without any search.
     """
 
-    model: build.Model
+    model: models.Model
     part: Part
     searched: _Searched
 
@@ -83,9 +83,9 @@ class Laid:
 
 
 @cache
-def model_of(variant: Variant) -> build.Model:
+def model_of(variant: Variant) -> models.Model:
     """The symbolic model of a variant."""
-    return build.model(variant)
+    return models.model(variant)
 
 
 @cache
@@ -94,7 +94,7 @@ def laid_out(variant: Variant, names: tuple[str, ...] = QUANTITIES) -> tuple[Lai
     model = model_of(variant)
     inputs = frames.inputs(model.form.coordinates, model.form.row_count)
     parts = model._parts(model.outputs(names), None)
-    return tuple(Laid(model, part, _Searched(part, inputs, build.PRICES, lambda *_: [])) for part in parts)
+    return tuple(Laid(model, part, _Searched(part, inputs, models.PRICES, lambda *_: [])) for part in parts)
 
 
 def program_of(parts: tuple[Laid, ...], choices: Iterable[Choice]) -> Program:

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.build import Model
 from codegen.ir.evaluate import Domain
 from codegen.ir.ops import Constant
 from codegen.mechanics import frames
+from codegen.models import Model
 from codegen.spec.request import Variant
 from tests.truth.cases import has_unit_quaternions
 

@@ -11,7 +11,7 @@ from functools import cache
 
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.comparison import operations_per_step
 from codegen.spec.request import Variant
 from flopcount.count import count
@@ -100,7 +100,7 @@ constants."""
 def operations(case: Case) -> int:
     """Count the operations of a case."""
     joint, options, outputs = case
-    return count(build.model(Variant(joint, *VARIANTS[options])).program(OUTPUTS[outputs])).total
+    return count(models.model(Variant(joint, *VARIANTS[options])).program(OUTPUTS[outputs])).total
 
 
 @pytest.mark.parametrize("case", sorted(FIGURES.keys() - SHORTFALL.keys()), ids=" ".join)
@@ -116,7 +116,7 @@ def test_where_a_figure_is_not_reached_other_generators_still_take_more(case: Ca
 @pytest.mark.parametrize("case", sorted(PER_STEP), ids=" ".join)
 def test_with_prepared_geometry_a_step_takes_at_most_the_figure(case: Case) -> None:
     joint, options, outputs = case
-    program = build.model(Variant(joint, *VARIANTS[options])).program(OUTPUTS[outputs])
+    program = models.model(Variant(joint, *VARIANTS[options])).program(OUTPUTS[outputs])
     assert operations_per_step(program) <= FIGURES[case]
 
 
@@ -135,5 +135,5 @@ def test_evaluating_at_once_takes_fewer_operations_than_one_by_one(joint: str) -
     alone = operations((joint, "body", "phi_q")) + operations((joint, "body", "second"))
     assert (
         operations((joint, "body", "fused"))
-        <= alone + count(build.model(Variant(joint, *VARIANTS["body"])).program(("phi",))).total
+        <= alone + count(models.model(Variant(joint, *VARIANTS["body"])).program(("phi",))).total
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import evaluate
 from codegen.ir.program import Program
 from codegen.measure.constraints import Array, ConstraintSystem, Evaluate, Frame, JointConstraint, Pose
@@ -121,7 +121,7 @@ def geometry(joint: At, frames: Sequence[Frame], form: str) -> list[float]:
 def program(kind: str, form: str, rows: str) -> Program:
     """The generic routine of a joint, ``phi`` and ``phi_q``."""
     variant = Variant(kind, form, None if form == "conventional" else rows)
-    return build.model(variant).program(("phi", "phi_q"))
+    return models.model(variant).program(("phi", "phi_q"))
 
 
 def routine(kind: str, form: str, rows: str, constants: list[float]) -> Evaluate:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import evaluate, fraction_domain, numpy_domain
 from codegen.ir.ops import Op
 from codegen.ir.program import Output, Program, Sparsity
@@ -42,18 +42,18 @@ CASES = [
 
 
 def program_of(variant: Variant, output: str) -> Program:
-    return build.model(variant).program([output])
+    return models.model(variant).program([output])
 
 
 def blocks_of(variant: Variant, program: Program) -> list[Block]:
-    joint = build.joint_type(variant.joint)
+    joint = models.joint_type(variant.joint)
     is_conventional = variant.form == "conventional"
     rows = conventional_rows(joint) if is_conventional else parametric_rows(joint, variant.rows or "")
     return [block for output in program.outputs for block in blocks(output, rows)]
 
 
 def given_poses(variant: Variant, program: Program, is_converged: bool, real: str, count: int) -> dict[str, Any]:
-    joint = build.joint_type(variant.joint)
+    joint = models.joint_type(variant.joint)
     poses = sample_poses(joint, variant, program.arguments, DOMAIN, count, is_converged)
     used = {argument.name for argument in program.used_arguments()}
     return {name: rows for name, rows in poses.given(number_type(real)).items() if name in used}
@@ -115,7 +115,7 @@ def test_no_pose_of_the_domain_exceeds_the_bound_fused_or_not(
 ) -> None:
     for output in outputs:
         program = program_of(variant, output)
-        box = pose_box(program, build.joint_type(variant.joint), variant, DOMAIN, real)
+        box = pose_box(program, models.joint_type(variant.joint), variant, DOMAIN, real)
         bounds = rounding_bounds(program, box, real)
         assert all(np.isfinite(bounds[output]))
         judged = blocks_of(variant, program)
@@ -131,7 +131,7 @@ def test_no_pose_of_the_domain_exceeds_the_bound_fused_or_not(
 
 @pytest.mark.parametrize(("variant", "outputs"), CASES, ids=lambda case: getattr(case, "file_stem", ""))
 def test_stages_are_as_small_as_their_names_say(variant: Variant, outputs: tuple[str, ...]) -> None:
-    joint = build.joint_type(variant.joint)
+    joint = models.joint_type(variant.joint)
     seen = 0
     for output in outputs:
         program = program_of(variant, output)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import evaluate
 from codegen.measure.condition import condition
 from codegen.measure.pose_domain import PoseDomain
@@ -25,8 +25,8 @@ from codegen.spec.request import Variant
     ids=str,
 )
 def test_condition_is_the_sum_of_derivatives_times_inputs(variant: Variant, output: str) -> None:
-    program = build.model(variant).program([output])
-    poses = sample_poses(build.joint_type(variant.joint), variant, program.arguments, PoseDomain(), 300, False)
+    program = models.model(variant).program([output])
+    poses = sample_poses(models.joint_type(variant.joint), variant, program.arguments, PoseDomain(), 300, False)
     given = poses.given(np.float64)
     found = condition(program, given)[output]
     derivative = simplify(differentiate(program))

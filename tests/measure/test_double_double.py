@@ -9,7 +9,7 @@ import flint
 import numpy as np
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import arb_domain, evaluate
 from codegen.measure.double_double import DoubleDouble, arc_tangent, double_double_domain
 from codegen.measure.pose_domain import PoseDomain
@@ -78,8 +78,8 @@ def test_the_arc_tangent_has_31_digits() -> None:
     "variant", [Variant("screw", "conventional", None), Variant("revolute", "parametric", "table4", "substituted")]
 )
 def test_programs_have_30_digits_of_their_scale(variant: Variant) -> None:
-    joint = build.joint_type(variant.joint)
-    program = build.model(variant).program(["phi", "phi_q"])
+    joint = models.joint_type(variant.joint)
+    program = models.model(variant).program(["phi", "phi_q"])
     poses = sample_poses(joint, variant, program.arguments, PoseDomain(), 4, is_converged=True)
     found = evaluate(program, poses.ideal, double_double_domain())
     exact = {name: [balls(entry) for entry in entries] for name, entries in poses.ideal.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.program import Argument
 from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import Poses, sample_poses
@@ -27,7 +27,7 @@ each = pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.
 
 def drawn(variant: Variant, is_converged: bool, domain: PoseDomain | None = None) -> Poses:
     arguments = [Argument("velocity", (12, 1)), Argument("lambda", (6, 1))]
-    joint = build.joint_type(variant.joint)
+    joint = models.joint_type(variant.joint)
     return sample_poses(joint, variant, arguments, domain or PoseDomain(), COUNT, is_converged)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import Domain, evaluate, fraction_domain
 from codegen.ir.ops import Op
 from codegen.ir.program import Program
@@ -112,7 +112,7 @@ RATIONAL = Domain(
 
 @cache
 def library_programs(joint: str) -> tuple[Program, ...]:
-    models = [build.model(variant) for variant in library_variants(JOINTS[joint])]
+    models = [models.model(variant) for variant in library_variants(JOINTS[joint])]
     return tuple(model.program(names) for model in models for names in (*[[q] for q in QUANTITIES], QUANTITIES))
 
 
@@ -132,7 +132,7 @@ def test_every_program_of_the_library_keeps_its_values_and_rounds_less(joint: st
 
 
 def test_the_derivative_of_a_contracted_program_is_that_of_the_program() -> None:
-    program = build.model(Variant("ball", "conventional", None)).program(["phi"])
+    program = models.model(Variant("ball", "conventional", None)).program(["phi"])
     draw = random.Random(1)
     inputs = {a.name: [Fraction(draw.randint(-9, 9), 8) for _ in range(a.length)] for a in program.arguments}
     derivatives = [differentiate(p) for p in (program, contract_fma(program))]

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import evaluate
 from codegen.ir.ops import Op
 from codegen.passes.given_trigonometry import SINES_COSINES, given_trigonometry
@@ -18,7 +18,7 @@ TRIGONOMETRIC = {Op.SIN, Op.COS, Op.SINCOS, Op.SINE_OF, Op.COSINE_OF}
 
 @pytest.mark.parametrize("joint", ["revolute", "universal", "screw", "ball"])
 def test_given_sines_and_cosines_change_no_bit(joint: str) -> None:
-    program = build.model(Variant(joint, "parametric", "regular", "substituted")).program(["phi", "phi_q"])
+    program = models.model(Variant(joint, "parametric", "regular", "substituted")).program(["phi", "phi_q"])
     given = given_trigonometry(program)
     assert not TRIGONOMETRIC & {instruction.op for instruction in given.instructions}
     inputs = {
@@ -29,5 +29,5 @@ def test_given_sines_and_cosines_change_no_bit(joint: str) -> None:
 
 
 def test_a_program_without_angles_is_left_alone() -> None:
-    program = build.model(Variant("revolute", "conventional", None)).program(["phi"])
+    program = models.model(Variant("revolute", "conventional", None)).program(["phi"])
     assert given_trigonometry(program) is program

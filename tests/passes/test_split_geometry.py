@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from codegen import build
+from codegen import build, models
 from codegen.ir.evaluate import evaluate
 from codegen.ir.ops import LEAVES, Op
 from codegen.ir.program import Program
@@ -137,7 +137,7 @@ def test_every_variant_of_the_library_keeps_its_bits(joint: str) -> None:
 
 def test_the_translational_joint_takes_fifteen_operations_a_step() -> None:
     variant = Variant("translational", "parametric", "regular", "substituted")
-    programs_ = [build.model(variant).program([name]) for name in ("phi_q", "phi_q_t_lambda_q")]
+    programs_ = [models.model(variant).program([name]) for name in ("phi_q", "phi_q_t_lambda_q")]
     assert sum(count(step).total for step in split_geometry(programs_).steps) == 15
-    together = build.model(variant).program(("phi_q", "phi_q_t_lambda_q"))
+    together = models.model(variant).program(("phi_q", "phi_q_t_lambda_q"))
     assert count(split_geometry([together]).steps[0]).total == 15

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from codegen import comparison
-from codegen.build import model
+from codegen.models import model
 from codegen.report.charts import bar_chart, bars_of
 from codegen.report.sheets import glance, per_step
 from codegen.spec.request import Variant

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from codegen.build import model
 from codegen.ir.evaluate import Domain, evaluate
 from codegen.ir.program import Output, Program
 from codegen.mechanics.assembly import Assembly
+from codegen.models import model
 from codegen.spec.markers import markers
 from codegen.spec.request import QUANTITIES, Variant
 from codegen.spec.scene import GROUND, Joint, Marker

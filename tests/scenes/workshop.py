@@ -5,12 +5,12 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 
-from codegen.build import PRICES
 from codegen.ir.evaluate import evaluate
 from codegen.ir.lower import lower
 from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
+from codegen.models import PRICES
 from codegen.passes import simplify
 from codegen.passes.select import select
 from tests.lower.models import random_choice

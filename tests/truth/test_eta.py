@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from codegen import build
+from codegen import models
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.ir.program import Program
 from codegen.measure.errors import Truth, figures, number_type, truth
@@ -33,11 +33,11 @@ DOMAIN = PoseDomain()
 
 
 def poses_of(variant: Variant, program: Program, is_converged: bool) -> Poses:
-    return sample_poses(build.joint_type(variant.joint), variant, program.arguments, DOMAIN, POSES, is_converged)
+    return sample_poses(models.joint_type(variant.joint), variant, program.arguments, DOMAIN, POSES, is_converged)
 
 
 def judged(variant: Variant, program: Program) -> tuple[Block, ...]:
-    joint = build.joint_type(variant.joint)
+    joint = models.joint_type(variant.joint)
     conventional = variant.form == "conventional"
     rows = conventional_rows(joint) if conventional else parametric_rows(joint, variant.rows or "")
     return tuple(block for output in program.outputs for block in blocks(output, rows))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -21,6 +22,7 @@ from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.scenes import programs as scene_programs
+from codegen.spec.request import Variant
 from tests.harness.library import digest
 from tests.truth.workshop import fingerprint, forget_old, locked
 
@@ -37,7 +39,7 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
     def program(model: models.Model, names: Iterable[str]) -> Program:
         """Without deriving the quantities, where the program is kept."""
         wanted = tuple(names)
-        kept: Program = _kept(folder, (model.variant, wanted), lambda: named(model, wanted))
+        kept: Program = _kept(folder, (lowered_variant(model), wanted), lambda: named(model, wanted))
         return kept
 
     def programs(
@@ -46,7 +48,7 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
         def made() -> list[Program]:
             return lower(model, outputs, is_substituted, choose)
 
-        what = (model.variant, [(output.name, output.shape) for output in outputs], is_substituted)
+        what = (lowered_variant(model), [(output.name, output.shape) for output in outputs], is_substituted)
         return _kept(folder, what, made) if choose is models.choices_for else made()
 
     def cheapest_of(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:
@@ -62,6 +64,11 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
         mock.patch.object(scene_programs, "cheapest_of", cheapest_of),
     ):
         yield
+
+
+def lowered_variant(model: models.Model) -> Variant:
+    """Prepared geometry is split off after lowering."""
+    return replace(model.variant, geometry="runtime")
 
 
 def _kept(folder: Path, what: object, made: Callable[[], Any]) -> Any:

@@ -22,7 +22,7 @@ from .packages import STRICT, compile_silently, only_one
 Array = NDArray[Any]
 Entry = Mapping[str, Any]
 WALL = 16
-OUTPUTS = ("phi", "phi_q_t_lambda_q")
+OUTPUTS = ("all",)
 SAME_BITS = ("-O2", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize", "-DJG_OWN_TRIGONOMETRY")
 """Flags under which a routine gives the same bits alone and in a batch."""
 PADDING = 3

@@ -23,7 +23,7 @@ Array = NDArray[Any]
 Entry = Mapping[str, Any]
 WALL = 16
 OUTPUTS = ("all",)
-SAME_BITS = ("-O2", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize", "-DJG_OWN_TRIGONOMETRY")
+SAME_BITS = ("-O1", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize", "-DJG_OWN_TRIGONOMETRY")
 """Flags under which a routine gives the same bits alone and in a batch."""
 PADDING = 3
 """Places between the last joint and the leading dimension."""

@@ -51,6 +51,7 @@ def test_every_variant_gives_the_bits_of_the_routine_for_one_joint(joint: str, s
     ("compiler", "flags"),
     [
         ("gcc", ("-O0",)),
+        ("gcc", ("-O2",)),
         ("gcc", ("-O3", "-march=native")),
         ("gcc", ("-O2", "-DJG_NO_VECTORS")),
         pytest.param("clang", ("-O2",), marks=needs_clang),

@@ -11,6 +11,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import mpmath as mp
@@ -28,7 +29,7 @@ PIECE = 36
 Real = Any
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Polynomial:
     """A polynomial in z on [0, end].
 
@@ -78,6 +79,7 @@ POLYNOMIALS = (
 )
 
 
+@cache
 def minimax(polynomial: Polynomial, terms: int) -> tuple[list[Real], Real]:
     """Coefficients, lowest first, and the greatest relative error that they leave before they are rounded."""
     with mp.workdps(DIGITS):

@@ -18,19 +18,28 @@ Monomial = tuple[int, ...]
 
 
 class Polynomial:
-    """A sum of rational coefficients times monomials, kept in ascending order of the monomials."""
+    """A sum of rational coefficients times monomials, kept in ascending order of the monomials.
 
-    __slots__ = ("__dict__", "_hash", "terms")
+    Attributes:
+        terms: monomials and their coefficients.
+        sign: of the first coefficient; 0 for zero.
+    """
+
+    __slots__ = ("__dict__", "_hash", "sign", "terms")
 
     def __init__(self, terms: Mapping[Monomial, Coefficient]) -> None:
-        self.terms: tuple[tuple[Monomial, Coefficient], ...] = tuple(sorted((m, c) for m, c in terms.items() if c))
+        left = [(m, c) for m, c in terms.items() if c]
+        if len(left) > 1:
+            left.sort()
+        self.terms: tuple[tuple[Monomial, Coefficient], ...] = tuple(left)
+        self.sign = 0 if not left else 1 if left[0][1] > 0 else -1
         self._hash = hash(self.terms)
 
     def __hash__(self) -> int:
         return self._hash
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Polynomial) and self.terms == other.terms
+        return self is other or (isinstance(other, Polynomial) and self.terms == other.terms)
 
     def __bool__(self) -> bool:
         return bool(self.terms)
@@ -67,17 +76,12 @@ class Polynomial:
                 product[monomial] = product.get(monomial, 0) + a * b
         return Polynomial(product)
 
-    @cached_property
+    @property
     def constant(self) -> Coefficient | None:
         """The value, where no atom is in it."""
         if not self.terms:
             return 0
         return self.terms[0][1] if len(self.terms) == 1 and not self.terms[0][0] else None
-
-    @cached_property
-    def sign(self) -> int:
-        """Sign of the first coefficient; 0 for zero."""
-        return 0 if not self.terms else 1 if self.terms[0][1] > 0 else -1
 
     @cached_property
     def content(self) -> Monomial:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
 from typing import Any
 
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial
@@ -45,19 +46,28 @@ Primitive = Axis | Given | Cross | Named
 
 
 class Vector:
-    """A sum of scalars times primitive vectors, in ascending order of the primitives."""
+    """A sum of scalars times primitive vectors, in ascending order of the primitives.
 
-    __slots__ = ("__dict__", "_hash", "terms")
+    Attributes:
+        terms: primitives and their coefficients.
+        sign: of the first coefficient; 0 for the zero vector.
+    """
+
+    __slots__ = ("__dict__", "_hash", "sign", "terms")
 
     def __init__(self, terms: Mapping[int, Polynomial]) -> None:
-        self.terms: tuple[tuple[int, Polynomial], ...] = tuple(sorted((p, c) for p, c in terms.items() if c))
+        left = [(p, c) for p, c in terms.items() if c.terms]
+        if len(left) > 1:
+            left.sort(key=itemgetter(0))
+        self.terms: tuple[tuple[int, Polynomial], ...] = tuple(left)
+        self.sign = left[0][1].sign if left else 0
         self._hash = hash(self.terms)
 
     def __hash__(self) -> int:
         return self._hash
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Vector) and self.terms == other.terms
+        return self is other or (isinstance(other, Vector) and self.terms == other.terms)
 
     def __bool__(self) -> bool:
         return bool(self.terms)
@@ -81,11 +91,6 @@ class Vector:
     def times(self, factor: Polynomial) -> Vector:
         """Multiply by a scalar."""
         return Vector({primitive: factor * coefficient for primitive, coefficient in self.terms})
-
-    @cached_property
-    def sign(self) -> int:
-        """Sign of the first coefficient; 0 for the zero vector."""
-        return self.terms[0][1].sign if self.terms else 0
 
     @property
     def single(self) -> int | None:

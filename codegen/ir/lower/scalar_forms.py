@@ -156,9 +156,11 @@ def _by_known_factor(layout: Layout, value: Polynomial) -> Iterator[Alternative]
         return
     monomial, coefficient = value.terms[0]
     for known in list(layout.products)[:_KNOWN]:
+        if len(known) >= len(monomial) or not set(known) <= set(monomial):
+            continue
         rest = Counter(monomial)
         rest.subtract(known)
-        if len(known) < len(monomial) and min(rest.values()) >= 0:
+        if min(rest.values()) >= 0:
             other = Polynomial({tuple(sorted(rest.elements())): coefficient})
             yield _product(layout, Polynomial({known: 1}), other, 1)
 

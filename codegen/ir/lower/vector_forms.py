@@ -221,12 +221,13 @@ def _by_product(layout: Layout, vector: Vector) -> Parts:
 
 def _with_known(layout: Layout, vector: Vector, known: Vector) -> Parts:
     """Write a vector with a known sum inside it, up to sign."""
-    if known in (vector, -vector) or len(known.terms) >= len(vector.terms):
-        return []
+    inside = dict(known.terms)
     terms = dict(vector.terms)
+    if len(inside) >= len(terms) or not inside.keys() <= terms.keys():
+        return []
     for part, sign in ((known, ONE), (-known, -ONE)):
-        if all(terms.get(p) == coefficient for p, coefficient in part.terms):
-            rest = Vector({p: c for p, c in terms.items() if p not in dict(part.terms)})
+        if all(terms[p] == coefficient for p, coefficient in part.terms):
+            rest = Vector({p: c for p, c in terms.items() if p not in inside})
             if len(rest.terms) == 1 or rest in layout.sums or -rest in layout.sums:
                 return [(sign, known), (ONE, rest)]
     return []

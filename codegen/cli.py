@@ -14,7 +14,9 @@ import click
 
 import codegen
 from codegen import cli_trade
-from codegen.cli_chain import chain, generate_relative, simulate_chain, simulate_relative, told
+from codegen.cli_chain import chain
+from codegen.cli_platform import platform
+from codegen.cli_scene import scene, simulate
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
 from codegen.progress import progress as _progress
 
@@ -90,122 +92,6 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
     click.echo(f"{target}: {functions} functions in {len(files)} files")
-
-
-@jointgen.command()
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option(
-    "--form", help="Of all joints that may have it: auto, conventional or parametric; or relative: as a chain."
-)
-@click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
-@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
-@click.option("--loops", default="auto", show_default=True, help="Equal parts run in loops: auto or never.")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-@click.option("--measure", is_flag=True, help="Say in the README what each simplification saves on this machine.")
-def scene(file: Path, form: str | None, copies: int | None, real: str, loops: str, target: Path, measure: bool) -> None:
-    """Emit the routines of one mechanism: a scene file (TOML), a URDF or an MJCF."""
-    from codegen import output, scenes
-    from codegen.measure.compile import compiler
-    from codegen.scenes.generate import check_options, generate_scene, steps
-
-    check_options(form, real, loops)
-    if form == "relative":
-        generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
-        return
-    if measure:
-        compiler()
-    output.check_target(target)
-    read, left_out = scenes.read(file, copies)
-    for line in left_out:
-        click.echo(line, err=True)
-    with _progress(steps(read), "generating") as advance:
-        files = generate_scene(read, form, real, advance, measure, loops)
-    output.replace(target, files)
-    functions = len(json.loads(files[output.MANIFEST])["functions"])
-    click.echo(f"{target}: {functions} functions in {len(files)} files")
-
-
-@jointgen.command()
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("--form", help="Of all joints that may have it: auto, conventional or parametric; or relative.")
-@click.option("--derivative", help="Of parametric joints: exact or substituted; as the file says if left out.")
-@click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the error test.")
-@click.option("--duration", type=float, default=1.0, show_default=True, help="Time to simulate, s.")
-@click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
-@click.option("--index", type=int, default=2, show_default=True, help="2: stabilised index 2; 1: Baumgarte.")
-@click.option("--copies", type=int, help="Repeat the mechanism so often, as copies in the file does.")
-@click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
-@click.option("--through-singular", is_flag=True, help="Go on through singular configurations, on the smooth branch.")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def simulate(file: Path, copies: int | None, animation: bool, target: Path, **options: Any) -> None:
-    """Integrate a mechanism, or a chain: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
-    from codegen import output, scenes
-    from codegen.chains.read import is_chain
-    from codegen.report.run_pictures import run_pictures
-    from codegen.scenes.run import Settings
-    from codegen.scenes.simulate import check_settings, check_tools, simulated
-
-    if is_chain(file):
-        simulate_chain(file, target, animation, copies, options)
-        return
-    if options["form"] == "relative":
-        simulate_relative(file, target, animation, copies, options)
-        return
-    settings = Settings(**options)
-    check_settings(settings)
-    output.check_target(target)
-    read, left_out = scenes.read(file, copies)
-    check_tools()
-    for line in left_out:
-        click.echo(line, err=True)
-    with _progress(settings.outputs, "simulating") as advance:
-        result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
-    output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
-    told(file, target, result)
-
-
-@jointgen.command()
-@click.argument("file", type=click.Path(path_type=Path))
-@click.option("--variant", help="robust, balanced, fast, values, smooth or literal; as the file says if left out.")
-@click.option("--real", default="double", show_default=True, help="Number type: double or float.")
-@click.option("--poses", type=click.Path(path_type=Path), help="Evaluate at the poses of a CSV or npy file.")
-@click.option("--grid", help="Evaluate on a grid: x=-0.3:0.3:61,yaw=-20deg:20deg:41 (x y z in m, roll pitch yaw).")
-@click.option("--format", "kind", default="csv", show_default=True, help="Of the results: csv or npz.")
-@click.option("--dask", "cluster", help="Address of a Dask scheduler that evaluates the poses (extra dask).")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def platform(
-    file: Path,
-    variant: str | None,
-    real: str,
-    poses: Path | None,
-    grid: str | None,
-    kind: str,
-    cluster: str | None,
-    target: Path,
-) -> None:
-    """Emit velocity indices of a six-legged platform (a TOML file); evaluate them at many poses."""
-    from codegen import output
-    from codegen.platforms.generate import generate_platform, steps, with_options
-    from codegen.platforms.run import chosen_poses, evaluated
-    from codegen.report.platform_report import platform_report
-    from codegen.scenes.read import text_of
-    from codegen.spec.platform_file import read_platform
-
-    output.check_target(target)
-    read = with_options(read_platform(text_of(file), str(file)), variant, real)
-    where = chosen_poses(read, poses, grid, kind)
-    with _progress(steps(read), "generating") as advance:
-        package = generate_platform(read, real, advance)
-    files: dict[str, output.Content] = {**package}
-    if where is not None:
-        with _progress(where.pieces, "evaluating") as advance:
-            table = evaluated(where, advance, cluster, output.room(target))
-        files |= {**table.files, **platform_report(read, table)}
-    output.replace(target, files)
-    functions = len(json.loads(package[output.MANIFEST])["functions"])
-    click.echo(f"{target}: {functions} functions in {len(files)} files")
-    if where is not None:
-        click.echo(table.words)
 
 
 def _flop_files() -> dict[str, bytes]:
@@ -293,7 +179,7 @@ def report(folder: tuple[Path, ...], target: Path) -> None:
     click.echo(f"{target}: {len(found)} folders of results")
 
 
-for _command in (chain, *cli_trade.COMMANDS):
+for _command in (scene, simulate, chain, platform, *cli_trade.COMMANDS):
     jointgen.add_command(_command)
 
 

@@ -112,8 +112,8 @@ RATIONAL = Domain(
 
 @cache
 def library_programs(joint: str) -> tuple[Program, ...]:
-    models = [models.model(variant) for variant in library_variants(JOINTS[joint])]
-    return tuple(model.program(names) for model in models for names in (*[[q] for q in QUANTITIES], QUANTITIES))
+    symbolic = [models.model(variant) for variant in library_variants(JOINTS[joint])]
+    return tuple(model.program(names) for model in symbolic for names in (*[[q] for q in QUANTITIES], QUANTITIES))
 
 
 @pytest.mark.parametrize("joint", JOINTS)

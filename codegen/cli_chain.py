@@ -108,7 +108,7 @@ def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
 
 def simulate_relative(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
     """A scene by relative coordinates."""
-    from codegen import output, scenes
+    from codegen import output
     from codegen.chains.simulate import Settings
     from codegen.chains.simulate_scene import simulated_relative
     from codegen.measure.compile import compiler
@@ -121,14 +121,22 @@ def simulate_relative(file: Path, target: Path, animation: bool, copies: int | N
         raise SpecificationError(mistakes)
     settings = Settings("forward", **options)
     output.check_target(target)
-    read, left_out = scenes.read(file, copies)
+    read = read_told(file, copies)
     compiler()
-    for line in left_out:
-        click.echo(line, err=True)
     with progress(settings.outputs, "simulating") as advance:
         result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)
+
+
+def read_told(file: Path, copies: int | None) -> Any:
+    """Read a scene; tell what its file has that is not modelled."""
+    from codegen import scenes
+
+    read, left_out = scenes.read(file, copies)
+    for line in left_out:
+        click.echo(line, err=True)
+    return read
 
 
 def told(file: Path, target: Path, result: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from codegen.cli_chain import generate_relative, simulate_chain, simulate_relative, told
+from codegen.cli_chain import generate_relative, read_told, simulate_chain, simulate_relative, told
 from codegen.progress import progress
 
 
@@ -24,7 +24,7 @@ from codegen.progress import progress
 @click.option("--measure", is_flag=True, help="Say in the README what each simplification saves on this machine.")
 def scene(file: Path, form: str | None, copies: int | None, real: str, loops: str, target: Path, measure: bool) -> None:
     """Emit the routines of one mechanism: a scene file (TOML), a URDF or an MJCF."""
-    from codegen import output, scenes
+    from codegen import output
     from codegen.measure.compile import compiler
     from codegen.scenes.generate import check_options, generate_scene, steps
 
@@ -35,9 +35,7 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     if measure:
         compiler()
     output.check_target(target)
-    read, left_out = scenes.read(file, copies)
-    for line in left_out:
-        click.echo(line, err=True)
+    read = read_told(file, copies)
     with progress(steps(read), "generating") as advance:
         files = generate_scene(read, form, real, advance, measure, loops)
     output.replace(target, files)
@@ -59,7 +57,7 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 def simulate(file: Path, copies: int | None, animation: bool, target: Path, **options: Any) -> None:
     """Integrate a mechanism, or a chain: trajectory.csv, summary.json, plot.svg and, if asked for, animation.html."""
-    from codegen import output, scenes
+    from codegen import output
     from codegen.chains.read import is_chain
     from codegen.report.run_pictures import run_pictures
     from codegen.scenes.run import Settings
@@ -74,10 +72,8 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     settings = Settings(**options)
     check_settings(settings)
     output.check_target(target)
-    read, left_out = scenes.read(file, copies)
+    read = read_told(file, copies)
     check_tools()
-    for line in left_out:
-        click.echo(line, err=True)
     with progress(settings.outputs, "simulating") as advance:
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})

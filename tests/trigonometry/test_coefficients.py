@@ -35,8 +35,8 @@ def test_the_rounded_polynomial_is_off_by_no_more_than_its_rounding_explains(pol
     with mp.workdps(40):
         least = minimax(polynomial, polynomial.terms[real])[1]
         assert least < mp.mpf(2) ** -SIGNIFICAND[real] / 8
-        for k in range(1, 200):
-            x = mp.sqrt(polynomial.end) * k / 199
+        for k in range(1, 500):
+            x = mp.sqrt(polynomial.end) * k / 499
             value = assembled(x, x * x, mp.polyval([mp.mpf(c) for c in coefficients[::-1]], x * x))
             sizes = mp.polyval([abs(mp.mpf(c)) for c in coefficients[::-1]], x * x)
             rounding = sizes * polynomial.weight(x * x) * mp.mpf(2) ** -SIGNIFICAND[real]
@@ -50,8 +50,8 @@ def test_no_polynomial_of_its_degree_is_better(polynomial: Polynomial) -> None:
     with mp.workdps(40):
         coefficients, worst = minimax(polynomial, terms)
         errors = []
-        for k in range(1, 1001):
-            z = mp.mpf(polynomial.end) * (1 - mp.cos(mp.pi * k / 1000)) / 2
+        for k in range(1, 4001):
+            z = mp.mpf(polynomial.end) * (1 - mp.cos(mp.pi * k / 4000)) / 2
             errors.append(polynomial.weight(z) * (mp.polyval(coefficients[::-1], z) - polynomial.function(z)))
         heights: list[mp.mpf] = []
         for error in errors:

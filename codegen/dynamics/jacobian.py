@@ -10,6 +10,7 @@ from collections.abc import Collection
 from fractions import Fraction
 
 from codegen.dynamics.attitude import norm_squared, rate_map
+from codegen.dynamics.condensation import completed, eliminated
 from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import moved, transposed
 from codegen.dynamics.residual import NORM_DAMPING, arguments
@@ -20,7 +21,7 @@ from codegen.ir.program import Argument, Output, Program, Sparsity
 from codegen.mechanics.system import System
 
 INDEX2 = ("phi_q", "phi_q_t_lambda_q", "phi_q_v_q", "force_q", "force_v")
-"""Quantities that the Jacobian takes; at index 1 also the derivatives of ``gamma``."""
+"""Quantities that the Jacobian takes; at index 1 also the derivatives of ``gamma``, where it is condensed ``force``."""
 
 SECOND = ("phi_q_t_lambda_q", "phi_q_v_q", "force_q", "force_v")
 """Those that may be left out: Newton's iteration converges more slowly, to the same solution."""
@@ -56,7 +57,7 @@ def jacobian(
         parts += [composed.constraints(), composed.drift()]
     else:
         parts.append(composed.accelerations(program, gamma, beta))
-    entries = composed.state.matrices.total(parts)
+    entries = eliminated(composed.state, composed.state.matrices.total(parts))
     sparsity = Sparsity.of_entries(layout.size, layout.size, entries)
     output = Output("jacobian", sparsity, tuple(entries[place] for place in sparsity.entries()))
     signature = arguments(system, layout, Argument("cj", (1, 1)))
@@ -69,8 +70,8 @@ class _Jacobian:
     def __init__(
         self, system: System, layout: Layout, program: Program, mass: Program, left_out: Collection[str]
     ) -> None:
-        self.state = State(system, layout)
-        self._layout = layout
+        self.state = completed(system, layout, program)
+        self._layout = self.state.layout
         self._matrices = self.state.matrices
         self._builder = self.state.builder
         self._left_out = left_out
@@ -123,7 +124,7 @@ class _Jacobian:
         p = state.y(places)
         first = self._layout.velocities.start + state.arrays.displacements * body + 3
         x, y, z = matrices.scaled(
-            builder.constant(Fraction(1, 2)), {(k, 0): builder.input("y", first + k) for k in range(3)}
+            builder.constant(Fraction(1, 2)), {(k, 0): y for k, y in enumerate(state.y(range(first, first + 3)))}
         ).values()
         across = {(0, k + 1): value for k, value in enumerate((x, y, z))}
         turning = across | matrices.negative(transposed(across)) | moved(matrices.skew((x, y, z)), 1, 1)

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from codegen.mechanics.condensed import Condensed
 from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.frames import d_ij, dp_ij, e_ij, ep_ij
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.placed import Placed
 from codegen.mechanics.system import System
 
-FORMS = ("index2", "index1")
-"""Stabilised index 2 after Gear, Gupta and Leimkuhler; index 1 after Baumgarte."""
+FORMS = ("index2", "index1", "condensed")
+"""Stabilised index 2 after Gear, Gupta and Leimkuhler; index 1 after Baumgarte; index 2 without what constants tie to the
+rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +30,9 @@ class Layout:
         corrections: ``mu``, in the order of the rows; empty at index 1.
         names: of the entries.
         units: of the entries.
+        coordinates: the joint coordinates among the positions.
+        condensed: joint coordinates whose rates, and rows whose multipliers and corrections, are no entries.
+        places: number of each entry among all that there are without condensation.
     """
 
     positions: range
@@ -36,6 +41,9 @@ class Layout:
     corrections: range
     names: tuple[str, ...]
     units: tuple[str, ...]
+    coordinates: range
+    condensed: Condensed
+    places: tuple[int, ...]
 
     @property
     def size(self) -> int:
@@ -44,8 +52,12 @@ class Layout:
 
     @property
     def is_differential(self) -> tuple[bool, ...]:
-        """Whether the derivative of an entry is in the residual: that of positions and velocities."""
-        return tuple(k < self.velocities.stop for k in range(self.size))
+        """Whether the derivative of an entry is in the residual.
+
+        That of positions and velocities is, but for joint coordinates that the constraints alone determine.
+        """
+        algebraic = {self.coordinates[k] for k in self.condensed.coordinates}
+        return tuple(k < self.velocities.stop and k not in algebraic for k in range(self.size))
 
 
 def layout(system: System, form: str) -> Layout:
@@ -55,19 +67,28 @@ def layout(system: System, form: str) -> Layout:
         system: the mechanism.
         form: one of `FORMS`.
     """
-    entries = [*_positions(system)]
-    ends = [len(entries)]
-    groups = [_velocities(system), _multipliers(system, "lambda", "N", "N m")]
-    if form == "index2":
-        groups.append(_multipliers(system, "mu", "m/s", "1/s"))
-    for group in groups:
-        entries += group
-        ends.append(len(entries))
-    ends += [len(entries)] * (4 - len(ends))
-    names, units = zip(*entries, strict=True)
-    starts = (0, *ends)
-    positions, velocities, multipliers, corrections = (range(starts[k], ends[k]) for k in range(4))
-    return Layout(positions, velocities, multipliers, corrections, names, units)
+    condensed = system.condensed if form == "condensed" else Condensed()
+    groups = [[*_positions(system)], [*_velocities(system)], [*_multipliers(system, "lambda", "N", "N m")]]
+    groups.append([] if form == "index1" else [*_multipliers(system, "mu", "m/s", "1/s")])
+    alphas = system.assembly.coordinates
+    moving = len(groups[1]) - alphas
+    left_out = ((), tuple(moving + k for k in condensed.coordinates), condensed.rows, condensed.rows)
+    first, places, ends = 0, list[int](), list[int]()
+    for group, missing in zip(groups, left_out, strict=True):
+        places += [first + k for k in range(len(group)) if k not in set(missing)]
+        first += len(group)
+        ends.append(len(places))
+    entries = [entry for group in groups for entry in group]
+    names, units = zip(*(entries[place] for place in places), strict=True)
+    ranges = (range(start, end) for start, end in zip((0, *ends), ends))
+    return Layout(*ranges, names, units, range(ends[0] - alphas, ends[0]), condensed, tuple(places))
+
+
+def whole(system: System, layout_: Layout) -> Layout:
+    """The layout of all entries, of a state that may leave some out."""
+    if not layout_.condensed.coordinates:
+        return layout_
+    return layout(system, "index2")
 
 
 Entry = tuple[str, str]

@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from codegen.dynamics.attitude import norm_squared, rate_map
+from codegen.dynamics.condensation import completed, without_condensed
 from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import moved, transposed
 from codegen.dynamics.state import State, Values
@@ -47,17 +48,17 @@ def residual(system: System, layout: Layout, program: Program, mass: Program, be
     Returns:
         A program of ``t``, ``y``, ``ydot`` and ``revolutions`` with the output ``residual``.
     """
-    state = State(system, layout)
+    state = completed(system, layout, program)
     found = state.evaluated(program)
-    parts = [moved(_positions(state, program), layout.positions.start, 0)]
-    parts.append(moved(_motion(state, found, mass), layout.velocities.start, 0))
+    parts = [moved(_positions(state, program), state.layout.positions.start, 0)]
+    parts.append(moved(_motion(state, found, mass), state.layout.velocities.start, 0))
     drift = state.matrices.total((found["phi_q_v"], _phi_t(state)))
     if "gamma" in found:
-        parts.append(moved(_accelerations(state, found, drift, beta), layout.multipliers.start, 0))
+        parts.append(moved(_accelerations(state, found, drift, beta), state.layout.multipliers.start, 0))
     else:
-        parts.append(moved(found["phi"], layout.multipliers.start, 0))
-        parts.append(moved(drift, layout.corrections.start, 0))
-    rows = {place: value for part in parts for place, value in part.items()}
+        parts.append(moved(found["phi"], state.layout.multipliers.start, 0))
+        parts.append(moved(drift, state.layout.corrections.start, 0))
+    rows = without_condensed(state, {place: value for part in parts for place, value in part.items()})
     return state.builder.freeze(arguments(system, layout), (column(state, "residual", rows),))
 
 
@@ -71,7 +72,7 @@ def arguments(system: System, layout: Layout, *more: Argument) -> tuple[Argument
 
 def column(state: State, name: str, rows: Entries) -> Output:
     """A full column."""
-    size = state.layout.size
+    size = state.given.size
     zero = state.builder.constant(0)
     full = Sparsity.of_entries(size, 1, ((k, 0) for k in range(size)))
     return Output(name, full, tuple(rows.get((k, 0), zero) for k in range(size)))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 from codegen.dynamics.attitude import plane_rotation, rate_map, rotation, scaled_parameters
-from codegen.dynamics.layout import Layout
+from codegen.dynamics.layout import Layout, whole
 from codegen.dynamics.matrices import Matrices, moved, transposed
 from codegen.errors import InternalError
 from codegen.ir.builder import Builder
@@ -20,6 +20,8 @@ Values = list[int]
 class State:
     """Values of the state of a system.
 
+    Places are those of all entries; what the state leaves out is told by `know`.
+
     Args:
         system: the mechanism.
         layout: of the state.
@@ -27,13 +29,18 @@ class State:
     Attributes:
         builder: where everything is computed.
         matrices: arithmetic over it.
+        given: layout of the state.
+        layout: of all entries.
     """
 
     def __init__(self, system: System, layout: Layout) -> None:
         self.builder = Builder()
         self.matrices = Matrices(self.builder)
         self.system = system
-        self.layout = layout
+        self.given = layout
+        self.layout = whole(system, layout)
+        self._places = {place: k for k, place in enumerate(layout.places)}
+        self._known: dict[int, int] = {}
         self.arrays = system.assembly.arrays
         self.bodies = range(len(system.assembly.scene.bodies))
         self.size = len(system.assembly.columns)
@@ -61,12 +68,20 @@ class State:
         return 3 if self.is_planar else 7
 
     def y(self, places: range) -> Values:
-        """Entries of ``y``."""
-        return [self.builder.input("y", k) for k in places]
+        """Entries of ``y``; of those that are left out what they follow to be, 0 while that is not known."""
+        zero = self.builder.constant(0)
+        return [
+            self.builder.input("y", self._places[k]) if k in self._places else self._known.get(k, zero) for k in places
+        ]
 
     def rates(self, places: range) -> Values:
-        """Entries of ``ydot``."""
-        return [self.builder.input("ydot", k) for k in places]
+        """Entries of ``ydot``; what is left out has no inertia."""
+        zero = self.builder.constant(0)
+        return [self.builder.input("ydot", self._places[k]) if k in self._places else zero for k in places]
+
+    def know(self, place: int, value: int) -> None:
+        """Say what an entry is that the state leaves out."""
+        self._known[place] = value
 
     def attitude_places(self, body: int) -> range:
         """Places of the Euler parameters, or of the angle, of a body."""
@@ -75,7 +90,7 @@ class State:
     @property
     def alpha_places(self) -> range:
         """Places of the joint coordinates."""
-        return range(self.stride * len(self.bodies), self.layout.positions.stop)
+        return self.layout.coordinates
 
     @cached_property
     def attitudes(self) -> list[Entries]:

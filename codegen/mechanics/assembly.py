@@ -210,6 +210,10 @@ class Assembly:
         rows, columns = KINDS[name]
         return chosen[rows], chosen[columns]
 
+    def jacobian_blocks(self, placed: Placed) -> tuple[Block, ...]:
+        """``phi_q`` of a joint between bodies i and j."""
+        return _derived(self.forms[placed.joint.name], self.translations)[1].quantity("phi_q").blocks
+
     def _quantity(self, name: str, joints: Sequence[Placed]) -> SymbolicOutput:
         rows, columns = KINDS[name]
         derived = self.arrays.derived * len(self.scene.bodies) + self.coordinates

@@ -101,9 +101,14 @@ def parts_of(assembly: Assembly) -> tuple[Assembly, ...]:
     return _Planning(assembly).parts
 
 
-def plan(assembly: Assembly) -> Plan:
-    """Find the kinds of a scene."""
-    return _Planning(assembly).plan()
+def plan(assembly: Assembly, is_condensed: bool = False) -> Plan:
+    """Find the kinds of a scene.
+
+    Args:
+        assembly: the scene.
+        is_condensed: whether states leave out what `codegen.mechanics.condensed.Condensed` says.
+    """
+    return _Planning(assembly).plan(is_condensed)
 
 
 class _Planning:
@@ -121,14 +126,14 @@ class _Planning:
             members.setdefault(kind, []).append(k)
         self._members = members.values()
 
-    def plan(self) -> Plan:
+    def plan(self, is_condensed: bool) -> Plan:
         """Put everything together."""
         systems, values = [], dict[int, tuple[Constant, ...]]()
         for members in self._members:
             varying, numbers = differing([self._scenes[k] for k in members])
             systems.append(System(replace(self.parts[members[0]], varying=varying)))
             values |= {k: tuple(map(Constant, row)) for k, row in zip(members, numbers, strict=True)}
-        lengths = [_lengths(system) for system in systems]
+        lengths = [_lengths(system, is_condensed) for system in systems]
         starts = self._starts(lengths)
         series = []
         for places in repeated(self._kinds):
@@ -176,13 +181,16 @@ def _axis(lengths: Sequence[int], starts: Sequence[Sequence[int]], places: range
     return tuple(segments)
 
 
-def _lengths(system: System) -> dict[str, tuple[int, ...]]:
+def _lengths(system: System, is_condensed: bool) -> dict[str, tuple[int, ...]]:
     """What the entries are -> number of those in each segment: of bodies, then of joint coordinates; or of rows."""
     assembly = system.assembly
     arrays, bodies, coordinates = assembly.arrays, len(assembly.scene.bodies), assembly.coordinates
     displacements = (arrays.displacements * bodies, coordinates)
     rows = (len(assembly.rows), len(system.drives))
     positions = ((3 if arrays.is_planar else 7) * bodies, coordinates)
+    left_out = len(system.condensed.rows) if is_condensed else 0
+    rates = (displacements[0], displacements[1] - left_out)
+    multipliers = (rows[0] - left_out, rows[1])
     return {
         "positions": (arrays.position * bodies,),
         "attitudes": (arrays.attitude * bodies,),
@@ -192,5 +200,5 @@ def _lengths(system: System) -> dict[str, tuple[int, ...]]:
         "revolutions": (assembly.counted,),
         "displacements": displacements,
         "constraints": rows,
-        "state": (*positions, *displacements, *rows, *rows),
+        "state": (*positions, *rates, *multipliers, *multipliers),
     }

@@ -20,6 +20,7 @@ from codegen.ir.program import Argument
 from codegen.mechanics import frames
 from codegen.mechanics.assembly import KINDS, Assembly
 from codegen.mechanics.blocks import gathered
+from codegen.mechanics.condensed import Condensed, condensed
 from codegen.mechanics.forces import FORCES, Forces, scalar_places
 from codegen.mechanics.placed import rational
 from codegen.spec.scene import Drive
@@ -71,6 +72,12 @@ class System:
     def phi_t(self) -> tuple[Fraction, ...]:
         """Partial derivative of ``phi`` by time, row by row, m/s or rad/s."""
         return (*(Fraction(0) for _ in self.assembly.rows), *(-driven.drive.speed for driven in self.drives))
+
+    @cached_property
+    def condensed(self) -> Condensed:
+        """The joint coordinates that constants tie to the rest."""
+        blocks = {placed.ends.number: self.assembly.jacobian_blocks(placed) for placed in self.assembly.placed}
+        return condensed(self.assembly.placed, blocks, self.assembly.rows)
 
     @cached_property
     def _forces(self) -> Forces:

@@ -91,7 +91,7 @@ def continued(prepared: Prepared, watch: Watch, t: float, predicted: Prediction)
 
 def _velocity(system: System, layout: Layout, y: Array, rates: Array) -> Array:
     """Velocities as the state has them, of rates of its positions."""
-    arrays, found = system.assembly.arrays, np.zeros(len(layout.velocities))
+    arrays, found = system.assembly.arrays, np.zeros(len(system.assembly.columns))
     count = len(system.assembly.scene.bodies)
     stride = 3 if arrays.is_planar else 7
     for k in range(count):

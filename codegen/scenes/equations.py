@@ -24,7 +24,7 @@ def equations(system: System, form: str, left_out: Collection[str] = ()) -> Comp
 
     Args:
         system: the scene.
-        form: ``index2`` or ``index1``, see `codegen.scenes.motion.dae`.
+        form: one of `codegen.dynamics.layout.FORMS`.
         left_out: terms that the Jacobian lacks.
 
     Raises:
@@ -37,7 +37,7 @@ def equations(system: System, form: str, left_out: Collection[str] = ()) -> Comp
     def jacobian(part: System) -> Program:
         return jacobian_program(part, form, left_out, choose=estimate)
 
-    planned = plan(system.assembly)
+    planned = plan(system.assembly, is_condensed=form == "condensed")
     subject = SceneSubject(system, layout(system, form), row_names(system.assembly), planned)
     if form == "index1":  # what loops run over is laid out for index 2
         return compiled(subject, residual(system), jacobian(system))

@@ -47,7 +47,7 @@ def dae(
 
     Args:
         system: the scene with its joints, drives and forces.
-        form: ``index2``, stabilised after Gear, Gupta and Leimkuhler, or ``index1`` after Baumgarte.
+        form: one of `codegen.dynamics.layout.FORMS`.
         left_out: terms of the Jacobian that are left out, of `codegen.dynamics.jacobian.SECOND`.
         beta: of Baumgarte's stabilisation, 1/s.
         choose: among the ways to evaluate the programs of the system.
@@ -63,7 +63,7 @@ def residual_program(
     system: System, form: str = "index2", beta: Fraction = BETA, choose: Choose = choices_for
 ) -> Program:
     """Compose the residual ``F(t, y, ydot)``, see `dae`."""
-    values = program(system, residual.INDEX2 if form == "index2" else residual.INDEX1, choose)
+    values = program(system, residual.INDEX1 if form == "index1" else residual.INDEX2, choose)
     return simplify(residual.residual(system, layout(system, form), values, _inertia(system), beta))
 
 
@@ -75,8 +75,9 @@ def jacobian_program(
     choose: Choose = choices_for,
 ) -> Program:
     """Compose the Jacobian ``dF/dy + cj dF/dydot``, see `dae`."""
-    slopes = program(system, jacobian.INDEX2, choose)
-    gamma = None if form == "index2" else simplify(by_motion(program(system, ("gamma",), choose), system))
+    acting = ("force",) if form == "condensed" else ()
+    slopes = program(system, (*jacobian.INDEX2, *acting), choose)
+    gamma = simplify(by_motion(program(system, ("gamma",), choose), system)) if form == "index1" else None
     state, inertia = layout(system, form), _inertia(system)
     return simplify(jacobian.jacobian(system, state, slopes, inertia, left_out=left_out, gamma=gamma, beta=beta))
 

@@ -131,7 +131,7 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     derivative = settings.derivative or chosen.wanted.derivative
     judged = judge(replace(chosen, wanted=replace(chosen.wanted, derivative=derivative)))
     system = System(judged.assembly)
-    form = f"index{settings.index}"
+    form = "condensed" if settings.index == 2 else "index1"
     state = layout(system, form)
     values = quantities(system, ("phi_q", "gamma", "force"))
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
@@ -219,7 +219,7 @@ def consistent_state(prepared: Prepared, pose: Pose, velocity: Array) -> tuple[A
 def _state(system: System, layout: Layout, pose: Pose, motion: Motion) -> tuple[Array, Array]:
     """The state of a motion, translations in world axes, and its rate."""
     arrays = system.assembly.arrays
-    y, ydot = np.zeros(layout.size), np.zeros(layout.size)
+    y, ydot = np.zeros(layout.positions.stop), np.zeros(layout.positions.stop)
     stride = 3 if arrays.is_planar else 7
     parameters = euler_parameters(pose.A[None])[0]
     for k in range(len(pose.r)):
@@ -232,13 +232,13 @@ def _state(system: System, layout: Layout, pose: Pose, motion: Motion) -> tuple[
         else:
             y[place + 3 : place + 7] = parameters[k]
             ydot[place + 3 : place + 7] = 0.5 * rate_matrix(parameters[k]).T @ omega
-    first = stride * len(pose.r)
-    y[first : layout.positions.stop] = pose.alpha
-    ydot[first : layout.positions.stop] = motion.velocity[arrays.displacements * len(pose.r) :]
-    y[layout.velocities.start : layout.velocities.stop] = motion.velocity
-    ydot[layout.velocities.start : layout.velocities.stop] = motion.acceleration
-    y[layout.multipliers.start : layout.multipliers.stop] = motion.multipliers
-    return y, ydot
+    y[layout.coordinates] = pose.alpha
+    ydot[layout.coordinates] = motion.velocity[arrays.displacements * len(pose.r) :]
+    zeros, places = np.zeros_like(motion.multipliers), list(layout.places)
+    return (
+        np.concatenate([y, motion.velocity, motion.multipliers, zeros])[places],
+        np.concatenate([ydot, motion.acceleration, zeros, zeros])[places],
+    )
 
 
 def run(prepared: Prepared, settings: Settings, progress: Progress = lambda _: None) -> Run:

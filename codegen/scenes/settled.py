@@ -16,6 +16,7 @@ from codegen.dynamics.layout import Layout
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.ir.program import Program
 from codegen.measure.constraints import Array
+from codegen.mechanics.condensed import Condensed
 from codegen.mechanics.system import System
 from codegen.scenes.state import Bodies, bodies_of
 from codegen.simulate.start import dense, saddle
@@ -33,8 +34,11 @@ def settled(system: System, layout: Layout, values: Program, mass: Program, y: A
         ydot: [n, size] its rate.
     """
     bodies = bodies_of(system, layout, y, ydot)
-    arrays = _arguments(system, bodies)
-    found = evaluate(values, {name: list(array.T) for name, array in arrays.items()}, numpy_domain())
+    found = _evaluated(system, bodies, values)
+    if layout.condensed.coordinates:
+        phi_q = _times(found["phi_q"], len(y))
+        bodies = replace(bodies, alphadot=_rates(system, layout.condensed, values, phi_q, bodies))
+        found = _evaluated(system, bodies, values)
     rows = {name: _times(found[name], len(y)) for name in ("phi_q", "gamma", "force")}
     M = dense(mass.output("mass"), evaluate(mass, {})["mass"])
     linear = _Saddle(M, values)
@@ -42,6 +46,26 @@ def settled(system: System, layout: Layout, values: Program, mass: Program, y: A
     size = len(M)
     rates = np.array([solution[:size] for solution in solved])
     return _with_accelerations(system, bodies, rates, np.array([solution[size:] for solution in solved]))
+
+
+def _evaluated(system: System, bodies: Bodies, values: Program) -> dict[str, list[Array]]:
+    arrays = _arguments(system, bodies)
+    return evaluate(values, {name: list(array.T) for name, array in arrays.items()}, numpy_domain())
+
+
+def _rates(system: System, condensed: Condensed, values: Program, phi_q: Array, bodies: Bodies) -> Array:
+    """Rates of the joint coordinates [n, k]; those that the state leaves out are such that ``phi_q v = 0``."""
+    found = bodies.alphadot.copy()
+    found[:, condensed.coordinates] = 0.0
+    velocity = _arguments(system, replace(bodies, alphadot=found))["velocity"]
+    place = {row: k for k, row in enumerate(condensed.rows)}
+    drift = np.zeros((len(phi_q), len(place)))
+    for k, (row, column) in enumerate(values.output("phi_q").sparsity.entries()):
+        if row in place:
+            drift[:, place[row]] += phi_q[:, k] * velocity[:, column]
+    for a, b, value in condensed.inverse:
+        found[:, condensed.coordinates[a]] -= float(value) * drift[:, b]
+    return found
 
 
 def _times(values: list[Array], count: int) -> Array:

@@ -69,6 +69,8 @@ class Bodies:
 def bodies_of(system: System, layout: Layout, y: Array, ydot: Array) -> Bodies:
     """Read the motion of the bodies off states.
 
+    Rates of joint coordinates that a state leaves out are those of its polynomial, multipliers of its rows 0.
+
     Args:
         system: the scene.
         layout: of the state.
@@ -91,10 +93,23 @@ def bodies_of(system: System, layout: Layout, y: Array, ydot: Array) -> Bodies:
         lifted[0][..., 3:],
         lifted[1][..., :3],
         lifted[1][..., 3:],
-        y[:, stride * count : layout.positions.stop],
-        y[:, first + size * count : layout.velocities.stop],
-        y[:, layout.multipliers.start : layout.multipliers.stop],
+        y[:, layout.coordinates],
+        _coordinate_rates(system, layout, y, ydot),
+        _multipliers(system, layout, y),
     )
+
+
+def _coordinate_rates(system: System, layout: Layout, y: Array, ydot: Array) -> Array:
+    found = ydot[:, layout.coordinates]
+    own = range(len(layout.velocities) - len(found[0]) + len(layout.condensed.coordinates), len(layout.velocities))
+    found[:, [k for k in range(len(found[0])) if k not in layout.condensed.coordinates]] = y[:, layout.velocities][:, own]
+    return found
+
+
+def _multipliers(system: System, layout: Layout, y: Array) -> Array:
+    found = np.zeros((len(y), system.row_count))
+    found[:, [k for k in range(system.row_count) if k not in layout.condensed.rows]] = y[:, layout.multipliers]
+    return found
 
 
 def _lifted(rates: Array, is_planar: bool) -> Array:

@@ -32,13 +32,14 @@ def conventional_rows(joint: JointType) -> tuple[Row, ...]:
     return tuple(rows)
 
 
-def parametric_rows(joint: JointType, rows: str = "regular") -> tuple[Row, ...]:
-    """Name the rows of the parametric form; ``rows`` is one of `codegen.spec.request.ROWS`."""
+def parametric_rows(joint: JointType, rows: str = "regular", point: str = "body") -> tuple[Row, ...]:
+    """Name the rows of the parametric form; ``rows`` and ``point`` as in `codegen.spec.request.Variant`."""
     if rows == "table4":
         names: tuple[str, ...] = _TABLE4[joint.rotations]
     else:
         names = (*_REGULAR, "e . e - 1") if rows == "quaternion" else _REGULAR
-    return (*_POINT_IN_BODY, *(Row(name, "1") for name in names))
+    is_in_world = point == "world" and not joint.translations
+    return (*(_POINT if is_in_world else _POINT_IN_BODY), *(Row(name, "1") for name in names))
 
 
 def coordinate_units(joint: JointType, rows: str = "regular") -> tuple[str, ...]:

@@ -11,7 +11,7 @@ is substituted, since S1 substitutes in these coordinates.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from typing import Any
 
@@ -45,9 +45,12 @@ KINDS = {
 
 
 @cache
-def _derived(variant: Variant, translations: str) -> tuple[Formulation, Derivation]:
-    """A joint between bodies i and j, once for all scenes."""
+def _derived(variant: Variant, translations: str, piece: str = "whole") -> tuple[Formulation, Derivation]:
+    """A joint between bodies i and j, or a piece of it as `Placed` has them, once for all scenes."""
+    if piece == "point":
+        return _derived(Variant("ball", "conventional", None), translations)
     form = formulation(JOINTS[variant.joint], variant, translations)
+    form = replace(form, rows=form.rows[1:]) if piece == "turn" else form
     return form, Derivation(form)
 
 
@@ -76,7 +79,8 @@ class Assembly:
     @cached_property
     def translations(self) -> str:
         """Axes of the virtual translations."""
-        return "body" if any(variant.derivative == "substituted" for variant in self.forms.values()) else "world"
+        in_body = (v.derivative == "substituted" and v.point == "body" for v in self.forms.values())
+        return "body" if any(in_body) else "world"
 
     @cached_property
     def bodies(self) -> dict[str, str]:
@@ -186,12 +190,22 @@ class Assembly:
         groups = [(group, names, False) for group in connected(sharing)]
         substituted = [placed for placed in self.placed if self._is_substituted(placed)]
         groups.append((substituted, tuple(name for name in names if name in AS_IT_STANDS), False))
-        for placed in self.placed:
-            if placed in substituted:
-                groups.append(([placed], tuple(name for name in names if name not in AS_IT_STANDS), True))
-            elif placed not in sharing:
-                groups.append(([placed], names, False))
+        derived = tuple(name for name in names if name not in AS_IT_STANDS)
+        pieces = [self._pieces(placed) for placed in substituted]
+        points = [point for point, _ in pieces if point is not None]
+        groups += [(group, derived, False) for group in connected(points)]
+        groups += [([turn], derived, True) for _, turn in pieces]
+        groups += [([placed], names, False) for placed in self.placed if placed not in (*sharing, *substituted)]
         return [self._part(*group) for group in groups if group[0] and group[1]]
+
+    def _pieces(self, placed: Placed) -> tuple[Placed | None, Placed]:
+        """Rows that no joint relation is inserted into, those of points in world axes, and the others."""
+        variant = self.forms[placed.joint.name]
+        if variant.point == "body" or JOINTS[placed.joint.type].translations:
+            return None, placed
+        point, turn = (_derived(variant, self.translations, piece)[0] for piece in ("point", "turn"))
+        behind = replace(placed.ends, first_row=placed.ends.first_row + point.row_count)
+        return Placed(placed.joint, point, placed.ends, "point"), Placed(placed.joint, turn, behind, "turn")
 
     def _is_substituted(self, placed: Placed) -> bool:
         variant = self.forms[placed.joint.name]
@@ -220,7 +234,7 @@ class Assembly:
         sizes = {"constraints": self.all_rows, "displacements": derived, "joints": len(self.placed), "one": 1}
         blocks: list[Block] = []
         for placed in joints:
-            _, derivation = _derived(self.forms[placed.joint.name], self.translations)
+            _, derivation = _derived(self.forms[placed.joint.name], self.translations, placed.piece)
             blocks += placed.blocks(rows, columns, derivation.quantity(name).blocks)
         return gathered(name, (sizes[rows], sizes[columns]), blocks)
 

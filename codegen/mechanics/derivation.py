@@ -129,8 +129,6 @@ class Derivation:
         for row, force in self.force_blocks:
             varied = self._virtual.of(force)
             for displacement, column in self.form.displacements:
-                if column < 12 and self.form.substitution:
-                    continue
                 block = self._second_block(varied, displacement)
                 if not is_zero(block):
                     blocks.append(Block(row, column, sympy.Transpose(block) if row >= 12 and column < 12 else block))

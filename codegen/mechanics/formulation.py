@@ -225,8 +225,9 @@ def _parametric(joint: JointType, variant: Variant, translations: str) -> Formul
     if joint.is_screw:
         stages[mixed.advance] = mixed.screw_advance(alphas[0])
     d_of_alpha = mixed.translation(joint.translations, alphas, joint.is_screw)
+    is_in_world = variant.point == "world" and not joint.translations
     rows = (
-        mixed.translational_rows(d_of_alpha),
+        d_ij if is_in_world else mixed.translational_rows(d_of_alpha),
         *mixed.rotational_rows(variant.rows or "regular", joint.rotations, rotation, algebra),
     )
     substituted = variant.derivative == "substituted"

@@ -67,11 +67,14 @@ class Placed:
         joint: the joint of the scene.
         form: its formulation between bodies i and j.
         ends: where it stands.
+        piece: which rows it has: ``whole``, or ``point`` or ``turn``, those that hold points together or those of the
+            rotation.
     """
 
     joint: Joint
     form: Formulation
     ends: Ends
+    piece: str = "whole"
 
     # --- symbols
 

@@ -80,7 +80,7 @@ def _choice(scene: Scene, joint: Joint, form: str | None, known: dict[tuple[obje
 def _variant(scene: Scene, joint: Joint, form: str) -> Variant:
     if form == "conventional":
         return Variant(joint.type, form, None)
-    return Variant(joint.type, form, scene.wanted.rows, scene.wanted.derivative)
+    return Variant(joint.type, form, scene.wanted.rows, scene.wanted.derivative, point=scene.wanted.point)
 
 
 def _prices(scene: Scene, joint: Joint, known: dict[tuple[object, ...], dict[str, int]]) -> dict[str, int]:

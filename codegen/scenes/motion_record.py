@@ -10,7 +10,7 @@ import numpy as np
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.measure.constraints import Array
 from codegen.mechanics.system import System
-from codegen.scenes.numbers import constraint_program, geometry_of
+from codegen.scenes.numbers import constraint_program, exact, geometry_of
 from codegen.scenes.run import Prepared, Run
 from codegen.scenes.settled import settled
 from codegen.scenes.state import Bodies, Frames, euler_parameters, frames_of
@@ -95,7 +95,7 @@ def _values(system: System, bodies: Bodies, joint: Joint, position: int) -> tupl
     """``phi`` [m, n] of a joint and ``phi_q`` [m, 6, n] by body j, translations in world axes, at all times."""
     placed = system.assembly.placed[position]
     variant = system.assembly.forms[joint.name]
-    program = constraint_program(_exact(variant))
+    program = constraint_program(exact(variant))
     names = [body.name for body in system.assembly.scene.bodies]
     arrays: dict[str, list[Array]] = {}
     poses = []
@@ -117,10 +117,6 @@ def _values(system: System, bodies: Bodies, joint: Joint, position: int) -> tupl
     if variant.translations == "body":
         phi_q[:, :3] = np.einsum("nij,rjn->rin", poses[1], phi_q[:, :3])
     return np.array([value * times for value in values["phi"]]), phi_q
-
-
-def _exact(variant: Variant) -> Variant:
-    return Variant(variant.joint, variant.form, variant.rows)
 
 
 def _pose(bodies: Bodies, number: int | None) -> tuple[Array, Array]:

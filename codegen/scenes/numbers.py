@@ -6,6 +6,7 @@ In planar motion every body has three more rows that hold it in the plane; joint
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -32,7 +33,7 @@ _QUANTITIES = ("phi", "phi_q")
 def rows_of(variant: Variant) -> tuple[Row, ...]:
     """Name the rows of a joint in a form."""
     joint = JOINTS[variant.joint]
-    return conventional_rows(joint) if variant.form == "conventional" else parametric_rows(joint, variant.rows or "")
+    return conventional_rows(joint) if variant.form == "conventional" else parametric_rows(joint, variant.rows or "", variant.point)
 
 
 def constraint_system(
@@ -121,12 +122,17 @@ def constraint_program(variant: Variant) -> Program:
     return model.lowered(model.outputs(_QUANTITIES), choose=estimate)
 
 
+def exact(variant: Variant) -> Variant:
+    """The same rows with their own derivatives."""
+    return replace(variant, derivative="exact")
+
+
 def _evaluate(variant: Variant, constants: list[float], kept: Sequence[int]) -> Evaluate:
     """A joint routine; translations of the parametric form are turned from body axes to the world's."""
     rows = list(kept)
 
     def evaluated(r_i: Array, A_i: Array, r_j: Array, A_j: Array, alpha: Array) -> tuple[Array, Array]:
-        program = constraint_program(variant)
+        program = constraint_program(exact(variant))
         arrays = {"r_i": r_i, "A_i": A_i.ravel(order="F"), "r_j": r_j, "A_j": A_j.ravel(order="F"), "alpha": alpha}
         values = evaluate(program, {name: array.tolist() for name, array in arrays.items()} | {"geometry": constants})
         phi_q = _dense(program, values["phi_q"])

@@ -129,7 +129,7 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     plane = in_plane(scene) if scene.motion == "planar" else None
     chosen = with_forms(plane.scene if plane else scene, settings.form)
     derivative = settings.derivative or chosen.wanted.derivative
-    judged = judge(replace(chosen, wanted=replace(chosen.wanted, derivative=derivative)))
+    judged = judge(replace(chosen, wanted=replace(chosen.wanted, derivative=derivative, point="world")))
     system = System(judged.assembly)
     form = "condensed" if settings.index == 2 else "index1"
     state = layout(system, form)

@@ -55,6 +55,8 @@ class Variant:
         variation: axes of the virtual rotations: ``body`` or ``world``.
         geometry: ``runtime``, or ``prepared``: what depends on it alone is computed once.
         matrices: ``orthonormal``: ``A^T A = I`` is taken for granted; ``raw``: ``phi`` takes the matrices as they are.
+        point: axes of the three rows that hold two points together in the parametric form: ``body`` i, as S1 has them,
+            or ``world``. Along a joint axis that moves with body i they stay in axes of body i.
     """
 
     joint: str
@@ -64,6 +66,7 @@ class Variant:
     variation: str = "body"
     geometry: str = "runtime"
     matrices: str = "orthonormal"
+    point: str = "body"
 
     @property
     def translations(self) -> str:

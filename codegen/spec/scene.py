@@ -212,11 +212,13 @@ class Wanted:
         quantities: of `SCENE_QUANTITIES`; empty for what `codegen.scenes.generate.wanted` says.
         rows: of the parametric joints, ``regular`` or ``table4``.
         derivative: of the parametric joints, ``exact`` or ``substituted``.
+        point: axes of rows of the parametric joints, see `codegen.spec.request.Variant`; not read from files.
     """
 
     quantities: tuple[str, ...] = ()
     rows: str = "regular"
     derivative: str = "exact"
+    point: str = "body"
 
 
 @dataclass(frozen=True, slots=True)

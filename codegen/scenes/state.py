@@ -94,21 +94,21 @@ def bodies_of(system: System, layout: Layout, y: Array, ydot: Array) -> Bodies:
         lifted[1][..., :3],
         lifted[1][..., 3:],
         y[:, layout.coordinates],
-        _coordinate_rates(system, layout, y, ydot),
-        _multipliers(system, layout, y),
+        _coordinate_rates(layout, y, ydot),
+        _multipliers(layout, y),
     )
 
 
-def _coordinate_rates(system: System, layout: Layout, y: Array, ydot: Array) -> Array:
+def _coordinate_rates(layout: Layout, y: Array, ydot: Array) -> Array:
     found = ydot[:, layout.coordinates]
-    own = range(len(layout.velocities) - len(found[0]) + len(layout.condensed.coordinates), len(layout.velocities))
-    found[:, [k for k in range(len(found[0])) if k not in layout.condensed.coordinates]] = y[:, layout.velocities][:, own]
+    kept = [k for k in range(len(layout.coordinates)) if k not in layout.condensed.coordinates]
+    found[:, kept] = y[:, layout.velocities[len(layout.velocities) - len(kept) :]]
     return found
 
 
-def _multipliers(system: System, layout: Layout, y: Array) -> Array:
-    found = np.zeros((len(y), system.row_count))
-    found[:, [k for k in range(system.row_count) if k not in layout.condensed.rows]] = y[:, layout.multipliers]
+def _multipliers(layout: Layout, y: Array) -> Array:
+    found = np.zeros((len(y), len(layout.multipliers) + len(layout.condensed.rows)))
+    found[:, [k for k in range(len(found[0])) if k not in layout.condensed.rows]] = y[:, layout.multipliers]
     return found
 
 

@@ -72,7 +72,9 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
 
 def lowered_variant(model: models.Model) -> Variant:
     """Prepared geometry is split off after lowering; a pair that is a joint of the catalogue has its programs."""
-    return replace(model.variant, geometry="runtime", joint=CATALOGUE_PAIRS.get(model.variant.joint, model.variant.joint))
+    return replace(
+        model.variant, geometry="runtime", joint=CATALOGUE_PAIRS.get(model.variant.joint, model.variant.joint)
+    )
 
 
 def _kept(folder: Path, what: object, made: Callable[[], Any]) -> Any:

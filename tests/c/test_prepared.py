@@ -15,7 +15,8 @@ from codegen import build, output
 from codegen.emit.routine import Routine
 from codegen.ir.evaluate import evaluate
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import OUTPUTS, Options, Variant, library_variants
+from codegen.spec.request import OUTPUTS, Options, Variant
+from codegen.spec.selection import library_variants
 from flopcount.count_c import count_c
 from flopcount.counts import Counts
 from tests.harness.library import Library

@@ -8,7 +8,8 @@ import pytest
 
 from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.models import model
-from codegen.spec.request import DERIVATIVES, ROWS, VARIATIONS, Variant, incompatibilities
+from codegen.spec.request import DERIVATIVES, ROWS, VARIATIONS, Variant
+from codegen.spec.selection import incompatibilities
 from tests.reference.constraints import CATALOGUE_PAIRS
 
 OPTIONS = tuple(product(ROWS, DERIVATIVES, VARIATIONS))

@@ -13,19 +13,14 @@ their rates had theirs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import transposed
 from codegen.dynamics.state import State
 from codegen.ir.inline import Entries
-
 from codegen.ir.program import Program
 from codegen.mechanics.system import System
-
-Row = Mapping[int, int]
-"""Column -> value."""
-
 
 def completed(system: System, layout: Layout, program: Program) -> State:
     """A state that knows the entries it leaves out.
@@ -133,9 +128,7 @@ def eliminated(state: State, jacobian: Entries) -> Entries:
     }
 
 
-def _substituted(
-    state: State, jacobian: Entries, rows: list[int], unknowns: list[int], is_transposed: bool
-) -> Entries:
+def _substituted(state: State, jacobian: Entries, rows: list[int], unknowns: list[int], is_transposed: bool) -> Entries:
     """Solve rows for unknowns, whose constants in them are ``P`` or ``P^T``, and put these into the others."""
     number, place = {row: k for k, row in enumerate(rows)}, {column: k for k, column in enumerate(unknowns)}
     right = {

@@ -14,7 +14,6 @@ from codegen.dynamics.condensation import completed, eliminated
 from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import moved, transposed
 from codegen.dynamics.residual import NORM_DAMPING, arguments
-from codegen.dynamics.state import State
 from codegen.ir.inline import Entries
 from codegen.ir.ops import Op
 from codegen.ir.program import Argument, Output, Program, Sparsity

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 from codegen.mechanics.condensed import Condensed
 from codegen.mechanics.derivation import is_matrix
@@ -13,8 +14,12 @@ from codegen.mechanics.placed import Placed
 from codegen.mechanics.system import System
 
 FORMS = ("index2", "index1", "condensed")
-"""Stabilised index 2 after Gear, Gupta and Leimkuhler; index 1 after Baumgarte; index 2 without what constants tie to the
-rest."""
+"""Stabilised index 2 after Gear, Gupta and Leimkuhler; index 1 after Baumgarte; index 2 without what
+`codegen.mechanics.condensed` says."""
+
+
+Entry = tuple[str, str]
+"""Name and unit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,20 +73,38 @@ def layout(system: System, form: str) -> Layout:
         form: one of `FORMS`.
     """
     condensed = system.condensed if form == "condensed" else Condensed()
-    groups = [[*_positions(system)], [*_velocities(system)], [*_multipliers(system, "lambda", "N", "N m")]]
-    groups.append([] if form == "index1" else [*_multipliers(system, "mu", "m/s", "1/s")])
+    positions, rates = [*_positions(system)], [*_velocities(system)]
+    multipliers = [*_multipliers(system, "lambda", "N", "N m")]
+    corrections = [] if form == "index1" else [*_multipliers(system, "mu", "m/s", "1/s")]
     alphas = system.assembly.coordinates
-    moving = len(groups[1]) - alphas
-    left_out = ((), tuple(moving + k for k in condensed.coordinates), condensed.rows, condensed.rows)
-    first, places, ends = 0, list[int](), list[int]()
-    for group, missing in zip(groups, left_out, strict=True):
-        places += [first + k for k in range(len(group)) if k not in set(missing)]
-        first += len(group)
-        ends.append(len(places))
-    entries = [entry for group in groups for entry in group]
-    names, units = zip(*(entries[place] for place in places), strict=True)
-    ranges = (range(start, end) for start, end in zip((0, *ends), ends))
-    return Layout(*ranges, names, units, range(ends[0] - alphas, ends[0]), condensed, tuple(places))
+    first = len(rates) - alphas
+    entries = [
+        _kept(positions, ()),
+        _kept(rates, [first + k for k in condensed.coordinates]),
+        _kept(multipliers, condensed.rows),
+        _kept(corrections, condensed.rows),
+    ]
+    lengths = (len(positions), len(rates), len(multipliers))
+    starts, ends = (list(accumulate(sizes, initial=0)) for sizes in (lengths, map(len, entries)))
+    places = [start + k for start, group in zip(starts, entries, strict=True) for k, _ in group]
+    names, units = zip(*(entry for group in entries for _, entry in group), strict=True)
+    return Layout(
+        range(ends[0], ends[1]),
+        range(ends[1], ends[2]),
+        range(ends[2], ends[3]),
+        range(ends[3], ends[4]),
+        names,
+        units,
+        range(ends[1] - alphas, ends[1]),
+        condensed,
+        tuple(places),
+    )
+
+
+def _kept(entries: Sequence[Entry], left_out: Sequence[int]) -> list[tuple[int, Entry]]:
+    """Entries with their numbers, without those that are left out."""
+    missing = frozenset(left_out)
+    return [(k, entry) for k, entry in enumerate(entries) if k not in missing]
 
 
 def whole(system: System, layout_: Layout) -> Layout:
@@ -89,10 +112,6 @@ def whole(system: System, layout_: Layout) -> Layout:
     if not layout_.condensed.coordinates:
         return layout_
     return layout(system, "index2")
-
-
-Entry = tuple[str, str]
-"""Name and unit."""
 
 
 def _positions(system: System) -> Iterator[Entry]:

@@ -72,7 +72,11 @@ def _columns(
         entries = [_constants(b.expression.xreplace(known)) for b in blocks if b.column == _FIRST + k]
         rows = [b.row for b in blocks if b.column == _FIRST + k]
         if None not in entries:
-            column = {row + i: value for row, values in zip(rows, entries, strict=True) for i, value in enumerate(values or ())}
+            column = {
+                row + i: value
+                for row, values in zip(rows, entries, strict=True)
+                for i, value in enumerate(values or ())
+            }
             yield k, {row: value for row, value in column.items() if value and joint.ends.first_row + row in number}
 
 

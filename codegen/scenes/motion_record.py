@@ -15,7 +15,6 @@ from codegen.scenes.run import Prepared, Run
 from codegen.scenes.settled import settled
 from codegen.scenes.state import Bodies, Frames, euler_parameters, frames_of
 from codegen.simulate.trajectory import Trajectory
-from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint
 
 

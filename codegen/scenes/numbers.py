@@ -33,7 +33,11 @@ _QUANTITIES = ("phi", "phi_q")
 def rows_of(variant: Variant) -> tuple[Row, ...]:
     """Name the rows of a joint in a form."""
     joint = JOINTS[variant.joint]
-    return conventional_rows(joint) if variant.form == "conventional" else parametric_rows(joint, variant.rows or "", variant.point)
+    return (
+        conventional_rows(joint)
+        if variant.form == "conventional"
+        else parametric_rows(joint, variant.rows or "", variant.point)
+    )
 
 
 def constraint_system(

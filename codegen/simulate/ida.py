@@ -129,8 +129,6 @@ class Ida:
         library.SUNContext_ClearErrHandlers(self._context)
         arrays = (self.y, self.ydot, self._absolute, self._identity)
         self._vectors = [library.N_VMake_Serial(size, array.ctypes.data, self._context) for array in arrays]
-        for vector in self._vectors:
-            self._check(library.N_VEnableFusedOps_Serial(vector, 1))
         y, ydot, absolute, identity = self._vectors
         self._matrix = library.SUNSparseMatrix(size, size, self._equations.nonzeros, _CSC, self._context)
         self._solver = library.linear_solver(

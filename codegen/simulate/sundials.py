@@ -27,7 +27,6 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "SUNContext_Free": (c_int, (POINTER(c_void_p),)),
     "SUNContext_ClearErrHandlers": (c_int, (c_void_p,)),
     "N_VMake_Serial": (c_void_p, (c_int, c_void_p, c_void_p)),
-    "N_VEnableFusedOps_Serial": (c_int, (c_void_p, c_int)),
     "N_VDestroy": (None, (c_void_p,)),
     "SUNSparseMatrix": (c_void_p, (c_int, c_int, c_int, c_int, c_void_p)),
     "SUNMatDestroy": (None, (c_void_p,)),

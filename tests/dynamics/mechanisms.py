@@ -125,10 +125,10 @@ def loaded(motion: str = "spatial") -> Scene:
     return Scene("arm", gravity, (arm, load), joints, springs, torques, motion)
 
 
-def system(scene: Scene, form: str = "parametric", derivative: str = "exact") -> System:
+def system(scene: Scene, form: str = "parametric", derivative: str = "exact", point: str = "body") -> System:
     """All joints in one form; in the plane the rows that are zero are left out."""
     rows = None if form == "conventional" else "regular"
-    forms = {j.name: Variant(j.type, form, rows, derivative) for j in scene.joints}
+    forms = {j.name: Variant(j.type, form, rows, derivative, point=point) for j in scene.joints}
     assembly = Assembly(scene, forms)
     return System(without_zero_rows(assembly) if scene.motion == "planar" else assembly)
 
@@ -136,3 +136,9 @@ def system(scene: Scene, form: str = "parametric", derivative: str = "exact") ->
 def unloaded(scene: Scene) -> Scene:
     """The same without what acts on joint coordinates, so that any form will do."""
     return replace(scene, joints=tuple(replace(j, coordinates=()) for j in scene.joints))
+
+
+def cross() -> Scene:
+    """A body on a universal joint."""
+    hung = body("hung", vector(0, "-0.3", 0))
+    return Scene("cross", GRAVITY, (hung,), (joint("cross", "universal", (None, hung), vector(0, 0, 0)),))

@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from codegen.dynamics.jacobian import SECOND
+from codegen.dynamics.layout import layout
 from codegen.ir.evaluate import evaluate
 from codegen.mechanics.system import System
 from codegen.scenes.motion import BETA, Dae, dae
@@ -23,6 +24,7 @@ CASES = {
     "conventional": (mechanisms.pendulum("0.7"), "conventional", "exact"),
     "substituted": (mechanisms.loaded(), "parametric", "substituted"),
     "substituted in the plane": (mechanisms.loaded("planar"), "parametric", "substituted"),
+    "substituted, points in world axes": (mechanisms.loaded(), "parametric", "substituted", "world"),
 }
 
 
@@ -67,6 +69,7 @@ def anywhere(found: Dae) -> tuple[Array, Array]:
         ("loaded in the plane", "index1"),
         ("conventional", "index2"),
         ("conventional", "index1"),
+        ("loaded in space", "condensed"),
     ],
 )
 def test_the_jacobian_is_the_derivative_of_the_residual_anywhere(case: str, form: str) -> None:
@@ -79,9 +82,17 @@ def test_the_jacobian_is_the_derivative_of_the_residual_anywhere(case: str, form
     np.testing.assert_allclose(jacobian(found, y, ydot, cj), expected, rtol=0, atol=1e-13 * scale)
 
 
-@pytest.mark.parametrize("case", ["substituted", "substituted in the plane"])
-def test_a_substituted_jacobian_is_exact_along_the_manifold(case: str) -> None:
-    found = equations(case, "index2")
+@pytest.mark.parametrize(
+    ("case", "form"),
+    [
+        ("substituted", "index2"),
+        ("substituted in the plane", "index2"),
+        ("substituted in the plane", "condensed"),
+        ("substituted, points in world axes", "condensed"),
+    ],
+)
+def test_a_substituted_jacobian_is_exact_along_the_manifold(case: str, form: str) -> None:
+    found = equations(case, form)
     y, ydot, tangents = on_manifold(found, machine(case))
     cj = 1.7
     scale = np.abs(jacobian(found, y, ydot, cj)).max()
@@ -129,6 +140,8 @@ def positions(system_: System, pose: Pose) -> Array:
         ("loaded in space", "index2"),
         ("loaded in the plane", "index1"),
         ("substituted", "index2"),
+        ("loaded in space", "condensed"),
+        ("substituted, points in world axes", "condensed"),
     ],
 )
 def test_the_residual_vanishes_on_solutions(case: str, form: str) -> None:
@@ -136,11 +149,10 @@ def test_the_residual_vanishes_on_solutions(case: str, form: str) -> None:
     layout = found.layout
     pose, v = driven(moving, 0.3) if moving.system.drives else moving.consistent(4)
     a, multipliers = moving.accelerations(pose, v)
-    y, ydot = np.zeros((2, layout.size))
-    y[: layout.positions.stop] = positions(moving.system, pose)
-    y[layout.velocities.start : layout.velocities.stop] = in_world(moving, pose, v)
-    y[layout.multipliers.start : layout.multipliers.stop] = multipliers
-    ydot[layout.velocities.start : layout.velocities.stop] = in_world(moving, pose, a)
+    where, rest = positions(moving.system, pose), np.zeros_like(multipliers)
+    whole = np.concatenate([where, in_world(moving, pose, v), multipliers, rest])
+    rates = np.concatenate([np.zeros_like(where), in_world(moving, pose, a), rest, rest])
+    y, ydot = whole[list(layout.places)], rates[list(layout.places)]
     ydot[: layout.positions.stop] = -residual(found, y, ydot)[: layout.positions.stop]
     np.testing.assert_allclose(residual(found, y, ydot), 0, atol=1e-10)
 
@@ -202,3 +214,13 @@ def test_entries_have_names_and_units() -> None:
     assert layout.is_differential[layout.velocities.stop - 1]
     assert not layout.is_differential[layout.multipliers.start]
     assert float(BETA) == 20
+
+
+def test_what_constants_tie_to_the_rest_is_no_unknown() -> None:
+    """Rate, multiplier and correction of each coordinate; of a universal joint those of its second angle only."""
+    whole, condensed = (layout(system("substituted"), form) for form in ("index2", "condensed"))
+    assert whole.size - condensed.size == 3 * 2
+    assert not {"shoulder.alphadot1", "rail.alphadot1"} & set(condensed.names)
+    cross = mechanisms.cross()
+    assert mechanisms.system(cross, "parametric", "substituted").condensed.coordinates == (1,)
+    assert mechanisms.system(cross, "parametric", "exact").condensed.coordinates == ()

@@ -22,6 +22,7 @@ from codegen.ir.inline import Entries
 from codegen.ir.program import Program
 from codegen.mechanics.system import System
 
+
 def completed(system: System, layout: Layout, program: Program) -> State:
     """A state that knows the entries it leaves out.
 

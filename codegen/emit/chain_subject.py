@@ -137,7 +137,7 @@ class ChainSubject:
 
     def _joints(self, word: str, per: str) -> Iterator[Member]:
         for k, (name, link) in enumerate(zip(self.links, self.chain.links, strict=True)):
-            yield f"{word}_{name}", k, (1, 1), f"{'rad' if link.type == 'revolute' else 'm'}{per}"
+            yield f"{word}_{name}", k, (1, 1), f"{link.unit}{per}"
 
     def _cut_wrenches(self) -> Iterator[Member]:
         for k, name in enumerate(self._cut_names):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codegen.spec.chain import BASE, Chain, Row
+from codegen.spec.chain import BASE, Chain, Link, Row
 
 Series = np.ndarray
 """[3, 4, 4]: coefficients of 1, t, t^2."""
@@ -66,13 +66,21 @@ class Moving:
     effectors: list[Series]
 
 
+def _driven(link: Link, motion) -> dict:
+    """What the coordinate of a link turns and shifts."""
+    if link.type != "screw":
+        return {"angle" if link.type == "revolute" else "shift": motion}
+    first, pitch = float(link.row.d - link.pitch * link.row.theta), float(link.pitch)
+    return {"angle": motion, "shift": tuple(pitch * x + (first if k == 0 else 0) for k, x in enumerate(motion))}
+
+
 def move(chain: Chain, q, qd, qdd, base: Series | None = None) -> Moving:
     still = np.zeros((3, 4, 4), complex)
     still[0] = np.eye(4)
     links = {BASE: still if base is None else base}
     for k, link in enumerate(chain.links):
         motion = q[k], qd[k], qdd[k] / 2
-        hung = placed(link.row, angle=motion) if link.type == "revolute" else placed(link.row, shift=motion)
+        hung = placed(link.row, **_driven(link, motion))
         links[link.name] = product(links[link.parent], hung)
     hang = lambda frame: product(links[frame.link], placed(frame.row))  # noqa: E731
     cuts = [(hang(cut.base), hang(cut.far)) for cut in chain.cuts]

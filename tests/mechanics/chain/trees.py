@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -27,8 +28,10 @@ def start(chain: Chain) -> np.ndarray:
     return np.array([float(link.coordinate) for link in chain.links])
 
 
-def tree(seed: int, size: int, cuts: int, effectors: int, base: str = "fixed") -> tuple[Chain, np.ndarray]:
-    """A chain of revolute and prismatic joints, with a pose in which all its cuts are closed."""
+def tree(
+    seed: int, size: int, cuts: int, effectors: int, base: str = "fixed", screws: tuple[int, ...] = ()
+) -> tuple[Chain, np.ndarray]:
+    """A chain of revolute and prismatic joints, some of them screws, with a pose in which all its cuts are closed."""
     random = np.random.default_rng(seed)
     q = random.normal(size=size)
     links: list[Link] = []
@@ -37,6 +40,8 @@ def tree(seed: int, size: int, cuts: int, effectors: int, base: str = "fixed") -
         parent = BASE if k == 0 or random.random() < 0.1 else f"link {earlier}"
         kind = "prismatic" if random.random() < 0.3 else "revolute"
         links.append(Link(f"link {k}", parent, kind, _row(random), *_mass(random)))
+    for k in screws:
+        links[k] = replace(links[k], type="screw", pitch=Fraction(k + 2, 7))
     gravity = tuple(Fraction(float(x)) for x in random.normal(size=3))
     ends = [random.choice([BASE, *(link.name for link in links)], 2, replace=False) for _ in range(cuts)]
     closed = tuple(_closed(links, q, str(one), str(other), _row(random)) for one, other in ends)

@@ -219,6 +219,51 @@ class Account:
     def effectors(self):
         return np.concatenate([twist(E) for E in self.moving(self.qd, self.qdd).effectors]).real
 
+    def tau_A(self):
+        """Forces and stops along the coordinates."""
+        found = np.zeros(self.size)
+        for force in self.chain.joint_forces:
+            k = self.chain.index(force.joint)
+            if force.when is None:
+                found[k] += float(force.constant) - float(force.stiffness) * (self.q[k].real - float(force.rest))
+                found[k] -= float(force.damping) * self.qd[k]
+        for stop in self.chain.stops:
+            k = self.chain.index(stop.joint)
+            found[k] += stopped(stop.limit, self.q[k].real, self.qd[k])
+        return found
+
+    def f_A(self):
+        """Wrenches at the effectors: constants, and springs by their lengths as power series."""
+        ends, numbers = self.moving(self.qd).effectors, {e.name: k for k, e in enumerate(self.chain.effectors)}
+        found = np.array([[*e.force, *e.moment] for e in self.chain.effectors], float)
+        for force in (one for one in self.chain.effector_forces if one.when is None):
+            found[numbers[force.effector]] += np.array([*force.force, *force.moment], float)
+        for force in self.chain.world_forces:
+            back = ends[numbers[force.effector]][0, :3, :3].T.real
+            turned = [back @ np.array(part, float) for part in (force.force, force.moment)]
+            found[numbers[force.effector]] += np.concatenate(turned)
+        for spring in self.chain.springs:
+            i, j = (numbers[name] for name in spring.effectors)
+            gap, rate = ((ends[j] - ends[i])[k, :3, 3].real for k in (0, 1))
+            length = np.linalg.norm(gap)
+            tension = float(spring.stiffness) * (length - float(spring.length))
+            tension += float(spring.damping) * (rate @ gap / length)
+            found[i, :3] += ends[i][0, :3, :3].T.real @ gap * tension / length
+            found[j, :3] -= ends[j][0, :3, :3].T.real @ gap * tension / length
+        return found.ravel()
+
+
+def stopped(limit, q, qd):
+    """What a soft stop gives: ``k (x + rho) / 2`` against the way beyond it, and its share of the damper."""
+    force = 0.0
+    for bound, sense in ((limit.upper, 1), (limit.lower, -1)):
+        if bound is not None:
+            x = sense * (q - float(bound))
+            rho = np.hypot(x, 1e-4)
+            force -= sense * float(limit.stiffness) * (x + rho) / 2
+            force -= float(limit.damping) * (1 + x / rho) / 2 * qd
+    return force
+
 
 def angular_momentum_rate(series: Series, inertia):
     """d/dt of ``R I R^T w``, world."""

@@ -9,7 +9,7 @@ from codegen.mechanics.chain.model import kept_rows
 from codegen.spec.chain import Chain
 from tests.mechanics.chain.series import Account
 from tests.mechanics.chain.states import evaluated, state
-from tests.mechanics.chain.trees import example, start, tree
+from tests.mechanics.chain.trees import example, loaded, start, tree
 
 _OF_ROWS = ("phi", "phi_q", "J", "gamma_R")
 
@@ -24,6 +24,8 @@ CHAINS = {
     "tree on a moving base": lambda: tree(43, 6, 0, 1, "moving"),
     "screws and two loops": lambda: tree(8, 9, 2, 1, screws=(0, 2, 4, 7)),
     "screws on a moving base": lambda: tree(40, 6, 1, 1, "moving", screws=(1, 2, 5)),
+    "forces of every kind": lambda: _with_forces(*tree(6, 7, 0, 1, screws=(3,))),
+    "forces on a moving base": lambda: _with_forces(*tree(43, 6, 0, 1, "moving")),
     "nothing but screws": lambda: tree(6, 5, 0, 1, screws=(0, 1, 2, 3, 4)),
 }
 
@@ -31,6 +33,10 @@ CHAINS = {
 def _started(name: str) -> tuple[Chain, np.ndarray]:
     chain = example(name)
     return chain, start(chain)
+
+
+def _with_forces(chain: Chain, q: np.ndarray) -> tuple[Chain, np.ndarray]:
+    return loaded(chain), q
 
 
 @pytest.mark.parametrize("name", CHAINS)

@@ -50,4 +50,4 @@ def _independent(name: str, driven: Mapping[str, tuple[Fraction, Drive | None]])
     offset, drive = driven.get(name, (Fraction(0), None))
     if drive is None:
         return Independent(name)
-    return Independent(name, Polynomial((offset + drive.position, drive.speed)))
+    return Independent(name, Polynomial((offset + drive.position, drive.speed)), driven=True)

@@ -64,7 +64,7 @@ class Node:
 
     @cached_property
     def arm(self) -> Vector:
-        """Constant part of the offset from the parent's origin, parent's axes: all but the coordinate times advance z."""
+        """Constant part of the offset from the parent's origin, parent's axes: all but what the coordinate slides."""
         cosine, sine = map(sympy.Rational, cosine_and_sine(self.row.psi))
         a, c = sympy.Rational(self.row.a), sympy.Rational(self.row.c)
         d = sympy.Integer(0) if self.type == "prismatic" else sympy.Rational(self.row.d - self.pitch * self.row.theta)
@@ -86,7 +86,9 @@ class Tree:
         links = [(link.parent, link.row, link.type, link.pitch) for link in chain.links]
         cuts = [_hung(cut.base) for cut in chain.cuts] + [_hung(cut.far) for cut in chain.cuts]
         hung = links + cuts + [_hung(effector.frame) for effector in chain.effectors]
-        self.nodes = tuple(Node(k, self._numbers[parent], *rest) for k, (parent, *rest) in enumerate(hung))
+        self.nodes = tuple(
+            Node(k, self._numbers[parent], row, kind, pitch) for k, (parent, row, kind, pitch) in enumerate(hung)
+        )
 
     @property
     def links(self) -> tuple[Node, ...]:

@@ -21,7 +21,7 @@ FURTHEST = 0.25
 
 
 class Moving:
-    """The chain by its integrated variables ``(q_f, qd_f, work)``, f the coordinates that are free; remembers the branch.
+    """The chain by its integrated variables ``(q_f, qd_f, work)``, f the free coordinates; remembers the branch.
 
     Args:
         mechanism: the chain.

@@ -1,7 +1,7 @@
 """What acts on a chain at all times beside gravity: along its coordinates, and at its end effectors.
 
-``tau_A`` are springs, dampers, constants and soft stops of coordinates; ``f_A`` the wrenches of the effectors, constants
-and springs between them, force then moment about the effector's origin, its axes.
+``tau_A`` are springs, dampers, constants and soft stops of coordinates; ``f_A`` the wrenches of the effectors,
+constants and springs between them, force then moment about the effector's origin, its axes.
 """
 
 from __future__ import annotations

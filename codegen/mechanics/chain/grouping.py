@@ -3,9 +3,8 @@
 A body that is symmetric about the axis of a revolute joint, and without moment of inertia about it, does not feel the
 joint: it may as well be fixed on the parent. A link's mass, the moment of its mass along the axis, and
 ``diag(Y, Y, 0)`` of its inertia go there. A prismatic joint does not turn the link: all its inertia about the origin
-goes to the parent. A screw moves its link along the axis as well: mass and mass moment stay. What arrives at the base is
-gone. A link that only turns about one direction keeps what matters for
-that.
+goes to the parent. A screw moves its link along the axis as well: mass and mass moment stay. What arrives at the base
+is gone. A link that only turns about one direction keeps what matters for that.
 """
 
 from __future__ import annotations

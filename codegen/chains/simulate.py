@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from codegen.chains import forward, prescribed
 from codegen.chains.afloat import afloat
+from codegen.chains.directions import check_springs
 from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism, mechanism
 from codegen.chains.motion import drives, function, motions
@@ -89,6 +90,7 @@ def simulated(
     check(chain, settings)
     with one_thread():
         equations = Generated(chain, settings.mode != "kinematics")
+        check_springs(chain, equations)
         ready = mechanism(chain, equations)
         began = time.perf_counter()
         done = run(ready, tables, settings, progress)

@@ -13,8 +13,9 @@ import pytest
 
 import codegen
 from codegen.mechanics.joints import JOINTS
+from tests.spec.texts import PENDULUM
 
-from .runs import COMMAND, REPOSITORY, SMALL, contents, finish, invoke, spawn
+from .runs import COMMAND, REPOSITORY, SMALL, contents, finish, invoke, refused, spawn
 from .terminal import Terminal
 
 
@@ -58,6 +59,20 @@ def test_flops_prints_the_tables_in_a_pipe() -> None:
     assert "\x1b" not in result.stdout, "no colours in a pipe"
     for words in ("dot-1", "dot-2", "spherical", "screw"):
         assert words in result.stdout
+
+
+def test_flops_of_a_scene_lays_its_forms_side_by_side(tmp_path: Path) -> None:
+    """Of a pendulum on one joint M is constant, and gravity is a cosine by the mass moment by g."""
+    (tmp_path / "pendulum.toml").write_text(PENDULUM)
+    result = invoke("flops", tmp_path / "pendulum.toml", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    forms = {entry["form"]: entry for entry in json.loads(result.stdout)["forms"]}
+    sizes = {form: (entry["unknowns"], entry["rows"]) for form, entry in forms.items()}
+    assert sizes == {"conventional": (6, 5), "parametric": (7, 6), "relative": (1, 0)}
+    assert forms["relative"]["with_gamma"] == {"operations": 3} and "with_second" not in forms["relative"]
+    lines = refused(invoke("flops", tmp_path / "pendulum.toml", "--table", "2", "--model", "fma"))
+    assert [line.partition(":")[0] for line in lines] == ["--table", "--model"]
+    assert refused(invoke("flops", "--measure"))[0].startswith("--measure")
 
 
 @pytest.mark.parametrize("stage", ["model", "program"])

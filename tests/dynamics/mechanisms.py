@@ -142,3 +142,15 @@ def cross() -> Scene:
     """A body on a universal joint."""
     hung = body("hung", vector(0, "-0.3", 0))
     return Scene("cross", GRAVITY, (hung,), (joint("cross", "universal", (None, hung), vector(0, 0, 0)),))
+
+
+def oblique() -> Scene:
+    """Axes across all others, and loads along them: a plate slides on an arm that turns."""
+    arm, plate = body("arm", vector("0.2", 0, 0), inertia=SKEWED), body("plate", vector("0.5", "0.1", 0))
+    axis = vector(F(2, 7), F(3, 7), F(6, 7))
+    loads = [Coordinate(F(k), F(3 + k), F("0.4"), F("0.1"), None, None) for k in range(3)]
+    joints = (
+        joint("pin", "revolute", (None, arm), vector("0.1", 0, 0), axis, loads[2]),
+        joint("table", "planar", (arm, plate), vector("0.5", "0.1", 0), axis, *loads),
+    )
+    return Scene("oblique", GRAVITY, (arm, plate), joints)

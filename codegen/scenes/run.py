@@ -279,8 +279,8 @@ def integrator(
 
 
 MULTIPLIERS_FREE = 1e10
-"""Absolute tolerance of the multipliers: they are not in the error test."""
+"""Absolute tolerance of the multipliers: neither the error test nor Newton's iteration asks for their accuracy."""
 
 
 def _absolute(layout: Layout, tolerance: float) -> Array:
-    return np.array([tolerance if is_tested else MULTIPLIERS_FREE for is_tested in layout.is_differential])
+    return np.where(np.arange(layout.size) < layout.velocities.stop, tolerance, MULTIPLIERS_FREE)

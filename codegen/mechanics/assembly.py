@@ -5,7 +5,7 @@ Every joint is formulated as in the library, between bodies i and j, and then wr
 
 Generalised displacements: ``delta r`` and ``delta pi`` (body axes) of each body in the order of the scene, then the
 coordinates alpha of the joints in parametric form. Translations are in world axes, or in body axes where a derivative
-is substituted, since S1 substitutes in these coordinates.
+is substituted, since S1 substitutes in these coordinates; not so where points are held together in world axes.
 """
 
 from __future__ import annotations
@@ -183,7 +183,7 @@ class Assembly:
 
         Joints whose frames are axes of their bodies are evaluated together where they hang together: they share
         vectors. Any other joint is a group of its own, since it shares little but its joint frames; two where its
-        derivative is substituted, because ``phi`` and ``branch`` never are.
+        derivative is substituted, because ``phi`` and ``branch`` never are, nor are rows of points in world axes.
         """
         names = tuple(names)
         sharing = [p for p in self.placed if not (p.form.coordinates or self._is_substituted(p) or p.has_own_frames)]

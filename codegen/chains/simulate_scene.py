@@ -119,13 +119,15 @@ def _mode(scene: Scene, found: Relative) -> str:
     """
     independents = found.chain.independents
     driven = [one.joint for one in independents if one.driven]
-    for joint in scene.joints:
-        links = [link for link, _ in found.joints[joint.name].coordinates]
-        for link, coordinate in zip(links, joint.coordinates, strict=False):
-            if coordinate.drive is not None and link not in driven:
-                what = f"its drive and the others together drive {len(driven)} of {len(independents)} freedoms only"
-                remedy = "leave out a drive; drives must not depend on each other"
-                raise SpecificationError([Mistake(f'joint "{joint.name}"', what, remedy)])
+    what = f"its drive follows from the others: together they drive {len(driven)} of {len(independents)} freedoms"
+    mistakes = [
+        Mistake(f'joint "{joint.name}"', what, "leave out a drive; drives must not depend on each other")
+        for joint in scene.joints
+        for (link, _), one in zip(found.joints[joint.name].coordinates, joint.coordinates, strict=False)
+        if one.drive is not None and link not in driven
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
     return "inverse" if driven and len(driven) == len(independents) else "forward"
 
 

@@ -58,6 +58,16 @@ class Generated:
         J = self._all_rows(found["J"]).reshape(-1, 2, 3, n)
         return Closure(poses[:, 3], poses[:, :3].transpose(0, 2, 1), J[:, 0], J[:, 1])
 
+    def constraint(self, q: Array) -> tuple[Array, Array] | None:
+        """Evaluate ``(p; 2e)`` and its derivative; None where a cut is turned by more than 120 degrees."""
+        if not self._height:
+            return np.zeros(0), np.zeros((0, len(q)))
+        found = self._routines["constraint"](q=q)
+        traces = found["closure"].reshape(-1, 12)[:, [0, 4, 8]].sum(axis=1)
+        if (traces < 0).any():
+            return None
+        return self._all_rows(found["phi"]), self._all_rows(found["phi_q"])
+
     def jacobian(self, q: Array) -> Array:
         """Evaluate J [6 nr, n]."""
         return self._all_rows(self._routines["closure"](q=q)["J"]) if self._height else np.zeros((0, len(q)))
@@ -100,6 +110,7 @@ class Generated:
 
 _ROUTINES: dict[str, tuple[str, ...]] = {
     "closure": ("closure", "J"),
+    "constraint": ("closure", "phi", "phi_q"),
     "gamma": ("gamma_R",),
     "terms": _TERMS,
     "applied": ("tau_A", "f_A"),

@@ -56,8 +56,9 @@ def driven(scene: Scene, count: int = 1) -> Scene:
 
 
 def test_more_drives_than_freedoms_are_refused() -> None:
-    with pytest.raises(SpecificationError, match="drive 1 of 1 freedoms only"):
-        simulated_relative(driven(example("in_line_engine"), 2), Settings("forward"))
+    with pytest.raises(SpecificationError, match="together they drive 1 of 1 freedoms") as caught:
+        simulated_relative(driven(example("in_line_engine"), 3), Settings("forward"))
+    assert len(caught.value.mistakes) == 2
 
 
 BOOM = """

@@ -11,7 +11,7 @@ from benchmarks.batch.report import setting
 from benchmarks.forms.measure import measured
 from benchmarks.forms.report import markdown
 
-SCENES = ("in_line_engine", "four_bar")
+SCENES = ("in_line_engine", "four_bar", "spatial_slider_crank")
 
 
 @click.command()

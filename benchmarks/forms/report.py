@@ -51,8 +51,12 @@ def _rows(scene: dict[str, Any]) -> Iterator[tuple[str, ...]]:
             str(entry["rows"]),
             str(cost["operations"]),
             str(cost["instructions"] or ""),
-            f"{cost['ns']:.3g}",
-            f"{cost['ns'] / first['with_gamma']['ns']:.2g}",
-            f"{1e3 * entry['run']:.3g}",
-            f"{entry['run'] / first['run']:.2g}",
+            _shown(cost["ns"]),
+            _shown(cost["ns"] / first["with_gamma"]["ns"]),
+            _shown(1e3 * entry["run"]),
+            _shown(entry["run"] / first["run"]),
         )
+
+
+def _shown(value: float) -> str:
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"

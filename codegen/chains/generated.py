@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 Functions = Callable[[Sequence[Program]], list[Evaluate]]
 """Makes functions of programs."""
 
+_NOT_MOVED = np.eye(3, 4).ravel(order="F")
+"""Pose of a base that could move."""
+
 _TERMS = ("gamma_R", "M", "f_C", "f_G")
 
 
@@ -93,8 +96,9 @@ class Generated:
         return self._routines["effectors"](q=q)["D_E"].reshape(-1, len(q))
 
     def frames(self, q: Array) -> Array:
-        """Evaluate the frames of links, C, R and E [., 3, 4]: rotation to the base's axes, origin."""
-        return np.asarray(self._routines["frames"](q=q)["frames"].reshape(-1, 4, 3).transpose(0, 2, 1))
+        """Evaluate the frames of links, C, R and E [., 3, 4] in the axes of the base: rotation, origin."""
+        found = self._routines["frames"](q=q, T_0=_NOT_MOVED)["frames"]
+        return np.asarray(found.reshape(-1, 4, 3).transpose(0, 2, 1))
 
     def wrenches(self, q: Array, qd: Array, qdd: Array, f_R: Array, f_E: Array) -> Array:
         """Evaluate what each joint exerts on its link [n, 6]: force, moment about the link's origin, link axes."""

@@ -47,6 +47,7 @@ class Layout:
         self.axes = axes
         self.nodes: list[Node] = []
         self.sums: dict[Vector, None] = {}
+        self.scaled: dict[Vector, None] = {}
         self.products: dict[tuple[int, ...], None] = {}
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}

@@ -145,7 +145,7 @@ def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alte
     ]
     for k, parts in enumerate(found):
         if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector):
-            yield _sum(layout, parts, frame, kind)
+            yield summed(layout, parts, frame, kind)
 
 
 def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterator[Alternative]:
@@ -153,10 +153,10 @@ def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterato
     for known in list(layout.sums)[:_KNOWN]:
         parts = _with_known(layout, vector, known)
         if parts:
-            yield _sum(layout, parts, frame, kind)
+            yield summed(layout, parts, frame, kind)
 
 
-def _sum(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
+def summed(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
     place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
     children: list[int] = []
     signs: list[tuple[int, int]] = []

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from codegen.errors import InternalError
-from codegen.ir.lower import block_forms, finished_blocks, raw_forms, scalar_forms, vector_forms
+from codegen.ir.lower import block_forms, finished_blocks, raw_forms, scalar_forms, scaled_vectors, vector_forms
 from codegen.ir.lower.alternatives import Alternative, Key
 from codegen.ir.lower.layout import Layout
 
@@ -25,6 +25,8 @@ def lay_out(layout: Layout) -> list[tuple[Alternative, ...]]:
     _add(layout, _alternatives, _with_known)
     _add(layout, _early, finished_blocks.in_parts)
     _add(layout, _early, finished_blocks.with_finished)
+    _add(layout, _early, scaled_vectors.by_factors)
+    _add(layout, _early, scaled_vectors.with_scaled)
     return [node.alternatives or () for node in layout.nodes]
 
 

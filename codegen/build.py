@@ -2,7 +2,7 @@
 
 Stages, each a pure function of the one before:
 
-1. ``spec``       options -> variants (:func:`codegen.spec.request.selected_variants`)
+1. ``spec``       options -> variants (:func:`codegen.spec.selection.selected_variants`)
 2. ``mechanics``  variant -> formulation -> derivation, symbolic (:mod:`codegen.mechanics`)
 3. ``ir``         derivation -> program (:func:`codegen.ir.lower.lower`), with 2 in :mod:`codegen.models`
 4. ``passes``     program -> program (:func:`codegen.passes.simplify`)
@@ -33,15 +33,8 @@ from codegen.models import joint_type, model
 from codegen.parallel import parallel
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.overlap import overlap
-from codegen.spec.request import (
-    BRANCH,
-    PREPARE,
-    PRODUCTS,
-    QUANTITIES,
-    Options,
-    Variant,
-    selected_variants,
-)
+from codegen.spec.request import BRANCH, PREPARE, PRODUCTS, QUANTITIES, Options, Variant
+from codegen.spec.selection import selected_variants
 from flopcount.count import count
 
 LIBRARY = Options()

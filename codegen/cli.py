@@ -5,6 +5,7 @@ Exit codes: 0 done; 1 the thing asked for fell short; 2 bad input, one line a mi
 
 from __future__ import annotations
 
+import gc
 import json
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ import click
 import codegen
 from codegen import cli_trade
 from codegen.cli_chain import chain
+from codegen.cli_flops import flops
 from codegen.cli_platform import platform
 from codegen.cli_scene import scene, simulate
 from codegen.errors import JointgenError, Mistake, OutputError, SpecificationError
@@ -138,34 +140,6 @@ def _report_differences(target: Path, differences: list[str]) -> None:
 
 
 @jointgen.command()
-@click.option("--rules", default="program", show_default=True, help="Whose counts: program (as emitted) or paper.")
-@click.option("--table", default="7", show_default=True, help="The paper's table: 2, 7 or all.")
-@click.option("--model", default="paper", show_default=True, help="Prices: paper, multiply, fma or measured.")
-@click.option(
-    "--explain", "name", help="Derive the counts of a joint or basic constraint term by term (--rules paper)."
-)
-@click.option("--assume", multiple=True, help="Set a switch of the paper's rules; may be repeated.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-def flops(rules: str, table: str, model: str, name: str | None, assume: tuple[str, ...], as_json: bool) -> None:
-    """Compare the paper's Tables 2 and 7 with its own rules and with the operations of the emitted routines."""
-    from codegen.report import flop_commands
-
-    request = flop_commands.FlopRequest(rules, table, model, name, assume)
-    flop_commands.check(request)
-    with _progress(flop_commands.steps(request), "counting") as advance:
-        result = flop_commands.result(request, advance)
-    if as_json:
-        click.echo(json.dumps(result.data, indent=1))
-        return
-    for line in result.lines:
-        click.echo(line)
-    if result.sheets:
-        from codegen.report import tables
-
-        tables.show(result.sheets)
-
-
-@jointgen.command()
 @click.argument("folder", nargs=-1, type=click.Path(path_type=Path))
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path, dir_okay=False), required=True)
 def report(folder: tuple[Path, ...], target: Path) -> None:
@@ -179,12 +153,13 @@ def report(folder: tuple[Path, ...], target: Path) -> None:
     click.echo(f"{target}: {len(found)} folders of results")
 
 
-for _command in (scene, simulate, chain, platform, *cli_trade.COMMANDS):
+for _command in (flops, scene, simulate, chain, platform, *cli_trade.COMMANDS):
     jointgen.add_command(_command)
 
 
 def main() -> None:
     """Run the command line and leave with its exit code."""
+    gc.set_threshold(100_000, 50, 100)  # symbolic work makes many objects and few cycles: a tenth of its time
     sys.exit(_run(sys.argv[1:]))
 
 

@@ -18,7 +18,8 @@ from codegen.mechanics.left_out import conventional_quantities, parametric_quant
 from codegen.models import Model, model
 from codegen.parallel import parallel
 from codegen.passes.split_geometry import split_geometry
-from codegen.spec.request import QUANTITIES, VARIATIONS, Variant, library_variants
+from codegen.spec.request import QUANTITIES, VARIATIONS, Variant
+from codegen.spec.selection import library_variants
 from flopcount.compare import Document, table_2, table_7
 from flopcount.count import count
 from flopcount.counts import Counts

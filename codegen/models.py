@@ -22,7 +22,8 @@ from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
 from codegen.mechanics.places import places
 from codegen.passes import simplify
 from codegen.spec.joints import JointType
-from codegen.spec.request import Variant, incompatibilities
+from codegen.spec.request import Variant
+from codegen.spec.selection import incompatibilities
 from flopcount.count import count
 
 PRICES = Prices()

@@ -6,6 +6,7 @@ under the hash of everything it is made from. Tests of the search choose for the
 
 from __future__ import annotations
 
+import gc
 import pickle
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -24,7 +25,10 @@ from codegen.mechanics.system import System
 from codegen.scenes import programs as scene_programs
 from codegen.spec.request import Variant
 from tests.harness.library import digest
+from tests.reference.constraints import CATALOGUE_PAIRS
 from tests.truth.workshop import fingerprint, forget_old, locked
+
+gc.set_threshold(100_000, 50, 100)  # as the command line does
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -67,8 +71,10 @@ def kept_programs(request: pytest.FixtureRequest) -> Iterator[None]:
 
 
 def lowered_variant(model: models.Model) -> Variant:
-    """Prepared geometry is split off after lowering."""
-    return replace(model.variant, geometry="runtime")
+    """Prepared geometry is split off after lowering; a pair that is a joint of the catalogue has its programs."""
+    return replace(
+        model.variant, geometry="runtime", joint=CATALOGUE_PAIRS.get(model.variant.joint, model.variant.joint)
+    )
 
 
 def _kept(folder: Path, what: object, made: Callable[[], Any]) -> Any:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from benchmarks.engine.mechanism import FORMS
 from codegen.measure.constraints import Array
+from codegen.report.svg import drawn
 
-_SETTINGS = {"svg.hashsalt": "jointgen", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9}
 _LINES = {"conventional": ("black", "-", "o"), "parametric": ("0.45", "--", "s")}
 _QUANTITIES = {"v": "velocity of the piston, m/s", "a": "acceleration of the piston, m/s²"}
 
 
 def piston_chart(columns: dict[str, Array]) -> str:
     """S1, Fig. 4: velocity and acceleration of the piston in both formulations."""
-    with matplotlib.rc_context(_SETTINGS):
-        figure = Figure(figsize=(7.5, 5.0), layout="constrained")
+
+    def draw(figure: Figure) -> None:
         for axis, (part, words) in zip(figure.subplots(2, 1, sharex=True), _QUANTITIES.items(), strict=True):
             for form in FORMS:
                 colour, dashes, _ = _LINES[form]
@@ -29,13 +27,14 @@ def piston_chart(columns: dict[str, Array]) -> str:
             axis.spines[["top", "right"]].set_visible(False)
         axis.set_xlabel("time, s")
         axis.legend(frameon=False, loc="lower right")
-        return _svg(figure)
+
+    return drawn(draw, 7.5, 5.0)
 
 
 def work_precision_chart(rows: list[dict[str, Any]]) -> str:
     """Error of the positions against processor time and against tolerance."""
-    with matplotlib.rc_context(_SETTINGS):
-        figure = Figure(figsize=(7.5, 3.6), layout="constrained")
+
+    def draw(figure: Figure) -> None:
         left, right = figure.subplots(1, 2, sharey=True)
         for axis, key, words in ((left, "seconds", "processor time, s"), (right, "tolerance", "tolerance")):
             for form in FORMS:
@@ -47,10 +46,5 @@ def work_precision_chart(rows: list[dict[str, Any]]) -> str:
             axis.grid(visible=True, color="0.9")
         left.set_ylabel("largest error of a position in 2 s, m")
         right.legend(frameon=False)
-        return _svg(figure)
 
-
-def _svg(figure: Figure) -> str:
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
-    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines()) + "\n"
+    return drawn(draw, 7.5, 3.6)

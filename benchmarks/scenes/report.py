@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import platform
 import re
@@ -11,12 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from benchmarks.scenes.measure import FLAGS, LONGEST, Measured
+from codegen.report.svg import drawn
 
-_SETTINGS = {"svg.hashsalt": "jointgen", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 9}
 _MARKS = {"straight": "o", "loops": "s", "library": "^"}
 _PANELS = (
     ("code", "bytes of the object"),
@@ -99,8 +97,8 @@ def _number(value: float | None, form: str) -> str:
 
 def plot(found: Sequence[Measured]) -> str:
     """Draw the measurements over the number of sets: the same bytes for the same numbers."""
-    with matplotlib.rc_context(_SETTINGS):
-        figure = Figure(figsize=(8, 6), layout="constrained")
+
+    def draw(figure: Figure) -> None:
         for axes, (key, words) in zip(figure.subplots(2, 2).flat, _PANELS, strict=True):
             for shape, mark in _MARKS.items():
                 points = [(one.sets, getattr(one, key)) for one in found if one.shape == shape]
@@ -110,6 +108,5 @@ def plot(found: Sequence[Measured]) -> str:
             axes.set(xscale="log", yscale="log", xlabel="sets", ylabel=words)
             axes.grid(alpha=0.3)
             axes.legend()
-        buffer = io.StringIO()
-        figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
-    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines()) + "\n"
+
+    return drawn(draw, 8, 6)

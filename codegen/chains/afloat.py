@@ -22,11 +22,13 @@ _AT_REST = Polynomial((Fraction(0),))
 def afloat(chain: Chain) -> Chain:
     """Give the chain with the coordinates of its moving base as joints; a chain on a fixed base stays as it is.
 
-    Coordinates of the base that no independent coordinate names rest at 0 where motions are prescribed.
+    Coordinates of the base that no independent coordinate names rest at 0 where motions are prescribed, and where
+    others of the base are driven.
     """
     if chain.base != "moving":
         return chain
     given = {one.joint: one for one in chain.base_independents}
+    is_driven = any(one.driven for one in chain.base_independents)
     return replace(
         chain,
         base="fixed",
@@ -34,7 +36,7 @@ def afloat(chain: Chain) -> Chain:
         cuts=tuple(replace(cut, base=_moved(cut.base), far=_moved(cut.far)) for cut in chain.cuts),
         effectors=tuple(replace(effector, frame=_moved(effector.frame)) for effector in chain.effectors),
         independents=(
-            *(given.get(name, Independent(name, _AT_REST)) for name in BASE_COORDINATES),
+            *(given.get(name, Independent(name, _AT_REST, driven=is_driven)) for name in BASE_COORDINATES),
             *chain.independents,
         ),
         base_independents=(),

@@ -64,5 +64,8 @@ class Equations(Protocol):
     def terms(self, q: Array, qd: Array) -> Terms:
         """Evaluate the terms of the equations of motion."""
 
+    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
+        """Evaluate tau_A [n] and f_A [6 ne], what acts at all times on coordinates and at effectors."""
+
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""

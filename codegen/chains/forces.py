@@ -1,4 +1,7 @@
-"""What acts on a chain beside gravity: forces on coordinates and wrenches at effectors, always or under a condition."""
+"""Forces of a chain that switch: on coordinates and at effectors, while their conditions hold.
+
+What acts at all times is in the routines of the chain, as ``tau_A`` and ``f_A``.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +17,17 @@ Array = NDArray[np.float64]
 
 
 class Forces:
-    """The forces of a chain, in numbers.
+    """The switched forces of a chain, in numbers.
 
     Attributes:
-        conditions: of the switched forces, those on joints first; a force is told by its place here.
+        conditions: of the forces, those on joints first; a force is told by its place here.
     """
 
     def __init__(self, chain: Chain) -> None:
         self._joints = {link.name: k for k, link in enumerate(chain.links)}
         self._effectors = {effector.name: k for k, effector in enumerate(chain.effectors)}
         self._size = len(chain.links)
-        self._own = np.array([[*e.force, *e.moment] for e in chain.effectors], dtype=np.float64).reshape(-1, 6)
         forces: list[JointForce | EffectorForce] = [*chain.joint_forces, *chain.effector_forces]
-        self._always = [force for force in forces if force.when is None]
         self._switched = [force for force in forces if force.when is not None]
         self.conditions: tuple[Condition, ...] = tuple(force.when for force in self._switched if force.when is not None)
 
@@ -50,14 +51,14 @@ class Forces:
 
     def at_effectors(self, active: Sequence[bool]) -> Array:
         """Give the wrenches at the effectors [ne, 6], their axes."""
-        found = self._own.copy()
+        found = np.zeros((len(self._effectors), 6))
         for force in self._acting(active):
             if isinstance(force, EffectorForce):
                 found[self._effectors[force.effector]] += np.array([*force.force, *force.moment], dtype=np.float64)
         return found
 
     def _acting(self, active: Sequence[bool]) -> list[JointForce | EffectorForce]:
-        return self._always + [force for force, holds in zip(self._switched, active, strict=True) if holds]
+        return [force for force, holds in zip(self._switched, active, strict=True) if holds]
 
 
 def _holds(condition: Condition, q: float, qd: float) -> bool:

@@ -1,4 +1,4 @@
-"""Forward dynamics: (q_v, qd_v) integrated, with the work of all forces, between the events of switched forces."""
+"""Forward dynamics: free coordinates and rates integrated, with the work of all forces, between events of switches."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from codegen.chains.factor import RankLoss
 from codegen.chains.integrate import Stopped, outputs
 from codegen.chains.mechanism import Mechanism
+from codegen.chains.motion import Drives
 from codegen.chains.moving import Moving
 from codegen.chains.path import Branch, PathEnd
 from codegen.chains.reduced import NoInertia
@@ -23,6 +24,7 @@ def run(
     mechanism: Mechanism,
     start: Branch,
     qd_v: Array,
+    drives: Drives,
     times: Array,
     tolerance: float,
     progress: Progress = lambda _: None,
@@ -33,18 +35,19 @@ def run(
         mechanism: the chain.
         start: closed at times[0].
         qd_v: [nv] at times[0].
+        drives: of independent coordinates that do not move freely.
         times: [n] s, ascending.
         tolerance: relative, and absolute in rad, characteristic lengths and their rates.
         progress: told the time reached.
     """
     forces, part = mechanism.forces, mechanism.part
     found = switches(forces.conditions, [forces.coordinate(one) for one in forces.conditions])
-    motion = Moving(mechanism, start, found)
-    y = np.concatenate([start.q[part.v], qd_v, [0.0]])
+    motion, free = Moving(mechanism, start, found, drives), ~drives.is_driven
+    y = np.concatenate([start.q[part.v][free], qd_v[free], [0.0]])
     states: list[State] = []
     failure = ""
     try:
-        motion.is_on = tuple(motion.value(k, y) > 0 for k in range(len(found)))
+        motion.is_on = tuple(motion.value(k, float(times[0]), y) > 0 for k in range(len(found)))
         states.append(motion.state(float(times[0]), y))
         for t, now in outputs(motion, y, times, tolerance):
             states.append(motion.state(t, now))

@@ -72,6 +72,12 @@ class Generated:
         gamma = self._all_rows(found["gamma_R"]) if self._height else np.zeros(0)
         return Terms(gamma, found["M"].reshape(len(q), -1), found["f_C"], found["f_G"])
 
+    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
+        """Evaluate tau_A [n] and f_A [6 ne]; they are 0 where nothing acts."""
+        found = self._routines["applied"](q=q, qd=qd) if "applied" in self._routines else {}
+        size = 6 * len(self._chain.effectors)
+        return found.get("tau_A", np.zeros(len(q))), found.get("f_A", np.zeros(size))
+
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""
         return self._routines["effectors"](q=q)["D_E"].reshape(-1, len(q))
@@ -96,12 +102,13 @@ _ROUTINES: dict[str, tuple[str, ...]] = {
     "closure": ("closure", "J"),
     "gamma": ("gamma_R",),
     "terms": _TERMS,
+    "applied": ("tau_A", "f_A"),
     "effectors": ("D_E",),
     "frames": ("frames",),
     "wrenches": ("wrenches",),
 }
 
-_OF_LOADS = ("terms", "wrenches")
+_OF_LOADS = ("terms", "applied", "wrenches")
 
 
 def _wanted(chain: Chain, has_loads: bool) -> dict[str, tuple[str, ...]]:

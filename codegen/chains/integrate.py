@@ -37,7 +37,7 @@ def outputs(motion: Moving, y: Array, times: Array, tolerance: float) -> Iterato
         Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    limits = {"rtol": max(tolerance, 3e-14), "atol": _absolute(motion, y, tolerance, end - t)}
+    limits = {"rtol": max(tolerance, 3e-14), "atol": _absolute(motion, t, y, tolerance, end)}
     left = [float(at) for at in times[1:]]
     while left:
         begun, event = t, None
@@ -82,10 +82,11 @@ def _steps(motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, 
     Raises:
         Stopped: no step meets the tolerance.
     """
-    first = min(_FIRST * motion.reach(y), end - t)
-    solver = DOP853(motion.rate, t, y, end, first_step=first if np.isfinite(motion.reach(y)) else None, **limits)
+    reach = motion.reach(t, y)
+    first = min(_FIRST * reach, end - t)
+    solver = DOP853(motion.rate, t, y, end, first_step=first if np.isfinite(reach) else None, **limits)
     while solver.status == "running":
-        solver.max_step = motion.reach(solver.y)
+        solver.max_step = motion.reach(solver.t, solver.y)
         start = solver.y
         solver.step()
         if solver.status == "failed":
@@ -105,13 +106,13 @@ def _event(motion: Moving, step: _Step, limits: Mapping[str, Any]) -> _Event | N
     It is sought on the interpolant of the step; then the step is taken anew up to there, and once more after a
     correction by the rate of what changes sign, since the interpolant is less exact than the step.
     """
-    found = [(_root(motion, k, step), k) for k in motion.crossed(step.y)]
+    found = [(_root(motion, k, step), k) for k in motion.crossed(step.t, step.y)]
     if not found:
         return None
     t, k = min(found)
     y = _taken(motion, step, t, limits)
-    slope = motion.slope(k, y)
-    corrected = t - motion.value(k, y) / slope if slope else t
+    slope = motion.slope(k, t, y)
+    corrected = t - motion.value(k, t, y) / slope if slope else t
     if step.begun < corrected < step.t and abs(corrected - t) < 0.01 * (step.t - step.begun):
         t, y = corrected, _taken(motion, step, corrected, limits)
     return _Event(k, t, y)
@@ -121,7 +122,7 @@ def _root(motion: Moving, k: int, step: _Step) -> float:
     """Where a switch changes on the interpolant; the start of the step where it does at once."""
 
     def value(t: float) -> float:
-        return motion.value(k, step.between(t))
+        return motion.value(k, t, step.between(t))
 
     if value(step.begun) * value(step.t) >= 0:
         return step.begun
@@ -140,13 +141,12 @@ def _taken(motion: Moving, step: _Step, t: float, limits: Mapping[str, Any]) -> 
     return np.asarray(solver.y)
 
 
-def _absolute(motion: Moving, y: Array, tolerance: float, duration: float) -> Array:
+def _absolute(motion: Moving, t: float, y: Array, tolerance: float, end: float) -> Array:
     """Absolute tolerances of angles, rates and work.
 
     The work is controlled too: one more component whose error estimate does not vanish where those of the others do.
     """
-    units = motion.mechanism.part.units[motion.mechanism.part.v]
-    found = motion.at(y)
-    _, power = motion.acceleration(found)
-    energy = max(found.kinetic_energy(), abs(power) * duration) or np.inf
-    return tolerance * np.concatenate([units, units, [energy]])
+    found = motion.at(t, y)
+    _, power = motion.acceleration(t, found)
+    energy = max(found.kinetic_energy(), abs(power) * (end - t)) or np.inf
+    return tolerance * np.concatenate([motion.units, motion.units, [energy]])

@@ -46,7 +46,7 @@ class Mechanism:
 
     def units(self) -> tuple[str, ...]:
         """Unit of each coordinate."""
-        return tuple("m" if link.type == "prismatic" else "rad" for link in self.chain.links)
+        return tuple(link.unit for link in self.chain.links)
 
     def pose(self, q: Array) -> str:
         """The coordinates in words."""
@@ -63,7 +63,7 @@ def mechanism(chain: Chain, equations: Equations) -> Mechanism:
     """
     length = characteristic_length(chain)
     reach = max(lengths(chain), default=0.0) / length
-    is_prismatic = [link.type == "prismatic" for link in chain.links]
+    is_prismatic = [link.unit == "m" for link in chain.links]
     independent = [chain.index(one.joint) for one in chain.independents]
     part = partition(is_prismatic, independent, list(equations.binding), length, reach)
     return Mechanism(chain, equations, part, Forces(chain), length)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.polynomial import Polynomial as Powers
@@ -14,7 +14,7 @@ from scipy.interpolate import make_interp_spline
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.spec.chain import Chain
-from codegen.spec.chain_motions import Harmonic, Motion, Polynomial, Table
+from codegen.spec.chain_motions import Harmonic, Independent, Motion, Polynomial, Table
 
 Array = NDArray[np.float64]
 
@@ -48,9 +48,55 @@ def motions(chain: Chain, tables: Mapping[str, str], duration: float) -> Motions
     Raises:
         SpecificationError: coordinates without a motion, tables that cannot be used; all at once.
     """
+    return _motions(chain.independents, tables, duration)
+
+
+class Drives:
+    """Motions of the independent coordinates that are driven while others move under forces.
+
+    Attributes:
+        is_driven: [nv] which they are.
+        longest: s, a step that overlooks nothing of the motions.
+    """
+
+    def __init__(self, is_driven: NDArray[np.bool_], given: Motions, longest: float) -> None:
+        self.is_driven, self.longest, self._given = is_driven, longest, given
+
+    def at(self, t: float) -> tuple[Array, Array, Array]:
+        """Give value, rate and acceleration of each, [nd]."""
+        return self._given.at(t)
+
+
+def drives(chain: Chain, tables: Mapping[str, str], duration: float) -> Drives:
+    """Make the motions of the driven coordinates of a chain.
+
+    Args:
+        chain: the chain.
+        tables: text of the CSV files, by the names that the chain has for them.
+        duration: s, that tables must cover.
+
+    Raises:
+        SpecificationError: coordinates without a motion, tables that cannot be used; all at once.
+    """
+    driven = tuple(one for one in chain.independents if one.driven)
+    given = _motions(driven, tables, duration)
+    longest = min((_step(one.motion, tables) for one in driven if one.motion is not None), default=math.inf)
+    return Drives(np.array([one.driven for one in chain.independents], dtype=bool), given, longest)
+
+
+def _step(motion: Motion, tables: Mapping[str, str]) -> float:
+    """s, a step in which a motion does not come and go."""
+    if isinstance(motion, Polynomial):
+        return math.inf
+    if isinstance(motion, Harmonic):
+        return abs(1 / float(motion.frequency)) if motion.frequency else math.inf
+    return min(after - before for before, after in itertools.pairwise(t for t, _ in _lines(tables[motion.file])))
+
+
+def _motions(independents: Sequence[Independent], tables: Mapping[str, str], duration: float) -> Motions:
     mistakes: list[Mistake] = []
     functions: list[At] = []
-    for independent in chain.independents:
+    for independent in independents:
         place = f'independent coordinate "{independent.joint}"'
         if independent.motion is None:
             remedy = "give polynomial, harmonic or table"

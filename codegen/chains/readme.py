@@ -57,7 +57,7 @@ def _many(number: int, thing: str) -> str:
 
 def _links(subject: ChainSubject) -> Iterator[tuple[str, ...]]:
     for link, name in zip(subject.chain.links, subject.links, strict=True):
-        at = f"{float(link.coordinate):.6g} {'rad' if link.type == 'revolute' else 'm'}"
+        at = f"{float(link.coordinate):.6g} {link.unit}"
         yield link.name, Code(name), link.parent, link.type, at, f"{float(link.mass):g}" if link.mass else ""
 
 

@@ -14,6 +14,7 @@ from codegen.chains.generated import Generated
 from codegen.chains.mechanism import AXES, Mechanism
 from codegen.chains.rotation import quaternion
 from codegen.chains.run import Run
+from codegen.spec.chain import Chain
 
 Array = NDArray[np.float64]
 
@@ -90,9 +91,17 @@ def balance(mechanism: Mechanism, found: Record) -> float:
     """
     if found.tau is None or found.wrenches is None:
         return 0.0
-    along = [2 if link.type == "prismatic" else 5 for link in mechanism.chain.links]
-    parts = found.wrenches[:, np.arange(len(along)), along]
+    parts = np.einsum("kij,ij->ki", found.wrenches, _directions(mechanism.chain))
     return float(np.max(np.abs(parts - found.tau)) / max(1.0, float(np.max(np.abs(found.wrenches)))))
+
+
+def _directions(chain: Chain) -> Array:
+    """[n, 6] velocity of each link relative to its parent for a unit rate, link axes."""
+    found = np.zeros((len(chain.links), 6))
+    for h, link in zip(found, chain.links, strict=True):
+        h[2] = 1.0 if link.type == "prismatic" else float(link.pitch)
+        h[5] = 0.0 if link.type == "prismatic" else 1.0
+    return found
 
 
 def columns(mechanism: Mechanism, found: Record) -> Iterator[tuple[str, Array]]:

@@ -67,18 +67,28 @@ class Reduced:
     rates: Rates
     terms: Terms
 
-    def forward(self, force: Array) -> Array:
-        """Give the accelerations of the independent coordinates.
+    def forward(self, force: Array, driven: NDArray[np.bool_], given: Array) -> Array:
+        """Give the accelerations of the independent coordinates [nv].
 
         Args:
-            force: [n] generalised, beside gravity.
+            force: [n] generalised, beside gravity, without the efforts of driven coordinates.
+            driven: [nv] coordinates whose accelerations are prescribed.
+            given: [nd] these accelerations.
 
         Raises:
-            NoInertia: nothing resists one of them.
+            NoInertia: nothing resists one of the others.
         """
-        terms, N = self.terms, self.rates.N
-        rest = N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.rates.a)
-        return _solved(N.T @ terms.M @ N, rest)
+        terms, N, free = self.terms, self.rates.N, ~driven
+        inertia, found = N.T @ terms.M @ N, np.zeros(len(driven))
+        found[driven] = given
+        rest = N.T @ (terms.f_G + force - terms.f_C - terms.M @ self.rates.a) - inertia @ found
+        try:
+            found[free] = _solved(inertia[np.ix_(free, free)], rest[free])
+        except NoInertia as lack:
+            whole = np.zeros(len(driven))
+            whole[free] = lack.free
+            raise NoInertia(whole) from None
+        return found
 
     def inverse(self, qdd: Array, force: Array) -> Array:
         """Give the efforts on the independent coordinates [nv].
@@ -114,6 +124,8 @@ class Reduced:
 
 def _solved(inertia: Array, rest: Array) -> Array:
     """Accelerations for a symmetric positive inertia matrix, by Cholesky's factors."""
+    if not len(rest):
+        return rest
     diagonal = np.diagonal(inertia)
     scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
     scaled = inertia * np.outer(scale, scale)

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from codegen.chains import forward, prescribed
 from codegen.chains.afloat import afloat
+from codegen.chains.directions import check_springs
 from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism, mechanism
-from codegen.chains.motion import function, motions
+from codegen.chains.motion import drives, function, motions
 from codegen.chains.record import Record, as_csv, balance, record
 from codegen.chains.run import Progress, Run
 from codegen.chains.start import start
@@ -89,6 +90,7 @@ def simulated(
     check(chain, settings)
     with one_thread():
         equations = Generated(chain, settings.mode != "kinematics")
+        check_springs(chain, equations)
         ready = mechanism(chain, equations)
         began = time.perf_counter()
         done = run(ready, tables, settings, progress)
@@ -117,7 +119,8 @@ def run(mechanism: Mechanism, tables: Mapping[str, str], settings: Settings, pro
     times = np.linspace(0.0, settings.duration, settings.outputs + 1)
     if settings.mode == "forward":
         q_v, qd_v = initial(mechanism, tables)
-        done = forward.run(mechanism, start(mechanism, q_v), qd_v, times, settings.tolerance, progress)
+        driven = drives(mechanism.chain, tables, settings.duration)
+        done = forward.run(mechanism, start(mechanism, q_v), qd_v, driven, times, settings.tolerance, progress)
     else:
         given = motions(mechanism.chain, tables, settings.duration)
         first = start(mechanism, given.at(0.0)[0])

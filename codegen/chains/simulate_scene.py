@@ -40,14 +40,13 @@ def simulated_relative(scene: Scene, settings: Settings, progress: Progress = la
     """Simulate a scene by relative coordinates.
 
     Args:
-        scene: the mechanism; without drives it moves under its forces, with drives of all its freedoms as they say.
+        scene: the mechanism; with drives of all its freedoms it moves as they say, else under forces too.
         settings: how; the mode follows from the scene.
         progress: told the time reached.
 
     Raises:
-        SpecificationError: the scene holds what a chain does not have, or cannot be run.
+        SpecificationError: the scene cannot be run.
     """
-    refuse(scene)
     found = relative(scene)
     settings = replace(settings, mode=_mode(scene, found))
     simulate.check(found.chain, settings)
@@ -76,50 +75,40 @@ def simulated_relative(scene: Scene, settings: Settings, progress: Progress = la
     return Simulated(encoded, words, tuple(_notes(found, changed)), done.failure, trajectory)
 
 
-def refuse(scene: Scene) -> None:
-    """Refuse what a chain does not have.
+def _mode(scene: Scene, found: Relative) -> str:
+    """As drives say, where all freedoms are driven, else under forces.
 
     Raises:
-        SpecificationError: all mistakes at once.
+        SpecificationError: drives that depend on each other.
     """
-    remedy = "use another form than relative"
-    mistakes = [
-        Mistake(f'joint "{joint.name}"', "has a stop, which relative coordinates do not have", remedy)
-        for joint in scene.joints
-        if any(coordinate.limit for coordinate in joint.coordinates)
-    ]
-    if scene.springs:
-        mistakes.append(Mistake("spring", "relative coordinates have no springs between points", remedy))
-    if scene.torques:
-        mistakes.append(Mistake("torque", "relative coordinates have no torques on bodies", remedy))
-    if mistakes:
-        raise SpecificationError(mistakes)
-
-
-def _mode(scene: Scene, found: Relative) -> str:
-    """Motion under forces, or as drives say; drives of some freedoms only are refused."""
-    drives = sum(coordinate.drive is not None for joint in scene.joints for coordinate in joint.coordinates)
-    driven = sum(one.motion is not None for one in found.chain.independents)
-    if not drives:
-        return "forward"
-    if drives != driven or driven != len(found.chain.independents):
-        what = (
-            f"{drives} drives for {len(found.chain.independents)} freedoms: relative coordinates take as many or none"
-        )
-        raise SpecificationError([Mistake("drive", what, "drive all freedoms or none, or use another form")])
-    return "inverse"
+    independents = found.chain.independents
+    driven = [one.joint for one in independents if one.driven]
+    for joint in scene.joints:
+        links = [link for link, _ in found.joints[joint.name].coordinates]
+        for link, coordinate in zip(links, joint.coordinates, strict=False):
+            if coordinate.drive is not None and link not in driven:
+                what = f"its drive and the others together drive {len(driven)} of {len(independents)} freedoms only"
+                remedy = "leave out a drive; drives must not depend on each other"
+                raise SpecificationError([Mistake(f'joint "{joint.name}"', what, remedy)])
+    return "inverse" if driven and len(driven) == len(independents) else "forward"
 
 
 def _with_speeds(scene: Scene, found: Relative, ready: Mechanism, equations: Generated) -> tuple[Mechanism, float]:
-    """Give the chain the speeds nearest to those of the bodies, weighed by the masses; tell how far they are off."""
+    """Give the chain the speeds nearest to those of the bodies, weighed by the masses; tell how far they are off.
+
+    Driven coordinates have the speeds of their drives.
+    """
     q = start(ready, simulate.initial(ready, {})[0]).q
     N = reduced(equations, ready.part, q, np.zeros(len(ready.part.v))).rates.N
     moves = _moves(scene, found, equations, q) @ N
     wanted = np.concatenate([_velocity(body) for body in scene.bodies])
     weights = _weights(scene.bodies)
-    speeds = np.linalg.lstsq(weights @ moves, weights @ wanted)[0]
+    speeds, free = simulate.initial(ready, {})[1], np.array([not one.driven for one in ready.chain.independents])
+    rest = wanted - moves[:, ~free] @ speeds[~free]
+    speeds[free] = np.linalg.lstsq(weights @ moves[:, free], weights @ rest)[0]
     independents = tuple(
-        replace(one, speed=Fraction(float(speed))) for one, speed in zip(ready.chain.independents, speeds, strict=True)
+        one if one.driven else replace(one, speed=Fraction(float(speed)))
+        for one, speed in zip(ready.chain.independents, speeds, strict=True)
     )
     changed = float(np.max(np.abs(moves @ speeds - wanted), initial=0.0))
     return replace(ready, chain=replace(ready.chain, independents=independents)), changed

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from codegen.chains.directions import check_springs
 from codegen.chains.factor import RANK_TOLERANCE
 from codegen.chains.generated import Generated
 from codegen.chains.interpreted import interpreted
@@ -19,9 +20,11 @@ def check_start(chain: Chain) -> None:
 
     Raises:
         SpecificationError: cuts are open or cannot be closed, or the independent coordinates do not determine the
-            others, or are not independent.
+            others, or are not independent; springs have no direction.
     """
-    ready = mechanism(chain, Generated(chain, False, interpreted))
+    equations = Generated(chain, False, interpreted)
+    check_springs(chain, equations)
+    ready = mechanism(chain, equations)
     closed = start(ready, coordinates(ready)[ready.part.v])
     _check_freedom(ready, closed)
 

@@ -21,8 +21,8 @@ class Loads:
 
     Attributes:
         tau: [n] along the coordinates in all, N or N m.
-        effort: [nv] of it, what the motion needs of the independent coordinates beside the forces of the file; 0 in
-            forward dynamics.
+        effort: [nv] of it, what the motion needs of the independent coordinates beside the forces of the file; 0 of
+            those that are not prescribed.
         reaction: [6 nr] of the cuts on their frames R, axes of R, N and N m.
         wrenches: [6 ne] at the effectors, their axes, N and N m.
         kinetic: energy, J.
@@ -58,17 +58,30 @@ class State:
     loads: Loads | None = None
 
 
+def acting(mechanism: Mechanism, q: Array, qd: Array, active: tuple[bool, ...]) -> tuple[Array, Array]:
+    """Give the forces of the file on coordinates [n], and the wrenches at the effectors [6 ne], their axes."""
+    tau, wrenches = mechanism.equations.applied(q, qd)
+    forces: Forces = mechanism.forces
+    return tau + forces.on_joints(q, qd, active), wrenches + forces.at_effectors(active).ravel()
+
+
 def generalised(mechanism: Mechanism, q: Array, qd: Array, active: tuple[bool, ...]) -> Array:
     """Give the forces of the file along the coordinates [n], those at effectors included."""
-    forces: Forces = mechanism.forces
-    found = forces.on_joints(q, qd, active)
-    if mechanism.chain.effectors:
-        found = found + mechanism.equations.effectors(q).T @ forces.at_effectors(active).ravel()
-    return found
+    return _along(mechanism, q, *acting(mechanism, q, qd, active))
+
+
+def _along(mechanism: Mechanism, q: Array, tau: Array, wrenches: Array) -> Array:
+    return tau + mechanism.equations.effectors(q).T @ wrenches if mechanism.chain.effectors else tau.copy()
 
 
 def loaded(
-    mechanism: Mechanism, t: float, q: Array, found: Reduced, qdd_v: Array, active: tuple[bool, ...], is_driven: bool
+    mechanism: Mechanism,
+    t: float,
+    q: Array,
+    found: Reduced,
+    qdd_v: Array,
+    active: tuple[bool, ...],
+    driven: NDArray[np.bool_],
 ) -> State:
     """Give a state with its loads.
 
@@ -79,16 +92,15 @@ def loaded(
         found: the chain reduced there.
         qdd_v: [nv].
         active: which conditions of switched forces hold.
-        is_driven: whether efforts on the independent coordinates make the accelerations what they are.
+        driven: [nv] independent coordinates on which efforts make the accelerations what they are.
     """
     qd, qdd = found.rates.qd, found.rates.acceleration(qdd_v)
-    force = generalised(mechanism, q, qd, active)
-    effort = found.inverse(qdd, force) if is_driven else np.zeros(len(qdd_v))
-    tau = mechanism.forces.on_joints(q, qd, active)
+    tau, wrenches = acting(mechanism, q, qd, active)
+    force = _along(mechanism, q, tau, wrenches)
+    effort = np.where(driven, found.inverse(qdd, force), 0.0)
     tau[mechanism.part.v] += effort
     force[mechanism.part.v] += effort
     reaction = found.reaction(qdd, force)
-    wrenches = mechanism.forces.at_effectors(active).ravel()
     power = float(qd @ (found.terms.f_G + force))
     loads = Loads(tau, effort, reaction, wrenches, found.kinetic_energy(), power)
     return State(t, q, qd, qdd, least_singular_value(found.rates.factor.A), loads)

@@ -52,8 +52,11 @@ def twists(chain: Chain, frames: Array, qd: Array, qdd: Array) -> dict[str, Twis
         carrier = found[link.parent].at(origins[link.name] - origins[link.parent])
         rate, change = qd[:, k, None] * axis, qdd[:, k, None] * axis
         turned = np.cross(carrier.w, rate)
-        if link.type == "revolute":
-            found[link.name] = Twist(carrier.v, carrier.w + rate, carrier.a, carrier.al + change + turned)
-        else:
-            found[link.name] = Twist(carrier.v + rate, carrier.w, carrier.a + change + 2 * turned, carrier.al)
+        v, w, a, al = carrier.v, carrier.w, carrier.a, carrier.al
+        if link.type != "revolute":
+            advance = float(link.pitch) if link.type == "screw" else 1.0
+            v, a = v + advance * rate, a + advance * (change + 2 * turned)
+        if link.type != "prismatic":
+            w, al = w + rate, al + change + turned
+        found[link.name] = Twist(v, w, a, al)
     return found

@@ -31,6 +31,8 @@ _OUTPUTS: dict[str, tuple[str, str, str]] = {
     "D_E": ("Jacobian D_E of the effectors: their velocity is D_E qd where the base rests", "effector", "1, m"),
     "effectors": ("Velocity and acceleration of the effectors", "effector", "m/s, rad/s, m/s^2, rad/s^2"),
     "wrenches": ("Force and moment of each joint on its link, about the link's origin", "link", "N, N m"),
+    "tau_A": ("Forces tau_A along the coordinates that act at all times: part of tau", "joints", "N, N m"),
+    "f_A": ("Wrenches f_A at the effectors that act at all times: part of f_E", "effector", "N, N m"),
     "all": ("What the equations of motion take, at once, sub-expressions shared", "", ""),
 }
 
@@ -67,7 +69,7 @@ class ChainSubject:
             "qd": ("joints", "rad/s, m/s", lambda: self._joints("qd", "/s")),
             "qdd": ("joints", "rad/s^2, m/s^2", lambda: self._joints("qdd", "/s^2")),
             "f_R": ("C", "N, N m", self._cut_wrenches),
-            "f_E": ("effector", "N, N m", self._effector_wrenches),
+            "f_E": ("effector", "N, N m", lambda: self._effector_wrenches("f_E")),
             "T_0": ("base to world: rotation, origin", "1, m", lambda: iter(())),
             "v_0": ("base", "m/s, rad/s", lambda: iter(())),
             "vd_0": ("base", "m/s^2, rad/s^2", lambda: iter(())),
@@ -83,9 +85,10 @@ class ChainSubject:
             "closure": lambda: self._poses("T", self._cut_names),
             "effectors": self._motions,
             "wrenches": self._wrenches,
+            "f_A": lambda: self._effector_wrenches("f_A"),
         }
         of_rows = {name: lambda: self._rows(output.name) for name in ("phi", "phi_q", "J", "gamma_R")}
-        of_joints = {name: lambda: self._joints(output.name, "") for name in ("M", "f_C", "f_G")}
+        of_joints = {name: lambda: self._joints(output.name, "") for name in ("M", "f_C", "f_G", "tau_A")}
         members = (told | of_rows | of_joints).get(output.name, lambda: iter(()))
         return Words(frame, unit, tuple(members()))
 
@@ -137,15 +140,15 @@ class ChainSubject:
 
     def _joints(self, word: str, per: str) -> Iterator[Member]:
         for k, (name, link) in enumerate(zip(self.links, self.chain.links, strict=True)):
-            yield f"{word}_{name}", k, (1, 1), f"{'rad' if link.type == 'revolute' else 'm'}{per}"
+            yield f"{word}_{name}", k, (1, 1), f"{link.unit}{per}"
 
     def _cut_wrenches(self) -> Iterator[Member]:
         for k, name in enumerate(self._cut_names):
             yield f"f_R_{name}", 6 * k, (6, 1), "force and moment at R on the chain, axes of C"
 
-    def _effector_wrenches(self) -> Iterator[Member]:
+    def _effector_wrenches(self, word: str) -> Iterator[Member]:
         for k, name in enumerate(self._effector_names):
-            yield f"f_E_{name}", 6 * k, (6, 1), "force and moment on the chain"
+            yield f"{word}_{name}", 6 * k, (6, 1), "force and moment on the chain"
 
     def _poses(self, word: str, names: Sequence[str]) -> Iterator[Member]:
         for k, name in enumerate(names):

@@ -48,9 +48,9 @@ def unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:
 
 def wrapped(lines: Sequence[str], indent: int = 4) -> list[str]:
     """Break statements that are too long for a line."""
+    width = WIDTH - indent
+    wrapper = textwrap.TextWrapper(width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
     broken: list[str] = []
     for line in lines:
-        broken += textwrap.wrap(
-            line, WIDTH - indent, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
-        )
+        broken += [line] if len(line) <= width else wrapper.wrap(line)
     return broken

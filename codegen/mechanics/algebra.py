@@ -34,6 +34,7 @@ class Algebra:
     pulled: frozenset[Any] = frozenset()
     flipped: frozenset[Any] = frozenset()
     displacements: frozenset[Any] = frozenset()
+    _known: dict[Any, Terms] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def without_names(self) -> Algebra:
         """The same identities, but no product is replaced by its name: for the definitions of the names."""
@@ -45,6 +46,11 @@ class Algebra:
 
     def terms(self, expression: Any) -> Terms:
         """Give the reduced terms of a matrix expression; like terms are collected."""
+        if expression not in self._known:
+            self._known[expression] = self._reduced(expression)
+        return list(self._known[expression])
+
+    def _reduced(self, expression: Any) -> Terms:
         reduced: dict[Factors, Any] = {}
         for coefficient, factors in self._flat(expression):
             sign, chain = self._reduce(list(factors))

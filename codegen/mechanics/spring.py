@@ -22,6 +22,7 @@ from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.frames import d_ij
 from codegen.mechanics.joints import JOINTS
 from codegen.mechanics.placed import rational
+from codegen.mechanics.tension import closing, density, drag, square, stiffening, tension
 from codegen.mechanics.variation import Variation, coefficient, gradient
 from codegen.spec.request import Variant
 
@@ -30,15 +31,6 @@ BALL = Variant("ball", "conventional", None, "exact")
 
 d_rate = frames.vector("d_rate")
 """``ddot``, m/s, world."""
-
-square, length, inverse, inverse_square = sympy.symbols("length_squared length inverse_length inverse_square")
-"""``d . d``, ``l``, ``1 / l`` and ``1 / l^2``."""
-
-closing = sympy.Symbol("length_rate")
-"""``d . ddot = l ldot``."""
-
-density, stiffening, drag = sympy.symbols("force_density stiffening drag")
-"""Tension over length, N/m, and its derivatives by ``d . d / 2`` and by ``d . ddot``."""
 
 SLOPES = tuple(frames.vector(f"slope_{k}") for k in range(4))
 """Gradients of ``density``."""
@@ -109,7 +101,7 @@ def spring_law(stiffness: Fraction, damping: Fraction, rest: Fraction, translati
     rates = Variation(algebra, stages, form.rates, {})
     virtual = Variation(algebra, stages, form.virtual, {})
     stages = stages | {square: Dot(d_ij, d_ij), d_rate: rates.of(d_ij), closing: Dot(d_ij, d_rate)}
-    stages |= _law(*(rational(value) for value in (stiffness, damping, rest)))
+    stages |= tension(*(rational(value) for value in (stiffness, damping, rest)))
     varied, closed = virtual.of(Dot(d_ij, d_ij) / 2), virtual.of(Dot(d_ij, rates.of(d_ij)))
     gradients = []
     for slope, (displacement, _) in zip(SLOPES, form.displacements, strict=True):
@@ -120,15 +112,3 @@ def spring_law(stiffness: Fraction, damping: Fraction, rest: Fraction, translati
         if terms:
             stages[slope] = algebra.normal(sympy.MatAdd(*terms))
     return SpringLaw(replace(form, stages=stages), tuple(gradients), virtual)
-
-
-def _law(k: Any, c: Any, l_0: Any) -> dict[Any, Any]:
-    """Definitions of the density and of its derivatives; without a free length no square root is taken."""
-    has_root = k * l_0 != 0
-    roots = {length: sympy.sqrt(square), inverse: 1 / length} if has_root else {inverse_square: 1 / square}
-    over_square = inverse**2 if has_root else inverse_square
-    return roots | {
-        drag: c * over_square,
-        density: k * (1 - l_0 * inverse) + drag * closing,
-        stiffening: (k * l_0 * inverse - 2 * drag * closing) * over_square,
-    }

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _STILL = 1e-9
 """rad or m."""
 
-_TYPES = {"revolute": "revolute", "prismatic": "translational"}
+_TYPES = {"revolute": "revolute", "prismatic": "translational", "screw": "screw"}
 
 
 def chain_pictures(mechanism: Mechanism, record: Record, animation: bool) -> dict[str, bytes]:
@@ -68,7 +68,7 @@ def _joints(mechanism: Mechanism, record: Record, frames: dict[str, Array]) -> I
         coordinate = Coordinate(drive=Drive(Fraction(0), Fraction(0)) if is_loaded else None)
         bodies, type_ = (_name(link.parent), _name(link.name)), _TYPES[link.type]
         markers = _marker(frames[link.parent], own), Marker(ZERO_VECTOR, IDENTITY)
-        yield Joint(link.name, type_, bodies, *markers, coordinates=(coordinate,))
+        yield Joint(link.name, type_, bodies, *markers, pitch=link.pitch, coordinates=(coordinate,))
 
 
 def _welds(mechanism: Mechanism, record: Record, frames: dict[str, Array]) -> Iterator[Joint]:

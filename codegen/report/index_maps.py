@@ -16,6 +16,9 @@ _BLOCKS = ("sigma: v", "beta: v, no rotation", "alpha: w", "gamma: w, no transla
 _CEILING = 1000.0
 """Greatest condition number that the colours tell apart."""
 
+_FLOOR = 10.0
+"""Least end of the colours: maps of well-conditioned platforms do not show their rounding."""
+
 _NEAR = 100.0
 """Condition number of the contour around singular poses."""
 
@@ -40,24 +43,28 @@ def index_maps(table: Table) -> str | None:
     names = [table.poses.names[k] for k in long]
     ends = [table.poses.axes[k][shown[k]] for k in long]
 
+    greatest = max(float(np.max(values, where=np.isfinite(values), initial=1.0)) for values in maps)
+    end = min(max(greatest, _FLOOR), _CEILING)
+
     def draw(figure: Figure) -> None:
         axes = figure.subplots(2, 2, sharex=True, sharey=True)
         for axis, values, words in zip(axes.ravel(), maps, _BLOCKS, strict=True):
-            image = _map(axis, ends, values)
+            image = _map(axis, ends, values, end)
             axis.set_title(f"C {words}", loc="left")
         for k, axis in enumerate(axes.ravel()):
             if k >= 2:
                 axis.set_xlabel(f"{names[0]} in {_UNITS[names[0]]}")
             if k % 2 == 0:
                 axis.set_ylabel(f"{names[1]} in {_UNITS[names[1]]}")
-        figure.colorbar(image, ax=axes, label="condition number (line: 100, close to singular poses)")
+        line = f" (line: {_NEAR:g}, close to singular poses)" if end > _NEAR else ""
+        figure.colorbar(image, ax=axes, label=f"condition number{line}")
 
     return drawn(draw, 8.0, 6.5)
 
 
-def _map(axis: Any, ends: list[Array], values: Array) -> Any:
+def _map(axis: Any, ends: list[Array], values: Array, end: float) -> Any:
     shown = np.clip(values.T, 1.0, _CEILING)
-    image = axis.pcolormesh(ends[0], ends[1], shown, norm=LogNorm(1.0, _CEILING), cmap="viridis", rasterized=True)
+    image = axis.pcolormesh(ends[0], ends[1], shown, norm=LogNorm(1.0, end), cmap="viridis", rasterized=True)
     finite = np.where(np.isfinite(shown), shown, _CEILING)
     if finite.min() < _NEAR < finite.max():
         axis.contour(ends[0], ends[1], finite, levels=[_NEAR], colors="white", linewidths=1.2)

@@ -7,7 +7,7 @@ without colour tells them apart.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -51,7 +51,10 @@ def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
     def draw(figure: Figure) -> None:
         figure.suptitle(title, x=0.1 / width, y=1 - 0.1 / height, ha="left", va="top", fontsize=11)
         figure.text(0.1 / width, 0.1 / height, "\n".join(notes), ha="left", va="bottom", fontsize=8)
-        _legend(figure, 1 - 0.32 / height)
+        styles = {
+            style for block in blocks for row in block for panel in row.panels.values() for _, style, _ in panel.curves
+        }
+        _legend(figure, 1 - 0.32 / height, sorted(styles))
         if blocks:
             bottom = (_BOTTOM - 0.2 + 0.16 * len(notes)) / height
             edges = {"left": _LEFT / width, "bottom": bottom, "right": 1 - 0.15 / width, "top": 1 - _TOP / height}
@@ -63,7 +66,8 @@ def plot(trajectory: Trajectory, title: str, scene: Scene | None = None) -> str:
 
 
 def _notes(trajectory: Trajectory, bodies: list[Row], joints: list[Row]) -> Iterator[str]:
-    yield "Positions, velocities and accelerations of centres of mass: world axes; angular ones: body axes."
+    if bodies:
+        yield "Positions, velocities and accelerations of centres of mass: world axes; angular ones: body axes."
     if trajectory.reaction:
         yield "Reactions: on the second body of a joint, at its point, world axes."
     at_rest = len(trajectory.bodies) - len(bodies)
@@ -138,10 +142,14 @@ def _label(figure: Figure, cell: Any, name: str) -> None:
     figure.text(x, y, textwrap.fill(name, 15), ha="left", va="center", fontweight="bold", fontsize=8)
 
 
-def _legend(figure: Figure, y: float) -> None:
+def _legend(figure: Figure, y: float, styles: Sequence[int]) -> None:
+    """Tell components apart, where there are several."""
     words = ("x, or the joint's 1st coordinate", "y, or the 2nd", "z, or the 3rd")
-    handles = [Line2D([], [], color=color, linestyle=dashes, linewidth=1.4) for color, dashes in _LINES]
-    figure.legend(handles, words, loc="upper left", bbox_to_anchor=(0, y), ncols=3, frameon=False, fontsize=8)
+    if len(styles) < 2:
+        return
+    lines = [Line2D([], [], color=_LINES[k][0], linestyle=_LINES[k][1], linewidth=1.4) for k in styles]
+    names = [words[k] for k in styles]
+    figure.legend(lines, names, loc="upper left", bbox_to_anchor=(0, y), ncols=3, frameon=False, fontsize=8)
 
 
 def thinned(values: Array) -> NDArray[np.intp]:

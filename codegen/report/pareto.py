@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from matplotlib.figure import Figure
 
 from codegen.report.sheets import Document
 from codegen.report.svg import drawn
 
-_MARKERS = "osD^v<>phPX*d8H+x|_"
+_MARKERS = tuple(product(("none", "black", "0.7"), "osD^v<>P"))
+"""Filling and shape, readable without colour."""
+
 _WIDTH, _HEIGHT = 7.5, 4.5
 
 
@@ -27,9 +31,9 @@ def pareto(document: Document, joint: str) -> str:
 
     def draw(figure: Figure) -> None:
         axis = figure.subplots()
-        for marker, build in zip(_MARKERS, dict.fromkeys(build for _, build, _, _ in points), strict=False):
+        for (filling, shape), build in zip(_MARKERS, dict.fromkeys(build for _, build, _, _ in points), strict=False):
             own = [(x, y) for _, name, x, y in points if name == build]
-            axis.plot(*zip(*own, strict=True), marker, color="black", markerfacecolor="none", label=build)
+            axis.plot(*zip(*own, strict=True), shape, color="black", markerfacecolor=filling, label=build)
         line = sorted((x, y) for routine, build, x, y in points if (routine, build) in fronts)
         axis.step(*zip(*line, strict=True), where="post", color="black", linewidth=0.8, label="front")
         axis.set_xscale("log")

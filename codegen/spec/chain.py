@@ -10,14 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.spec.chain_forces import EffectorForce, JointForce
+from codegen.spec.chain_forces import EffectorForce, JointForce, Spring, Stop, WorldForce
 from codegen.spec.chain_motions import Independent
 from codegen.spec.scene import Matrix, Vector
 
 BASE = "base"
 """Name of link 0."""
 
-JOINT_TYPES = ("revolute", "prismatic")
+JOINT_TYPES = ("revolute", "prismatic", "screw")
 
 BASES = ("fixed", "moving")
 """Whether pose, velocity and acceleration of link 0 are inputs of the routines."""
@@ -38,6 +38,8 @@ CHAIN_QUANTITIES = (
     "D_E",
     "effectors",
     "wrenches",
+    "tau_A",
+    "f_A",
 )
 """What a chain may ask for; `docs/chain.md` says what each is."""
 
@@ -46,6 +48,12 @@ CLOSURE_QUANTITIES = ("closure", "phi", "phi_q", "J", "gamma_R")
 
 EFFECTOR_QUANTITIES = ("D_E", "effectors")
 """Those that only chains with end effectors have."""
+
+JOINT_FORCE_QUANTITIES = ("tau_A",)
+"""Those that only chains with forces or stops on coordinates have."""
+
+EFFECTOR_FORCE_QUANTITIES = ("f_A",)
+"""Those that only chains with forces at end effectors, or springs between them, have."""
 
 MASS_QUANTITIES = ("M", "f_C", "f_G", "wrenches")
 """Those that need masses."""
@@ -60,7 +68,7 @@ class Row:
         c: m, along z_i.
         alpha: rad, about the common normal, from z_i to z_ij.
         a: m, along the common normal.
-        theta: rad, about z_ij, from the common normal to x_ij; of a revolute joint the coordinate at t = 0.
+        theta: rad, about z_ij, from the common normal to x_ij; of a revolute joint or screw the coordinate at t = 0.
         d: m, along z_ij; of a prismatic joint the coordinate at t = 0.
     """
 
@@ -86,6 +94,7 @@ class Link:
         inertia: [3, 3] kg m^2 about the centre of mass, link axes.
         prefer: value from which the coordinate is sought at t = 0 instead of that in the row, if it is dependent:
             selects the branch on which the loops are closed.
+        pitch: of a screw, m/rad: its coordinate is theta, and ``d`` of the row belongs to ``theta`` of the row.
     """
 
     name: str
@@ -96,11 +105,17 @@ class Link:
     centre: Vector
     inertia: Matrix
     prefer: Fraction | None = None
+    pitch: Fraction = Fraction(0)
 
     @property
     def coordinate(self) -> Fraction:
         """The joint coordinate at t = 0 as the row has it."""
-        return self.row.theta if self.type == "revolute" else self.row.d
+        return self.row.d if self.type == "prismatic" else self.row.theta
+
+    @property
+    def unit(self) -> str:
+        """Unit of the coordinate."""
+        return "m" if self.type == "prismatic" else "rad"
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +176,9 @@ class Chain:
         assemble: whether the coordinates in the rows are guesses, from which cuts that are open are to be closed.
         quantities: of `CHAIN_QUANTITIES`; empty for all that the chain has.
         base_independents: `BASE_COORDINATES` of a moving base, as far as they are named; the others rest at 0.
+        world_forces: at effectors, in axes that do not turn with them.
+        springs: between effectors.
+        stops: of coordinates.
     """
 
     name: str
@@ -175,15 +193,32 @@ class Chain:
     assemble: bool = False
     quantities: tuple[str, ...] = ()
     base_independents: tuple[Independent, ...] = ()
+    world_forces: tuple[WorldForce, ...] = ()
+    springs: tuple[Spring, ...] = ()
+    stops: tuple[Stop, ...] = ()
 
     @property
     def wanted(self) -> tuple[str, ...]:
         """What is generated, in the order of `CHAIN_QUANTITIES`."""
         missing: tuple[str, ...] = () if self.cuts else CLOSURE_QUANTITIES
         missing += () if self.effectors else EFFECTOR_QUANTITIES
+        missing += () if self.acts_on_joints else JOINT_FORCE_QUANTITIES
+        missing += () if self.acts_at_effectors else EFFECTOR_FORCE_QUANTITIES
         missing += () if any(link.mass or any(map(any, link.inertia)) for link in self.links) else MASS_QUANTITIES
         asked = self.quantities or CHAIN_QUANTITIES
         return tuple(name for name in CHAIN_QUANTITIES if name in asked and name not in missing)
+
+    @property
+    def acts_on_joints(self) -> bool:
+        """Whether forces act on coordinates at all times, or stops do."""
+        return bool(self.stops) or any(force.when is None for force in self.joint_forces)
+
+    @property
+    def acts_at_effectors(self) -> bool:
+        """Whether forces act at effectors at all times, or springs do."""
+        own = any(any((*effector.force, *effector.moment)) for effector in self.effectors)
+        lasting = any(force.when is None for force in self.effector_forces)
+        return own or lasting or bool(self.world_forces or self.springs)
 
     def index(self, name: str) -> int:
         """Place of a link's coordinate in q.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.spec.scene import Vector
+from codegen.spec.scene import Limit, Vector
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,3 +61,48 @@ class EffectorForce:
     force: Vector
     moment: Vector
     when: Condition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class WorldForce:
+    """A constant wrench on the chain at an effector, in axes that do not turn with it.
+
+    Attributes:
+        effector: its name.
+        force: [3] N, axes of frame 0; of the world where the base moves.
+        moment: [3] N m about the effector's origin, likewise.
+    """
+
+    effector: str
+    force: Vector
+    moment: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Spring:
+    """A spring and damper between the origins of two effectors; its tension is ``k (l - l0) + c ldot``.
+
+    Attributes:
+        effectors: their names.
+        stiffness: ``k``, N/m.
+        damping: ``c``, N s/m.
+        length: ``l0``, m, at which it is free.
+    """
+
+    effectors: tuple[str, str]
+    stiffness: Fraction
+    damping: Fraction
+    length: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Soft stops of a joint coordinate.
+
+    Attributes:
+        joint: name of the link.
+        limit: where they stand, and their spring and damper.
+    """
+
+    joint: str
+    limit: Limit

@@ -42,9 +42,11 @@ class Independent:
         motion: for kinematics and inverse dynamics; None where none is given.
         position: m or rad at t = 0, for forward dynamics; None for the motion's, or the row's without a motion.
         speed: m/s or rad/s at t = 0; None for the motion's, or 0 without a motion.
+        driven: whether the motion is prescribed in forward dynamics too; there is one then.
     """
 
     joint: str
     motion: Motion | None = None
     position: Fraction | None = None
     speed: Fraction | None = None
+    driven: bool = False

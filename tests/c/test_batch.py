@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import BATCHES, Options, library_variants
+from codegen.spec.request import BATCHES, Options
+from codegen.spec.selection import library_variants
 
 from .batches import OUTPUTS, SAME_BITS, Routines, batch_package, different_bits
 from .packages import DOUBLE, FLOAT, STRICT, compile_silently, have

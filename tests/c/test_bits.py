@@ -21,7 +21,8 @@ from codegen.emit.joint_subject import JointSubject
 from codegen.emit.routine import Routine
 from codegen.ir.evaluate import evaluate, numpy_domain
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import Options, Variant, library_variants
+from codegen.spec.request import Options, Variant
+from codegen.spec.selection import library_variants
 from tests.harness.library import Library, compile_library
 from tests.truth.cases import SPOTS, inputs_at
 

@@ -15,7 +15,8 @@ from codegen import build, output
 from codegen.emit.routine import Routine
 from codegen.ir.evaluate import evaluate
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import OUTPUTS, Options, Variant, library_variants
+from codegen.spec.request import OUTPUTS, Options, Variant
+from codegen.spec.selection import library_variants
 from flopcount.count_c import count_c
 from flopcount.counts import Counts
 from tests.harness.library import Library
@@ -38,7 +39,7 @@ def package(joint: str, shared: Path) -> Package:
 
 
 def library(prepared: Package) -> Library:
-    return Library.build(prepared.root / "manifest.json", prepared.root.parent / "bits", flags=("-O2", *SAME_BITS))
+    return Library.build(prepared.root / "manifest.json", prepared.root.parent / "bits", flags=("-O1", *SAME_BITS))
 
 
 def by_output(entries: list[dict[str, Any]], variant: Variant) -> dict[str, dict[str, Any]]:

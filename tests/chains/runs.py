@@ -11,7 +11,7 @@ from codegen.chains import forward, prescribed
 from codegen.chains.equations import Equations
 from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism, mechanism
-from codegen.chains.motion import motions
+from codegen.chains.motion import drives, motions
 from codegen.chains.run import Run
 from codegen.chains.simulate import initial
 from codegen.chains.start import start
@@ -46,4 +46,5 @@ def forward_run(ready: Mechanism, times: Array, tolerance: float) -> Run:
     """Forward dynamics."""
     q_v, qd_v = initial(ready, {})
     with one_thread():
-        return forward.run(ready, start(ready, q_v), qd_v, times, tolerance)
+        given = drives(ready.chain, {}, float(times[-1]))
+        return forward.run(ready, start(ready, q_v), qd_v, given, times, tolerance)

@@ -124,6 +124,19 @@ class TableEquations:
             f_G += m * Dm[:3].T @ g
         return Terms(np.concatenate(gamma), M, f_C, f_G)
 
+    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
+        """Constants, springs and dampers of coordinates, and constants at effectors."""
+        assert not (self.chain.springs or self.chain.stops or self.chain.world_forces)
+        tau, numbers = np.zeros(len(q)), {e.name: k for k, e in enumerate(self.chain.effectors)}
+        for force in (one for one in self.chain.joint_forces if one.when is None):
+            k = self.chain.index(force.joint)
+            tau[k] += float(force.constant) - float(force.damping) * qd[k]
+            tau[k] -= float(force.stiffness) * (q[k] - float(force.rest))
+        wrenches = np.array([[*e.force, *e.moment] for e in self.chain.effectors], dtype=np.float64).reshape(-1, 6)
+        for force in (one for one in self.chain.effector_forces if one.when is None):
+            wrenches[numbers[force.effector]] += np.array([*force.force, *force.moment], dtype=np.float64)
+        return tau, wrenches.ravel()
+
     def effectors(self, q: Array) -> Array:
         table = Table(self.chain, q, np.zeros(len(q)))
         rows = [np.zeros((0, len(q)))]

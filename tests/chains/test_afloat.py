@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from codegen.chains.afloat import afloat
 from codegen.errors import SpecificationError
@@ -94,6 +95,40 @@ def test_a_free_base_falls_and_momentum_along_the_ground_stays() -> None:
     momenta = [(ready.equations.terms(state.q, state.qd).M @ state.qd)[:3] for state in run.states]
     assert momenta[-1][:2] == pytest.approx(momenta[0][:2], abs=1e-8)
     assert momenta[-1][2] - momenta[0][2] == pytest.approx(-9.81 * 14 * 0.2, abs=1e-8)
+
+
+def test_a_pendulum_swings_under_a_base_that_shakes_as_given() -> None:
+    """``(I + m l^2) theta'' = -m l (g cos theta - x'' sin theta)``, x the way of the base, theta from its x axis."""
+    shaken = '[[independent]]\njoint = "base x"\ndriven = true\nharmonic = { amplitude = 0.2, frequency = 7.0 }\n'
+    bar = """
+name = "bar"
+gravity = [0, -9.81, 0]
+base = "moving"
+[[link]]
+name = "bar"
+parent = "base"
+type = "revolute"
+mass = 2
+centre = [0.5, 0, 0]
+inertia = [0.01, 0.1, 0.1]
+"""
+    ready = generated(afloat(read_chain(bar + shaken, "bar.toml")))
+    run = forward_run(ready, np.linspace(0.0, 1.5, 4), 1e-10)
+
+    def pushed(t: float) -> float:
+        return -0.2 * 49 * np.sin(7 * t)
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        return [y[1], -(9.81 * np.cos(y[0]) - pushed(t) * np.sin(y[0])) / 0.6]
+
+    swung = solve_ivp(rate, (0.0, 1.5), [0.0, 0.0], "DOP853", np.linspace(0.0, 1.5, 4), rtol=1e-12, atol=1e-12).y
+    for state, (angle, speed) in zip(run.states, swung.T, strict=True):
+        assert state.q[6:] == pytest.approx(angle, abs=1e-8)
+        assert state.loads is not None
+        turning = rate(state.t, np.array([angle, speed]))[1]
+        effort = 2 * (pushed(state.t) - (turning * np.sin(angle) + speed**2 * np.cos(angle)) / 2)
+        assert state.loads.effort[0] == pytest.approx(effort, abs=1e-6)
+        assert state.loads.effort[6] == 0
 
 
 def test_a_fixed_base_has_no_coordinates_and_a_link_does_not_take_their_names() -> None:

@@ -112,7 +112,9 @@ def test_forward_dynamics_gives_back_the_accelerations_of_inverse_dynamics(case:
         force = generalised(ready, state.q, state.qd, ())
         force[ready.part.v] += state.loads.effort
         scale = 1 + np.max(np.abs(state.qdd))
-        assert there.forward(force) == pytest.approx(state.qdd[ready.part.v], abs=1e-8 * scale)
+        assert there.forward(force, np.zeros(len(ready.part.v), dtype=bool), np.zeros(0)) == pytest.approx(
+            state.qdd[ready.part.v], abs=1e-8 * scale
+        )
 
 
 def test_a_coordinate_that_moves_no_mass_has_no_forward_dynamics() -> None:

@@ -13,7 +13,6 @@ import pytest
 from codegen.chains.programs import FUSED, program
 from codegen.chains.relative import relative
 from codegen.chains.stand import check_start
-from codegen.errors import SpecificationError
 from codegen.mechanics.chain.model import kept_rows
 from codegen.spec.chain import Chain
 from codegen.spec.chain_forces import JointForce
@@ -151,13 +150,7 @@ def test_drives_and_forces_act_on_the_coordinates_of_the_chain():
     chain = relative(read_scene(PENDULUM + load, "pendulum")).chain
     (link,), (force,), (independent,) = chain.links, chain.joint_forces, chain.independents
     assert force == JointForce("bar", Fraction(2), Fraction(3), Fraction("0.1"), link.coordinate + Fraction("0.5"))
-    assert independent.motion == Polynomial((link.coordinate, Fraction(4)))
-
-
-def test_a_screw_is_refused():
-    text = tree_text().replace('type = "cylindrical"', 'type = "screw"\npitch = 0.1')
-    with pytest.raises(SpecificationError, match="ties two coordinates"):
-        relative(read_scene(text, "screw"))
+    assert independent.motion == Polynomial((link.coordinate, Fraction(4))) and independent.driven
 
 
 def test_the_command_prints_the_tree_and_writes_the_package_of_a_chain(tmp_path):

@@ -64,6 +64,25 @@ def test_inverse_dynamics_writes_efforts_reactions_and_wrenches(tmp_path: Path) 
     assert np.allclose(columns["slide.q"][0], 0.2, atol=1e-15)
 
 
+def test_a_spring_between_effectors_pulls_and_one_without_direction_is_refused(tmp_path: Path, pendulum: Path) -> None:
+    """The rod rests at 0.5 rad; the hook stands 3 m above its pin."""
+    hook = '[[effector]]\nname = "hook"\nlink = "base"\npsi = "pi/2"\na = 3.0\n'
+    spring = '[[spring]]\neffectors = ["tip", "hook"]\nstiffness = 40.0\nlength = 1.0\n'
+    held = pendulum.with_name("held.toml")
+    held.write_text(f"{PENDULUM}polynomial = [0.5]\n{hook}{spring}")
+    done = invoke("chain", held, "--inverse", "--outputs", "1", "-o", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    tip, top = 2 * np.exp(0.5j), 3j
+    pull = 40 * (abs(top - tip) - 1) * (top - tip) / abs(top - tip)
+    effort = 2 * 9.81 * np.cos(0.5) - (np.conj(tip) * pull).imag
+    assert table(tmp_path / "run")["rod.effort"] == pytest.approx([effort, effort], rel=1e-14)
+    on_tip = hook.replace('"pi/2"', "0.5").replace("3.0", "2.0")
+    held.write_text(f"{PENDULUM}polynomial = [0.5]\n{on_tip}{spring}")
+    for mode in (["--inverse"], []):
+        (line,) = refused(invoke("chain", held, *mode, "-o", tmp_path / "no"))
+        assert "its ends coincide at t = 0" in line
+
+
 def test_kinematics_needs_no_mass(tmp_path: Path, pendulum: Path) -> None:
     light = pendulum.with_name("light.toml")
     text = (

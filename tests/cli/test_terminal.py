@@ -13,13 +13,14 @@ import pytest
 
 import codegen
 from codegen.mechanics.joints import JOINTS
+from tests.spec.texts import PENDULUM
 
-from .runs import COMMAND, REPOSITORY, SMALL, contents, finish, invoke, spawn
+from .runs import COMMAND, REPOSITORY, SMALL, contents, finish, invoke, refused, spawn
 from .terminal import Terminal
 
 
 def test_generate_is_silent_on_stderr_in_a_pipe(tmp_path: Path) -> None:
-    code, out, err = finish(spawn("generate", "revolute", "-o", tmp_path / "package"))
+    code, out, err = finish(spawn("generate", "rigid", "-o", tmp_path / "package"))
     assert (code, err) == (0, "")
     assert re.fullmatch(rf"{tmp_path / 'package'}: \d+ functions in \d+ files\n", out)
 
@@ -60,6 +61,20 @@ def test_flops_prints_the_tables_in_a_pipe() -> None:
         assert words in result.stdout
 
 
+def test_flops_of_a_scene_lays_its_forms_side_by_side(tmp_path: Path) -> None:
+    """Of a pendulum on one joint M is constant, and gravity is a cosine by the mass moment by g."""
+    (tmp_path / "pendulum.toml").write_text(PENDULUM)
+    result = invoke("flops", tmp_path / "pendulum.toml", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    forms = {entry["form"]: entry for entry in json.loads(result.stdout)["forms"]}
+    sizes = {form: (entry["unknowns"], entry["rows"]) for form, entry in forms.items()}
+    assert sizes == {"conventional": (6, 5), "parametric": (7, 6), "relative": (1, 0)}
+    assert forms["relative"]["with_gamma"] == {"operations": 3} and "with_second" not in forms["relative"]
+    lines = refused(invoke("flops", tmp_path / "pendulum.toml", "--table", "2", "--model", "fma"))
+    assert [line.partition(":")[0] for line in lines] == ["--table", "--model"]
+    assert refused(invoke("flops", "--measure"))[0].startswith("--measure")
+
+
 @pytest.mark.parametrize("stage", ["model", "program"])
 def test_a_stage_is_printed_and_nothing_written(stage: str, tmp_path: Path) -> None:
     result = invoke(*SMALL, "--dump", stage, "-o", tmp_path / "package")
@@ -85,7 +100,7 @@ def test_the_module_is_the_command() -> None:
 
 
 def test_two_processes_with_other_hash_seeds_and_folders_give_the_same_bytes(tmp_path: Path) -> None:
-    request = ("generate", "revolute", "ball", "--outputs", "phi,phi_q")
+    request = ("generate", "ball", "--outputs", "phi,phi_q")
     targets = [tmp_path / "one", tmp_path / "another/deeper"]
     runs = [spawn(*request, "-o", target, PYTHONHASHSEED=str(seed)) for seed, target in enumerate(targets, 1)]
     assert [finish(run)[0] for run in runs] == [0, 0]

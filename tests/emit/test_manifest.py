@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from codegen.mechanics.joints import JOINTS
-from codegen.spec.request import library_variants
+from codegen.spec.selection import library_variants
 
 GENERATED = Path(__file__).resolve().parents[2] / "generated"
 REQUIRED: dict[str, Any] = {

@@ -20,7 +20,8 @@ from codegen.ir.ops import LEAVES, Op
 from codegen.ir.program import Program
 from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.passes import simplify
-from codegen.spec.request import QUANTITIES, Variant, library_variants
+from codegen.spec.request import QUANTITIES, Variant
+from codegen.spec.selection import library_variants
 from flopcount.count import count
 from flopcount.count_c import count_c
 from flopcount.counts import Counts

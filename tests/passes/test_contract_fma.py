@@ -18,7 +18,8 @@ from codegen.mechanics.joints import JOINTS
 from codegen.passes.contract_fma import contract_fma
 from codegen.passes.differentiate import differentiate
 from codegen.passes.share_subexpressions import share_subexpressions
-from codegen.spec.request import QUANTITIES, Variant, library_variants
+from codegen.spec.request import QUANTITIES, Variant
+from codegen.spec.selection import library_variants
 from flopcount.count import count
 from flopcount.models import contractions
 from tests.ir.programs import FUSED_OPS, RANDOM, inputs_of, matrices, programs, small_fractions

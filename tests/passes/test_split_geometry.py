@@ -17,7 +17,8 @@ from codegen.ir.program import Program
 from codegen.mechanics.joints import JOINTS
 from codegen.passes.drop_unused import drop_unused
 from codegen.passes.split_geometry import Split, early_values, split_geometry
-from codegen.spec.request import Variant, library_variants
+from codegen.spec.request import Variant
+from codegen.spec.selection import library_variants
 from flopcount.count import count
 from tests.ir.programs import ARGUMENTS, FUSED_OPS, OPS, RANDOM, inputs_of, programs
 

@@ -41,6 +41,10 @@ PARAMETRIC: dict[str, tuple[int, int]] = {
     "free": (3, 3),
 }
 ALL_PAIRS = tuple(f"trn{k}_rot{m}" for k in range(4) for m in range(4))
+CATALOGUE_PAIRS = {
+    f"trn{PARAMETRIC[joint][0]}_rot{PARAMETRIC[joint][1]}": joint for joint in CONVENTIONAL if joint != "screw"
+}
+"""Pairs whose parametric form is that of a joint of the catalogue."""
 TRANSLATION_AXES = ((), (H,), (F, G), (F, G, H))
 
 

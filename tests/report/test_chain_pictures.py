@@ -72,6 +72,8 @@ def test_pictures_are_the_same_bytes_again_and_name_every_moving_joint(name: str
     text = once["plot.svg"].decode()
     moving = [link.name for k, link in enumerate(done.mechanism.chain.links) if np.ptp(done.record.q[:, k]) > 1e-9]
     assert {f"{link}.alpha1" for link in moving} == set(re.findall(r'id="([^"]*\.alpha1)"', text))
+    assert "centres of mass" not in text, "no bodies are drawn"
+    assert "or the 2nd" not in text, "joints of chains have one coordinate"
 
 
 def test_a_summary_is_json_without_numbers_that_are_none() -> None:

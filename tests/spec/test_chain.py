@@ -24,6 +24,9 @@ jsonschema = pytest.importorskip("jsonschema")
 SHIPPED = resources.files("codegen.spec").joinpath("chain.schema.json").read_text()
 QUICK_RETURN = (EXAMPLES / "quick_return.toml").read_text()
 
+SPRING = '[[spring]]\neffectors = ["tool", '
+STOP = '[[stop]]\njoint = "crank"\nlower = 0.5\n'
+
 MISTAKES = {
     "a link on itself": ('parent = "crank"', 'parent = "block"', "cannot hang on itself"),
     "a parent below": ('parent = "crank"', 'parent = "slider"', "stands below"),
@@ -40,6 +43,19 @@ MISTAKES = {
     "an empty range": ("lower = -4.0", "lower = 2.0", "is not below upper"),
     "no angle": ('theta = "pi/2" }', 'theta = "pi/0" }', "is no angle"),
     "an unknown key": ("a = 1.5", "b = 1.5", "there is no key"),
+    "a screw without pitch": ('type = "prismatic"\nalpha', 'type = "screw"\nalpha', "give the advance in m/rad"),
+    "a pitch of no screw": ('type = "prismatic"\nalpha', 'type = "prismatic"\npitch = 1\nalpha', "has no pitch"),
+    "a switched force in world axes": ('effector = "tool"', 'effector = "tool"\naxes = "world"', "force that switches"),
+    "a spring to nowhere": ("[[independent]]", f'{SPRING}"tol"]\n[[independent]]', 'did you mean "tool"'),
+    "a spring within one link": ("[[independent]]", f'{SPRING}"tool"]\n[[independent]]', "both ends are on"),
+    "stops upside down": ("[[independent]]", f"{STOP}upper = -1\n[[independent]]", "is not below upper"),
+    "a stop without stiffness": ("[[independent]]", f"{STOP}\n[[independent]]", "stiffness: is missing"),
+    "a drive without motion": ('polynomial = [0.44, "2*pi"]', "driven = true", "has no motion"),
+    "a drive with a start": (
+        'polynomial = [0.44, "2*pi"]',
+        "polynomial = [0.44]\ndriven = true",
+        "starts with",
+    ),
     "an unknown joint": ('type = "prismatic"\nalpha', 'type = "ball"\nalpha', "there is no"),
 }
 

@@ -6,16 +6,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from codegen.chains.relative.acting import acting
 from codegen.chains.relative.independent import independents
 from codegen.chains.relative.inertia import hung
 from codegen.chains.relative.pose import Pose, row_of
 from codegen.chains.relative.spanning import Branch, spanning
 from codegen.chains.relative.steps import Step, coordinates, steps
-from codegen.errors import Mistake, SpecificationError
-from codegen.spec.chain import BASE, Chain, Cut, Frame, Link
-from codegen.spec.chain_forces import JointForce
+from codegen.spec.chain import BASE, Chain, Cut, Frame, Link, Row
+from codegen.spec.chain_forces import JointForce, Stop
 from codegen.spec.placement import rotation, transposed
-from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Joint, Marker, Scene
+from codegen.spec.scene import GROUND, ZERO_VECTOR, Body, Coordinate, Joint, Limit, Marker, Scene
 
 _MASSLESS = (ZERO_VECTOR, ZERO_VECTOR, ZERO_VECTOR)
 
@@ -43,7 +43,7 @@ class Relative:
 
     Attributes:
         chain: of the scene; coordinates are those of the joints, but for a constant.
-        notes: how it was made, and what of the scene it leaves out, line by line.
+        notes: how it was made, line by line.
         bodies: name -> link that the body is on, and its pose there.
         joints: name -> what became of it.
     """
@@ -55,18 +55,7 @@ class Relative:
 
 
 def relative(scene: Scene) -> Relative:
-    """Describe a scene by relative coordinates.
-
-    Raises:
-        SpecificationError: a screw ties two coordinates together, which a chain cannot.
-    """
-    mistakes = [
-        Mistake(f'joint "{joint.name}"', "a screw ties two coordinates together", "use another form than relative")
-        for joint in scene.joints
-        if joint.type == "screw"
-    ]
-    if mistakes:
-        raise SpecificationError(mistakes)
+    """Describe a scene by relative coordinates."""
     return _Conversion(scene).result()
 
 
@@ -89,9 +78,19 @@ class _Conversion:
             self._links, [(self._bodies[name], *place) for name, place in self._places.items() if name != GROUND]
         )
         forces = [_force(*load) for load in self._loads]
-        acting = tuple(force for force in forces if force != JointForce(force.joint))
-        scene = self._scene
-        chain = Chain(scene.name, scene.gravity, tuple(links), cuts, joint_forces=acting, assemble=scene.assemble)
+        scene, on_bodies = self._scene, acting(self._scene, self._places)
+        chain = Chain(
+            scene.name,
+            scene.gravity,
+            tuple(links),
+            cuts,
+            on_bodies.effectors,
+            joint_forces=tuple(force for force in forces if force != JointForce(force.joint)),
+            assemble=scene.assemble,
+            world_forces=on_bodies.world_forces,
+            springs=on_bodies.springs,
+            stops=tuple(_stop(own, offset, c.limit) for own, offset, c in self._loads if c.limit is not None),
+        )
         driven = {name: (offset, c.drive) for name, offset, c in self._loads if c.drive is not None}
         bodies = {name: place for name, place in self._places.items() if name != GROUND}
         chain = replace(chain, independents=independents(chain, driven))
@@ -108,8 +107,8 @@ class _Conversion:
             return
         joint = branch.joint
         near, far = (_pose(m) for m in _markers(joint, branch.is_reversed))
-        way = steps(joint.type, branch.is_reversed)
-        start = coordinates(joint.type, self._apart(joint))
+        way = steps(joint.type, branch.is_reversed, joint.pitch)
+        start = coordinates(joint.type, self._apart(joint), joint.pitch)
         end, frame, found = self._stepped(
             branch.body, joint.name, joint.coordinates, way, start, (link, carrier @ near)
         )
@@ -122,7 +121,8 @@ class _Conversion:
         near, far = (_pose(m) for m in _markers(joint, is_reversed))
         on, off = reversed(joint.bodies) if is_reversed else joint.bodies
         link, place = self._places[on]
-        way, start = steps(joint.type, is_reversed), coordinates(joint.type, self._apart(joint))
+        way = steps(joint.type, is_reversed, joint.pitch)
+        start = coordinates(joint.type, self._apart(joint), joint.pitch)
         end, frame, found = self._stepped("", joint.name, joint.coordinates, way, start, (link, place @ near))
         self._joints[joint.name] = Carried(found, end, number, is_reversed)
         other, place = self._places[off]
@@ -143,12 +143,13 @@ class _Conversion:
         for number, step in enumerate(way, 1):
             turned = Pose(step.turn)
             row, value = row_of(frame @ turned), start[step.coordinate]
-            offset = row.theta if step.type == "revolute" else row.d
-            row = replace(row, theta=row.theta + value) if step.type == "revolute" else replace(row, d=row.d + value)
+            offset = row.d if step.type == "prismatic" else row.theta
+            row = _moved(row, step, value)
             is_last = number == len(way)
             own = body if body and is_last else name if len(way) == 1 else f"{name} {number}"
             own = self._free_name(own)
-            self._links.append(Link(own, link, step.type, row, Fraction(0), ZERO_VECTOR, _MASSLESS))
+            massless = Link(own, link, step.type, row, Fraction(0), ZERO_VECTOR, _MASSLESS, pitch=step.pitch)
+            self._links.append(massless)
             found[step.coordinate] = own, offset
             if loads:
                 self._loads.append((own, offset, loads[step.coordinate]))
@@ -180,10 +181,6 @@ class _Conversion:
             by = f'joint "{branch.joint.name}"' if branch.joint else "nothing, it is free"
             yield f'body "{branch.body}" hangs on "{branch.carrier}" by {by}'
         yield from (f'joint "{cut.name}" closes a loop: it is cut from "{cut.base.link}"' for cut in cuts)
-        if self._scene.springs or self._scene.torques:
-            yield "springs between points and torques on bodies are not in a chain"
-        if any(coordinate.limit for joint in self._scene.joints for coordinate in joint.coordinates):
-            yield "stops of joint coordinates are not in a chain"
 
 
 def _markers(joint: Joint, is_reversed: bool) -> tuple[Marker, Marker]:
@@ -193,6 +190,18 @@ def _markers(joint: Joint, is_reversed: bool) -> tuple[Marker, Marker]:
 
 def _pose(marker: Marker) -> Pose:
     return Pose(marker.axes, marker.point)
+
+
+def _moved(row: Row, step: Step, value: Fraction) -> Row:
+    """A row with its coordinate further by a value."""
+    if step.type == "prismatic":
+        return replace(row, d=row.d + value)
+    return replace(row, theta=row.theta + value, d=row.d + step.pitch * value)
+
+
+def _stop(joint: str, offset: Fraction, limit: Limit) -> Stop:
+    lower, upper = (None if bound is None else bound + offset for bound in (limit.lower, limit.upper))
+    return Stop(joint, replace(limit, lower=lower, upper=upper))
 
 
 def _force(joint: str, offset: Fraction, load: Coordinate) -> JointForce:

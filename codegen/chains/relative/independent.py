@@ -38,7 +38,7 @@ def _dependent(chain: Chain, driven: Mapping[str, object]) -> set[int]:
     length = characteristic_length(chain)
     J = Generated(chain, False, interpreted).jacobian(q)
     J = J / np.tile([length] * 3 + [1.0] * 3, len(chain.cuts))[:, None]
-    J *= [length if link.type == "prismatic" else 1.0 for link in chain.links]
+    J *= [length if link.unit == "m" else 1.0 for link in chain.links]
     J *= [_LATE if link.name in driven else 1.0 for link in chain.links]
     _, R, order = scipy.linalg.qr(J, mode="economic", pivoting=True)
     sizes = np.abs(np.diag(R))
@@ -50,4 +50,4 @@ def _independent(name: str, driven: Mapping[str, tuple[Fraction, Drive | None]])
     offset, drive = driven.get(name, (Fraction(0), None))
     if drive is None:
         return Independent(name)
-    return Independent(name, Polynomial((offset + drive.position, drive.speed)))
+    return Independent(name, Polynomial((offset + drive.position, drive.speed)), driven=True)

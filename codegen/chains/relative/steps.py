@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from codegen.chains.relative.pose import Pose, angle
+from codegen.spec.angles import PI
 from codegen.spec.placement import IDENTITY, square_root
 from codegen.spec.scene import Matrix, Vector
 
@@ -21,12 +22,14 @@ class Step:
         axis: number of the axis of the joint's frame, 0 to 2.
         sense: 1, or -1 where the joint is gone through from its second body to its first.
         coordinate: number of the coordinate of the scene's joint.
+        pitch: of a screw, m/rad.
     """
 
     type: str
     axis: int
     sense: int
     coordinate: int
+    pitch: Fraction = Fraction(0)
 
     @property
     def turn(self) -> Matrix:
@@ -40,6 +43,7 @@ class Step:
 _STEPS: dict[str, tuple[tuple[str, int, int], ...]] = {
     "revolute": (("revolute", 2, 0),),
     "translational": (("prismatic", 2, 0),),
+    "screw": (("screw", 2, 0),),
     "cylindrical": (("prismatic", 2, 0), ("revolute", 2, 1)),
     "universal": (("revolute", 2, 0), ("revolute", 0, 1)),
     "planar": (("prismatic", 0, 0), ("prismatic", 1, 1), ("revolute", 2, 2)),
@@ -57,20 +61,21 @@ _STEPS: dict[str, tuple[tuple[str, int, int], ...]] = {
 """Type of a joint -> type, axis and coordinate of each step from its first body to its second. ``free`` is none."""
 
 
-def steps(kind: str, is_reversed: bool) -> tuple[Step, ...]:
-    """The steps from the first body of a joint to its second, or back."""
-    found = [Step(name, axis, -1 if is_reversed else 1, number) for name, axis, number in _STEPS[kind]]
+def steps(kind: str, is_reversed: bool, pitch: Fraction = Fraction(0)) -> tuple[Step, ...]:
+    """The steps from the first body of a joint to its second, or back; a screw has a pitch either way."""
+    found = [Step(name, axis, -1 if is_reversed else 1, number, pitch) for name, axis, number in _STEPS[kind]]
     return tuple(reversed(found) if is_reversed else found)
 
 
-def coordinates(kind: str, pose: Pose) -> tuple[Fraction, ...]:
-    """The coordinates of a joint in a pose of the second marker on the first."""
+def coordinates(kind: str, pose: Pose, pitch: Fraction = Fraction(0)) -> tuple[Fraction, ...]:
+    """The coordinates of a joint in a pose of the second marker on the first; those of a screw count its turns."""
     R, (x, y, z) = pose.R, pose.p
     about_z = angle(R[1][0], R[0][0])
     ball = about_z, -_arcsine(R), angle(R[2][1], R[2][2])
     return {
         "revolute": (about_z,),
         "translational": (z,),
+        "screw": (about_z + _turns(z / pitch - about_z if pitch else Fraction(0)),),
         "cylindrical": (z, about_z),
         "universal": (about_z, angle(R[2][1], R[2][2])),
         "planar": (x, y, about_z),
@@ -78,6 +83,11 @@ def coordinates(kind: str, pose: Pose) -> tuple[Fraction, ...]:
         "rigid": (),
         "free": (x, y, z, *ball),
     }[kind]
+
+
+def _turns(angle: Fraction) -> Fraction:
+    """The whole turns next to an angle, rad."""
+    return 2 * PI * round(angle / (2 * PI))
 
 
 def _arcsine(R: Matrix) -> Fraction:

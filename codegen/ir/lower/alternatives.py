@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 Key = tuple[Any, ...]
 
@@ -19,9 +19,8 @@ ZERO, UNIT, GENERAL = 0, 1, 2
 """What is known of an entry: it is zero, plus or minus one, or anything."""
 
 
-@dataclass(frozen=True, slots=True)
-class Alternative:
-    """One way to compute a node.
+class Alternative(NamedTuple):
+    """One way to compute a node; a tuple, since there are hundreds of thousands.
 
     Attributes:
         kind: names the formula, see `codegen.ir.lower.scalarise`.
@@ -53,8 +52,7 @@ class Node:
     alternatives: tuple[Alternative, ...] | None = field(default=None)
 
 
-@dataclass(frozen=True, slots=True)
-class Prices:
+class Prices(NamedTuple):
     """Price of an addition, a multiplication and a division."""
 
     add: float = 1.0

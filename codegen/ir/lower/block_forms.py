@@ -153,13 +153,19 @@ def _from_known(layout: Layout, pairs: Dyadic, known: Dyadic, rows: str, columns
     for turned in (False, True) if rows == columns else (False,):
         base = known.transposed if turned else known
         for sign, rest in ((1, pairs - base), (-1, pairs + base)):
-            for outers in groupings(rest):
+            for outers in groupings(rest) if _may_be_one(rest) else ():
                 if len(outers) == 1:
                     own_sign, node, own_turned = layout.pairs(known, rows, columns)
                     extra_sign, extra = layout.outer(*outers[0], rows, columns)
                     cost = layout.prices.add * sum(c > 0 for c in layout.classes(extra))
                     signs = ((sign * own_sign, turned != own_turned), (extra_sign, False))
                     yield Alternative("joined", (node, extra), cost, signs)
+
+
+def _may_be_one(dyadic: Dyadic) -> bool:
+    """Whether pairs may be those of a single outer product: every left with every right."""
+    lefts, rights = ({pair[side] for pair, _ in dyadic.pairs} for side in (0, 1))
+    return len(dyadic.pairs) == len(lefts) * len(rights)
 
 
 def outer_alternatives(layout: Layout, left: Vector, right: Vector, rows: str, columns: str) -> tuple[Alternative, ...]:

@@ -51,7 +51,9 @@ class Layout:
         self.products: dict[tuple[int, ...], None] = {}
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}
+        self.parts: dict[Vector, list[list[tuple[Polynomial, Vector]]]] = {}
         self._numbers: dict[Key, int] = {}
+        self._vectors: dict[str, dict[Vector, Signed]] = {frame: {} for frame in tree.frames}
         self._axes_between: dict[tuple[str, str, str], tuple[int, ...]] = {}
         self._classes_between: dict[tuple[str, str, str], tuple[Classes, ...]] = {}
         self._entries = EntryClasses(space, tree)
@@ -60,10 +62,15 @@ class Layout:
 
     def vector(self, vector: Vector, frame: str) -> Signed:
         """A vector in a frame."""
-        sign = vector.sign or 1
-        if len(vector.terms) > 1:
-            self.sums.setdefault(vector if sign > 0 else -vector)
-        return sign, self._number(("vector", vector if sign > 0 else -vector, frame))
+        known = self._vectors[frame]
+        found = known.get(vector)
+        if found is None:
+            sign = vector.sign or 1
+            positive = vector if sign > 0 else -vector
+            if len(vector.terms) > 1:
+                self.sums.setdefault(positive)
+            found = known[vector] = sign, self._number(("vector", positive, frame))
+        return found
 
     def axes_between(self, start: str, end: str, by: str) -> tuple[int, ...]:
         """Nodes of the columns, or of the rows, of the rotation from ``start`` to ``end``."""

@@ -181,7 +181,9 @@ class Scalariser:
         self._add_skew(entries, children[len(signs) :], tilde_sign)
         return tuple(self._total(entry) for entry in entries)
 
-    def _turned_block(self, block: Entries, axes: Sequence[Entries], sign: tuple[int, bool], by: str, side: str) -> Entries:
+    def _turned_block(
+        self, block: Entries, axes: Sequence[Entries], sign: tuple[int, bool], by: str, side: str
+    ) -> Entries:
         """``R M`` or ``M R`` with R by its columns or by its rows."""
         entries = [entry for (entry,) in self._matrices([block], [sign])]
         rotation = self._placed(list(axes), by)

@@ -36,6 +36,7 @@ class Space:
         self._numbers: dict[Primitive, int] = {}
         self._vectors: dict[Primitive, Vector] = {}
         self._atom_numbers: dict[Atom, int] = {}
+        self._dots: dict[tuple[Vector, Vector], Polynomial] = {}
 
     def primitive(self, description: Primitive) -> int:
         """Give the number of a primitive."""
@@ -60,9 +61,12 @@ class Space:
 
     def dot(self, left: Vector, right: Vector) -> Polynomial:
         """Scalar product."""
-        result = total(a * b * self._dot(p, q) for p, a in left.terms for q, b in right.terms)
-        self._remember(self.dot_hints, result, left, right)
-        return result
+        known = self._dots.get((left, right))
+        if known is None:
+            known = total(a * b * self._dot(p, q) for p, a in left.terms for q, b in right.terms)
+            self._dots[left, right] = known
+            self._remember(self.dot_hints, known, left, right)
+        return known
 
     def raw_dot(self, left: Vector, right: Vector) -> Polynomial:
         """Scalar product with the rotation matrices as they are, an atom of its own."""

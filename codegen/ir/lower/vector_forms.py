@@ -135,6 +135,14 @@ def turned(layout: Layout, vector: Vector, start: str, end: str, description: ob
 
 def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alternative]:
     """Sums of parts: one by one, by body, by common coefficient, by product."""
+    if vector not in layout.parts:
+        layout.parts[vector] = _parts(layout, vector)
+    for parts in layout.parts[vector]:
+        yield summed(layout, parts, frame, kind)
+
+
+def _parts(layout: Layout, vector: Vector) -> list[Parts]:
+    """The sums of parts, whatever the frame."""
     single: Parts = [(coefficient, Vector({p: ONE})) for p, coefficient in vector.terms]
     found = [
         single,
@@ -143,9 +151,11 @@ def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alte
         _by_content(vector),
         _by_product(layout, vector),
     ]
-    for k, parts in enumerate(found):
-        if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector):
-            yield summed(layout, parts, frame, kind)
+    return [
+        parts
+        for k, parts in enumerate(found)
+        if parts and parts not in found[:k] and parts[0][1] not in (vector, -vector)
+    ]
 
 
 def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterator[Alternative]:
@@ -157,6 +167,7 @@ def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterato
 
 
 def summed(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
+    """Alternative that adds up parts, each times its coefficient."""
     place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
     children: list[int] = []
     signs: list[tuple[int, int]] = []

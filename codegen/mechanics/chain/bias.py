@@ -49,7 +49,7 @@ class Bias:
         """Angular velocity of a link."""
         if number not in self._w:
             node, turned = self._at(number)
-            if node.type != "revolute":
+            if not node.turns:
                 return self.w(node.parent)
             value = added(self.w(turned.base), self._spin(number))
             self._w[number] = self._named("w", number, value, "angular velocity")
@@ -59,7 +59,7 @@ class Bias:
         """Angular bias acceleration of a link."""
         if number not in self._e:
             node, turned = self._at(number)
-            if node.type != "revolute":
+            if not node.turns:
                 return self.e(node.parent)
             value = added(self.e(turned.base), cross(self.w(turned.base), self._spin(number)))
             self._e[number] = self._named("e", number, value, "angular bias acceleration")
@@ -93,7 +93,7 @@ class Bias:
 
     def _owner(self, number: int) -> int:
         """The link with which a frame turns."""
-        while number != self._geometry.root and self._geometry.tree.nodes[number].type != "revolute":
+        while number != self._geometry.root and not self._geometry.tree.nodes[number].turns:
             number = self._geometry.tree.nodes[number].parent
         return number
 
@@ -119,10 +119,11 @@ class Bias:
         return self._matrices[number]
 
     def _of_offset(self, node: Node) -> Vector:
-        if node.type != "prismatic":
+        if not node.slides:
             return self.of_fixed(node.parent, node.arm)
         along = cross(self.w(self._carrier(node.number, 2)), self._geometry.z(node.number))
-        twice = self._named("k", node.number, scaled(2 * self._qd[node.number], along), "Coriolis acceleration")
+        rate = node.advance * self._qd[node.number]
+        twice = self._named("k", node.number, scaled(2 * rate, along), "Coriolis acceleration")
         carrier = self._carrier(node.number, 2) if is_zero(node.arm) else self._owner(node.parent)
         offset = self._geometry.offset(node.number)
         return added(self._of_vector(carrier, f"l{node.number + 1}", offset), twice)

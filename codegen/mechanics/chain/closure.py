@@ -105,10 +105,10 @@ class Closure:
         axes, z = self._geometry.axes(self._loop.C.number), self._geometry.z(node.number)
         along = self._named("zc", node.number, times(axes, z), "axis of the joint, axes of C")
         signed = along if sign > 0 else negative(along)
-        if node.type == "prismatic":
+        if not node.turns:
             return signed, ZERO
         linear = self._named("vc", node.number, times(axes, self._swept(node)), "velocity of R, axes of C")
-        return (linear if sign > 0 else negative(linear)), signed
+        return added(linear if sign > 0 else negative(linear), scaled(node.advance, signed)), signed
 
     def _swept(self, node: Node) -> Vector:
         """Velocity of a point at the origin of R when a joint turns by 1."""

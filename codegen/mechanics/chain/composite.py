@@ -59,9 +59,11 @@ class Composite:
     def _own_entry(self, node: Node) -> Any:
         """Force or moment on the joint that accelerates."""
         k = node.number
-        if node.type == "prismatic":
+        if not node.turns:
             return self._bodies.mass(k)
         z, own = self._geometry.z(k), self._bodies.own[k].I[2][2]
+        if node.slides:
+            own += node.advance**2 * self._bodies.mass(k)
         if self._bodies.has_children(k):
             return own + dot(z, self._of_children(k))
         return own
@@ -76,9 +78,14 @@ class Composite:
         found, at = [], node.number
         for carrier in self._tree.above(node.number):
             N, at = self._carried(F, N, at, f"N{node.number + 1}"), carrier.number
-            z = self._geometry.z(at)
-            found.append((at, dot(z, F if carrier.type == "prismatic" else N)))
+            found.append((at, self._along(carrier, F, N)))
         return found
+
+    def _along(self, node: Node, F: Vector, N: Vector) -> Any:
+        """What a force, and a moment about the joint's origin, do along its coordinate."""
+        z = self._geometry.z(node.number)
+        force = node.advance * dot(z, F)
+        return force + dot(z, N) if node.turns else force
 
     def _about(self, node: Node, end: Node) -> list[tuple[int, Any]]:
         """The same by the moment about the far end of a loop, whose velocities J has."""
@@ -88,8 +95,8 @@ class Composite:
         found = []
         for carrier in self._tree.above(node.number):
             j = carrier.number
-            turning = dot(self._geometry.z(j), moment) + dot(self._geometry.swept(j, end.number), F)
-            found.append((j, dot(self._geometry.z(j), F) if carrier.type == "prismatic" else turning))
+            turning = self._along(carrier, F, moment)
+            found.append((j, turning + dot(self._geometry.swept(j, end.number), F) if carrier.turns else turning))
         return found
 
     def _end(self, node: Node) -> Node | None:
@@ -114,12 +121,22 @@ class Composite:
 
     def _unit(self, k: int) -> tuple[Vector, Vector]:
         x, y, z = self._geometry.axes(k)
-        own = self._bodies.own[k]
-        if self._tree.nodes[k].type == "prismatic":
-            return scaled(self._bodies.mass(k), z), cross(self._bodies.moment(k), z)
-        if not self._bodies.has_children(k):
-            return combined((x, y, z), (-own.S[1], own.S[0], 0)), combined((x, y, z), own.I[2])
-        return cross(z, self._bodies.moment(k)), added(self._of_children(k), combined((x, y, z), own.I[2]))
+        own, node = self._bodies.own[k], self._tree.nodes[k]
+        if not node.turns:
+            return self._unit_slide(k)
+        if self._bodies.has_children(k) or node.slides:
+            F, N = cross(z, self._bodies.moment(k)), added(self._of_children(k), combined((x, y, z), own.I[2]))
+        else:
+            F, N = combined((x, y, z), (-own.S[1], own.S[0], 0)), combined((x, y, z), own.I[2])
+        if not node.slides:
+            return F, N
+        force, moment = (scaled(node.advance, part) for part in self._unit_slide(k))
+        return added(F, force), added(N, moment)
+
+    def _unit_slide(self, k: int) -> tuple[Vector, Vector]:
+        """F and N along z."""
+        z = self._geometry.z(k)
+        return scaled(self._bodies.mass(k), z), cross(self._bodies.moment(k), z)
 
     def _of_children(self, k: int) -> Vector:
         """Moment of what hangs on a link, when it turns with unit acceleration."""
@@ -135,11 +152,7 @@ class Composite:
 
     def bias(self) -> list[Any]:
         """f_C."""
-        found = []
-        for node in self._tree.links:
-            F, N = self._wrench(node.number)
-            found.append(dot(self._geometry.z(node.number), F if node.type == "prismatic" else N))
-        return found
+        return [self._along(node, *self._wrench(node.number)) for node in self._tree.links]
 
     def _wrench(self, k: int) -> tuple[Vector, Vector]:
         """Force and moment about its origin that the bias motion of what a link carries takes."""

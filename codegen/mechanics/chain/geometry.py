@@ -121,7 +121,7 @@ class Geometry:
 
     def _turn(self, node: Node) -> Turned:
         carrier = self.turned(node.parent)
-        if node.type != "revolute":
+        if not node.turns:
             return replace(carrier, Q=product(carrier.Q, node.fixed_turn))
         Q = product(carrier.Q, node.turn)
         if is_zero((Q[0][2], Q[1][2])):
@@ -167,8 +167,8 @@ class Geometry:
         if number not in self._offsets:
             node = self.tree.nodes[number]
             value = combined(self.axes(node.parent), node.arm)
-            if node.type == "prismatic":
-                value = added(value, scaled(self.coordinate(node), self.z(number)))
+            if node.slides:
+                value = added(value, scaled(node.advance * self.coordinate(node), self.z(number)))
             self._offsets[number] = self.named("l", number, value, "offset from the parent's origin")
         return self._offsets[number]
 
@@ -192,12 +192,18 @@ class Geometry:
         return self._reaches[first, last]
 
     def swept(self, first: int, last: int) -> Vector:
-        """Velocity of the origin of a frame when the revolute joint of a link that carries it turns by 1."""
+        """Velocity of the origin of a frame when a link that carries it turns by 1 about its joint."""
         if (first, last) not in self._swept:
             value = cross(self.z(first), self.reach(first, last))
             words = f"velocity of origin {last + 1} by joint {first + 1}"
             self._swept[first, last] = self.named(f"m_{first + 1}", last, value, words)
         return self._swept[first, last]
+
+    def column(self, joint: Node, last: int) -> tuple[Vector, Vector]:
+        """Velocity of the origin of a frame, and its angular velocity, for a unit rate of a joint that carries it."""
+        z = self.z(joint.number)
+        linear = scaled(joint.advance, z)
+        return (added(self.swept(joint.number, last), linear), z) if joint.turns else (linear, ZERO)
 
 
 def combined(axes: Axes, coefficients: Vector) -> Vector:

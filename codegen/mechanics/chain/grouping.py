@@ -3,8 +3,8 @@
 A body that is symmetric about the axis of a revolute joint, and without moment of inertia about it, does not feel the
 joint: it may as well be fixed on the parent. A link's mass, the moment of its mass along the axis, and
 ``diag(Y, Y, 0)`` of its inertia go there. A prismatic joint does not turn the link: all its inertia about the origin
-goes to the parent. What arrives at the base is gone. A link that only turns about one direction keeps what matters for
-that.
+goes to the parent. A screw moves its link along the axis as well: mass and mass moment stay. What arrives at the base
+is gone. A link that only turns about one direction keeps what matters for that.
 """
 
 from __future__ import annotations
@@ -97,18 +97,21 @@ def _parted(tree: Tree, node: Node, whole: Inertia) -> tuple[Inertia, Inertia]:
 
     Y is chosen so that ``zz I`` and a dyad of one axis stay, of that along which the mass centre lies where it can be.
     """
-    if node.type == "prismatic":
+    if not node.turns:
         arm_free = Inertia(I=whole.I).moved(node.fixed_turn, (0, 0, 0))
         return Inertia(whole.m, whole.S), arm_free
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = whole.I
     is_along_y = not any((xy, xz, yz)) and whole.S[0] == 0 and whole.S[1] != 0
     Y = xx - zz if is_along_y else yy - zz
-    symmetric = Inertia(whole.m, (0, 0, whole.S[2]), rows([(Y, 0, 0), (0, Y, 0), (0, 0, 0)]))
-    moved = symmetric.moved(node.turn, node.arm)
-    S = (whole.S[0], whole.S[1], sympy.S.Zero)
+    symmetric = rows([(Y, 0, 0), (0, Y, 0), (0, 0, 0)])
+    if node.slides:
+        m, S, moved = whole.m, whole.S, Inertia(I=symmetric).moved(node.turn, (0, 0, 0))
+    else:
+        m, S = sympy.S.Zero, (whole.S[0], whole.S[1], sympy.S.Zero)
+        moved = Inertia(whole.m, (0, 0, whole.S[2]), symmetric).moved(node.turn, node.arm)
     if _turns_about_one_direction(tree, node):
-        return Inertia(S=S, I=rows([(zz, 0, 0), (0, zz, 0), (0, 0, zz)])), moved
-    return Inertia(S=S, I=rows([(xx - Y, xy, xz), (xy, yy - Y, yz), (xz, yz, zz)])), moved
+        return Inertia(m, S, rows([(zz, 0, 0), (0, zz, 0), (0, 0, zz)])), moved
+    return Inertia(m, S, rows([(xx - Y, xy, xz), (xy, yy - Y, yz), (xz, yz, zz)])), moved
 
 
 def _turns_about_one_direction(tree: Tree, node: Node) -> bool:
@@ -117,7 +120,7 @@ def _turns_about_one_direction(tree: Tree, node: Node) -> bool:
         return False
     direction = times(node.turn, (0, 0, 1))
     for carrier in tree.above(node.number):
-        if carrier.type == "revolute" and not is_zero(direction[:2]):
+        if carrier.turns and not is_zero(direction[:2]):
             return False
-        direction = times(carrier.turn if carrier.type == "revolute" else carrier.fixed_turn, direction)
+        direction = times(carrier.turn if carrier.turns else carrier.fixed_turn, direction)
     return True

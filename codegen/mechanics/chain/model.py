@@ -11,6 +11,7 @@ import sympy
 
 from codegen.ir.lower.staged import Stages
 from codegen.ir.program import Program
+from codegen.mechanics.chain.applied import Applied
 from codegen.mechanics.chain.bias import Bias
 from codegen.mechanics.chain.closure import Closure, Loop
 from codegen.mechanics.chain.composite import Composite
@@ -177,11 +178,8 @@ class Model:
         axes, size = self._world.axes(number), len(self._chain.links)
         columns = [[sympy.S.Zero] * 6 for _ in range(size)]
         for node in self._tree.path(self._tree.nodes[number].parent):
-            along = times(axes, self._world.z(node.number))
-            if node.type == "prismatic":
-                columns[node.number] = [*along, *ZERO]
-            else:
-                columns[node.number] = [*times(axes, self._world.swept(node.number, number)), *along]
+            linear, angular = self._world.column(node, number)
+            columns[node.number] = [*times(axes, linear), *times(axes, angular)]
         return [list(row) for row in zip(*columns, strict=True)]
 
     def _effectors(self) -> sympy.Matrix:
@@ -199,6 +197,16 @@ class Model:
 
     def _f_G(self) -> sympy.Matrix:
         return sympy.Matrix(self._composite.gravity(self._gravity))
+
+    def _tau_A(self) -> sympy.Matrix:
+        return sympy.Matrix(self._applied.on_joints())
+
+    def _f_A(self) -> sympy.Matrix:
+        return sympy.Matrix(self._applied.at_effectors())
+
+    @cached_property
+    def _applied(self) -> Applied:
+        return Applied(self._world, self._q, self._qd, self._base.R)
 
     def _wrenches(self) -> sympy.Matrix:
         twist = self._base.twist

@@ -89,10 +89,12 @@ class Recursion:
             return Twist(v, w, a, e)
         qd, qdd = self._qd[node.number], self._qdd[node.number]
         before = self._named("b", node.number, w, "w of the parent, own axes")
-        if node.type == "prismatic":
-            return Twist(
-                added(v, scaled(qd, _Z)), before, added(a, scaled(qdd, _Z), scaled(2 * qd, cross(before, _Z))), e
-            )
+        if node.slides:
+            rate, change = node.advance * qd, node.advance * qdd
+            v = added(v, scaled(rate, _Z))
+            a = added(a, scaled(change, _Z), scaled(2 * rate, cross(before, _Z)))
+        if not node.turns:
+            return Twist(v, before, a, e)
         turning = scaled(qd, cross(before, _Z))
         return Twist(v, added(before, scaled(qd, _Z)), a, added(e, turning, scaled(qdd, _Z)))
 
@@ -138,7 +140,7 @@ class Recursion:
 
     def _turn(self, node: Node) -> Rows:
         """Rotation from a frame's axes to its parent's."""
-        if node.type != "revolute":
+        if not node.turns:
             return node.fixed_turn
         if node.number not in self._turns:
             c, s = sympy.cos(self._q[node.number]), sympy.sin(self._q[node.number])
@@ -152,7 +154,8 @@ class Recursion:
 
     def _arm(self, node: Node) -> Vector:
         if node.number not in self._arms:
-            along = scaled(self._q[node.number], times(node.turn, _Z)) if node.type == "prismatic" else (0, 0, 0)
+            way = node.advance * self._q[node.number] if node.slides else 0
+            along = scaled(way, times(node.turn, _Z))
             self._arms[node.number] = self._named("p", node.number, added(node.arm, along), "offset, parent's axes")
         return self._arms[node.number]
 

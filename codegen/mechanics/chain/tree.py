@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 
 import sympy
@@ -26,13 +27,30 @@ class Node:
         number: place among the nodes; of a link also that of its coordinate.
         parent: number of the link it is hung on, or `ROOT`.
         row: where.
-        type: ``revolute`` or ``prismatic`` of a link, ``fixed`` of other frames.
+        type: ``revolute``, ``prismatic`` or ``screw`` of a link, ``fixed`` of other frames.
+        pitch: of a screw, m/rad.
     """
 
     number: int
     parent: int
     row: Row
     type: str
+    pitch: Fraction = Fraction(0)
+
+    @property
+    def turns(self) -> bool:
+        """Whether its coordinate turns the frame about z."""
+        return self.type in ("revolute", "screw")
+
+    @property
+    def slides(self) -> bool:
+        """Whether its coordinate moves the frame along z."""
+        return self.type in ("prismatic", "screw")
+
+    @property
+    def advance(self) -> sympy.Rational:
+        """Way along z for a coordinate of 1."""
+        return sympy.Rational(self.pitch) if self.type == "screw" else sympy.Integer(self.slides)
 
     @cached_property
     def turn(self) -> Rows:
@@ -46,10 +64,10 @@ class Node:
 
     @cached_property
     def arm(self) -> Vector:
-        """Constant part of the offset from the parent's origin, parent's axes: all but ``d z`` of a prismatic joint."""
+        """Constant part of the offset from the parent's origin, parent's axes: all but what the coordinate slides."""
         cosine, sine = map(sympy.Rational, cosine_and_sine(self.row.psi))
         a, c = sympy.Rational(self.row.a), sympy.Rational(self.row.c)
-        d = sympy.Integer(0) if self.type == "prismatic" else sympy.Rational(self.row.d)
+        d = sympy.Integer(0) if self.type == "prismatic" else sympy.Rational(self.row.d - self.pitch * self.row.theta)
         z = times(self.turn, (0, 0, 1))
         return vector((a * cosine + d * z[0], a * sine + d * z[1], c + d * z[2]))
 
@@ -65,10 +83,12 @@ class Tree:
     def __init__(self, chain: Chain) -> None:
         self.chain = chain
         self._numbers = {BASE: ROOT} | {link.name: k for k, link in enumerate(chain.links)}
-        links = [(link.parent, link.row, link.type) for link in chain.links]
+        links = [(link.parent, link.row, link.type, link.pitch) for link in chain.links]
         cuts = [_hung(cut.base) for cut in chain.cuts] + [_hung(cut.far) for cut in chain.cuts]
         hung = links + cuts + [_hung(effector.frame) for effector in chain.effectors]
-        self.nodes = tuple(Node(k, self._numbers[parent], row, kind) for k, (parent, row, kind) in enumerate(hung))
+        self.nodes = tuple(
+            Node(k, self._numbers[parent], row, kind, pitch) for k, (parent, row, kind, pitch) in enumerate(hung)
+        )
 
     @property
     def links(self) -> tuple[Node, ...]:
@@ -117,8 +137,8 @@ class Tree:
         return common[-1] if common else ROOT
 
 
-def _hung(frame: Frame) -> tuple[str, Row, str]:
-    return frame.link, frame.row, "fixed"
+def _hung(frame: Frame) -> tuple[str, Row, str, Fraction]:
+    return frame.link, frame.row, "fixed", Fraction(0)
 
 
 def rotation_z(angle: object) -> Rows:

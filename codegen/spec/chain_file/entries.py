@@ -9,10 +9,12 @@ from fractions import Fraction
 from codegen.spec.chain import BASE, BASES, CHAIN_QUANTITIES, JOINT_TYPES
 from codegen.spec.chain_file.angle import ANGLE
 from codegen.spec.scene import ZERO_VECTOR, Matrix, Vector
+from codegen.spec.scene_file.entries import LimitEntry
 from codegen.spec.scene_file.entry import Entry, key, table_of, tables
-from codegen.spec.scene_file.values import FLAG, TEXT, choice, inertia, number, several, vector, whole
+from codegen.spec.scene_file.values import FLAG, TEXT, choice, inertia, number, pair, several, vector, whole
 
 _NONE = Fraction(0)
+_AXES = ("effector", "world")
 _DIRECTIONS = ("either", "growing", "falling")
 
 
@@ -30,11 +32,15 @@ class RowEntry(Entry):
 
 @dataclass(frozen=True, slots=True)
 class LinkEntry(RowEntry):
-    """A link with its inner joint; the joint's coordinate, theta or d, has its value at t = 0 in the row."""
+    """A link with its inner joint; the joint's coordinate, theta or d, has its value at t = 0 in the row.
+
+    Of a screw the coordinate is theta, and d moves with it.
+    """
 
     name: str | None = key(TEXT, f'a text of 1 to 60 signs, unique among the links, not "{BASE}"', is_required=True)
     parent: str | None = key(TEXT, f'name of a link above in the file, or "{BASE}"', is_required=True)
     type: str | None = key(choice(JOINT_TYPES), f"one of {', '.join(JOINT_TYPES)}", is_required=True)
+    pitch: Fraction = key(number("m/rad"), "screw: advance in m/rad, not 0; negative for a left-hand thread", _NONE)
     mass: Fraction = key(number("kg"), "mass in kg; 0 for a massless link", _NONE)
     centre: Vector = key(vector("m"), "centre of mass in m from the origin of the link, its axes", ZERO_VECTOR)
     inertia: Matrix | None = key(
@@ -93,6 +99,7 @@ class IndependentEntry(Entry):
     table: str | None = key(TEXT, "motion: name of a CSV file of t in s and the coordinate in rad or m")
     position: Fraction | None = key(ANGLE, "value at t = 0 in rad or m, for forward dynamics")
     speed: Fraction | None = key(ANGLE, "rate at t = 0 in rad/s or m/s, for forward dynamics")
+    driven: bool = key(FLAG, "whether the motion is prescribed in forward dynamics too", False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +129,31 @@ class ForceEntry(Entry):
     effector: str | None = key(TEXT, "name of the effector at which it acts")
     force: Vector = key(vector("N"), "effector: force on the chain in N, axes of the effector", ZERO_VECTOR)
     moment: Vector = key(vector("N m"), "effector: moment on the chain in N m, likewise", ZERO_VECTOR)
+    axes: str = key(
+        choice(_AXES), "effector: axes of force and moment: effector, or world, those of frame 0", "effector"
+    )
     when: ConditionEntry | None = key(table_of(ConditionEntry), "condition under which it acts")
+
+
+@dataclass(frozen=True, slots=True)
+class SpringEntry(Entry):
+    """A spring and damper between the origins of two effectors."""
+
+    effectors: tuple[str, str] | None = key(
+        pair(TEXT), "names of the two effectors between which it acts", is_required=True
+    )
+    stiffness: Fraction = key(number("N/m"), "stiffness in N/m", _NONE)
+    damping: Fraction = key(number("N s/m"), "damping in N s/m", _NONE)
+    length: Fraction = key(number("m"), "length in m at which it is free", _NONE)
+
+
+@dataclass(frozen=True, slots=True)
+class StopEntry(LimitEntry):
+    """Soft stops of a coordinate: a spring and damper beyond its bounds."""
+
+    lower: Fraction | None = key(ANGLE, "bound in rad or m below which they act")
+    upper: Fraction | None = key(ANGLE, "bound in rad or m above which they act")
+    joint: str | None = key(TEXT, "name of the link on whose coordinate they act", is_required=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +176,12 @@ class ChainEntry(Entry):
     effector: tuple[EffectorEntry, ...] = key(tables(EffectorEntry), "end effectors", ())
     independent: tuple[IndependentEntry, ...] = key(tables(IndependentEntry), "independent coordinates", ())
     force: tuple[ForceEntry, ...] = key(tables(ForceEntry), "forces", ())
+    spring: tuple[SpringEntry, ...] = key(tables(SpringEntry), "springs between effectors", ())
+    stop: tuple[StopEntry, ...] = key(tables(StopEntry), "soft stops of coordinates", ())
     output: QuantitiesEntry | None = key(table_of(QuantitiesEntry), "what is generated")
 
 
 def kinds_of_tables() -> Iterator[type[Entry]]:
     """All tables, the file itself first."""
     yield from (ChainEntry, LinkEntry, FrameEntry, CutEntry, EffectorEntry, HarmonicEntry, IndependentEntry)
-    yield from (ConditionEntry, ForceEntry, QuantitiesEntry)
+    yield from (ConditionEntry, ForceEntry, SpringEntry, StopEntry, QuantitiesEntry)

@@ -34,6 +34,17 @@ def tree_mistakes(links: Sequence[LinkEntry]) -> Iterator[Mistake]:
             before.append(link.name)
 
 
+def pitch_mistakes(link: LinkEntry) -> Iterator[Mistake]:
+    """Check the pitch of one link."""
+    place = f"{link.place}: pitch"
+    if link.type == "screw" and "pitch" not in link.given:
+        yield Mistake(place, "is missing", "give the advance in m/rad")
+    elif link.type == "screw" and link.pitch == 0 and "pitch" not in link.wrong:
+        yield Mistake(place, "is 0 m/rad", "give the advance in m/rad, or make it revolute")
+    elif link.type in ("revolute", "prismatic") and "pitch" in link.given:
+        yield Mistake(place, f"a {link.type} joint has no pitch", "leave pitch out, or make it a screw")
+
+
 def mass_mistakes(link: LinkEntry) -> Iterator[Mistake]:
     """Check the mass properties of one link."""
     if link.mass < 0:
@@ -76,4 +87,5 @@ def make_link(entry: LinkEntry) -> Link:
         entry.centre,
         symmetric(entry.inertia or _NO_INERTIA),
         entry.prefer,
+        entry.pitch,
     )

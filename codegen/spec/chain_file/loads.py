@@ -8,13 +8,13 @@ from fractions import Fraction
 from codegen.errors import Mistake
 from codegen.spec.chain import BASE_COORDINATES
 from codegen.spec.chain_file.entries import ChainEntry, ConditionEntry, ForceEntry, IndependentEntry
-from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce, WorldForce
 from codegen.spec.chain_motions import Harmonic, Independent, Motion, Polynomial, Table
 from codegen.spec.scene_file.text import nearest_known, quoted, shown
 
 _MOTIONS = ("polynomial", "harmonic", "table")
 _JOINT_KEYS = frozenset({"constant", "stiffness", "damping", "rest"})
-_EFFECTOR_KEYS = frozenset({"force", "moment"})
+_EFFECTOR_KEYS = frozenset({"force", "moment", "axes"})
 
 
 def independent_mistakes(entry: ChainEntry, links: Sequence[str]) -> Iterator[Mistake]:
@@ -31,9 +31,20 @@ def independent_mistakes(entry: ChainEntry, links: Sequence[str]) -> Iterator[Mi
             yield Mistake(part.place, f"has {' and '.join(motions)}", "give one motion")
         if "polynomial" in part.given and not part.polynomial and "polynomial" not in part.wrong:
             yield Mistake(f"{part.place}: polynomial", "is empty", "give at least the constant")
+        if part.driven:
+            yield from _driven_mistakes(part, motions)
     if entry.cut and not _of(entry, is_base=False):
         what = "a chain with cuts has dependent coordinates, and no coordinate is said to be independent"
         yield Mistake(entry.place, what, "write [[independent]] for each degree of freedom")
+
+
+def _driven_mistakes(entry: IndependentEntry, motions: Sequence[str]) -> Iterator[Mistake]:
+    """A coordinate that is driven has a motion, and starts with it."""
+    if not motions:
+        yield Mistake(f"{entry.place}: driven", "has no motion", f"give {' or '.join(_MOTIONS)}, or leave driven out")
+    for key in ("position", "speed"):
+        if key in entry.given:
+            yield Mistake(f"{entry.place}: {key}", "a driven coordinate starts with its motion", f"leave {key} out")
 
 
 def force_mistakes(entry: ForceEntry, links: Sequence[str], effectors: Sequence[str]) -> Iterator[Mistake]:
@@ -55,6 +66,9 @@ def force_mistakes(entry: ForceEntry, links: Sequence[str], effectors: Sequence[
             yield Mistake(f"{entry.place}: {key}", f"is {shown(getattr(entry, key))}", "give 0 or more")
     if entry.when is not None:
         yield from _condition_mistakes(entry.when, links)
+        if entry.axes == "world":
+            what = "a force that switches is in the axes of its effector"
+            yield Mistake(f"{entry.place}: axes", what, "leave axes out, or when")
 
 
 def _joint_mistakes(joint: str | None, place: str, links: Sequence[str]) -> Iterator[Mistake]:
@@ -82,7 +96,7 @@ def make_base_independents(entry: ChainEntry) -> tuple[Independent, ...]:
 def _of(entry: ChainEntry, is_base: bool) -> tuple[Independent, ...]:
     known = BASE_COORDINATES if entry.base == "moving" else ()
     return tuple(
-        Independent(part.joint or "", _motion(part), part.position, part.speed)
+        Independent(part.joint or "", _motion(part), part.position, part.speed, part.driven)
         for part in entry.independent
         if (part.joint in known) == is_base
     )
@@ -105,9 +119,30 @@ def make_forces(entry: ChainEntry) -> tuple[tuple[JointForce, ...], tuple[Effect
         if f.joint is not None
     ]
     effectors = [
-        EffectorForce(f.effector, f.force, f.moment, _condition(f.when)) for f in entry.force if f.effector is not None
+        EffectorForce(f.effector, f.force, f.moment, _condition(f.when))
+        for f in entry.force
+        if f.effector is not None and f.axes == "effector"
     ]
     return tuple(joints), tuple(effectors)
+
+
+def make_world_forces(entry: ChainEntry) -> tuple[WorldForce, ...]:
+    """Make the forces at effectors in axes that do not turn with them."""
+    return tuple(
+        WorldForce(f.effector, f.force, f.moment) for f in entry.force if f.effector is not None and f.axes == "world"
+    )
+
+
+def acts_on_joints(entry: ChainEntry) -> bool:
+    """Whether forces act on coordinates at all times, or stops do."""
+    return bool(entry.stop) or any(force.joint is not None and force.when is None for force in entry.force)
+
+
+def acts_at_effectors(entry: ChainEntry) -> bool:
+    """Whether forces act at effectors at all times, or springs do."""
+    own = any(any((*effector.force, *effector.moment)) for effector in entry.effector)
+    lasting = any(force.effector is not None and force.when is None for force in entry.force)
+    return own or lasting or bool(entry.spring)
 
 
 def _condition(entry: ConditionEntry | None) -> Condition | None:

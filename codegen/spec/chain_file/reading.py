@@ -9,20 +9,26 @@ from codegen.spec.chain import (
     BASE_COORDINATES,
     CHAIN_QUANTITIES,
     CLOSURE_QUANTITIES,
+    EFFECTOR_FORCE_QUANTITIES,
     EFFECTOR_QUANTITIES,
+    JOINT_FORCE_QUANTITIES,
     MASS_QUANTITIES,
     Chain,
 )
 from codegen.spec.chain_file.entries import ChainEntry
 from codegen.spec.chain_file.hung import cut_mistakes, frame_mistakes, make_cut, make_effector
-from codegen.spec.chain_file.links import make_link, mass_mistakes, massless_mistakes, tree_mistakes
+from codegen.spec.chain_file.links import make_link, mass_mistakes, massless_mistakes, pitch_mistakes, tree_mistakes
 from codegen.spec.chain_file.loads import (
+    acts_at_effectors,
+    acts_on_joints,
     force_mistakes,
     independent_mistakes,
     make_base_independents,
     make_forces,
     make_independents,
+    make_world_forces,
 )
+from codegen.spec.chain_file.springs import make_springs, make_stops, spring_mistakes, stop_mistakes
 from codegen.spec.scene_file.entry import read_entry
 from codegen.spec.scene_file.names import name_mistakes, routine_name_mistakes
 from codegen.spec.scene_file.reading import bounded
@@ -61,6 +67,7 @@ def _tree_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
     yield from tree_mistakes(entry.link)
     for link in entry.link:
         yield from mass_mistakes(link)
+        yield from pitch_mistakes(link)
     asked = entry.output.quantities if entry.output is not None else ()
     if not asked or set(asked) & set(MASS_QUANTITIES):
         yield from massless_mistakes(entry)
@@ -81,9 +88,15 @@ def _load_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
     yield from independent_mistakes(entry, links)
     for force in entry.force:
         yield from force_mistakes(force, links, effectors)
+    for spring in entry.spring:
+        yield from spring_mistakes(spring, entry)
+    for stop in entry.stop:
+        yield from stop_mistakes(stop, links)
     asked = entry.output.quantities if entry.output is not None else ()
     missing = {name: "cut" for name in CLOSURE_QUANTITIES if not entry.cut}
     missing |= {name: "effector" for name in EFFECTOR_QUANTITIES if not entry.effector}
+    missing |= dict.fromkeys(() if acts_on_joints(entry) else JOINT_FORCE_QUANTITIES, "force")
+    missing |= dict.fromkeys(() if acts_at_effectors(entry) else EFFECTOR_FORCE_QUANTITIES, "force")
     for name in asked:
         if name in missing:
             place = f"{entry.place}: output: quantities"
@@ -110,4 +123,7 @@ def _chain(entry: ChainEntry) -> Chain:
         entry.assemble,
         tuple(name for name in CHAIN_QUANTITIES if name in asked),
         make_base_independents(entry),
+        make_world_forces(entry),
+        make_springs(entry),
+        make_stops(entry),
     )

@@ -25,7 +25,7 @@ def coordinate_mistakes(entry: JointEntry) -> Iterator[Mistake]:
                 yield Mistake(f"{entry.place}: {key}", f"is {shown(value)}", "give 0 or more")
     for limit in entry.limit:
         if limit is not None:
-            yield from _limit_mistakes(limit)
+            yield from limit_mistakes(limit)
     if any(coordinate.rest and not coordinate.stiffness for coordinate in make_coordinates(entry)):
         yield Mistake(
             f"{entry.place}: rest", "there is no spring on this coordinate", "give stiffness, or leave rest out"
@@ -51,7 +51,8 @@ def _count_mistakes(key: str, count: int, units: tuple[str, ...], entry: JointEn
         yield Mistake(place, what, f"give one for each of the coordinates, in {', '.join(units)}{none}")
 
 
-def _limit_mistakes(limit: LimitEntry) -> Iterator[Mistake]:
+def limit_mistakes(limit: LimitEntry) -> Iterator[Mistake]:
+    """Check soft stops."""
     if not {"lower", "upper"} & limit.given:
         yield Mistake(limit.place, "has neither lower nor upper", "give at least one of them")
     if limit.lower is not None and limit.upper is not None and limit.lower >= limit.upper:
@@ -86,4 +87,9 @@ def _drive(entry: DriveEntry | None) -> Drive | None:
 
 
 def _limit(entry: LimitEntry | None) -> Limit | None:
-    return None if entry is None else Limit(entry.lower, entry.upper, entry.stiffness or Fraction(0), entry.damping)
+    return None if entry is None else make_limit(entry)
+
+
+def make_limit(entry: LimitEntry) -> Limit:
+    """Make soft stops of an entry without mistakes."""
+    return Limit(entry.lower, entry.upper, entry.stiffness or Fraction(0), entry.damping)

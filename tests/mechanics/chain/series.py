@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from codegen.spec.chain import BASE, Chain, Row
+from codegen.spec.chain import BASE, Chain, Link, Row
 
 Series = np.ndarray
 """[3, 4, 4]: coefficients of 1, t, t^2."""
@@ -66,13 +66,21 @@ class Moving:
     effectors: list[Series]
 
 
+def _driven(link: Link, motion) -> dict:
+    """What the coordinate of a link turns and shifts."""
+    if link.type != "screw":
+        return {"angle" if link.type == "revolute" else "shift": motion}
+    first, pitch = float(link.row.d - link.pitch * link.row.theta), float(link.pitch)
+    return {"angle": motion, "shift": tuple(pitch * x + (first if k == 0 else 0) for k, x in enumerate(motion))}
+
+
 def move(chain: Chain, q, qd, qdd, base: Series | None = None) -> Moving:
     still = np.zeros((3, 4, 4), complex)
     still[0] = np.eye(4)
     links = {BASE: still if base is None else base}
     for k, link in enumerate(chain.links):
         motion = q[k], qd[k], qdd[k] / 2
-        hung = placed(link.row, angle=motion) if link.type == "revolute" else placed(link.row, shift=motion)
+        hung = placed(link.row, **_driven(link, motion))
         links[link.name] = product(links[link.parent], hung)
     hang = lambda frame: product(links[frame.link], placed(frame.row))  # noqa: E731
     cuts = [(hang(cut.base), hang(cut.far)) for cut in chain.cuts]
@@ -210,6 +218,51 @@ class Account:
 
     def effectors(self):
         return np.concatenate([twist(E) for E in self.moving(self.qd, self.qdd).effectors]).real
+
+    def tau_A(self):
+        """Forces and stops along the coordinates."""
+        found = np.zeros(self.size)
+        for force in self.chain.joint_forces:
+            k = self.chain.index(force.joint)
+            if force.when is None:
+                found[k] += float(force.constant) - float(force.stiffness) * (self.q[k].real - float(force.rest))
+                found[k] -= float(force.damping) * self.qd[k]
+        for stop in self.chain.stops:
+            k = self.chain.index(stop.joint)
+            found[k] += stopped(stop.limit, self.q[k].real, self.qd[k])
+        return found
+
+    def f_A(self):
+        """Wrenches at the effectors: constants, and springs by their lengths as power series."""
+        ends, numbers = self.moving(self.qd).effectors, {e.name: k for k, e in enumerate(self.chain.effectors)}
+        found = np.array([[*e.force, *e.moment] for e in self.chain.effectors], float)
+        for force in (one for one in self.chain.effector_forces if one.when is None):
+            found[numbers[force.effector]] += np.array([*force.force, *force.moment], float)
+        for force in self.chain.world_forces:
+            back = ends[numbers[force.effector]][0, :3, :3].T.real
+            turned = [back @ np.array(part, float) for part in (force.force, force.moment)]
+            found[numbers[force.effector]] += np.concatenate(turned)
+        for spring in self.chain.springs:
+            i, j = (numbers[name] for name in spring.effectors)
+            gap, rate = ((ends[j] - ends[i])[k, :3, 3].real for k in (0, 1))
+            length = np.linalg.norm(gap)
+            tension = float(spring.stiffness) * (length - float(spring.length))
+            tension += float(spring.damping) * (rate @ gap / length)
+            found[i, :3] += ends[i][0, :3, :3].T.real @ gap * tension / length
+            found[j, :3] -= ends[j][0, :3, :3].T.real @ gap * tension / length
+        return found.ravel()
+
+
+def stopped(limit, q, qd):
+    """What a soft stop gives: ``k (x + rho) / 2`` against the way beyond it, and its share of the damper."""
+    force = 0.0
+    for bound, sense in ((limit.upper, 1), (limit.lower, -1)):
+        if bound is not None:
+            x = sense * (q - float(bound))
+            rho = np.hypot(x, 1e-4)
+            force -= sense * float(limit.stiffness) * (x + rho) / 2
+            force -= float(limit.damping) * (1 + x / rho) / 2 * qd
+    return force
 
 
 def angular_momentum_rate(series: Series, inertia):

@@ -9,7 +9,7 @@ from codegen.mechanics.chain.model import kept_rows
 from codegen.spec.chain import Chain
 from tests.mechanics.chain.series import Account
 from tests.mechanics.chain.states import evaluated, state
-from tests.mechanics.chain.trees import example, start, tree
+from tests.mechanics.chain.trees import example, loaded, start, tree
 
 _OF_ROWS = ("phi", "phi_q", "J", "gamma_R")
 
@@ -22,12 +22,21 @@ CHAINS = {
     "three loops": lambda: tree(31, 7, 3, 1),
     "loop on a moving base": lambda: tree(40, 6, 1, 1, "moving"),
     "tree on a moving base": lambda: tree(43, 6, 0, 1, "moving"),
+    "screws and two loops": lambda: tree(8, 9, 2, 1, screws=(0, 2, 4, 7)),
+    "screws on a moving base": lambda: tree(40, 6, 1, 1, "moving", screws=(1, 2, 5)),
+    "forces of every kind": lambda: _with_forces(*tree(6, 7, 0, 1, screws=(3,))),
+    "forces on a moving base": lambda: _with_forces(*tree(43, 6, 0, 1, "moving")),
+    "nothing but screws": lambda: tree(6, 5, 0, 1, screws=(0, 1, 2, 3, 4)),
 }
 
 
 def _started(name: str) -> tuple[Chain, np.ndarray]:
     chain = example(name)
     return chain, start(chain)
+
+
+def _with_forces(chain: Chain, q: np.ndarray) -> tuple[Chain, np.ndarray]:
+    return loaded(chain), q
 
 
 @pytest.mark.parametrize("name", CHAINS)
@@ -52,7 +61,11 @@ def test_joint_wrenches_do_the_work_that_the_equations_of_motion_say(name):
     chain, q = CHAINS[name]()
     found = state(chain, q)
     wrenches = evaluated(chain, chain.wanted, found.inputs)["wrenches"]
-    along = [wrenches[6 * k + (5 if link.type == "revolute" else 2)] for k, link in enumerate(chain.links)]
+    parts = [(wrenches[6 * k + 2], wrenches[6 * k + 5]) for k in range(len(chain.links))]
+    along = [
+        force if link.type == "prismatic" else moment + float(link.pitch) * force
+        for link, (force, moment) in zip(chain.links, parts, strict=True)
+    ]
     account, inputs = found.account, found.inputs
     truth = account.M() @ inputs["qdd"] + account.f_C() - account.f_G()
     truth -= account.J().T @ inputs["f_R"] if chain.cuts else 0.0
@@ -72,7 +85,7 @@ def test_jacobians_of_the_cuts_are_exact_where_they_are_open(seed):
         assert np.abs(value - truth).max(initial=0.0) < 1e-13
 
 
-@pytest.mark.parametrize("name", ["spatial slider-crank", "three loops"])
+@pytest.mark.parametrize("name", ["spatial slider-crank", "three loops", "screws and two loops"])
 def test_the_inertia_matrix_is_the_same_by_moments_about_the_far_end_of_a_loop(name):
     chain, q = CHAINS[name]()
     (M,) = evaluated(chain, ("M",), {"q": q}, progressive=False).values()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -10,7 +11,9 @@ import numpy as np
 
 from codegen.spec.chain import BASE, Chain, Cut, Effector, Frame, Link, Row
 from codegen.spec.chain_file import read_chain
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce, Spring, Stop, WorldForce
 from codegen.spec.chain_motions import Independent
+from codegen.spec.scene import Limit
 from tests.mechanics.chain.series import move
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "chains"
@@ -27,8 +30,10 @@ def start(chain: Chain) -> np.ndarray:
     return np.array([float(link.coordinate) for link in chain.links])
 
 
-def tree(seed: int, size: int, cuts: int, effectors: int, base: str = "fixed") -> tuple[Chain, np.ndarray]:
-    """A chain of revolute and prismatic joints, with a pose in which all its cuts are closed."""
+def tree(
+    seed: int, size: int, cuts: int, effectors: int, base: str = "fixed", screws: tuple[int, ...] = ()
+) -> tuple[Chain, np.ndarray]:
+    """A chain of revolute and prismatic joints, some of them screws, with a pose in which all its cuts are closed."""
     random = np.random.default_rng(seed)
     q = random.normal(size=size)
     links: list[Link] = []
@@ -37,6 +42,8 @@ def tree(seed: int, size: int, cuts: int, effectors: int, base: str = "fixed") -
         parent = BASE if k == 0 or random.random() < 0.1 else f"link {earlier}"
         kind = "prismatic" if random.random() < 0.3 else "revolute"
         links.append(Link(f"link {k}", parent, kind, _row(random), *_mass(random)))
+    for k in screws:
+        links[k] = replace(links[k], type="screw", pitch=Fraction(k + 2, 7))
     gravity = tuple(Fraction(float(x)) for x in random.normal(size=3))
     ends = [random.choice([BASE, *(link.name for link in links)], 2, replace=False) for _ in range(cuts)]
     closed = tuple(_closed(links, q, str(one), str(other), _row(random)) for one, other in ends)
@@ -46,6 +53,32 @@ def tree(seed: int, size: int, cuts: int, effectors: int, base: str = "fixed") -
     ]
     independents = tuple(Independent(link.name) for link in links)
     return Chain("random", gravity, tuple(links), closed, tuple(hung), independents, base=base), q
+
+
+def loaded(chain: Chain) -> Chain:
+    """A chain with forces of every kind on its first coordinates, its first effector and one on the base."""
+    names, tool = [link.name for link in chain.links], chain.effectors[0].name
+    wall = Effector("wall", Frame(BASE, Row(c=Fraction(2), a=Fraction(1, 3))), NONE, NONE)
+    push, turn = (Fraction(1), Fraction(-2), Fraction(1, 2)), (Fraction(0), Fraction(3), Fraction(1))
+    when = Condition(names[0], None, None, 1)
+    return replace(
+        chain,
+        effectors=(replace(chain.effectors[0], force=turn, moment=push), wall),
+        joint_forces=(
+            JointForce(names[0], Fraction(2), Fraction(3), Fraction(1, 4), Fraction(1, 5)),
+            JointForce(names[1], Fraction(9), when=when),
+        ),
+        effector_forces=(EffectorForce(tool, push, turn), EffectorForce(tool, turn, push, when)),
+        world_forces=(WorldForce(tool, push, turn),),
+        springs=(
+            Spring((tool, "wall"), Fraction(7), Fraction(1, 2), Fraction(1, 3)),
+            Spring(("wall", tool), Fraction(3), Fraction(0), Fraction(0)),
+        ),
+        stops=(
+            Stop(names[0], Limit(None, Fraction(-1), Fraction(50), Fraction(2))),
+            Stop(names[2], Limit(Fraction(-9), Fraction(-8), Fraction(5), Fraction(0))),
+        ),
+    )
 
 
 def _row(random: np.random.Generator) -> Row:

@@ -5,7 +5,7 @@
  * specification SHA-256 5ddb7596d903ce5d82b763c3a41b60e62fae2b8840248f767049e4cb8f2b239b
  */
 #if defined(__GNUC__) && !defined(__clang__)
-/* Entries that lie side by side are rarely ready side by side: pairing them in vector registers costs more than it saves. */
+/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 #include "jointgen/revolute.h"

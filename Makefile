@@ -21,7 +21,7 @@ unexport PYTHONHOME PYTHONPATH
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .SUFFIXES:
-.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-peers bench-platform bench-scenes figures-accuracy figures-chain search lock clean help
+.PHONY: all setup generate flops schema check lint types imports test current bench-batch bench-chains bench-engine bench-flags bench-forms bench-peers bench-platform bench-scenes figures-accuracy figures-chain search lock clean help
 
 all: generate flops ## set up, generate the joint library, print the operation counts (default)
 
@@ -70,6 +70,9 @@ bench-engine: $(BENCH_STAMP) ## run the in-line engine, also in other programs; 
 
 bench-flags: $(STAMP) ## time the routines under compiler flags, with and without --fma
 	$(BIN)/python -m benchmarks.flags.measure
+
+bench-forms: $(STAMP) ## scenes by conventional, parametric and relative coordinates; make bench-forms ARGS='--scene four_bar'
+	$(BIN)/python -m benchmarks.forms $(ARGS)
 
 bench-chains: $(BENCH_STAMP) ## the routines of chains beside a recursion that reads a table
 	$(BENCH_BIN)/python -m benchmarks.chain_speed $(ARGS)

@@ -55,6 +55,12 @@ class Equations(Protocol):
     def closure(self, q: Array) -> Closure:
         """Evaluate the cuts."""
 
+    def constraint(self, q: Array) -> tuple[Array, Array] | None:
+        """Evaluate ``(p; 2e)`` of all cuts [6 nr] and its derivative [6 nr, n], rows that do not bind being 0.
+
+        None where a cut is turned by more than 120 degrees, or where it is to be found from the closure.
+        """
+
     def jacobian(self, q: Array) -> Array:
         """Evaluate J [6 nr, n], rows linear then angular for each cut, axes of C."""
 

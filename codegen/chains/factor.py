@@ -52,6 +52,13 @@ class Square:
     packed: Array
     pivots: NDArray[np.int32]
 
+    @property
+    def sign(self) -> float:
+        """Sign of the determinant, 1 or -1."""
+        swapped = np.count_nonzero(self.pivots != np.arange(len(self.pivots)))
+        negative = np.count_nonzero(np.diagonal(self.packed) < 0)
+        return -1.0 if (swapped + negative) % 2 else 1.0
+
     def solve(self, b: Array) -> Array:
         """Give x with ``A x = b``; b [n] or [n, k]."""
         return np.asarray(lapack.dgetrs(self.packed, self.pivots, b)[0])
@@ -114,20 +121,14 @@ def factor(A: Array) -> Factor:
         raise diagnosed(A)
     if A.shape[0] == A.shape[1]:
         packed, swaps, singular = lapack.dgetrf(A)
-        found = Square(A, packed, swaps)
-        if not singular and _size(A) * _size(found.solve(np.eye(len(A)))) < _SOUND:
-            return found
+        if not singular and lapack.dgecon(packed, np.abs(A).sum(axis=0).max())[0] > 1 / _SOUND:
+            return Square(A, packed, swaps)
     packed, order, tau, _, _ = lapack.dgeqp3(A)
     R = np.triu(packed[: A.shape[1]])
     pivots = np.abs(np.diagonal(R))
     if not pivots[-1] > RANK_TOLERANCE * pivots[0]:
         raise diagnosed(A)
     return Tall(A, lapack.dorgqr(packed, tau)[0], R, np.asarray(order - 1, dtype=np.intp))
-
-
-def _size(A: Array) -> float:
-    """The norm that belongs to sums of absolute values."""
-    return float(np.abs(A).sum(axis=0).max())
 
 
 def diagnosed(A: Array) -> RankLoss:

@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 Functions = Callable[[Sequence[Program]], list[Evaluate]]
 """Makes functions of programs."""
 
+_NOT_MOVED = np.eye(3, 4).ravel(order="F")
+"""Pose of a base that could move."""
+
 _TERMS = ("gamma_R", "M", "f_C", "f_G")
 
 
@@ -58,6 +61,16 @@ class Generated:
         J = self._all_rows(found["J"]).reshape(-1, 2, 3, n)
         return Closure(poses[:, 3], poses[:, :3].transpose(0, 2, 1), J[:, 0], J[:, 1])
 
+    def constraint(self, q: Array) -> tuple[Array, Array] | None:
+        """Evaluate ``(p; 2e)`` and its derivative; None where a cut is turned by more than 120 degrees."""
+        if not self._height:
+            return np.zeros(0), np.zeros((0, len(q)))
+        found = self._routines["constraint"](q=q)
+        traces = found["closure"].reshape(-1, 12)[:, [0, 4, 8]].sum(axis=1)
+        if (traces < 0).any():
+            return None
+        return self._all_rows(found["phi"]), self._all_rows(found["phi_q"])
+
     def jacobian(self, q: Array) -> Array:
         """Evaluate J [6 nr, n]."""
         return self._all_rows(self._routines["closure"](q=q)["J"]) if self._height else np.zeros((0, len(q)))
@@ -83,8 +96,9 @@ class Generated:
         return self._routines["effectors"](q=q)["D_E"].reshape(-1, len(q))
 
     def frames(self, q: Array) -> Array:
-        """Evaluate the frames of links, C, R and E [., 3, 4]: rotation to the base's axes, origin."""
-        return np.asarray(self._routines["frames"](q=q)["frames"].reshape(-1, 4, 3).transpose(0, 2, 1))
+        """Evaluate the frames of links, C, R and E [., 3, 4] in the axes of the base: rotation, origin."""
+        found = self._routines["frames"](q=q, T_0=_NOT_MOVED)["frames"]
+        return np.asarray(found.reshape(-1, 4, 3).transpose(0, 2, 1))
 
     def wrenches(self, q: Array, qd: Array, qdd: Array, f_R: Array, f_E: Array) -> Array:
         """Evaluate what each joint exerts on its link [n, 6]: force, moment about the link's origin, link axes."""
@@ -100,6 +114,7 @@ class Generated:
 
 _ROUTINES: dict[str, tuple[str, ...]] = {
     "closure": ("closure", "J"),
+    "constraint": ("closure", "phi", "phi_q"),
     "gamma": ("gamma_R",),
     "terms": _TERMS,
     "applied": ("tau_A", "f_A"),

@@ -22,6 +22,8 @@ class Partition:
         units: [n] m or rad of each coordinate: 1 for angles, the characteristic length for lengths.
         row_units: [6 nr] likewise, of each row.
         reach: largest length of the chain, in characteristic ones, 1 at least: positions are known to rounding of it.
+        places: [m, 1] rows and [1, nw] columns of what binds the dependent coordinates in a Jacobian of the cuts.
+        scale: [m, nw] that takes the dimensions out of it.
     """
 
     v: Numbers
@@ -30,10 +32,12 @@ class Partition:
     units: Array
     row_units: Array
     reach: float
+    places: tuple[Numbers, ...]
+    scale: Array
 
     def dependent(self, matrix: Array) -> Array:
         """The binding rows and dependent columns [m, nw] of a Jacobian of the cuts, without dimension."""
-        return np.asarray(matrix[np.ix_(self.rows, self.w)] * self.units[self.w] / self.row_units[self.rows, None])
+        return np.asarray(matrix[self.places] * self.scale)
 
     def binding(self, values: Array) -> Array:
         """The binding rows of a vector, or columns, without dimension."""
@@ -56,9 +60,9 @@ def partition(
     units = np.where(is_prismatic, length, 1.0)
     row_units = np.tile([length] * 3 + [1.0] * 3, len(bound) // 6)
     w = [k for k in range(len(is_prismatic)) if k not in independent]
-    return Partition(
-        _numbers(independent), _numbers(w), _numbers(np.flatnonzero(bound)), units, row_units, max(1.0, reach)
-    )
+    v, others, rows = _numbers(independent), _numbers(w), _numbers(np.flatnonzero(bound))
+    scale = units[others] / row_units[rows, None]
+    return Partition(v, others, rows, units, row_units, max(1.0, reach), np.ix_(rows, others), scale)
 
 
 def _numbers(values: object) -> Numbers:

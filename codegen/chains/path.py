@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.equations import Equations
-from codegen.chains.factor import Factor, RankLoss, factor
+from codegen.chains.factor import Factor, RankLoss, Square, factor
 from codegen.chains.partition import Partition
 from codegen.chains.position import Position, close, nearest
 
@@ -86,19 +86,20 @@ def branch(part: Partition, position: Position, before: Branch | None = None) ->
     Raises:
         RankLoss: the pose is singular.
     """
-    A = part.dependent(position.slope)
-    found = position.factor or factor(A)
+    found = position.factor or factor(part.dependent(position.slope))
     B = part.binding(position.slope[:, part.v] * part.units[part.v])
-    orientation = 1.0 if before is None else before.orientation * _turn(before.factor, A)
+    orientation = 1.0 if before is None else before.orientation * _turn(before.factor, found)
     done = position.iterations + (before.iterations if before else 0)
     return Branch(position.q, found, -found.solve(B), orientation, done)
 
 
-def _turn(before: Factor, A: Array) -> float:
+def _turn(before: Factor, now: Factor) -> float:
     """1 if a Jacobian has the orientation of the one before, else -1."""
-    if not A.shape[1]:
+    if not now.A.shape[1]:
         return 1.0
-    return float(np.sign(np.linalg.det(before.solve(A))))
+    if isinstance(before, Square) and isinstance(now, Square):
+        return before.sign * now.sign
+    return float(np.sign(np.linalg.det(before.solve(now.A))))
 
 
 def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> Branch:

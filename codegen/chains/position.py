@@ -82,6 +82,12 @@ def constraint(closure: Closure) -> tuple[Array, Array]:
     return np.concatenate(phi), np.concatenate(slope)
 
 
+def constrained(equations: Equations, q: Array) -> tuple[Array, Array]:
+    """Give phi [6 nr] and its derivative [6 nr, n] at a pose, by the routine for it where that is regular."""
+    found = equations.constraint(q)
+    return constraint(equations.closure(q)) if found is None else found
+
+
 def close(equations: Equations, part: Partition, guess: Array, iterations: int = _ITERATIONS) -> Position:
     """Close the cuts by the dependent coordinates.
 
@@ -95,7 +101,7 @@ def close(equations: Equations, part: Partition, guess: Array, iterations: int =
     steps: list[float] = []
     units = part.units[part.w]
     for count in range(iterations):
-        phi, slope = constraint(equations.closure(q))
+        phi, slope = constrained(equations, q)
         rows, A = part.binding(phi), part.dependent(slope)
         residual = float(np.max(np.abs(rows), initial=0.0))
         factored, step = _step(A, rows)
@@ -108,7 +114,7 @@ def close(equations: Equations, part: Partition, guess: Array, iterations: int =
             break
         steps.append(size)
         q[part.w] += step * units * min(1.0, LARGEST_STEP / size if size else 1.0)
-    phi, slope = constraint(equations.closure(q))
+    phi, slope = constrained(equations, q)
     return _position(q, phi, slope, part, None, len(steps), steps, guess, is_solution=False)
 
 
@@ -161,12 +167,12 @@ def nearest(equations: Equations, part: Partition, guess: Array) -> Position:
         return q
 
     def rows(x: Array) -> Array:
-        return part.binding(constraint(equations.closure(placed(x)))[0])
+        return part.binding(constrained(equations, placed(x))[0])
 
     def slope(x: Array) -> Array:
-        return part.dependent(constraint(equations.closure(placed(x)))[1])
+        return part.dependent(constrained(equations, placed(x))[1])
 
     tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 500}
     found = scipy.optimize.least_squares(rows, guess[part.w] / units, slope, **tight)
-    phi, last = constraint(equations.closure(placed(found.x)))
+    phi, last = constrained(equations, placed(found.x))
     return _position(q, phi, last, part, None, int(found.nfev), [], guess, is_solution=False)

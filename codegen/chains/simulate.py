@@ -118,8 +118,8 @@ def run(mechanism: Mechanism, tables: Mapping[str, str], settings: Settings, pro
     """
     times = np.linspace(0.0, settings.duration, settings.outputs + 1)
     if settings.mode == "forward":
-        q_v, qd_v = initial(mechanism, tables)
         driven = drives(mechanism.chain, tables, settings.duration)
+        q_v, qd_v = initial(mechanism, tables)
         done = forward.run(mechanism, start(mechanism, q_v), qd_v, driven, times, settings.tolerance, progress)
     else:
         given = motions(mechanism.chain, tables, settings.duration)
@@ -138,11 +138,12 @@ def initial(mechanism: Mechanism, tables: Mapping[str, str]) -> tuple[Array, Arr
 
 
 def _initial(chain: Chain, independent: Independent, tables: Mapping[str, str]) -> tuple[float, float]:
+    position, speed, motion = independent.position, independent.speed, independent.motion
+    if position is not None and speed is not None:
+        return float(position), float(speed)
     row = float(chain.links[chain.index(independent.joint)].coordinate)
-    motion = independent.motion
     q, qd, _ = function(motion, tables)(0.0) if motion is not None else (row, 0.0, 0.0)
-    given = independent.position, independent.speed
-    return (q if given[0] is None else float(given[0]), qd if given[1] is None else float(given[1]))
+    return (q if position is None else float(position), qd if speed is None else float(speed))
 
 
 def check(chain: Chain, settings: Settings) -> None:
@@ -156,7 +157,8 @@ def check(chain: Chain, settings: Settings) -> None:
         mistakes.append(Mistake("link", "no link has a mass", "give masses, or ask for --kinematics"))
     if settings.mode == "forward":
         for independent in chain.independents:
-            if isinstance(independent.motion, Table) and None in (independent.position, independent.speed):
+            is_told = independent.driven or None not in (independent.position, independent.speed)
+            if isinstance(independent.motion, Table) and not is_told:
                 place = f'independent coordinate "{independent.joint}"'
                 mistakes.append(Mistake(place, "its start is not told by a table", "give position and speed"))
     if mistakes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -36,13 +36,33 @@ _CHANGED = 1e-9
 """m/s or rad/s: less is rounding."""
 
 
-def simulated_relative(scene: Scene, settings: Settings, progress: Progress = lambda _: None) -> Simulated:
-    """Simulate a scene by relative coordinates.
+@dataclass(frozen=True, slots=True, eq=False)
+class Prepared:
+    """A scene by relative coordinates, ready to be run.
+
+    Attributes:
+        scene: the mechanism.
+        relative: as a chain.
+        mechanism: the chain, with the speeds at which it starts.
+        equations: compiled.
+        settings: how it is run; the mode is that of the scene.
+        changed: m/s or rad/s, by how much velocities were changed to satisfy the constraints at the start.
+    """
+
+    scene: Scene
+    relative: Relative
+    mechanism: Mechanism
+    equations: Generated
+    settings: Settings
+    changed: float
+
+
+def prepare(scene: Scene, settings: Settings) -> Prepared:
+    """Derive and compile a scene by relative coordinates.
 
     Args:
         scene: the mechanism; with drives of all its freedoms it moves as they say, else under forces too.
         settings: how; the mode follows from the scene.
-        progress: told the time reached.
 
     Raises:
         SpecificationError: the scene cannot be run.
@@ -56,13 +76,29 @@ def simulated_relative(scene: Scene, settings: Settings, progress: Progress = la
         changed = 0.0
         if settings.mode == "forward":
             ready, changed = _with_speeds(scene, found, ready, equations)
+    return Prepared(scene, found, ready, equations, settings, changed)
+
+
+def simulated_relative(scene: Scene, settings: Settings, progress: Progress = lambda _: None) -> Simulated:
+    """Simulate a scene by relative coordinates.
+
+    Args:
+        scene: the mechanism.
+        settings: how; the mode follows from the scene.
+        progress: told the time reached.
+
+    Raises:
+        SpecificationError: the scene cannot be run.
+    """
+    ready = prepare(scene, settings)
+    with one_thread():
         began = time.perf_counter()
-        done = simulate.run(ready, {}, settings, progress)
+        done = simulate.run(ready.mechanism, {}, ready.settings, progress)
         wall_time = time.perf_counter() - began
-        told = record(ready, equations, done)
-    trajectory = scene_motion(scene, found, told)
-    numbers = simulate.summary(ready, told, done, settings) | {
-        "initial_velocity_change": changed,
+        told = record(ready.mechanism, ready.equations, done)
+    trajectory = scene_motion(scene, ready.relative, told)
+    numbers = simulate.summary(ready.mechanism, told, done, ready.settings) | {
+        "initial_velocity_change": ready.changed,
         "wall_time": wall_time,
     }
     files = {
@@ -72,7 +108,7 @@ def simulated_relative(scene: Scene, settings: Settings, progress: Progress = la
     }
     words = f"relative coordinates, {told.t[-1]:g} s, {len(told.t)} outputs"
     encoded = {path: text.encode() for path, text in files.items()}
-    return Simulated(encoded, words, tuple(_notes(found, changed)), done.failure, trajectory)
+    return Simulated(encoded, words, tuple(_notes(ready.relative, ready.changed)), done.failure, trajectory)
 
 
 def _mode(scene: Scene, found: Relative) -> str:
@@ -83,13 +119,15 @@ def _mode(scene: Scene, found: Relative) -> str:
     """
     independents = found.chain.independents
     driven = [one.joint for one in independents if one.driven]
-    for joint in scene.joints:
-        links = [link for link, _ in found.joints[joint.name].coordinates]
-        for link, coordinate in zip(links, joint.coordinates, strict=False):
-            if coordinate.drive is not None and link not in driven:
-                what = f"its drive and the others together drive {len(driven)} of {len(independents)} freedoms only"
-                remedy = "leave out a drive; drives must not depend on each other"
-                raise SpecificationError([Mistake(f'joint "{joint.name}"', what, remedy)])
+    what = f"its drive follows from the others: together they drive {len(driven)} of {len(independents)} freedoms"
+    mistakes = [
+        Mistake(f'joint "{joint.name}"', what, "leave out a drive; drives must not depend on each other")
+        for joint in scene.joints
+        for (link, _), one in zip(found.joints[joint.name].coordinates, joint.coordinates, strict=False)
+        if one.drive is not None and link not in driven
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
     return "inverse" if driven and len(driven) == len(independents) else "forward"
 
 

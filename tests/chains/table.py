@@ -89,6 +89,9 @@ class TableEquations:
         shapes = ((0, 3), (0, 3, 3), (0, 3, n), (0, 3, n))
         return Closure(*(np.array(v) if v else np.zeros(s) for v, s in zip(found, shapes, strict=True)))
 
+    def constraint(self, q: Array) -> None:
+        """It is found from the closure."""
+
     @property
     def binding(self) -> tuple[bool, ...]:
         """Rows that move at some pose."""

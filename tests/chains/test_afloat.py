@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codegen.chains.afloat import afloat
+from codegen.chains.stand import check_start
 from codegen.errors import SpecificationError
 from codegen.mechanics.chain.model import chain_program
 from codegen.passes import simplify
@@ -129,6 +130,16 @@ inertia = [0.01, 0.1, 0.1]
         effort = 2 * (pushed(state.t) - (turning * np.sin(angle) + speed**2 * np.cos(angle)) / 2)
         assert state.loads.effort[0] == pytest.approx(effort, abs=1e-6)
         assert state.loads.effort[6] == 0
+
+
+def test_a_spring_on_a_moving_base_may_not_have_coinciding_ends() -> None:
+    """Before routines are made of the chain, whose base is anywhere."""
+    ends = '[[effector]]\nname = "tip"\nlink = "lower"\n[[effector]]\nname = "hook"\nlink = "base"\na = {}\nc = 0.4\n'
+    spring = '[[spring]]\neffectors = ["tip", "hook"]\nstiffness = 9\nlength = 0.1\n'
+    straight = ARM.replace("psi = 0.3\n", "")
+    check_start(read_chain(straight + ends.format(0.7) + spring, "arm.toml"))
+    with pytest.raises(SpecificationError, match="ends coincide"):
+        check_start(read_chain(straight + ends.format(0.5) + spring, "arm.toml"))
 
 
 def test_a_fixed_base_has_no_coordinates_and_a_link_does_not_take_their_names() -> None:

@@ -83,6 +83,29 @@ def test_a_spring_between_effectors_pulls_and_one_without_direction_is_refused(t
         assert "its ends coincide at t = 0" in line
 
 
+def test_a_coordinate_is_driven_by_a_table_while_another_swings(tmp_path: Path, pendulum: Path) -> None:
+    """A cart moves by 0.1 (1 - cos 6t) under the rod, whose angle counts from the vertical, and pushes both."""
+    cart = '[[link]]\nname = "cart"\nparent = "base"\ntype = "prismatic"\npsi = "pi/2"\nalpha = "pi/2"\nmass = 1.0\n'
+    on_cart = PENDULUM.replace('parent = "base"', 'parent = "cart"\nalpha = "-pi/2"')
+    text = on_cart.replace("[[link]]", f"{cart}[[link]]", 1)
+    driven = pendulum.with_name("driven.toml")
+    driven.write_text(f'{text}[[independent]]\njoint = "cart"\ntable = "way.csv"\ndriven = true\n')
+    ways = [f"{t:.17g},{0.1 * (1 - np.cos(6 * t)):.17g}" for t in np.linspace(0.0, 1.0, 101).tolist()]
+    (tmp_path / "way.csv").write_text("\n".join(ways))
+    done = invoke("simulate", driven, "--outputs", "3", "-o", tmp_path / "run")
+    assert done.exit_code == 0, done.stderr
+    found = {name: np.array(values) for name, values in table(tmp_path / "run").items()}
+    turned, rate, turning = (found[f"rod.{name}"] for name in ("q", "qd", "qdd"))
+    pushed, turned = found["cart.qdd"], turned + np.pi / 2
+    assert pushed == pytest.approx(3.6 * np.cos(6 * found["t"]), abs=1e-4)
+    assert (0.1 + 2.0) * turning == pytest.approx(2 * (pushed * np.sin(turned) - 9.81 * np.cos(turned)), abs=1e-10)
+    swung = -turning * np.sin(turned) - rate**2 * np.cos(turned)
+    assert found["cart.effort"] == pytest.approx(3 * pushed + 2 * swung, abs=1e-10)
+    (tmp_path / "way.csv").write_text("0 0\n1 1\n")
+    (line,) = refused(invoke("simulate", driven, "-o", tmp_path / "no"))
+    assert "line 2 is not two numbers" in line
+
+
 def test_kinematics_needs_no_mass(tmp_path: Path, pendulum: Path) -> None:
     light = pendulum.with_name("light.toml")
     text = (

@@ -102,29 +102,35 @@ def _weighted(graph: Graph, seed: int) -> list[list[float]]:
 
 
 class _Index:
-    """A graph with what every search in it looks up.
+    """A graph with what every search in it looks up; alternatives are numbered through, node after node.
 
     Attributes:
         graph: alternatives of each node.
-        sizes: for each alternative of each node how many nodes it takes.
+        first: number of the first alternative of each node.
+        owner: of each alternative, its node.
+        sizes: of each alternative, how many nodes it takes.
         leaves: alternatives that take none.
         users: of each node, the alternatives that take it.
-        users_of: the same by node.
+        users_of: the same by node, as positions among its alternatives.
     """
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
-        self.sizes = [[len(set(alternative.children)) for alternative in alternatives] for alternatives in graph]
-        self.leaves = [(node, k) for node, sizes in enumerate(self.sizes) for k, size in enumerate(sizes) if not size]
-        self.users: list[list[tuple[int, int]]] = [[] for _ in graph]
-        for node, alternatives in enumerate(graph):
-            for k, alternative in enumerate(alternatives):
-                for child in set(alternative.children):
-                    self.users[child].append((node, k))
+        self.first: list[int] = []
+        self.owner: list[int] = []
+        self.sizes: list[int] = []
+        self.users: list[list[int]] = [[] for _ in graph]
         self.users_of: list[dict[int, list[int]]] = [{} for _ in graph]
-        for child, users in enumerate(self.users):
-            for node, k in users:
-                self.users_of[child].setdefault(node, []).append(k)
+        for node, alternatives in enumerate(graph):
+            self.first.append(len(self.owner))
+            for k, alternative in enumerate(alternatives):
+                children = set(alternative.children)
+                for child in children:
+                    self.users[child].append(len(self.owner))
+                    self.users_of[child].setdefault(node, []).append(k)
+                self.owner.append(node)
+                self.sizes.append(len(children))
+        self.leaves = [number for number, size in enumerate(self.sizes) if not size]
 
 
 class _Search:
@@ -132,20 +138,19 @@ class _Search:
 
     def __init__(self, index: _Index, outputs: Sequence[int], seed: int) -> None:
         graph = index.graph
-        self._weighted = _weighted(graph, seed)
+        self._weighted = [cost for costs in _weighted(graph, seed) for cost in costs]
         self.choice: Choice = {}
         self.total = 0.0
         self._graph = graph
         self._outputs = list(outputs)
         self._sideways: set[tuple[int, int]] = set()
         self._uses: dict[int, int] = {}
-        self._sizes, self._leaves = index.sizes, index.leaves
-        self._users, self._users_of = index.users, index.users_of
+        self._index, self._users_of = index, index.users_of
         for position, output in enumerate(self._outputs):
             if position % 4 == 0:
                 self._replan()
             self._use(output)
-        self._weighted = [[alternative.cost for alternative in alternatives] for alternatives in graph]
+        self._weighted = [alternative.cost for alternatives in graph for alternative in alternatives]
 
     def active(self) -> list[int]:
         """The nodes in use, in ascending order."""
@@ -212,8 +217,10 @@ class _Search:
 
     def _close(self, node: int) -> None:
         """Switch everything that uses a node to its best alternative without it."""
-        for user, k in self._users[node] if node in self._uses else ():
-            if user in self._uses and self.choice[user] == k:
+        index = self._index
+        for number in index.users[node] if node in self._uses else ():
+            user = index.owner[number]
+            if user in self._uses and self.choice[user] == number - index.first[user]:
                 others = [
                     other
                     for other, alternative in enumerate(self._graph[user])
@@ -300,24 +307,24 @@ class _Search:
 
     def _replan(self) -> None:
         """Knuth's generalisation of Dijkstra's algorithm over the whole graph."""
+        first, owner, users = self._index.first, self._index.owner, self._index.users
         price: dict[int, float] = {}
         plan: Choice = {}
-        missing = [list(counts) for counts in self._sizes]
-        sums = [list(costs) for costs in self._weighted]
-        queue = [(0.0, node, self.choice[node]) for node in self._uses]
-        queue += [(sums[node][k], node, k) for node, k in self._leaves if node not in self._uses]
+        missing, sums = self._index.sizes.copy(), self._weighted.copy()
+        queue = [(0.0, first[node] + self.choice[node]) for node in self._uses]
+        queue += [(sums[number], number) for number in self._index.leaves if owner[number] not in self._uses]
         heapq.heapify(queue)
         while queue:
-            cost, node, k = heapq.heappop(queue)
+            cost, number = heapq.heappop(queue)
+            node = owner[number]
             if node in price:
                 continue
-            price[node], plan[node] = cost, k
-            for user, number in self._users[node]:
-                left = missing[user][number] - 1
-                missing[user][number] = left
-                sums[user][number] += cost
-                if not left and user not in price:
-                    heapq.heappush(queue, (sums[user][number], user, number))
+            price[node], plan[node] = cost, number - first[node]
+            for user in users[node]:
+                missing[user] -= 1
+                sums[user] += cost
+                if not missing[user] and owner[user] not in price:
+                    heapq.heappush(queue, (sums[user], user))
         self._plan, self._price = plan, price
         if any(output not in plan for output in self._outputs):
             raise InternalError("an output cannot be computed from the inputs")

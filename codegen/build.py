@@ -14,7 +14,7 @@ Writing is the last step: a package appears whole or not at all (:mod:`codegen.o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import codegen
@@ -32,12 +32,16 @@ from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.models import joint_type, model
 from codegen.parallel import parallel
 from codegen.passes.contract_fma import contract_fma
+from codegen.passes.overlap import overlap
 from codegen.spec.request import BRANCH, PREPARE, PRODUCTS, QUANTITIES, Options, Variant
 from codegen.spec.selection import selected_variants
 from flopcount.count import count
 
 LIBRARY = Options()
 """The request for the whole committed library."""
+
+ISSUED = 4
+"""Operations that start in a cycle of the processor for which a routine is ordered."""
 
 Check = Callable[[Routine], Program]
 """Gives the program of the conditions on the inputs of a routine."""
@@ -64,7 +68,8 @@ def quantities_of(outputs: Sequence[str]) -> dict[str, tuple[str, ...]]:
 def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -> tuple[Routine, ...]:
     """Run the stages up to programs for one variant; ``fma``: with products and sums fused.
 
-    Prepared geometry comes last, so that its routines do the operations of those on run-time geometry.
+    Prepared geometry comes late, so that its routines do the operations of those on run-time geometry; what is last
+    is the order of the operations.
     """
     symbolic = model(variant)
     built = []
@@ -72,7 +77,8 @@ def routines(variant: Variant, outputs: Sequence[str] = (), fma: bool = False) -
         program = contracted(symbolic.program(quantities), fma)
         words = equations(symbolic.joint, variant, name)
         built.append(Routine(JointSubject(symbolic.joint, variant), name, program, count(program), words))
-    return prepare_geometry(built) if variant.geometry == "prepared" else tuple(built)
+    finished = prepare_geometry(built) if variant.geometry == "prepared" else tuple(built)
+    return tuple(replace(routine, program=overlap(routine.straight, ISSUED)) for routine in finished)
 
 
 def contracted(program: Program, fma: bool) -> Program:

@@ -15,15 +15,13 @@ from codegen.ir.program import Program
 from codegen.passes.latency import LATENCY
 from codegen.passes.rewrite import reorder
 
-_ISSUED = 2
-"""Operations that start in a cycle."""
 
-
-def overlap(program: Program) -> Program:
+def overlap(program: Program, issued: int = 2) -> Program:
     """Give the program in an order in which operations overlap; unused instructions are dropped.
 
     Args:
         program: in an order that keeps few values alive (`codegen.passes.schedule`): its parts stay together.
+        issued: operations that start in a cycle of the model; with more of them the order comes apart more.
     """
     uses, missing = _dependencies(program)
     waiting = [(0, place) for place, count in enumerate(missing) if count == 0]
@@ -41,7 +39,7 @@ def overlap(program: Program) -> Program:
         op = program.instructions[place].op
         for use in uses[place]:
             missing[use] -= 1
-            arrival[use] = max(arrival[use], slot + _ISSUED * LATENCY.get(op, 0))
+            arrival[use] = max(arrival[use], slot + issued * LATENCY.get(op, 0))
             if missing[use] == 0:
                 heappush(waiting, (arrival[use], use))
         slot += op not in LEAVES

@@ -24,6 +24,7 @@ from .truth import exact_truth
 KINDS = frozenset(
     {"given", "components", "turned", "sum", "cross", "constant", "input", "function", "dot", "trace", "total"}
     | {"product", "polynomial", "outer", "rotation", "skewed", "joined", "assembled", "deviator"}
+    | {"turned block"}
 )
 """Every formula of `codegen.ir.lower.scalarise` but ``same``, which only raw matrices ask for."""
 

@@ -121,7 +121,7 @@ def _assembled(layout: Layout, dyadic: Dyadic, rows: str, columns: str) -> Itera
         tilde_sign = skews[0][0] if skews else 0
         base = tuple((sign, turned) for sign, _, turned in parts)
         nodes = tuple(node for _, node, _ in parts)
-        if dyadic.identity and parts and dyadic.identity == -_trace(layout, dyadic):
+        if dyadic.identity and parts and dyadic.identity == -trace(layout, dyadic):
             layout.traces.setdefault(dyadic.identity, []).append((-base[0][0], nodes[0]))
             yield Alternative("deviator", (*nodes, *tail), skew + 3 * add, (base, tilde_sign))
         if dyadic.identity:
@@ -140,7 +140,8 @@ def _assembled(layout: Layout, dyadic: Dyadic, rows: str, columns: str) -> Itera
     yield Alternative("joined", tuple(node for _, node, _ in parts), cost, signs)
 
 
-def _trace(layout: Layout, dyadic: Dyadic) -> Polynomial:
+def trace(layout: Layout, dyadic: Dyadic) -> Polynomial:
+    """The trace of the pairs of a dyadic."""
     one = [(layout.space.primitives[a], layout.space.primitives[b], c) for (a, b), c in dyadic.pairs]
     return total(layout.space.dot(layout.space.vector(a), layout.space.vector(b)) * c for a, b, c in one)
 

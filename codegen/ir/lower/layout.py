@@ -47,6 +47,7 @@ class Layout:
         self.axes = axes
         self.nodes: list[Node] = []
         self.sums: dict[Vector, None] = {}
+        self.scaled: dict[Vector, None] = {}
         self.products: dict[tuple[int, ...], None] = {}
         self.blocks: dict[tuple[str, str], list[Dyadic]] = {}
         self.traces: dict[Polynomial, list[Signed]] = {}
@@ -139,15 +140,18 @@ class Layout:
         return sign, node, turned
 
     def _map(self, kind: str, dyadic: Dyadic, rows: str, columns: str) -> Turned:
-        turned = rows > columns or (rows == columns and dyadic.transposed.order < dyadic.order)
-        if turned:
-            dyadic, rows, columns = dyadic.transposed, columns, rows
-        sign = dyadic.sign or 1
-        return sign, self._number((kind, dyadic if sign > 0 else -dyadic, rows, columns)), turned
+        sign, key, turned = _map_key(kind, dyadic, rows, columns)
+        return sign, self._number(key), turned
 
     def known(self, key: Key) -> int | None:
         """Number of a node that something has asked for, else None."""
         return self._numbers.get(key)
+
+    def known_map(self, kind: str, dyadic: Dyadic, rows: str, columns: str) -> Turned | None:
+        """A ``block`` or ``pairs`` between two frames that something has asked for, as for `block`, else None."""
+        sign, key, turned = _map_key(kind, dyadic, rows, columns)
+        node = self.known(key)
+        return None if node is None else (sign, node, turned)
 
     def _number(self, key: Key) -> int:
         known = self._numbers.get(key)
@@ -171,3 +175,12 @@ class Layout:
     def classes(self, node: int) -> tuple[int, ...]:
         """Classes of the entries of a node."""
         return self.nodes[node].classes
+
+
+def _map_key(kind: str, dyadic: Dyadic, rows: str, columns: str) -> tuple[int, Key, bool]:
+    """Sign and key of the node of a map, and whether it is the transpose of the node's value."""
+    turned = rows > columns or (rows == columns and dyadic.transposed.order < dyadic.order)
+    if turned:
+        dyadic, rows, columns = dyadic.transposed, columns, rows
+    sign = dyadic.sign or 1
+    return sign, (kind, dyadic if sign > 0 else -dyadic, rows, columns), turned

@@ -125,6 +125,8 @@ class Scalariser:
                 return self._assembled(children, *data)
             case "deviator":
                 return self._deviator(children, *data)
+            case "turned block":
+                return self._turned_block(children[0], children[1:], *data)
         raise InternalError(f"no formula {kind}")
 
     def _turned(self, vector: Entries, axes: Sequence[Entries], by: str, sign: int) -> Entries:
@@ -178,6 +180,15 @@ class Scalariser:
             entries[k] = [self.signed(-1, self._total([diagonal[p], diagonal[q]]))]
         self._add_skew(entries, children[len(signs) :], tilde_sign)
         return tuple(self._total(entry) for entry in entries)
+
+    def _turned_block(
+        self, block: Entries, axes: Sequence[Entries], sign: tuple[int, bool], by: str, side: str
+    ) -> Entries:
+        """``R M`` or ``M R`` with R by its columns or by its rows."""
+        entries = [entry for (entry,) in self._matrices([block], [sign])]
+        rotation = self._placed(list(axes), by)
+        left, right = (rotation, entries) if side == "left" else (entries, rotation)
+        return tuple(self._inner(left[3 * k : 3 * k + 3], right[n::3]) for k in range(3) for n in range(3))
 
     def _matrices(self, blocks: Sequence[Entries], signs: Signs) -> list[list[int]]:
         """For each entry the terms of a sum of matrices, some of them transposed."""

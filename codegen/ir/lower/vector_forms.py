@@ -138,7 +138,7 @@ def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alte
     if vector not in layout.parts:
         layout.parts[vector] = _parts(layout, vector)
     for parts in layout.parts[vector]:
-        yield _sum(layout, parts, frame, kind)
+        yield summed(layout, parts, frame, kind)
 
 
 def _parts(layout: Layout, vector: Vector) -> list[Parts]:
@@ -163,10 +163,11 @@ def with_known(layout: Layout, kind: str, vector: Vector, frame: str) -> Iterato
     for known in list(layout.sums)[:_KNOWN]:
         parts = _with_known(layout, vector, known)
         if parts:
-            yield _sum(layout, parts, frame, kind)
+            yield summed(layout, parts, frame, kind)
 
 
-def _sum(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
+def summed(layout: Layout, parts: Parts, frame: str, kind: str) -> Alternative:
+    """Alternative that adds up parts, each times its coefficient."""
     place = {"vector": layout.vector, "pushed": layout.pushed, "pulled": layout.pulled}[kind]
     children: list[int] = []
     signs: list[tuple[int, int]] = []

@@ -6,26 +6,27 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from codegen.errors import InternalError
-from codegen.ir.lower import block_forms, raw_forms, scalar_forms, vector_forms
+from codegen.ir.lower import block_forms, finished_blocks, raw_forms, scalar_forms, scaled_vectors, vector_forms
 from codegen.ir.lower.alternatives import Alternative, Key
 from codegen.ir.lower.layout import Layout
+
+Ways = Callable[[Layout, Key], Iterable[Alternative]]
+"""Some of the alternatives of a node."""
 
 
 def lay_out(layout: Layout) -> list[tuple[Alternative, ...]]:
     """Give the alternatives of every node that the demands may need.
 
     Vectors with raw matrices are laid out first, so that others find them. What takes known sums, products or
-    blocks is added at the end, when all of these are known.
+    blocks is added when all of these are known, and what turns or adds to finished blocks at the very end.
     """
     _extend(layout, partial(_is_raw, layout))
     _extend(layout, lambda key: True)
-    position = 0
-    while position < len(layout.nodes):
-        node = layout.nodes[position]
-        base = node.alternatives or _alternatives(layout, node.key)
-        known = tuple(_with_known(layout, node.key))
-        node.alternatives = tuple(dict.fromkeys((*base, *known))) if known else base
-        position += 1
+    _add(layout, _alternatives, _with_known)
+    _add(layout, _early, finished_blocks.in_parts)
+    _add(layout, _early, finished_blocks.with_finished)
+    _add(layout, _early, scaled_vectors.by_factors)
+    _add(layout, _early, scaled_vectors.with_scaled)
     return [node.alternatives or () for node in layout.nodes]
 
 
@@ -36,6 +37,22 @@ def _extend(layout: Layout, includes: Callable[[Key], bool]) -> None:
         if node.alternatives is None and includes(node.key):
             node.alternatives = _alternatives(layout, node.key)
         position += 1
+
+
+def _add(layout: Layout, first: Ways, further: Ways) -> None:
+    """Add further alternatives to those of every node; ``first`` gives those of nodes that are asked for meanwhile."""
+    position = 0
+    while position < len(layout.nodes):
+        node = layout.nodes[position]
+        base = node.alternatives or tuple(first(layout, node.key))
+        added = tuple(further(layout, node.key))
+        node.alternatives = tuple(dict.fromkeys((*base, *added))) if added else base
+        position += 1
+
+
+def _early(layout: Layout, key: Key) -> Iterable[Alternative]:
+    yield from _alternatives(layout, key)
+    yield from _with_known(layout, key)
 
 
 def _with_known(layout: Layout, key: Key) -> Iterable[Alternative]:

@@ -53,56 +53,56 @@ static void jg_ball_parametric_table4_substituted_phi_jacobian(const jg_real *JG
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    jac_phi_A_i[1] = f_j_world_0 * C_i[0];
-    jac_phi_A_i[2] = f_j_world_0 * C_i[6];
+    jac_phi_A_i[1] = C_i[0] * f_j_world_0;
+    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[3] = C_i[6] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[5] = f_j_world_1 * C_i[0];
-    jac_phi_A_i[6] = f_j_world_1 * C_i[6];
+    jac_phi_A_i[5] = C_i[0] * f_j_world_1;
+    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[7] = C_i[6] * h_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    jac_phi_A_i[9] = f_j_world_2 * C_i[0];
-    jac_phi_A_i[10] = f_j_world_2 * C_i[6];
+    jac_phi_A_i[9] = C_i[0] * f_j_world_2;
+    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[11] = C_i[6] * h_j_world_2;
-    jac_phi_A_i[13] = f_j_world_0 * C_i[1];
-    jac_phi_A_i[14] = f_j_world_0 * C_i[7];
+    jac_phi_A_i[13] = C_i[1] * f_j_world_0;
+    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
     jac_phi_A_i[15] = C_i[7] * h_j_world_0;
-    jac_phi_A_i[17] = f_j_world_1 * C_i[1];
-    jac_phi_A_i[18] = f_j_world_1 * C_i[7];
+    jac_phi_A_i[17] = C_i[1] * f_j_world_1;
+    jac_phi_A_i[18] = C_i[7] * f_j_world_1;
     jac_phi_A_i[19] = C_i[7] * h_j_world_1;
-    jac_phi_A_i[21] = f_j_world_2 * C_i[1];
-    jac_phi_A_i[22] = f_j_world_2 * C_i[7];
+    jac_phi_A_i[21] = C_i[1] * f_j_world_2;
+    jac_phi_A_i[22] = C_i[7] * f_j_world_2;
     jac_phi_A_i[23] = C_i[7] * h_j_world_2;
-    jac_phi_A_i[25] = f_j_world_0 * C_i[2];
-    jac_phi_A_i[26] = f_j_world_0 * C_i[8];
+    jac_phi_A_i[25] = C_i[2] * f_j_world_0;
+    jac_phi_A_i[26] = C_i[8] * f_j_world_0;
     jac_phi_A_i[27] = C_i[8] * h_j_world_0;
-    jac_phi_A_i[29] = f_j_world_1 * C_i[2];
-    jac_phi_A_i[30] = f_j_world_1 * C_i[8];
+    jac_phi_A_i[29] = C_i[2] * f_j_world_1;
+    jac_phi_A_i[30] = C_i[8] * f_j_world_1;
     jac_phi_A_i[31] = C_i[8] * h_j_world_1;
-    jac_phi_A_i[33] = f_j_world_2 * C_i[2];
-    jac_phi_A_i[34] = f_j_world_2 * C_i[8];
+    jac_phi_A_i[33] = C_i[2] * f_j_world_2;
+    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
     jac_phi_A_i[35] = C_i[8] * h_j_world_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
@@ -111,57 +111,57 @@ static void jg_ball_parametric_table4_substituted_phi_jacobian(const jg_real *JG
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_A_j[4] = C_j[0] * h_i_world_0;
-    jac_phi_A_j[5] = h_i_world_0 * C_j[6];
+    jac_phi_A_j[5] = C_j[6] * h_i_world_0;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = A_i[1] * C_j[0] * C_i[0] + A_i[4] * C_j[0] * C_i[1] + A_i[7] * C_j[0] * C_i[2];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_A_j[10] = C_j[0] * h_i_world_1;
-    jac_phi_A_j[11] = h_i_world_1 * C_j[6];
+    jac_phi_A_j[11] = C_j[6] * h_i_world_1;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = A_i[2] * C_j[0] * C_i[0] + A_i[5] * C_j[0] * C_i[1] + A_i[8] * C_j[0] * C_i[2];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_A_j[16] = C_j[0] * h_i_world_2;
-    jac_phi_A_j[17] = h_i_world_2 * C_j[6];
+    jac_phi_A_j[17] = C_j[6] * h_i_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
     jac_phi_A_j[21] = A_i[0] * C_j[1] * C_i[0] + A_i[3] * C_j[1] * C_i[1] + A_i[6] * C_j[1] * C_i[2];
     jac_phi_A_j[22] = C_j[1] * h_i_world_0;
-    jac_phi_A_j[23] = h_i_world_0 * C_j[7];
+    jac_phi_A_j[23] = C_j[7] * h_i_world_0;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = A_i[1] * C_j[1] * C_i[0] + A_i[4] * C_j[1] * C_i[1] + A_i[7] * C_j[1] * C_i[2];
     jac_phi_A_j[28] = C_j[1] * h_i_world_1;
-    jac_phi_A_j[29] = h_i_world_1 * C_j[7];
+    jac_phi_A_j[29] = C_j[7] * h_i_world_1;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = A_i[2] * C_j[1] * C_i[0] + A_i[5] * C_j[1] * C_i[1] + A_i[8] * C_j[1] * C_i[2];
     jac_phi_A_j[34] = C_j[1] * h_i_world_2;
-    jac_phi_A_j[35] = h_i_world_2 * C_j[7];
+    jac_phi_A_j[35] = C_j[7] * h_i_world_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
     jac_phi_A_j[39] = A_i[0] * C_j[2] * C_i[0] + A_i[3] * C_j[2] * C_i[1] + A_i[6] * C_j[2] * C_i[2];
     jac_phi_A_j[40] = C_j[2] * h_i_world_0;
-    jac_phi_A_j[41] = h_i_world_0 * C_j[8];
+    jac_phi_A_j[41] = C_j[8] * h_i_world_0;
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
     jac_phi_A_j[45] = A_i[1] * C_j[2] * C_i[0] + A_i[4] * C_j[2] * C_i[1] + A_i[7] * C_j[2] * C_i[2];
     jac_phi_A_j[46] = C_j[2] * h_i_world_1;
-    jac_phi_A_j[47] = h_i_world_1 * C_j[8];
+    jac_phi_A_j[47] = C_j[8] * h_i_world_1;
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = A_i[2] * C_j[2] * C_i[0] + A_i[5] * C_j[2] * C_i[1] + A_i[8] * C_j[2] * C_i[2];
     jac_phi_A_j[52] = C_j[2] * h_i_world_2;
-    jac_phi_A_j[53] = h_i_world_2 * C_j[8];
+    jac_phi_A_j[53] = C_j[8] * h_i_world_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -174,8 +174,8 @@ static void jg_ball_parametric_table4_substituted_phi_jacobian(const jg_real *JG
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    jac_phi_alpha[3] = sine_1 * cosine_2;
-    jac_phi_alpha[4] = cosine_1 * sine_2;
+    jac_phi_alpha[3] = cosine_2 * sine_1;
+    jac_phi_alpha[4] = sine_2 * cosine_1;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
@@ -210,15 +210,15 @@ static void jg_ball_parametric_table4_substituted_phi_jacobian(const jg_real *JG
     jac_phi_geometry[19] = t34;
     const jg_real t35 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[20] = t35;
-    jac_phi_geometry[21] = t27 * C_i[0] + t28 * C_i[1] + t29 * C_i[2];
+    jac_phi_geometry[21] = C_i[0] * t27 + C_i[1] * t28 + C_i[2] * t29;
     const jg_real t36 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     jac_phi_geometry[22] = t36;
     jac_phi_geometry[27] = t36;
-    jac_phi_geometry[23] = t30 * C_i[0] + t31 * C_i[1] + t32 * C_i[2];
+    jac_phi_geometry[23] = C_i[0] * t30 + C_i[1] * t31 + C_i[2] * t32;
     const jg_real t37 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     jac_phi_geometry[24] = t37;
     jac_phi_geometry[28] = t37;
-    jac_phi_geometry[25] = t33 * C_i[0] + t34 * C_i[1] + t35 * C_i[2];
+    jac_phi_geometry[25] = C_i[0] * t33 + C_i[1] * t34 + C_i[2] * t35;
     const jg_real t38 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     jac_phi_geometry[26] = t38;
     jac_phi_geometry[29] = t38;
@@ -237,61 +237,61 @@ static void jg_ball_parametric_table4_substituted_phi_q_v_jacobian(const jg_real
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[2], &sine_1, &cosine_1);
-    const jg_real t4 = cosine_0 * sine_1;
-    const jg_real t5 = sine_0 * cosine_1;
+    const jg_real t5 = cosine_0 * sine_1;
+    const jg_real t6 = sine_0 * cosine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
-    const jg_real t8 = t4 - sine_2 * t5;
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real t10 = cosine_0 * cosine_1;
-    const jg_real t11 = sine_0 * sine_1;
-    /* H_11 =  */
-    const jg_real H_11 = t10 + sine_2 * t11;
+    const jg_real t9 = t5 - sine_2 * t6;
     const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real t11 = cosine_0 * cosine_1;
+    const jg_real t12 = sine_0 * sine_1;
+    /* H_11 =  */
+    const jg_real H_11 = t11 + sine_2 * t12;
     const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     jac_phi_q_v_velocity[47] = cosine_2;
     /* H_10 =  */
     const jg_real H_10 = sine_0 * cosine_2;
     jac_phi_q_v_velocity[45] = H_10;
-    const jg_real t16 = t8 * v_j_in_joint_j_2 - (H_11 * v_j_in_joint_j_1 + H_10 * v_j_in_joint_j_0);
+    const jg_real t16 = v_j_in_joint_j_2 * t9 - (v_j_in_joint_j_0 * H_10 + v_j_in_joint_j_1 * H_11);
     /* H_02 =  */
-    const jg_real H_02 = t11 + sine_2 * t10;
+    const jg_real H_02 = t12 + sine_2 * t11;
     /* H_01 =  */
-    const jg_real H_01 = sine_2 * t4 - t5;
+    const jg_real H_01 = sine_2 * t5 - t6;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_2;
     /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_0 = H_01 * v_j_in_joint_j_1 + H_00 * v_j_in_joint_j_0 + H_02 * v_j_in_joint_j_2;
+    const jg_real v_j_in_joint_i_0 = v_j_in_joint_j_0 * H_00 + v_j_in_joint_j_1 * H_01 + v_j_in_joint_j_2 * H_02;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
-    const jg_real s_j_cross_omega_j_in_joint_j_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
-        C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
-    const jg_real s_j_cross_omega_j_in_joint_j_1 = s_j_cross_omega_j_in_j_0 * C_j[3] + s_j_cross_omega_j_in_j_1 *
-        C_j[4] + s_j_cross_omega_j_in_j_2 * C_j[5];
-    const jg_real s_j_cross_omega_j_in_joint_j_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
-        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
-    const jg_real t27 = s_j_cross_omega_j_in_joint_j_2 * t8 - (s_j_cross_omega_j_in_joint_j_0 * H_10 +
+    const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
+        s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    const jg_real t27 = s_j_cross_omega_j_in_joint_j_2 * t9 - (s_j_cross_omega_j_in_joint_j_0 * H_10 +
         s_j_cross_omega_j_in_joint_j_1 * H_11);
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_joint_j_0 * H_00 +
-        s_j_cross_omega_j_in_joint_j_1 * H_01 + H_02 * s_j_cross_omega_j_in_joint_j_2;
-    jac_phi_q_v_alpha[0] = C_i[0] * t16 + C_i[3] * v_j_in_joint_i_0 - (t27 * C_i[0] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[3]);
-    jac_phi_q_v_alpha[1] = t16 * C_i[1] + v_j_in_joint_i_0 * C_i[4] - (t27 * C_i[1] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[4]);
-    jac_phi_q_v_alpha[2] = t16 * C_i[2] + v_j_in_joint_i_0 * C_i[5] - (t27 * C_i[2] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[5]);
+        s_j_cross_omega_j_in_joint_j_1 * H_01 + s_j_cross_omega_j_in_joint_j_2 * H_02;
+    jac_phi_q_v_alpha[0] = C_i[0] * t16 + C_i[3] * v_j_in_joint_i_0 - (C_i[0] * t27 + C_i[3] *
+        s_j_cross_omega_j_in_joint_i_0);
+    jac_phi_q_v_alpha[1] = C_i[1] * t16 + C_i[4] * v_j_in_joint_i_0 - (C_i[1] * t27 + C_i[4] *
+        s_j_cross_omega_j_in_joint_i_0);
+    jac_phi_q_v_alpha[2] = C_i[2] * t16 + C_i[5] * v_j_in_joint_i_0 - (C_i[2] * t27 + C_i[5] *
+        s_j_cross_omega_j_in_joint_i_0);
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
@@ -301,64 +301,64 @@ static void jg_ball_parametric_table4_substituted_phi_q_v_jacobian(const jg_real
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     const jg_real t32 = sine_0 * sine_2;
-    jac_phi_q_v_alpha[3] = H_00 * omega_i_in_joint_i_2 + H_00 * alphadot[0] - t32 * alphadot[1] - (H_11 *
-        omega_j_in_joint_j_2 + t8 * omega_j_in_joint_j_1);
-    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
+    jac_phi_q_v_alpha[3] = omega_i_in_joint_i_2 * H_00 + alphadot[0] * H_00 - alphadot[1] * t32 -
+        (omega_j_in_joint_j_2 * H_11 + omega_j_in_joint_j_1 * t9);
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
-    jac_phi_q_v_alpha[4] = -(H_00 * omega_i_in_joint_i_0 + H_10 * omega_i_in_joint_i_1);
-    jac_phi_q_v_alpha[5] = t8 * omega_i_in_joint_i_1 - H_02 * omega_i_in_joint_i_0;
-    const jg_real t35 = cosine_2 * t4;
+    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
+    jac_phi_q_v_alpha[4] = -(omega_i_in_joint_i_1 * H_10 + omega_i_in_joint_i_0 * H_00);
+    jac_phi_q_v_alpha[5] = omega_i_in_joint_i_1 * t9 - omega_i_in_joint_i_0 * H_02;
+    const jg_real t35 = cosine_2 * t5;
     const jg_real t36 = cosine_0 * sine_2;
     jac_phi_q_v_velocity[46] = t36;
-    const jg_real t37 = cosine_2 * t10;
+    const jg_real t37 = cosine_2 * t11;
     const jg_real t38 = s_j_cross_omega_j_in_joint_j_1 * t35 - s_j_cross_omega_j_in_joint_j_0 * t36 +
         s_j_cross_omega_j_in_joint_j_2 * t37;
-    const jg_real t39 = cosine_2 * t11;
-    const jg_real t40 = cosine_2 * t5;
+    const jg_real t39 = cosine_2 * t12;
+    const jg_real t40 = cosine_2 * t6;
     const jg_real t41 = s_j_cross_omega_j_in_joint_j_1 * t39 - s_j_cross_omega_j_in_joint_j_0 * t32 +
         s_j_cross_omega_j_in_joint_j_2 * t40;
     const jg_real t42 = sine_2 * sine_1;
     const jg_real t43 = sine_2 * cosine_1;
     jac_phi_q_v_velocity[48] = t43;
-    const jg_real t44 = s_j_cross_omega_j_in_joint_j_1 * t42 + s_j_cross_omega_j_in_joint_j_0 * cosine_2 +
+    const jg_real t44 = s_j_cross_omega_j_in_joint_j_0 * cosine_2 + s_j_cross_omega_j_in_joint_j_1 * t42 +
         s_j_cross_omega_j_in_joint_j_2 * t43;
-    const jg_real t45 = t35 * v_j_in_joint_j_1 - t36 * v_j_in_joint_j_0 + t37 * v_j_in_joint_j_2;
-    const jg_real t46 = t39 * v_j_in_joint_j_1 - t32 * v_j_in_joint_j_0 + t40 * v_j_in_joint_j_2;
-    const jg_real t47 = t42 * v_j_in_joint_j_1 + cosine_2 * v_j_in_joint_j_0 + t43 * v_j_in_joint_j_2;
-    jac_phi_q_v_alpha[6] = C_i[0] * t45 + C_i[3] * t46 - C_i[6] * t47 - (t38 * C_i[0] + t41 * C_i[3] - t44 *
-        C_i[6]);
-    jac_phi_q_v_alpha[7] = t45 * C_i[1] + t46 * C_i[4] - t47 * C_i[7] - (t38 * C_i[1] + t41 * C_i[4] - t44 *
-        C_i[7]);
-    jac_phi_q_v_alpha[8] = t45 * C_i[2] + t46 * C_i[5] - t47 * C_i[8] - (t38 * C_i[2] + t41 * C_i[5] - t44 *
-        C_i[8]);
-    jac_phi_q_v_alpha[9] = t35 * omega_j_in_joint_j_2 - t37 * omega_j_in_joint_j_1 + (cosine_2 *
-        omega_i_in_joint_i_1 - t32 * omega_i_in_joint_i_2 - t32 * alphadot[0] + H_00 * alphadot[1]);
-    jac_phi_q_v_alpha[10] = t43 * omega_j_in_joint_j_1 - t42 * omega_j_in_joint_j_2 - (t36 * omega_i_in_joint_i_1 -
-        t32 * omega_i_in_joint_i_0 + sine_2 * alphadot[1]);
+    const jg_real t45 = v_j_in_joint_j_1 * t35 - v_j_in_joint_j_0 * t36 + v_j_in_joint_j_2 * t37;
+    const jg_real t46 = v_j_in_joint_j_1 * t39 - v_j_in_joint_j_0 * t32 + v_j_in_joint_j_2 * t40;
+    const jg_real t47 = v_j_in_joint_j_0 * cosine_2 + v_j_in_joint_j_1 * t42 + v_j_in_joint_j_2 * t43;
+    jac_phi_q_v_alpha[6] = C_i[0] * t45 + C_i[3] * t46 - C_i[6] * t47 - (C_i[0] * t38 + C_i[3] * t41 - C_i[6] *
+        t44);
+    jac_phi_q_v_alpha[7] = C_i[1] * t45 + C_i[4] * t46 - C_i[7] * t47 - (C_i[1] * t38 + C_i[4] * t41 - C_i[7] *
+        t44);
+    jac_phi_q_v_alpha[8] = C_i[2] * t45 + C_i[5] * t46 - C_i[8] * t47 - (C_i[2] * t38 + C_i[5] * t41 - C_i[8] *
+        t44);
+    jac_phi_q_v_alpha[9] = omega_j_in_joint_j_2 * t35 - omega_j_in_joint_j_1 * t37 + (omega_i_in_joint_i_1 *
+        cosine_2 - omega_i_in_joint_i_2 * t32 - alphadot[0] * t32 + alphadot[1] * H_00);
+    jac_phi_q_v_alpha[10] = omega_j_in_joint_j_1 * t43 - omega_j_in_joint_j_2 * t42 - (omega_i_in_joint_i_1 * t36 -
+        omega_i_in_joint_i_0 * t32 + alphadot[1] * sine_2);
     /* H_22 =  */
     const jg_real H_22 = cosine_2 * cosine_1;
     const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    jac_phi_q_v_alpha[11] = t37 * omega_i_in_joint_i_1 - t40 * omega_i_in_joint_i_0 + H_22 * alphadot[1] - t42 *
-        alphadot[2] - (cosine_2 * omega_j_in_joint_j_1 - t42 * omega_j_in_joint_j_0);
-    const jg_real t50 = H_02 * v_j_in_joint_j_1 - H_01 * v_j_in_joint_j_2;
-    const jg_real t51 = t8 * v_j_in_joint_j_1 + H_11 * v_j_in_joint_j_2;
+    jac_phi_q_v_alpha[11] = omega_i_in_joint_i_1 * t37 - omega_i_in_joint_i_0 * t40 + alphadot[1] * H_22 -
+        alphadot[2] * t42 - (omega_j_in_joint_j_1 * cosine_2 - omega_j_in_joint_j_0 * t42);
+    const jg_real t50 = v_j_in_joint_j_1 * H_02 - v_j_in_joint_j_2 * H_01;
+    const jg_real t51 = v_j_in_joint_j_1 * t9 + v_j_in_joint_j_2 * H_11;
     /* H_21 =  */
     const jg_real H_21 = cosine_2 * sine_1;
     jac_phi_q_v_velocity[49] = H_21;
-    const jg_real t53 = H_22 * v_j_in_joint_j_1 - H_21 * v_j_in_joint_j_2;
-    const jg_real t54 = s_j_cross_omega_j_in_joint_j_1 * H_02 - H_01 * s_j_cross_omega_j_in_joint_j_2;
-    const jg_real t55 = s_j_cross_omega_j_in_joint_j_1 * t8 + H_11 * s_j_cross_omega_j_in_joint_j_2;
+    const jg_real t53 = v_j_in_joint_j_1 * H_22 - v_j_in_joint_j_2 * H_21;
+    const jg_real t54 = s_j_cross_omega_j_in_joint_j_1 * H_02 - s_j_cross_omega_j_in_joint_j_2 * H_01;
+    const jg_real t55 = s_j_cross_omega_j_in_joint_j_2 * H_11 + s_j_cross_omega_j_in_joint_j_1 * t9;
     const jg_real t56 = s_j_cross_omega_j_in_joint_j_1 * H_22 - s_j_cross_omega_j_in_joint_j_2 * H_21;
-    jac_phi_q_v_alpha[12] = C_i[0] * t50 - C_i[3] * t51 + C_i[6] * t53 - (t54 * C_i[0] - t55 * C_i[3] + t56 *
-        C_i[6]);
-    jac_phi_q_v_alpha[13] = t50 * C_i[1] - t51 * C_i[4] + t53 * C_i[7] - (t54 * C_i[1] - t55 * C_i[4] + t56 *
-        C_i[7]);
-    jac_phi_q_v_alpha[14] = t50 * C_i[2] - t51 * C_i[5] + t53 * C_i[8] - (t54 * C_i[2] - t55 * C_i[5] + t56 *
-        C_i[8]);
-    jac_phi_q_v_alpha[15] = H_02 * omega_j_in_joint_j_2 + H_01 * omega_j_in_joint_j_1;
-    jac_phi_q_v_alpha[16] = H_22 * omega_j_in_joint_j_2 + H_21 * omega_j_in_joint_j_1;
-    jac_phi_q_v_alpha[17] = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1 - t42 * alphadot[1] + H_22 *
-        alphadot[2] - H_22 * omega_j_in_joint_j_0;
+    jac_phi_q_v_alpha[12] = C_i[0] * t50 - C_i[3] * t51 + C_i[6] * t53 - (C_i[0] * t54 - C_i[3] * t55 + C_i[6] *
+        t56);
+    jac_phi_q_v_alpha[13] = C_i[1] * t50 - C_i[4] * t51 + C_i[7] * t53 - (C_i[1] * t54 - C_i[4] * t55 + C_i[7] *
+        t56);
+    jac_phi_q_v_alpha[14] = C_i[2] * t50 - C_i[5] * t51 + C_i[8] * t53 - (C_i[2] * t54 - C_i[5] * t55 + C_i[8] *
+        t56);
+    jac_phi_q_v_alpha[15] = omega_j_in_joint_j_2 * H_02 + omega_j_in_joint_j_1 * H_01;
+    jac_phi_q_v_alpha[16] = omega_j_in_joint_j_2 * H_22 + omega_j_in_joint_j_1 * H_21;
+    jac_phi_q_v_alpha[17] = omega_i_in_joint_i_0 * H_11 - omega_i_in_joint_i_1 * H_01 - alphadot[1] * t42 +
+        alphadot[2] * H_22 - omega_j_in_joint_j_0 * H_22;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
@@ -366,193 +366,193 @@ static void jg_ball_parametric_table4_substituted_phi_q_v_jacobian(const jg_real
     jac_phi_q_v_geometry[6] = t57;
     jac_phi_q_v_geometry[9] = t57;
     jac_phi_q_v_geometry[12] = t57;
-    const jg_real t58 = H_10 * omega_i[0];
+    const jg_real t58 = omega_i[0] * H_10;
     jac_phi_q_v_geometry[28] = t58;
     jac_phi_q_v_geometry[7] = -t58;
-    jac_phi_q_v_geometry[8] = t8 * omega_i[0];
-    const jg_real t59 = H_10 * omega_i[1];
+    jac_phi_q_v_geometry[8] = omega_i[0] * t9;
+    const jg_real t59 = omega_i[1] * H_10;
     jac_phi_q_v_geometry[30] = t59;
     jac_phi_q_v_geometry[10] = -t59;
-    jac_phi_q_v_geometry[11] = t8 * omega_i[1];
-    const jg_real t60 = H_10 * omega_i[2];
+    jac_phi_q_v_geometry[11] = omega_i[1] * t9;
+    const jg_real t60 = omega_i[2] * H_10;
     jac_phi_q_v_geometry[32] = t60;
     jac_phi_q_v_geometry[13] = -t60;
-    jac_phi_q_v_geometry[14] = t8 * omega_i[2];
+    jac_phi_q_v_geometry[14] = omega_i[2] * t9;
     const jg_real t61 = t27 - t16;
     jac_phi_q_v_geometry[15] = t61;
     jac_phi_q_v_geometry[19] = t61;
     jac_phi_q_v_geometry[23] = t61;
-    jac_phi_q_v_geometry[16] = sine_2 * omega_i[0];
-    jac_phi_q_v_geometry[17] = H_00 * omega_i[0];
-    jac_phi_q_v_geometry[18] = H_02 * omega_i[0];
-    jac_phi_q_v_geometry[20] = sine_2 * omega_i[1];
-    jac_phi_q_v_geometry[21] = H_00 * omega_i[1];
-    jac_phi_q_v_geometry[22] = H_02 * omega_i[1];
-    jac_phi_q_v_geometry[24] = sine_2 * omega_i[2];
-    jac_phi_q_v_geometry[25] = H_00 * omega_i[2];
-    jac_phi_q_v_geometry[26] = H_02 * omega_i[2];
+    jac_phi_q_v_geometry[16] = omega_i[0] * sine_2;
+    jac_phi_q_v_geometry[17] = omega_i[0] * H_00;
+    jac_phi_q_v_geometry[18] = omega_i[0] * H_02;
+    jac_phi_q_v_geometry[20] = omega_i[1] * sine_2;
+    jac_phi_q_v_geometry[21] = omega_i[1] * H_00;
+    jac_phi_q_v_geometry[22] = omega_i[1] * H_02;
+    jac_phi_q_v_geometry[24] = omega_i[2] * sine_2;
+    jac_phi_q_v_geometry[25] = omega_i[2] * H_00;
+    jac_phi_q_v_geometry[26] = omega_i[2] * H_02;
     const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_joint_j_1 * H_21 -
         s_j_cross_omega_j_in_joint_j_0 * sine_2 + s_j_cross_omega_j_in_joint_j_2 * H_22;
-    const jg_real v_j_in_joint_i_2 = H_21 * v_j_in_joint_j_1 - sine_2 * v_j_in_joint_j_0 + H_22 * v_j_in_joint_j_2;
+    const jg_real v_j_in_joint_i_2 = v_j_in_joint_j_1 * H_21 - v_j_in_joint_j_0 * sine_2 + v_j_in_joint_j_2 * H_22;
     const jg_real t64 = v_j_in_joint_i_2 - s_j_cross_omega_j_in_joint_i_2;
     jac_phi_q_v_geometry[27] = t64;
     jac_phi_q_v_geometry[29] = t64;
     jac_phi_q_v_geometry[31] = t64;
-    const jg_real t65 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
-    const jg_real t66 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
-    const jg_real t67 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
-    const jg_real t68 = t66 * H_00 + t65 * H_01 + H_02 * t67;
-    const jg_real t69 = t66 * H_10 + t65 * H_11 - t67 * t8;
-    const jg_real t70 = t65 * H_21 - t66 * sine_2 + t67 * H_22;
-    jac_phi_q_v_geometry[33] = -(t68 * C_i[0] + t69 * C_i[3] + t70 * C_i[6]);
-    jac_phi_q_v_geometry[34] = -(t68 * C_i[1] + t69 * C_i[4] + t70 * C_i[7]);
-    jac_phi_q_v_geometry[35] = -(t68 * C_i[2] + t69 * C_i[5] + t70 * C_i[8]);
-    const jg_real t71 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
-    const jg_real t72 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
-    const jg_real t73 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    const jg_real t74 = t72 * H_00 + t71 * H_01 + H_02 * t73;
-    const jg_real t75 = t72 * H_10 + t71 * H_11 - t73 * t8;
-    const jg_real t76 = t71 * H_21 - t72 * sine_2 + t73 * H_22;
-    jac_phi_q_v_geometry[36] = -(t74 * C_i[0] + t75 * C_i[3] + t76 * C_i[6]);
-    jac_phi_q_v_geometry[37] = -(t74 * C_i[1] + t75 * C_i[4] + t76 * C_i[7]);
-    jac_phi_q_v_geometry[38] = -(t74 * C_i[2] + t75 * C_i[5] + t76 * C_i[8]);
-    const jg_real t77 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
-    const jg_real t78 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
-    const jg_real t79 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t80 = t78 * H_00 + t77 * H_01 + H_02 * t79;
-    const jg_real t81 = t78 * H_10 + t77 * H_11 - t79 * t8;
-    const jg_real t82 = t77 * H_21 - t78 * sine_2 + t79 * H_22;
-    jac_phi_q_v_geometry[39] = -(t80 * C_i[0] + t81 * C_i[3] + t82 * C_i[6]);
-    jac_phi_q_v_geometry[40] = -(t80 * C_i[1] + t81 * C_i[4] + t82 * C_i[7]);
-    jac_phi_q_v_geometry[41] = -(t80 * C_i[2] + t81 * C_i[5] + t82 * C_i[8]);
+    const jg_real t65 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
+    const jg_real t66 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
+    const jg_real t67 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
+    const jg_real t68 = t67 * H_00 + t66 * H_01 + t65 * H_02;
+    const jg_real t69 = t67 * H_10 + t66 * H_11 - t65 * t9;
+    const jg_real t70 = t66 * H_21 - t67 * sine_2 + t65 * H_22;
+    jac_phi_q_v_geometry[33] = -(C_i[0] * t68 + C_i[3] * t69 + C_i[6] * t70);
+    jac_phi_q_v_geometry[34] = -(C_i[1] * t68 + C_i[4] * t69 + C_i[7] * t70);
+    jac_phi_q_v_geometry[35] = -(C_i[2] * t68 + C_i[5] * t69 + C_i[8] * t70);
+    const jg_real t71 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
+    const jg_real t72 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
+    const jg_real t73 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
+    const jg_real t74 = t73 * H_00 + t72 * H_01 + t71 * H_02;
+    const jg_real t75 = t73 * H_10 + t72 * H_11 - t71 * t9;
+    const jg_real t76 = t72 * H_21 - t73 * sine_2 + t71 * H_22;
+    jac_phi_q_v_geometry[36] = -(C_i[0] * t74 + C_i[3] * t75 + C_i[6] * t76);
+    jac_phi_q_v_geometry[37] = -(C_i[1] * t74 + C_i[4] * t75 + C_i[7] * t76);
+    jac_phi_q_v_geometry[38] = -(C_i[2] * t74 + C_i[5] * t75 + C_i[8] * t76);
+    const jg_real t77 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    const jg_real t78 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
+    const jg_real t79 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
+    const jg_real t80 = t79 * H_00 + t78 * H_01 + t77 * H_02;
+    const jg_real t81 = t79 * H_10 + t78 * H_11 - t77 * t9;
+    const jg_real t82 = t78 * H_21 - t79 * sine_2 + t77 * H_22;
+    jac_phi_q_v_geometry[39] = -(C_i[0] * t80 + C_i[3] * t81 + C_i[6] * t82);
+    jac_phi_q_v_geometry[40] = -(C_i[1] * t80 + C_i[4] * t81 + C_i[7] * t82);
+    jac_phi_q_v_geometry[41] = -(C_i[2] * t80 + C_i[5] * t81 + C_i[8] * t82);
     const jg_real t83 = s_j_cross_omega_j_in_j_0 * H_00;
     const jg_real t84 = s_j_cross_omega_j_in_j_0 * H_10;
     const jg_real t85 = s_j_cross_omega_j_in_j_0 * sine_2;
-    const jg_real t86 = H_00 * v_j[0];
-    const jg_real t87 = H_10 * v_j[0];
-    const jg_real t88 = sine_2 * v_j[0];
-    jac_phi_q_v_geometry[42] = C_i[0] * t86 + C_i[3] * t87 - C_i[6] * t88 - (t83 * C_i[0] + t84 * C_i[3] - t85 *
-        C_i[6]);
-    jac_phi_q_v_geometry[43] = t86 * C_i[1] + t87 * C_i[4] - t88 * C_i[7] - (t83 * C_i[1] + t84 * C_i[4] - t85 *
-        C_i[7]);
-    jac_phi_q_v_geometry[44] = t86 * C_i[2] + t87 * C_i[5] - t88 * C_i[8] - (t83 * C_i[2] + t84 * C_i[5] - t85 *
-        C_i[8]);
+    const jg_real t86 = v_j[0] * H_00;
+    const jg_real t87 = v_j[0] * H_10;
+    const jg_real t88 = v_j[0] * sine_2;
+    jac_phi_q_v_geometry[42] = C_i[0] * t86 + C_i[3] * t87 - C_i[6] * t88 - (C_i[0] * t83 + C_i[3] * t84 - C_i[6] *
+        t85);
+    jac_phi_q_v_geometry[43] = C_i[1] * t86 + C_i[4] * t87 - C_i[7] * t88 - (C_i[1] * t83 + C_i[4] * t84 - C_i[7] *
+        t85);
+    jac_phi_q_v_geometry[44] = C_i[2] * t86 + C_i[5] * t87 - C_i[8] * t88 - (C_i[2] * t83 + C_i[5] * t84 - C_i[8] *
+        t85);
     const jg_real t89 = omega_j[0] * H_21;
     jac_phi_q_v_geometry[76] = t89;
     jac_phi_q_v_geometry[45] = -t89;
     const jg_real t90 = s_j_cross_omega_j_in_j_1 * H_00;
     const jg_real t91 = s_j_cross_omega_j_in_j_1 * H_10;
     const jg_real t92 = s_j_cross_omega_j_in_j_1 * sine_2;
-    const jg_real t93 = H_00 * v_j[1];
-    const jg_real t94 = H_10 * v_j[1];
-    const jg_real t95 = sine_2 * v_j[1];
-    jac_phi_q_v_geometry[46] = C_i[0] * t93 + C_i[3] * t94 - C_i[6] * t95 - (t90 * C_i[0] + t91 * C_i[3] - t92 *
-        C_i[6]);
-    jac_phi_q_v_geometry[47] = t93 * C_i[1] + t94 * C_i[4] - t95 * C_i[7] - (t90 * C_i[1] + t91 * C_i[4] - t92 *
-        C_i[7]);
-    jac_phi_q_v_geometry[48] = t93 * C_i[2] + t94 * C_i[5] - t95 * C_i[8] - (t90 * C_i[2] + t91 * C_i[5] - t92 *
-        C_i[8]);
+    const jg_real t93 = v_j[1] * H_00;
+    const jg_real t94 = v_j[1] * H_10;
+    const jg_real t95 = v_j[1] * sine_2;
+    jac_phi_q_v_geometry[46] = C_i[0] * t93 + C_i[3] * t94 - C_i[6] * t95 - (C_i[0] * t90 + C_i[3] * t91 - C_i[6] *
+        t92);
+    jac_phi_q_v_geometry[47] = C_i[1] * t93 + C_i[4] * t94 - C_i[7] * t95 - (C_i[1] * t90 + C_i[4] * t91 - C_i[7] *
+        t92);
+    jac_phi_q_v_geometry[48] = C_i[2] * t93 + C_i[5] * t94 - C_i[8] * t95 - (C_i[2] * t90 + C_i[5] * t91 - C_i[8] *
+        t92);
     const jg_real t96 = omega_j[1] * H_21;
     jac_phi_q_v_geometry[81] = t96;
     jac_phi_q_v_geometry[49] = -t96;
     const jg_real t97 = s_j_cross_omega_j_in_j_2 * H_00;
     const jg_real t98 = s_j_cross_omega_j_in_j_2 * H_10;
     const jg_real t99 = s_j_cross_omega_j_in_j_2 * sine_2;
-    const jg_real t100 = H_00 * v_j[2];
-    const jg_real t101 = H_10 * v_j[2];
-    const jg_real t102 = sine_2 * v_j[2];
-    jac_phi_q_v_geometry[50] = C_i[0] * t100 + C_i[3] * t101 - C_i[6] * t102 - (t97 * C_i[0] + t98 * C_i[3] - t99 *
-        C_i[6]);
-    jac_phi_q_v_geometry[51] = t100 * C_i[1] + t101 * C_i[4] - t102 * C_i[7] - (t97 * C_i[1] + t98 * C_i[4] - t99 *
-        C_i[7]);
-    jac_phi_q_v_geometry[52] = t100 * C_i[2] + t101 * C_i[5] - t102 * C_i[8] - (t97 * C_i[2] + t98 * C_i[5] - t99 *
-        C_i[8]);
+    const jg_real t100 = v_j[2] * H_00;
+    const jg_real t101 = v_j[2] * H_10;
+    const jg_real t102 = v_j[2] * sine_2;
+    jac_phi_q_v_geometry[50] = C_i[0] * t100 + C_i[3] * t101 - C_i[6] * t102 - (C_i[0] * t97 + C_i[3] * t98 - C_i[6]
+        * t99);
+    jac_phi_q_v_geometry[51] = C_i[1] * t100 + C_i[4] * t101 - C_i[7] * t102 - (C_i[1] * t97 + C_i[4] * t98 - C_i[7]
+        * t99);
+    jac_phi_q_v_geometry[52] = C_i[2] * t100 + C_i[5] * t101 - C_i[8] * t102 - (C_i[2] * t97 + C_i[5] * t98 - C_i[8]
+        * t99);
     const jg_real t103 = omega_j[2] * H_21;
     jac_phi_q_v_geometry[86] = t103;
     jac_phi_q_v_geometry[53] = -t103;
     const jg_real t104 = s_j_cross_omega_j_in_j_0 * H_01;
     const jg_real t105 = s_j_cross_omega_j_in_j_0 * H_11;
     const jg_real t106 = s_j_cross_omega_j_in_j_0 * H_21;
-    const jg_real t107 = H_01 * v_j[0];
-    const jg_real t108 = H_11 * v_j[0];
-    const jg_real t109 = H_21 * v_j[0];
-    jac_phi_q_v_geometry[54] = C_i[0] * t107 + C_i[3] * t108 + C_i[6] * t109 - (t104 * C_i[0] + t105 * C_i[3] + t106
-        * C_i[6]);
-    jac_phi_q_v_geometry[55] = t107 * C_i[1] + t108 * C_i[4] + t109 * C_i[7] - (t104 * C_i[1] + t105 * C_i[4] + t106
-        * C_i[7]);
-    jac_phi_q_v_geometry[56] = t107 * C_i[2] + t108 * C_i[5] + t109 * C_i[8] - (t104 * C_i[2] + t105 * C_i[5] + t106
-        * C_i[8]);
+    const jg_real t107 = v_j[0] * H_01;
+    const jg_real t108 = v_j[0] * H_11;
+    const jg_real t109 = v_j[0] * H_21;
+    jac_phi_q_v_geometry[54] = C_i[0] * t107 + C_i[3] * t108 + C_i[6] * t109 - (C_i[0] * t104 + C_i[3] * t105 +
+        C_i[6] * t106);
+    jac_phi_q_v_geometry[55] = C_i[1] * t107 + C_i[4] * t108 + C_i[7] * t109 - (C_i[1] * t104 + C_i[4] * t105 +
+        C_i[7] * t106);
+    jac_phi_q_v_geometry[56] = C_i[2] * t107 + C_i[5] * t108 + C_i[8] * t109 - (C_i[2] * t104 + C_i[5] * t105 +
+        C_i[8] * t106);
     jac_phi_q_v_geometry[57] = -(omega_j[0] * H_02);
     jac_phi_q_v_geometry[58] = -(omega_j[0] * H_22);
     jac_phi_q_v_geometry[59] = -(omega_j[0] * sine_2);
     const jg_real t110 = s_j_cross_omega_j_in_j_1 * H_01;
     const jg_real t111 = s_j_cross_omega_j_in_j_1 * H_11;
     const jg_real t112 = s_j_cross_omega_j_in_j_1 * H_21;
-    const jg_real t113 = H_01 * v_j[1];
-    const jg_real t114 = H_11 * v_j[1];
-    const jg_real t115 = H_21 * v_j[1];
-    jac_phi_q_v_geometry[60] = C_i[0] * t113 + C_i[3] * t114 + C_i[6] * t115 - (t110 * C_i[0] + t111 * C_i[3] + t112
-        * C_i[6]);
-    jac_phi_q_v_geometry[61] = t113 * C_i[1] + t114 * C_i[4] + t115 * C_i[7] - (t110 * C_i[1] + t111 * C_i[4] + t112
-        * C_i[7]);
-    jac_phi_q_v_geometry[62] = t113 * C_i[2] + t114 * C_i[5] + t115 * C_i[8] - (t110 * C_i[2] + t111 * C_i[5] + t112
-        * C_i[8]);
+    const jg_real t113 = v_j[1] * H_01;
+    const jg_real t114 = v_j[1] * H_11;
+    const jg_real t115 = v_j[1] * H_21;
+    jac_phi_q_v_geometry[60] = C_i[0] * t113 + C_i[3] * t114 + C_i[6] * t115 - (C_i[0] * t110 + C_i[3] * t111 +
+        C_i[6] * t112);
+    jac_phi_q_v_geometry[61] = C_i[1] * t113 + C_i[4] * t114 + C_i[7] * t115 - (C_i[1] * t110 + C_i[4] * t111 +
+        C_i[7] * t112);
+    jac_phi_q_v_geometry[62] = C_i[2] * t113 + C_i[5] * t114 + C_i[8] * t115 - (C_i[2] * t110 + C_i[5] * t111 +
+        C_i[8] * t112);
     jac_phi_q_v_geometry[63] = -(omega_j[1] * H_02);
     jac_phi_q_v_geometry[64] = -(omega_j[1] * H_22);
     jac_phi_q_v_geometry[65] = -(omega_j[1] * sine_2);
     const jg_real t116 = s_j_cross_omega_j_in_j_2 * H_01;
     const jg_real t117 = s_j_cross_omega_j_in_j_2 * H_11;
     const jg_real t118 = s_j_cross_omega_j_in_j_2 * H_21;
-    const jg_real t119 = H_01 * v_j[2];
-    const jg_real t120 = H_11 * v_j[2];
-    const jg_real t121 = H_21 * v_j[2];
-    jac_phi_q_v_geometry[66] = C_i[0] * t119 + C_i[3] * t120 + C_i[6] * t121 - (t116 * C_i[0] + t117 * C_i[3] + t118
-        * C_i[6]);
-    jac_phi_q_v_geometry[67] = t119 * C_i[1] + t120 * C_i[4] + t121 * C_i[7] - (t116 * C_i[1] + t117 * C_i[4] + t118
-        * C_i[7]);
-    jac_phi_q_v_geometry[68] = t119 * C_i[2] + t120 * C_i[5] + t121 * C_i[8] - (t116 * C_i[2] + t117 * C_i[5] + t118
-        * C_i[8]);
+    const jg_real t119 = v_j[2] * H_01;
+    const jg_real t120 = v_j[2] * H_11;
+    const jg_real t121 = v_j[2] * H_21;
+    jac_phi_q_v_geometry[66] = C_i[0] * t119 + C_i[3] * t120 + C_i[6] * t121 - (C_i[0] * t116 + C_i[3] * t117 +
+        C_i[6] * t118);
+    jac_phi_q_v_geometry[67] = C_i[1] * t119 + C_i[4] * t120 + C_i[7] * t121 - (C_i[1] * t116 + C_i[4] * t117 +
+        C_i[7] * t118);
+    jac_phi_q_v_geometry[68] = C_i[2] * t119 + C_i[5] * t120 + C_i[8] * t121 - (C_i[2] * t116 + C_i[5] * t117 +
+        C_i[8] * t118);
     jac_phi_q_v_geometry[69] = -(omega_j[2] * H_02);
     jac_phi_q_v_geometry[70] = -(omega_j[2] * H_22);
     jac_phi_q_v_geometry[71] = -(omega_j[2] * sine_2);
     const jg_real t122 = s_j_cross_omega_j_in_j_0 * H_02;
-    const jg_real t123 = s_j_cross_omega_j_in_j_0 * t8;
+    const jg_real t123 = s_j_cross_omega_j_in_j_0 * t9;
     const jg_real t124 = s_j_cross_omega_j_in_j_0 * H_22;
-    const jg_real t125 = H_02 * v_j[0];
-    const jg_real t126 = t8 * v_j[0];
-    const jg_real t127 = H_22 * v_j[0];
-    jac_phi_q_v_geometry[72] = C_i[0] * t125 - C_i[3] * t126 + C_i[6] * t127 - (t122 * C_i[0] - t123 * C_i[3] + t124
-        * C_i[6]);
-    jac_phi_q_v_geometry[73] = t125 * C_i[1] - t126 * C_i[4] + t127 * C_i[7] - (t122 * C_i[1] - t123 * C_i[4] + t124
-        * C_i[7]);
-    jac_phi_q_v_geometry[74] = t125 * C_i[2] - t126 * C_i[5] + t127 * C_i[8] - (t122 * C_i[2] - t123 * C_i[5] + t124
-        * C_i[8]);
+    const jg_real t125 = v_j[0] * H_02;
+    const jg_real t126 = v_j[0] * t9;
+    const jg_real t127 = v_j[0] * H_22;
+    jac_phi_q_v_geometry[72] = C_i[0] * t125 - C_i[3] * t126 + C_i[6] * t127 - (C_i[0] * t122 - C_i[3] * t123 +
+        C_i[6] * t124);
+    jac_phi_q_v_geometry[73] = C_i[1] * t125 - C_i[4] * t126 + C_i[7] * t127 - (C_i[1] * t122 - C_i[4] * t123 +
+        C_i[7] * t124);
+    jac_phi_q_v_geometry[74] = C_i[2] * t125 - C_i[5] * t126 + C_i[8] * t127 - (C_i[2] * t122 - C_i[5] * t123 +
+        C_i[8] * t124);
     jac_phi_q_v_geometry[75] = omega_j[0] * H_01;
     const jg_real t128 = s_j_cross_omega_j_in_j_1 * H_02;
-    const jg_real t129 = s_j_cross_omega_j_in_j_1 * t8;
+    const jg_real t129 = s_j_cross_omega_j_in_j_1 * t9;
     const jg_real t130 = s_j_cross_omega_j_in_j_1 * H_22;
-    const jg_real t131 = H_02 * v_j[1];
-    const jg_real t132 = t8 * v_j[1];
-    const jg_real t133 = H_22 * v_j[1];
-    jac_phi_q_v_geometry[77] = C_i[0] * t131 - C_i[3] * t132 + C_i[6] * t133 - (t128 * C_i[0] - t129 * C_i[3] + t130
-        * C_i[6]);
-    jac_phi_q_v_geometry[78] = t131 * C_i[1] - t132 * C_i[4] + t133 * C_i[7] - (t128 * C_i[1] - t129 * C_i[4] + t130
-        * C_i[7]);
-    jac_phi_q_v_geometry[79] = t131 * C_i[2] - t132 * C_i[5] + t133 * C_i[8] - (t128 * C_i[2] - t129 * C_i[5] + t130
-        * C_i[8]);
+    const jg_real t131 = v_j[1] * H_02;
+    const jg_real t132 = v_j[1] * t9;
+    const jg_real t133 = v_j[1] * H_22;
+    jac_phi_q_v_geometry[77] = C_i[0] * t131 - C_i[3] * t132 + C_i[6] * t133 - (C_i[0] * t128 - C_i[3] * t129 +
+        C_i[6] * t130);
+    jac_phi_q_v_geometry[78] = C_i[1] * t131 - C_i[4] * t132 + C_i[7] * t133 - (C_i[1] * t128 - C_i[4] * t129 +
+        C_i[7] * t130);
+    jac_phi_q_v_geometry[79] = C_i[2] * t131 - C_i[5] * t132 + C_i[8] * t133 - (C_i[2] * t128 - C_i[5] * t129 +
+        C_i[8] * t130);
     jac_phi_q_v_geometry[80] = omega_j[1] * H_01;
     const jg_real t134 = s_j_cross_omega_j_in_j_2 * H_02;
-    const jg_real t135 = s_j_cross_omega_j_in_j_2 * t8;
+    const jg_real t135 = s_j_cross_omega_j_in_j_2 * t9;
     const jg_real t136 = s_j_cross_omega_j_in_j_2 * H_22;
-    const jg_real t137 = H_02 * v_j[2];
-    const jg_real t138 = t8 * v_j[2];
-    const jg_real t139 = H_22 * v_j[2];
-    jac_phi_q_v_geometry[82] = C_i[0] * t137 - C_i[3] * t138 + C_i[6] * t139 - (t134 * C_i[0] - t135 * C_i[3] + t136
-        * C_i[6]);
-    jac_phi_q_v_geometry[83] = t137 * C_i[1] - t138 * C_i[4] + t139 * C_i[7] - (t134 * C_i[1] - t135 * C_i[4] + t136
-        * C_i[7]);
-    jac_phi_q_v_geometry[84] = t137 * C_i[2] - t138 * C_i[5] + t139 * C_i[8] - (t134 * C_i[2] - t135 * C_i[5] + t136
-        * C_i[8]);
+    const jg_real t137 = v_j[2] * H_02;
+    const jg_real t138 = v_j[2] * t9;
+    const jg_real t139 = v_j[2] * H_22;
+    jac_phi_q_v_geometry[82] = C_i[0] * t137 - C_i[3] * t138 + C_i[6] * t139 - (C_i[0] * t134 - C_i[3] * t135 +
+        C_i[6] * t136);
+    jac_phi_q_v_geometry[83] = C_i[1] * t137 - C_i[4] * t138 + C_i[7] * t139 - (C_i[1] * t134 - C_i[4] * t135 +
+        C_i[7] * t136);
+    jac_phi_q_v_geometry[84] = C_i[2] * t137 - C_i[5] * t138 + C_i[8] * t139 - (C_i[2] * t134 - C_i[5] * t135 +
+        C_i[8] * t136);
     jac_phi_q_v_geometry[85] = omega_j[2] * H_01;
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -560,72 +560,72 @@ static void jg_ball_parametric_table4_substituted_phi_q_v_jacobian(const jg_real
     jac_phi_q_v_velocity[3] = s_i[2];
     jac_phi_q_v_velocity[13] = s_i[1];
     jac_phi_q_v_velocity[4] = -s_i[1];
-    jac_phi_q_v_velocity[5] = sine_2 * C_i[3] + H_10 * C_i[6];
-    jac_phi_q_v_velocity[6] = H_00 * C_i[3] - H_10 * C_i[0];
-    jac_phi_q_v_velocity[7] = t8 * C_i[0] + H_02 * C_i[3];
+    jac_phi_q_v_velocity[5] = C_i[3] * sine_2 + C_i[6] * H_10;
+    jac_phi_q_v_velocity[6] = C_i[3] * H_00 - C_i[0] * H_10;
+    jac_phi_q_v_velocity[7] = C_i[0] * t9 + C_i[3] * H_02;
     jac_phi_q_v_velocity[8] = -s_i[2];
     jac_phi_q_v_velocity[9] = s_i[0];
-    jac_phi_q_v_velocity[10] = sine_2 * C_i[4] + H_10 * C_i[7];
-    jac_phi_q_v_velocity[11] = H_00 * C_i[4] - H_10 * C_i[1];
-    jac_phi_q_v_velocity[12] = t8 * C_i[1] + H_02 * C_i[4];
+    jac_phi_q_v_velocity[10] = C_i[4] * sine_2 + C_i[7] * H_10;
+    jac_phi_q_v_velocity[11] = C_i[4] * H_00 - C_i[1] * H_10;
+    jac_phi_q_v_velocity[12] = C_i[1] * t9 + C_i[4] * H_02;
     jac_phi_q_v_velocity[14] = -s_i[0];
-    jac_phi_q_v_velocity[15] = sine_2 * C_i[5] + H_10 * C_i[8];
-    jac_phi_q_v_velocity[16] = H_00 * C_i[5] - H_10 * C_i[2];
-    jac_phi_q_v_velocity[17] = t8 * C_i[2] + H_02 * C_i[5];
-    const jg_real t140 = C_j[3] * H_01 + C_j[0] * H_00 + H_02 * C_j[6];
-    const jg_real t141 = C_j[3] * H_11 + C_j[0] * H_10 - C_j[6] * t8;
+    jac_phi_q_v_velocity[15] = C_i[5] * sine_2 + C_i[8] * H_10;
+    jac_phi_q_v_velocity[16] = C_i[5] * H_00 - C_i[2] * H_10;
+    jac_phi_q_v_velocity[17] = C_i[2] * t9 + C_i[5] * H_02;
+    const jg_real t140 = C_j[0] * H_00 + C_j[3] * H_01 + C_j[6] * H_02;
+    const jg_real t141 = C_j[0] * H_10 + C_j[3] * H_11 - C_j[6] * t9;
     const jg_real t142 = C_j[3] * H_21 - C_j[0] * sine_2 + C_j[6] * H_22;
     jac_phi_q_v_velocity[18] = C_i[0] * t140 + C_i[3] * t141 + C_i[6] * t142;
-    jac_phi_q_v_velocity[19] = t140 * C_i[1] + t141 * C_i[4] + t142 * C_i[7];
-    jac_phi_q_v_velocity[20] = t140 * C_i[2] + t141 * C_i[5] + t142 * C_i[8];
-    const jg_real t143 = C_j[4] * H_01 + C_j[1] * H_00 + H_02 * C_j[7];
-    const jg_real t144 = C_j[4] * H_11 + C_j[1] * H_10 - C_j[7] * t8;
+    jac_phi_q_v_velocity[19] = C_i[1] * t140 + C_i[4] * t141 + C_i[7] * t142;
+    jac_phi_q_v_velocity[20] = C_i[2] * t140 + C_i[5] * t141 + C_i[8] * t142;
+    const jg_real t143 = C_j[1] * H_00 + C_j[4] * H_01 + C_j[7] * H_02;
+    const jg_real t144 = C_j[1] * H_10 + C_j[4] * H_11 - C_j[7] * t9;
     const jg_real t145 = C_j[4] * H_21 - C_j[1] * sine_2 + C_j[7] * H_22;
     jac_phi_q_v_velocity[21] = C_i[0] * t143 + C_i[3] * t144 + C_i[6] * t145;
-    jac_phi_q_v_velocity[22] = t143 * C_i[1] + t144 * C_i[4] + t145 * C_i[7];
-    jac_phi_q_v_velocity[23] = t143 * C_i[2] + t144 * C_i[5] + t145 * C_i[8];
-    const jg_real t146 = C_j[5] * H_01 + C_j[2] * H_00 + H_02 * C_j[8];
-    const jg_real t147 = C_j[5] * H_11 + C_j[2] * H_10 - C_j[8] * t8;
+    jac_phi_q_v_velocity[22] = C_i[1] * t143 + C_i[4] * t144 + C_i[7] * t145;
+    jac_phi_q_v_velocity[23] = C_i[2] * t143 + C_i[5] * t144 + C_i[8] * t145;
+    const jg_real t146 = C_j[2] * H_00 + C_j[5] * H_01 + C_j[8] * H_02;
+    const jg_real t147 = C_j[2] * H_10 + C_j[5] * H_11 - C_j[8] * t9;
     const jg_real t148 = C_j[5] * H_21 - C_j[2] * sine_2 + C_j[8] * H_22;
     jac_phi_q_v_velocity[24] = C_i[0] * t146 + C_i[3] * t147 + C_i[6] * t148;
-    jac_phi_q_v_velocity[25] = t146 * C_i[1] + t147 * C_i[4] + t148 * C_i[7];
-    jac_phi_q_v_velocity[26] = t146 * C_i[2] + t147 * C_i[5] + t148 * C_i[8];
-    const jg_real t149 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
-    const jg_real t150 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
-    const jg_real t151 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
-    const jg_real t152 = t150 * H_00 + t149 * H_01 + H_02 * t151;
-    const jg_real t153 = t150 * H_10 + t149 * H_11 - t151 * t8;
-    const jg_real t154 = t149 * H_21 - t150 * sine_2 + t151 * H_22;
-    jac_phi_q_v_velocity[27] = -(t152 * C_i[0] + t153 * C_i[3] + t154 * C_i[6]);
-    jac_phi_q_v_velocity[28] = -(t152 * C_i[1] + t153 * C_i[4] + t154 * C_i[7]);
-    jac_phi_q_v_velocity[29] = -(t152 * C_i[2] + t153 * C_i[5] + t154 * C_i[8]);
-    jac_phi_q_v_velocity[30] = H_01 * C_j[6] - C_j[3] * H_02;
+    jac_phi_q_v_velocity[25] = C_i[1] * t146 + C_i[4] * t147 + C_i[7] * t148;
+    jac_phi_q_v_velocity[26] = C_i[2] * t146 + C_i[5] * t147 + C_i[8] * t148;
+    const jg_real t149 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
+    const jg_real t150 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
+    const jg_real t151 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
+    const jg_real t152 = t151 * H_00 + t150 * H_01 + t149 * H_02;
+    const jg_real t153 = t151 * H_10 + t150 * H_11 - t149 * t9;
+    const jg_real t154 = t150 * H_21 - t151 * sine_2 + t149 * H_22;
+    jac_phi_q_v_velocity[27] = -(C_i[0] * t152 + C_i[3] * t153 + C_i[6] * t154);
+    jac_phi_q_v_velocity[28] = -(C_i[1] * t152 + C_i[4] * t153 + C_i[7] * t154);
+    jac_phi_q_v_velocity[29] = -(C_i[2] * t152 + C_i[5] * t153 + C_i[8] * t154);
+    jac_phi_q_v_velocity[30] = C_j[6] * H_01 - C_j[3] * H_02;
     jac_phi_q_v_velocity[31] = C_j[6] * H_21 - C_j[3] * H_22;
-    jac_phi_q_v_velocity[32] = -(sine_2 * C_j[3] + C_j[0] * H_21);
-    const jg_real t155 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
-    const jg_real t156 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
-    const jg_real t157 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
-    const jg_real t158 = t156 * H_00 + t155 * H_01 + H_02 * t157;
-    const jg_real t159 = t156 * H_10 + t155 * H_11 - t157 * t8;
-    const jg_real t160 = t155 * H_21 - t156 * sine_2 + t157 * H_22;
-    jac_phi_q_v_velocity[33] = -(t158 * C_i[0] + t159 * C_i[3] + t160 * C_i[6]);
-    jac_phi_q_v_velocity[34] = -(t158 * C_i[1] + t159 * C_i[4] + t160 * C_i[7]);
-    jac_phi_q_v_velocity[35] = -(t158 * C_i[2] + t159 * C_i[5] + t160 * C_i[8]);
-    jac_phi_q_v_velocity[36] = H_01 * C_j[7] - C_j[4] * H_02;
+    jac_phi_q_v_velocity[32] = -(C_j[3] * sine_2 + C_j[0] * H_21);
+    const jg_real t155 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
+    const jg_real t156 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
+    const jg_real t157 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
+    const jg_real t158 = t157 * H_00 + t156 * H_01 + t155 * H_02;
+    const jg_real t159 = t157 * H_10 + t156 * H_11 - t155 * t9;
+    const jg_real t160 = t156 * H_21 - t157 * sine_2 + t155 * H_22;
+    jac_phi_q_v_velocity[33] = -(C_i[0] * t158 + C_i[3] * t159 + C_i[6] * t160);
+    jac_phi_q_v_velocity[34] = -(C_i[1] * t158 + C_i[4] * t159 + C_i[7] * t160);
+    jac_phi_q_v_velocity[35] = -(C_i[2] * t158 + C_i[5] * t159 + C_i[8] * t160);
+    jac_phi_q_v_velocity[36] = C_j[7] * H_01 - C_j[4] * H_02;
     jac_phi_q_v_velocity[37] = C_j[7] * H_21 - C_j[4] * H_22;
-    jac_phi_q_v_velocity[38] = -(sine_2 * C_j[4] + C_j[1] * H_21);
-    const jg_real t161 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
-    const jg_real t162 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
-    const jg_real t163 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
-    const jg_real t164 = t162 * H_00 + t161 * H_01 + H_02 * t163;
-    const jg_real t165 = t162 * H_10 + t161 * H_11 - t163 * t8;
-    const jg_real t166 = t161 * H_21 - t162 * sine_2 + t163 * H_22;
-    jac_phi_q_v_velocity[39] = -(t164 * C_i[0] + t165 * C_i[3] + t166 * C_i[6]);
-    jac_phi_q_v_velocity[40] = -(t164 * C_i[1] + t165 * C_i[4] + t166 * C_i[7]);
-    jac_phi_q_v_velocity[41] = -(t164 * C_i[2] + t165 * C_i[5] + t166 * C_i[8]);
-    jac_phi_q_v_velocity[42] = H_01 * C_j[8] - C_j[5] * H_02;
+    jac_phi_q_v_velocity[38] = -(C_j[4] * sine_2 + C_j[1] * H_21);
+    const jg_real t161 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
+    const jg_real t162 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
+    const jg_real t163 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
+    const jg_real t164 = t163 * H_00 + t162 * H_01 + t161 * H_02;
+    const jg_real t165 = t163 * H_10 + t162 * H_11 - t161 * t9;
+    const jg_real t166 = t162 * H_21 - t163 * sine_2 + t161 * H_22;
+    jac_phi_q_v_velocity[39] = -(C_i[0] * t164 + C_i[3] * t165 + C_i[6] * t166);
+    jac_phi_q_v_velocity[40] = -(C_i[1] * t164 + C_i[4] * t165 + C_i[7] * t166);
+    jac_phi_q_v_velocity[41] = -(C_i[2] * t164 + C_i[5] * t165 + C_i[8] * t166);
+    jac_phi_q_v_velocity[42] = C_j[8] * H_01 - C_j[5] * H_02;
     jac_phi_q_v_velocity[43] = C_j[8] * H_21 - C_j[5] * H_22;
-    jac_phi_q_v_velocity[44] = -(sine_2 * C_j[5] + C_j[2] * H_21);
+    jac_phi_q_v_velocity[44] = -(C_j[5] * sine_2 + C_j[2] * H_21);
 }
 
 static void jg_ball_parametric_table4_substituted_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT alpha,
@@ -656,307 +656,307 @@ static void jg_ball_parametric_table4_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_lambda[34] = t8;
     const jg_real t9 = sine_2 * t8 - sine_1 * cosine_2;
     const jg_real t10 = H_00 * H_21 + sine_0 * t9;
-    const jg_real t11 = t10 * lambda[5];
+    const jg_real t11 = lambda[5] * t10;
     const jg_real t12 = sine_1 * sine_2 + cosine_2 * t8;
     const jg_real t13 = lambda[5] * t12;
+    const jg_real t14 = lambda[4] * H_00;
     /* H_10 =  */
     const jg_real H_10 = cosine_0 * sine_1;
     jac_phi_q_t_lambda_lambda[33] = H_10;
     /* v_1_in_joint_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint i */
-    const jg_real v_1_in_joint_i = H_10 * lambda[4];
-    const jg_real t16 = H_00 * lambda[4];
-    const jg_real t17 = H_00 * lambda[3];
+    const jg_real v_1_in_joint_i = lambda[4] * H_10;
+    const jg_real t17 = lambda[3] * H_00;
     jac_phi_q_t_lambda_alpha[9] = t17;
-    jac_phi_q_t_lambda_alpha[0] = t11 * C_i[3] - t13 * C_i[0] - (C_i[3] * v_1_in_joint_i + C_i[0] * t16 - t17 *
-        C_i[6]);
-    jac_phi_q_t_lambda_alpha[1] = t11 * C_i[4] - t13 * C_i[1] - (v_1_in_joint_i * C_i[4] + t16 * C_i[1] - t17 *
-        C_i[7]);
-    jac_phi_q_t_lambda_alpha[2] = t11 * C_i[5] - t13 * C_i[2] - (v_1_in_joint_i * C_i[5] + t16 * C_i[2] - t17 *
-        C_i[8]);
+    jac_phi_q_t_lambda_alpha[0] = C_i[3] * t11 - C_i[0] * t13 - (C_i[0] * t14 + C_i[3] * v_1_in_joint_i - C_i[6] *
+        t17);
+    jac_phi_q_t_lambda_alpha[1] = C_i[4] * t11 - C_i[1] * t13 - (C_i[1] * t14 + C_i[4] * v_1_in_joint_i - C_i[7] *
+        t17);
+    jac_phi_q_t_lambda_alpha[2] = C_i[5] * t11 - C_i[2] * t13 - (C_i[2] * t14 + C_i[5] * v_1_in_joint_i - C_i[8] *
+        t17);
     jac_phi_q_t_lambda_geometry[3] = lambda[0];
     jac_phi_q_t_lambda_geometry[4] = lambda[1];
     jac_phi_q_t_lambda_geometry[0] = lambda[2];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
-    const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
-    const jg_real t20 = t10 * lambda_0_1_2_in_joint_i_0 + t12 * lambda_0_1_2_in_joint_i_1;
+    const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
+    const jg_real t20 = lambda_0_1_2_in_joint_i_1 * t12 + lambda_0_1_2_in_joint_i_0 * t10;
     /* H_22 =  */
     const jg_real H_22 = cosine_0 * cosine_2;
-    const jg_real t22 = sine_0 * t12 + H_00 * H_22;
-    const jg_real t23 = t9 * lambda_0_1_2_in_joint_i_1 - lambda_0_1_2_in_joint_i_0 * t22;
-    const jg_real t24 = H_00 * lambda_0_1_2_in_joint_i_1 - H_10 * lambda_0_1_2_in_joint_i_0;
-    const jg_real t25 = t23 * C_j[3] + t24 * C_j[0] + t20 * C_j[6];
+    const jg_real t22 = H_00 * H_22 + sine_0 * t12;
+    const jg_real t23 = lambda_0_1_2_in_joint_i_1 * t9 - lambda_0_1_2_in_joint_i_0 * t22;
+    const jg_real t24 = lambda_0_1_2_in_joint_i_1 * H_00 - lambda_0_1_2_in_joint_i_0 * H_10;
+    const jg_real t25 = C_j[0] * t24 + C_j[3] * t23 + C_j[6] * t20;
     jac_phi_q_t_lambda_alpha[3] = t25;
-    const jg_real t26 = t23 * C_j[4] + t24 * C_j[1] + t20 * C_j[7];
+    const jg_real t26 = C_j[1] * t24 + C_j[4] * t23 + C_j[7] * t20;
     jac_phi_q_t_lambda_alpha[4] = t26;
-    const jg_real t27 = t23 * C_j[5] + t24 * C_j[2] + t20 * C_j[8];
+    const jg_real t27 = C_j[2] * t24 + C_j[5] * t23 + C_j[8] * t20;
     jac_phi_q_t_lambda_alpha[5] = t27;
     const jg_real t28 = lambda[3] * t22;
-    const jg_real t29 = t10 * lambda[3];
-    jac_phi_q_t_lambda_alpha[6] = t27 * s_j[1] - t26 * s_j[2] - (C_j[6] * t28 + C_j[3] * t29);
-    jac_phi_q_t_lambda_alpha[7] = t25 * s_j[2] - t27 * s_j[0] - (C_j[7] * t28 + C_j[4] * t29);
-    jac_phi_q_t_lambda_alpha[8] = t26 * s_j[0] - t25 * s_j[1] - (C_j[8] * t28 + C_j[5] * t29);
-    jac_phi_q_t_lambda_alpha[10] = -(sine_1 * lambda[3] * sine_0);
+    const jg_real t29 = lambda[3] * t10;
+    jac_phi_q_t_lambda_alpha[6] = s_j[1] * t27 - s_j[2] * t26 - (C_j[6] * t28 + C_j[3] * t29);
+    jac_phi_q_t_lambda_alpha[7] = s_j[2] * t25 - s_j[0] * t27 - (C_j[7] * t28 + C_j[4] * t29);
+    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t26 - s_j[1] * t25 - (C_j[8] * t28 + C_j[5] * t29);
+    jac_phi_q_t_lambda_alpha[10] = -(lambda[3] * sine_1 * sine_0);
     const jg_real t30 = sine_0 * sine_1;
     const jg_real t31 = sine_0 * sine_2;
     /* H_11 =  */
     const jg_real H_11 = cosine_1 * cosine_2 + t30 * sine_2;
     const jg_real t33 = H_10 * sine_2;
     const jg_real t34 = cosine_0 * H_11 + sine_0 * t33 - (t30 * H_21 + H_10 * t31);
-    const jg_real t35 = t34 * lambda[5];
+    const jg_real t35 = lambda[5] * t34;
     const jg_real t36 = H_10 * cosine_2;
     const jg_real t37 = lambda[5] * t36;
-    const jg_real t38 = cosine_0 * lambda[3] - t8 * lambda[4];
-    const jg_real t39 = t30 * lambda[4];
-    const jg_real t40 = t30 * lambda[3];
-    jac_phi_q_t_lambda_alpha[11] = t35 * C_i[3] - t37 * C_i[0] - (t40 * C_i[6] - (C_i[3] * t38 + C_i[0] * t39));
-    jac_phi_q_t_lambda_alpha[12] = t35 * C_i[4] - t37 * C_i[1] - (t40 * C_i[7] - (t38 * C_i[4] + t39 * C_i[1]));
-    jac_phi_q_t_lambda_alpha[13] = t35 * C_i[5] - t37 * C_i[2] - (t40 * C_i[8] - (t38 * C_i[5] + t39 * C_i[2]));
+    const jg_real t38 = lambda[3] * cosine_0 - lambda[4] * t8;
+    const jg_real t39 = lambda[4] * t30;
+    const jg_real t40 = lambda[3] * t30;
+    jac_phi_q_t_lambda_alpha[11] = C_i[3] * t35 - C_i[0] * t37 - (C_i[6] * t40 - (C_i[0] * t39 + C_i[3] * t38));
+    jac_phi_q_t_lambda_alpha[12] = C_i[4] * t35 - C_i[1] * t37 - (C_i[7] * t40 - (C_i[1] * t39 + C_i[4] * t38));
+    jac_phi_q_t_lambda_alpha[13] = C_i[5] * t35 - C_i[2] * t37 - (C_i[8] * t40 - (C_i[2] * t39 + C_i[5] * t38));
     const jg_real t41 = sine_0 * cosine_2;
     jac_phi_q_t_lambda_lambda[48] = t41;
     const jg_real t42 = t30 * cosine_2 - cosine_1 * sine_2;
     const jg_real t43 = t30 * H_22 + H_10 * t41 - (cosine_0 * t42 + sine_0 * t36);
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
-    const jg_real t45 = lambda_0_1_2_in_joint_i_0 * t43 + t33 * lambda_0_1_2_in_joint_i_1 - t31 *
-        lambda_0_1_2_in_joint_i_2;
-    const jg_real t46 = t8 * lambda_0_1_2_in_joint_i_0 + t30 * lambda_0_1_2_in_joint_i_1 + cosine_0 *
-        lambda_0_1_2_in_joint_i_2;
-    const jg_real t47 = t34 * lambda_0_1_2_in_joint_i_0 + t36 * lambda_0_1_2_in_joint_i_1 -
+    const jg_real t45 = lambda_0_1_2_in_joint_i_1 * t33 + lambda_0_1_2_in_joint_i_0 * t43 -
+        lambda_0_1_2_in_joint_i_2 * t31;
+    const jg_real t46 = lambda_0_1_2_in_joint_i_1 * t30 + lambda_0_1_2_in_joint_i_0 * t8 + lambda_0_1_2_in_joint_i_2
+        * cosine_0;
+    const jg_real t47 = lambda_0_1_2_in_joint_i_1 * t36 + lambda_0_1_2_in_joint_i_0 * t34 -
         lambda_0_1_2_in_joint_i_2 * t41;
-    const jg_real t48 = t45 * C_j[3] - t46 * C_j[0] + t47 * C_j[6];
+    const jg_real t48 = C_j[3] * t45 - C_j[0] * t46 + C_j[6] * t47;
     jac_phi_q_t_lambda_alpha[14] = t48;
-    const jg_real t49 = t45 * C_j[4] - t46 * C_j[1] + t47 * C_j[7];
+    const jg_real t49 = C_j[4] * t45 - C_j[1] * t46 + C_j[7] * t47;
     jac_phi_q_t_lambda_alpha[15] = t49;
-    const jg_real t50 = t45 * C_j[5] - t46 * C_j[2] + t47 * C_j[8];
+    const jg_real t50 = C_j[5] * t45 - C_j[2] * t46 + C_j[8] * t47;
     jac_phi_q_t_lambda_alpha[16] = t50;
-    const jg_real t51 = lambda[3] * t43 - t31 * lambda[4];
-    const jg_real t52 = t34 * lambda[3] - lambda[4] * t41;
-    const jg_real t53 = cosine_0 * lambda[5];
-    const jg_real t54 = t31 * lambda[5];
-    jac_phi_q_t_lambda_alpha[17] = t50 * s_j[1] - t49 * s_j[2] + (C_j[6] * t51 - C_j[3] * t52) - (C_j[3] * t53 -
+    const jg_real t51 = lambda[3] * t43 - lambda[4] * t31;
+    const jg_real t52 = lambda[3] * t34 - lambda[4] * t41;
+    const jg_real t53 = lambda[5] * cosine_0;
+    const jg_real t54 = lambda[5] * t31;
+    jac_phi_q_t_lambda_alpha[17] = C_j[6] * t51 - C_j[3] * t52 + (s_j[1] * t50 - s_j[2] * t49) - (C_j[3] * t53 -
         C_j[0] * t54);
-    jac_phi_q_t_lambda_alpha[18] = t48 * s_j[2] - t50 * s_j[0] + (C_j[7] * t51 - C_j[4] * t52) - (C_j[4] * t53 -
+    jac_phi_q_t_lambda_alpha[18] = C_j[7] * t51 - C_j[4] * t52 + (s_j[2] * t48 - s_j[0] * t50) - (C_j[4] * t53 -
         C_j[1] * t54);
-    jac_phi_q_t_lambda_alpha[19] = t49 * s_j[0] - t48 * s_j[1] + (C_j[8] * t51 - C_j[5] * t52) - (C_j[5] * t53 -
+    jac_phi_q_t_lambda_alpha[19] = C_j[8] * t51 - C_j[5] * t52 + (s_j[0] * t49 - s_j[1] * t48) - (C_j[5] * t53 -
         C_j[2] * t54);
     jac_phi_q_t_lambda_alpha[20] = -t40;
-    jac_phi_q_t_lambda_alpha[21] = cosine_0 * (cosine_1 * lambda[3] + cosine_2 * lambda[5]) - sine_0 * lambda[4];
+    jac_phi_q_t_lambda_alpha[21] = cosine_0 * (lambda[3] * cosine_1 + lambda[5] * cosine_2) - lambda[4] * sine_0;
     jac_phi_q_t_lambda_alpha[22] = -t54;
     const jg_real t55 = H_10 * H_22 + sine_0 * t42;
-    const jg_real t56 = t55 * lambda[5];
-    const jg_real t57 = H_11 * lambda[5];
-    jac_phi_q_t_lambda_alpha[23] = t56 * C_i[3] + t57 * C_i[0];
-    jac_phi_q_t_lambda_alpha[24] = t56 * C_i[4] + t57 * C_i[1];
-    jac_phi_q_t_lambda_alpha[25] = t56 * C_i[5] + t57 * C_i[2];
-    const jg_real t58 = t55 * lambda_0_1_2_in_joint_i_0 - H_11 * lambda_0_1_2_in_joint_i_1 - H_21 *
-        lambda_0_1_2_in_joint_i_2;
+    const jg_real t56 = lambda[5] * t55;
+    const jg_real t57 = lambda[5] * H_11;
+    jac_phi_q_t_lambda_alpha[23] = C_i[0] * t57 + C_i[3] * t56;
+    jac_phi_q_t_lambda_alpha[24] = C_i[1] * t57 + C_i[4] * t56;
+    jac_phi_q_t_lambda_alpha[25] = C_i[2] * t57 + C_i[5] * t56;
+    const jg_real t58 = lambda_0_1_2_in_joint_i_0 * t55 - lambda_0_1_2_in_joint_i_1 * H_11 -
+        lambda_0_1_2_in_joint_i_2 * H_21;
     /* H_02 =  */
     const jg_real H_02 = H_10 * H_21 + sine_0 * H_11;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 + t42 * lambda_0_1_2_in_joint_i_1 +
-        H_22 * lambda_0_1_2_in_joint_i_2;
+    const jg_real lambda_0_1_2_in_joint_j_2 = lambda_0_1_2_in_joint_i_1 * t42 + lambda_0_1_2_in_joint_i_0 * H_02 +
+        lambda_0_1_2_in_joint_i_2 * H_22;
     jac_phi_q_t_lambda_geometry[99] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_j_2;
-    const jg_real t61 = t58 * C_j[6] + lambda_0_1_2_in_joint_j_2 * C_j[3];
+    const jg_real t61 = C_j[6] * t58 + C_j[3] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_alpha[26] = t61;
-    const jg_real t62 = t58 * C_j[7] + lambda_0_1_2_in_joint_j_2 * C_j[4];
+    const jg_real t62 = C_j[7] * t58 + C_j[4] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_alpha[27] = t62;
-    const jg_real t63 = t58 * C_j[8] + lambda_0_1_2_in_joint_j_2 * C_j[5];
+    const jg_real t63 = C_j[8] * t58 + C_j[5] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_alpha[28] = t63;
-    const jg_real t64 = H_02 * lambda[3] + H_22 * lambda[4];
+    const jg_real t64 = lambda[4] * H_22 + lambda[3] * H_02;
     /* v_1_in_joint_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint j */
-    const jg_real v_1_in_joint_j_2 = H_21 * lambda[4] - t55 * lambda[3];
+    const jg_real v_1_in_joint_j_2 = lambda[4] * H_21 - lambda[3] * t55;
     jac_phi_q_t_lambda_geometry[100] = v_1_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[105] = v_1_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[110] = v_1_in_joint_j_2;
-    const jg_real t66 = H_22 * lambda[5];
+    const jg_real t66 = lambda[5] * H_22;
     jac_phi_q_t_lambda_alpha[33] = t66;
-    jac_phi_q_t_lambda_alpha[29] = t63 * s_j[1] - t62 * s_j[2] + (C_j[6] * t64 + C_j[3] * v_1_in_joint_j_2) - C_j[0]
+    jac_phi_q_t_lambda_alpha[29] = C_j[6] * t64 + C_j[3] * v_1_in_joint_j_2 + (s_j[1] * t63 - s_j[2] * t62) - C_j[0]
         * t66;
-    jac_phi_q_t_lambda_alpha[30] = t61 * s_j[2] - t63 * s_j[0] + (C_j[7] * t64 + C_j[4] * v_1_in_joint_j_2) - C_j[1]
+    jac_phi_q_t_lambda_alpha[30] = C_j[7] * t64 + C_j[4] * v_1_in_joint_j_2 + (s_j[2] * t61 - s_j[0] * t63) - C_j[1]
         * t66;
-    jac_phi_q_t_lambda_alpha[31] = t62 * s_j[0] - t61 * s_j[1] + (C_j[8] * t64 + C_j[5] * v_1_in_joint_j_2) - C_j[2]
+    jac_phi_q_t_lambda_alpha[31] = C_j[8] * t64 + C_j[5] * v_1_in_joint_j_2 + (s_j[0] * t62 - s_j[1] * t61) - C_j[2]
         * t66;
-    jac_phi_q_t_lambda_alpha[32] = -(sine_2 * lambda[5] * sine_0);
+    jac_phi_q_t_lambda_alpha[32] = -(lambda[5] * sine_2 * sine_0);
     jac_phi_q_t_lambda_geometry[1] = -lambda[1];
     jac_phi_q_t_lambda_geometry[2] = -lambda[2];
     jac_phi_q_t_lambda_geometry[5] = -lambda[0];
-    const jg_real t67 = -(t42 * lambda[5] + v_1_in_joint_i);
+    const jg_real t67 = -(v_1_in_joint_i + lambda[5] * t42);
     jac_phi_q_t_lambda_geometry[6] = t67;
     jac_phi_q_t_lambda_geometry[13] = t67;
     jac_phi_q_t_lambda_geometry[20] = t67;
     const jg_real t68 = lambda[0] * H_02;
     const jg_real t69 = lambda[0] * t55;
     const jg_real t70 = lambda[0] * H_00;
-    const jg_real t71 = t70 * C_j[0] - t69 * C_j[3] + t68 * C_j[6];
+    const jg_real t71 = C_j[0] * t70 - C_j[3] * t69 + C_j[6] * t68;
     jac_phi_q_t_lambda_geometry[7] = t71;
-    const jg_real t72 = t70 * C_j[1] - t69 * C_j[4] + t68 * C_j[7];
+    const jg_real t72 = C_j[1] * t70 - C_j[4] * t69 + C_j[7] * t68;
     jac_phi_q_t_lambda_geometry[8] = t72;
-    const jg_real t73 = t70 * C_j[2] - t69 * C_j[5] + t68 * C_j[8];
+    const jg_real t73 = C_j[2] * t70 - C_j[5] * t69 + C_j[8] * t68;
     jac_phi_q_t_lambda_geometry[9] = t73;
-    jac_phi_q_t_lambda_geometry[10] = t73 * s_j[1] - t72 * s_j[2];
-    jac_phi_q_t_lambda_geometry[11] = t71 * s_j[2] - t73 * s_j[0];
-    jac_phi_q_t_lambda_geometry[12] = t72 * s_j[0] - t71 * s_j[1];
+    jac_phi_q_t_lambda_geometry[10] = s_j[1] * t73 - s_j[2] * t72;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t71 - s_j[0] * t73;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t72 - s_j[1] * t71;
     const jg_real t74 = lambda[1] * H_02;
     const jg_real t75 = lambda[1] * t55;
     const jg_real t76 = lambda[1] * H_00;
-    const jg_real t77 = t76 * C_j[0] - t75 * C_j[3] + t74 * C_j[6];
+    const jg_real t77 = C_j[0] * t76 - C_j[3] * t75 + C_j[6] * t74;
     jac_phi_q_t_lambda_geometry[14] = t77;
-    const jg_real t78 = t76 * C_j[1] - t75 * C_j[4] + t74 * C_j[7];
+    const jg_real t78 = C_j[1] * t76 - C_j[4] * t75 + C_j[7] * t74;
     jac_phi_q_t_lambda_geometry[15] = t78;
-    const jg_real t79 = t76 * C_j[2] - t75 * C_j[5] + t74 * C_j[8];
+    const jg_real t79 = C_j[2] * t76 - C_j[5] * t75 + C_j[8] * t74;
     jac_phi_q_t_lambda_geometry[16] = t79;
-    jac_phi_q_t_lambda_geometry[17] = t79 * s_j[1] - t78 * s_j[2];
-    jac_phi_q_t_lambda_geometry[18] = t77 * s_j[2] - t79 * s_j[0];
-    jac_phi_q_t_lambda_geometry[19] = t78 * s_j[0] - t77 * s_j[1];
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t79 - s_j[2] * t78;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t77 - s_j[0] * t79;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t78 - s_j[1] * t77;
     const jg_real t80 = lambda[2] * H_02;
     const jg_real t81 = lambda[2] * t55;
     const jg_real t82 = lambda[2] * H_00;
-    const jg_real t83 = t82 * C_j[0] - t81 * C_j[3] + t80 * C_j[6];
+    const jg_real t83 = C_j[0] * t82 - C_j[3] * t81 + C_j[6] * t80;
     jac_phi_q_t_lambda_geometry[21] = t83;
-    const jg_real t84 = t82 * C_j[1] - t81 * C_j[4] + t80 * C_j[7];
+    const jg_real t84 = C_j[1] * t82 - C_j[4] * t81 + C_j[7] * t80;
     jac_phi_q_t_lambda_geometry[22] = t84;
-    const jg_real t85 = t82 * C_j[2] - t81 * C_j[5] + t80 * C_j[8];
+    const jg_real t85 = C_j[2] * t82 - C_j[5] * t81 + C_j[8] * t80;
     jac_phi_q_t_lambda_geometry[23] = t85;
-    jac_phi_q_t_lambda_geometry[24] = t85 * s_j[1] - t84 * s_j[2];
-    jac_phi_q_t_lambda_geometry[25] = t83 * s_j[2] - t85 * s_j[0];
-    jac_phi_q_t_lambda_geometry[26] = t84 * s_j[0] - t83 * s_j[1];
-    const jg_real t86 = sine_0 * lambda[3] + t16 + H_02 * lambda[5];
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t85 - s_j[2] * t84;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t83 - s_j[0] * t85;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t84 - s_j[1] * t83;
+    const jg_real t86 = lambda[3] * sine_0 + t14 + lambda[5] * H_02;
     jac_phi_q_t_lambda_geometry[27] = t86;
     jac_phi_q_t_lambda_geometry[34] = t86;
     jac_phi_q_t_lambda_geometry[41] = t86;
     const jg_real t87 = lambda[0] * t42;
     const jg_real t88 = lambda[0] * H_11;
     const jg_real t89 = lambda[0] * H_10;
-    const jg_real t90 = t88 * C_j[3] + t89 * C_j[0] + t87 * C_j[6];
+    const jg_real t90 = C_j[0] * t89 + C_j[3] * t88 + C_j[6] * t87;
     jac_phi_q_t_lambda_geometry[28] = t90;
-    const jg_real t91 = t88 * C_j[4] + t89 * C_j[1] + t87 * C_j[7];
+    const jg_real t91 = C_j[1] * t89 + C_j[4] * t88 + C_j[7] * t87;
     jac_phi_q_t_lambda_geometry[29] = t91;
-    const jg_real t92 = t88 * C_j[5] + t89 * C_j[2] + t87 * C_j[8];
+    const jg_real t92 = C_j[2] * t89 + C_j[5] * t88 + C_j[8] * t87;
     jac_phi_q_t_lambda_geometry[30] = t92;
-    jac_phi_q_t_lambda_geometry[31] = t92 * s_j[1] - t91 * s_j[2];
-    jac_phi_q_t_lambda_geometry[32] = t90 * s_j[2] - t92 * s_j[0];
-    jac_phi_q_t_lambda_geometry[33] = t91 * s_j[0] - t90 * s_j[1];
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t92 - s_j[2] * t91;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t90 - s_j[0] * t92;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t91 - s_j[1] * t90;
     const jg_real t93 = lambda[1] * t42;
     const jg_real t94 = lambda[1] * H_11;
     const jg_real t95 = lambda[1] * H_10;
-    const jg_real t96 = t94 * C_j[3] + t95 * C_j[0] + t93 * C_j[6];
+    const jg_real t96 = C_j[0] * t95 + C_j[3] * t94 + C_j[6] * t93;
     jac_phi_q_t_lambda_geometry[35] = t96;
-    const jg_real t97 = t94 * C_j[4] + t95 * C_j[1] + t93 * C_j[7];
+    const jg_real t97 = C_j[1] * t95 + C_j[4] * t94 + C_j[7] * t93;
     jac_phi_q_t_lambda_geometry[36] = t97;
-    const jg_real t98 = t94 * C_j[5] + t95 * C_j[2] + t93 * C_j[8];
+    const jg_real t98 = C_j[2] * t95 + C_j[5] * t94 + C_j[8] * t93;
     jac_phi_q_t_lambda_geometry[37] = t98;
-    jac_phi_q_t_lambda_geometry[38] = t98 * s_j[1] - t97 * s_j[2];
-    jac_phi_q_t_lambda_geometry[39] = t96 * s_j[2] - t98 * s_j[0];
-    jac_phi_q_t_lambda_geometry[40] = t97 * s_j[0] - t96 * s_j[1];
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t98 - s_j[2] * t97;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t96 - s_j[0] * t98;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t97 - s_j[1] * t96;
     const jg_real t99 = lambda[2] * t42;
     const jg_real t100 = lambda[2] * H_11;
     const jg_real t101 = lambda[2] * H_10;
-    const jg_real t102 = t100 * C_j[3] + t101 * C_j[0] + t99 * C_j[6];
+    const jg_real t102 = C_j[0] * t101 + C_j[3] * t100 + C_j[6] * t99;
     jac_phi_q_t_lambda_geometry[42] = t102;
-    const jg_real t103 = t100 * C_j[4] + t101 * C_j[1] + t99 * C_j[7];
+    const jg_real t103 = C_j[1] * t101 + C_j[4] * t100 + C_j[7] * t99;
     jac_phi_q_t_lambda_geometry[43] = t103;
-    const jg_real t104 = t100 * C_j[5] + t101 * C_j[2] + t99 * C_j[8];
+    const jg_real t104 = C_j[2] * t101 + C_j[5] * t100 + C_j[8] * t99;
     jac_phi_q_t_lambda_geometry[44] = t104;
-    jac_phi_q_t_lambda_geometry[45] = t104 * s_j[1] - t103 * s_j[2];
-    jac_phi_q_t_lambda_geometry[46] = t102 * s_j[2] - t104 * s_j[0];
-    jac_phi_q_t_lambda_geometry[47] = t103 * s_j[0] - t102 * s_j[1];
-    const jg_real t105 = H_10 * lambda[3];
+    jac_phi_q_t_lambda_geometry[45] = s_j[1] * t104 - s_j[2] * t103;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t102 - s_j[0] * t104;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t103 - s_j[1] * t102;
+    const jg_real t105 = lambda[3] * H_10;
     jac_phi_q_t_lambda_geometry[48] = t105;
     jac_phi_q_t_lambda_geometry[55] = t105;
     jac_phi_q_t_lambda_geometry[62] = t105;
     const jg_real t106 = lambda[0] * H_21;
     const jg_real t107 = lambda[0] * sine_0;
     const jg_real t108 = lambda[0] * H_22;
-    const jg_real t109 = t106 * C_j[3] - t107 * C_j[0] + t108 * C_j[6];
+    const jg_real t109 = C_j[3] * t106 - C_j[0] * t107 + C_j[6] * t108;
     jac_phi_q_t_lambda_geometry[49] = t109;
-    const jg_real t110 = t106 * C_j[4] - t107 * C_j[1] + t108 * C_j[7];
+    const jg_real t110 = C_j[4] * t106 - C_j[1] * t107 + C_j[7] * t108;
     jac_phi_q_t_lambda_geometry[50] = t110;
-    const jg_real t111 = t106 * C_j[5] - t107 * C_j[2] + t108 * C_j[8];
+    const jg_real t111 = C_j[5] * t106 - C_j[2] * t107 + C_j[8] * t108;
     jac_phi_q_t_lambda_geometry[51] = t111;
-    jac_phi_q_t_lambda_geometry[52] = t111 * s_j[1] - t110 * s_j[2];
-    jac_phi_q_t_lambda_geometry[53] = t109 * s_j[2] - t111 * s_j[0];
-    jac_phi_q_t_lambda_geometry[54] = t110 * s_j[0] - t109 * s_j[1];
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t111 - s_j[2] * t110;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t109 - s_j[0] * t111;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t110 - s_j[1] * t109;
     const jg_real t112 = lambda[1] * H_21;
     const jg_real t113 = lambda[1] * sine_0;
     const jg_real t114 = lambda[1] * H_22;
-    const jg_real t115 = t112 * C_j[3] - t113 * C_j[0] + t114 * C_j[6];
+    const jg_real t115 = C_j[3] * t112 - C_j[0] * t113 + C_j[6] * t114;
     jac_phi_q_t_lambda_geometry[56] = t115;
-    const jg_real t116 = t112 * C_j[4] - t113 * C_j[1] + t114 * C_j[7];
+    const jg_real t116 = C_j[4] * t112 - C_j[1] * t113 + C_j[7] * t114;
     jac_phi_q_t_lambda_geometry[57] = t116;
-    const jg_real t117 = t112 * C_j[5] - t113 * C_j[2] + t114 * C_j[8];
+    const jg_real t117 = C_j[5] * t112 - C_j[2] * t113 + C_j[8] * t114;
     jac_phi_q_t_lambda_geometry[58] = t117;
-    jac_phi_q_t_lambda_geometry[59] = t117 * s_j[1] - t116 * s_j[2];
-    jac_phi_q_t_lambda_geometry[60] = t115 * s_j[2] - t117 * s_j[0];
-    jac_phi_q_t_lambda_geometry[61] = t116 * s_j[0] - t115 * s_j[1];
+    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t117 - s_j[2] * t116;
+    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t115 - s_j[0] * t117;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t116 - s_j[1] * t115;
     const jg_real t118 = lambda[2] * H_21;
     const jg_real t119 = lambda[2] * sine_0;
     const jg_real t120 = lambda[2] * H_22;
-    const jg_real t121 = t118 * C_j[3] - t119 * C_j[0] + t120 * C_j[6];
+    const jg_real t121 = C_j[3] * t118 - C_j[0] * t119 + C_j[6] * t120;
     jac_phi_q_t_lambda_geometry[63] = t121;
-    const jg_real t122 = t118 * C_j[4] - t119 * C_j[1] + t120 * C_j[7];
+    const jg_real t122 = C_j[4] * t118 - C_j[1] * t119 + C_j[7] * t120;
     jac_phi_q_t_lambda_geometry[64] = t122;
-    const jg_real t123 = t118 * C_j[5] - t119 * C_j[2] + t120 * C_j[8];
+    const jg_real t123 = C_j[5] * t118 - C_j[2] * t119 + C_j[8] * t120;
     jac_phi_q_t_lambda_geometry[65] = t123;
-    jac_phi_q_t_lambda_geometry[66] = t123 * s_j[1] - t122 * s_j[2];
-    jac_phi_q_t_lambda_geometry[67] = t121 * s_j[2] - t123 * s_j[0];
-    jac_phi_q_t_lambda_geometry[68] = t122 * s_j[0] - t121 * s_j[1];
-    const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
-        sine_0 * lambda_0_1_2_in_joint_i_2;
+    jac_phi_q_t_lambda_geometry[66] = s_j[1] * t123 - s_j[2] * t122;
+    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t121 - s_j[0] * t123;
+    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t122 - s_j[1] * t121;
+    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_1 * H_10 + lambda_0_1_2_in_joint_i_0 * H_00 -
+        lambda_0_1_2_in_joint_i_2 * sine_0;
     jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] - t58 * C_j[5] +
-        lambda_0_1_2_in_joint_j_2 * C_j[8];
+    const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 - C_j[5] * t58 + C_j[8] *
+        lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] - t58 * C_j[4] +
-        lambda_0_1_2_in_joint_j_2 * C_j[7];
+    const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 - C_j[4] * t58 + C_j[7] *
+        lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] - t58 * C_j[3] +
-        lambda_0_1_2_in_joint_j_2 * C_j[6];
+    const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 - C_j[3] * t58 + C_j[6] *
+        lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
-    const jg_real t128 = -(H_21 * lambda[5]);
+    const jg_real t128 = -(lambda[5] * H_21);
     jac_phi_q_t_lambda_geometry[76] = t128;
     jac_phi_q_t_lambda_geometry[81] = t128;
     jac_phi_q_t_lambda_geometry[86] = t128;
-    const jg_real t129 = lambda_0_1_2_in_joint_j_0 * s_j[2];
+    const jg_real t129 = s_j[2] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[77] = t129;
-    const jg_real t130 = lambda_0_1_2_in_joint_j_0 * s_j[1];
+    const jg_real t130 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[84] = t130;
     jac_phi_q_t_lambda_geometry[78] = -t130;
     jac_phi_q_t_lambda_geometry[80] = -t129;
-    const jg_real t131 = lambda_0_1_2_in_joint_j_0 * s_j[0];
+    const jg_real t131 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[82] = t131;
     jac_phi_q_t_lambda_geometry[85] = -t131;
     const jg_real t132 = -t58;
     jac_phi_q_t_lambda_geometry[87] = t132;
     jac_phi_q_t_lambda_geometry[91] = t132;
     jac_phi_q_t_lambda_geometry[95] = t132;
-    const jg_real t133 = -(t64 + sine_0 * lambda[5]);
+    const jg_real t133 = -(lambda[5] * sine_0 + t64);
     jac_phi_q_t_lambda_geometry[88] = t133;
     jac_phi_q_t_lambda_geometry[93] = t133;
     jac_phi_q_t_lambda_geometry[98] = t133;
-    const jg_real t134 = t58 * s_j[2];
+    const jg_real t134 = s_j[2] * t58;
     jac_phi_q_t_lambda_geometry[92] = t134;
     jac_phi_q_t_lambda_geometry[89] = -t134;
-    const jg_real t135 = t58 * s_j[1];
+    const jg_real t135 = s_j[1] * t58;
     jac_phi_q_t_lambda_geometry[90] = t135;
-    const jg_real t136 = t58 * s_j[0];
+    const jg_real t136 = s_j[0] * t58;
     jac_phi_q_t_lambda_geometry[97] = t136;
     jac_phi_q_t_lambda_geometry[94] = -t136;
     jac_phi_q_t_lambda_geometry[96] = -t135;
-    const jg_real t137 = lambda_0_1_2_in_joint_j_2 * s_j[2];
+    const jg_real t137 = s_j[2] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[101] = t137;
-    const jg_real t138 = lambda_0_1_2_in_joint_j_2 * s_j[1];
+    const jg_real t138 = s_j[1] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[108] = t138;
     jac_phi_q_t_lambda_geometry[102] = -t138;
     jac_phi_q_t_lambda_geometry[104] = -t137;
-    const jg_real t139 = lambda_0_1_2_in_joint_j_2 * s_j[0];
+    const jg_real t139 = s_j[0] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[106] = t139;
     jac_phi_q_t_lambda_geometry[109] = -t139;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
@@ -965,63 +965,63 @@ static void jg_ball_parametric_table4_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_lambda[10] = s_i[2];
     jac_phi_q_t_lambda_lambda[1] = -s_i[2];
     jac_phi_q_t_lambda_lambda[2] = s_i[1];
-    const jg_real t140 = H_02 * C_i[0] + t42 * C_i[3] + H_22 * C_i[6];
-    const jg_real t141 = H_11 * C_i[3] - t55 * C_i[0] + H_21 * C_i[6];
-    const jg_real t142 = H_00 * C_i[0] + H_10 * C_i[3] - sine_0 * C_i[6];
-    const jg_real t143 = t141 * C_j[3] + t142 * C_j[0] + t140 * C_j[6];
+    const jg_real t140 = C_i[3] * t42 + C_i[0] * H_02 + C_i[6] * H_22;
+    const jg_real t141 = C_i[3] * H_11 - C_i[0] * t55 + C_i[6] * H_21;
+    const jg_real t142 = C_i[3] * H_10 + C_i[0] * H_00 - C_i[6] * sine_0;
+    const jg_real t143 = C_j[0] * t142 + C_j[3] * t141 + C_j[6] * t140;
     jac_phi_q_t_lambda_lambda[3] = t143;
-    const jg_real t144 = t141 * C_j[4] + t142 * C_j[1] + t140 * C_j[7];
+    const jg_real t144 = C_j[1] * t142 + C_j[4] * t141 + C_j[7] * t140;
     jac_phi_q_t_lambda_lambda[4] = t144;
-    const jg_real t145 = t141 * C_j[5] + t142 * C_j[2] + t140 * C_j[8];
+    const jg_real t145 = C_j[2] * t142 + C_j[5] * t141 + C_j[8] * t140;
     jac_phi_q_t_lambda_lambda[5] = t145;
-    jac_phi_q_t_lambda_lambda[6] = t145 * s_j[1] - t144 * s_j[2];
-    jac_phi_q_t_lambda_lambda[7] = t143 * s_j[2] - t145 * s_j[0];
-    jac_phi_q_t_lambda_lambda[8] = t144 * s_j[0] - t143 * s_j[1];
+    jac_phi_q_t_lambda_lambda[6] = s_j[1] * t145 - s_j[2] * t144;
+    jac_phi_q_t_lambda_lambda[7] = s_j[2] * t143 - s_j[0] * t145;
+    jac_phi_q_t_lambda_lambda[8] = s_j[0] * t144 - s_j[1] * t143;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
-    const jg_real t146 = H_02 * C_i[1] + t42 * C_i[4] + H_22 * C_i[7];
-    const jg_real t147 = H_11 * C_i[4] - t55 * C_i[1] + H_21 * C_i[7];
-    const jg_real t148 = H_00 * C_i[1] + H_10 * C_i[4] - sine_0 * C_i[7];
-    const jg_real t149 = t147 * C_j[3] + t148 * C_j[0] + t146 * C_j[6];
+    const jg_real t146 = C_i[4] * t42 + C_i[1] * H_02 + C_i[7] * H_22;
+    const jg_real t147 = C_i[4] * H_11 - C_i[1] * t55 + C_i[7] * H_21;
+    const jg_real t148 = C_i[4] * H_10 + C_i[1] * H_00 - C_i[7] * sine_0;
+    const jg_real t149 = C_j[0] * t148 + C_j[3] * t147 + C_j[6] * t146;
     jac_phi_q_t_lambda_lambda[12] = t149;
-    const jg_real t150 = t147 * C_j[4] + t148 * C_j[1] + t146 * C_j[7];
+    const jg_real t150 = C_j[1] * t148 + C_j[4] * t147 + C_j[7] * t146;
     jac_phi_q_t_lambda_lambda[13] = t150;
-    const jg_real t151 = t147 * C_j[5] + t148 * C_j[2] + t146 * C_j[8];
+    const jg_real t151 = C_j[2] * t148 + C_j[5] * t147 + C_j[8] * t146;
     jac_phi_q_t_lambda_lambda[14] = t151;
-    jac_phi_q_t_lambda_lambda[15] = t151 * s_j[1] - t150 * s_j[2];
-    jac_phi_q_t_lambda_lambda[16] = t149 * s_j[2] - t151 * s_j[0];
-    jac_phi_q_t_lambda_lambda[17] = t150 * s_j[0] - t149 * s_j[1];
+    jac_phi_q_t_lambda_lambda[15] = s_j[1] * t151 - s_j[2] * t150;
+    jac_phi_q_t_lambda_lambda[16] = s_j[2] * t149 - s_j[0] * t151;
+    jac_phi_q_t_lambda_lambda[17] = s_j[0] * t150 - s_j[1] * t149;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
-    const jg_real t152 = H_02 * C_i[2] + t42 * C_i[5] + H_22 * C_i[8];
-    const jg_real t153 = H_11 * C_i[5] - t55 * C_i[2] + H_21 * C_i[8];
-    const jg_real t154 = H_00 * C_i[2] + H_10 * C_i[5] - sine_0 * C_i[8];
-    const jg_real t155 = t153 * C_j[3] + t154 * C_j[0] + t152 * C_j[6];
+    const jg_real t152 = C_i[5] * t42 + C_i[2] * H_02 + C_i[8] * H_22;
+    const jg_real t153 = C_i[5] * H_11 - C_i[2] * t55 + C_i[8] * H_21;
+    const jg_real t154 = C_i[5] * H_10 + C_i[2] * H_00 - C_i[8] * sine_0;
+    const jg_real t155 = C_j[0] * t154 + C_j[3] * t153 + C_j[6] * t152;
     jac_phi_q_t_lambda_lambda[21] = t155;
-    const jg_real t156 = t153 * C_j[4] + t154 * C_j[1] + t152 * C_j[7];
+    const jg_real t156 = C_j[1] * t154 + C_j[4] * t153 + C_j[7] * t152;
     jac_phi_q_t_lambda_lambda[22] = t156;
-    const jg_real t157 = t153 * C_j[5] + t154 * C_j[2] + t152 * C_j[8];
+    const jg_real t157 = C_j[2] * t154 + C_j[5] * t153 + C_j[8] * t152;
     jac_phi_q_t_lambda_lambda[23] = t157;
-    jac_phi_q_t_lambda_lambda[24] = t157 * s_j[1] - t156 * s_j[2];
-    jac_phi_q_t_lambda_lambda[25] = t155 * s_j[2] - t157 * s_j[0];
-    jac_phi_q_t_lambda_lambda[26] = t156 * s_j[0] - t155 * s_j[1];
-    jac_phi_q_t_lambda_lambda[27] = sine_0 * C_i[3] + H_10 * C_i[6];
-    jac_phi_q_t_lambda_lambda[28] = sine_0 * C_i[4] + H_10 * C_i[7];
-    jac_phi_q_t_lambda_lambda[29] = sine_0 * C_i[5] + H_10 * C_i[8];
-    jac_phi_q_t_lambda_lambda[30] = -(t55 * C_j[6] + H_02 * C_j[3]);
-    jac_phi_q_t_lambda_lambda[31] = -(t55 * C_j[7] + H_02 * C_j[4]);
-    jac_phi_q_t_lambda_lambda[32] = -(t55 * C_j[8] + H_02 * C_j[5]);
-    jac_phi_q_t_lambda_lambda[35] = H_00 * C_i[3] - H_10 * C_i[0];
-    jac_phi_q_t_lambda_lambda[36] = H_00 * C_i[4] - H_10 * C_i[1];
-    jac_phi_q_t_lambda_lambda[37] = H_00 * C_i[5] - H_10 * C_i[2];
-    jac_phi_q_t_lambda_lambda[38] = H_21 * C_j[6] - H_22 * C_j[3];
-    jac_phi_q_t_lambda_lambda[39] = H_21 * C_j[7] - H_22 * C_j[4];
-    jac_phi_q_t_lambda_lambda[40] = H_21 * C_j[8] - H_22 * C_j[5];
-    jac_phi_q_t_lambda_lambda[42] = H_02 * C_i[3] - t42 * C_i[0];
-    jac_phi_q_t_lambda_lambda[43] = H_02 * C_i[4] - t42 * C_i[1];
-    jac_phi_q_t_lambda_lambda[44] = H_02 * C_i[5] - t42 * C_i[2];
-    jac_phi_q_t_lambda_lambda[45] = -(H_21 * C_j[0] + sine_0 * C_j[3]);
-    jac_phi_q_t_lambda_lambda[46] = -(H_21 * C_j[1] + sine_0 * C_j[4]);
-    jac_phi_q_t_lambda_lambda[47] = -(H_21 * C_j[2] + sine_0 * C_j[5]);
+    jac_phi_q_t_lambda_lambda[24] = s_j[1] * t157 - s_j[2] * t156;
+    jac_phi_q_t_lambda_lambda[25] = s_j[2] * t155 - s_j[0] * t157;
+    jac_phi_q_t_lambda_lambda[26] = s_j[0] * t156 - s_j[1] * t155;
+    jac_phi_q_t_lambda_lambda[27] = C_i[6] * H_10 + C_i[3] * sine_0;
+    jac_phi_q_t_lambda_lambda[28] = C_i[7] * H_10 + C_i[4] * sine_0;
+    jac_phi_q_t_lambda_lambda[29] = C_i[8] * H_10 + C_i[5] * sine_0;
+    jac_phi_q_t_lambda_lambda[30] = -(C_j[6] * t55 + C_j[3] * H_02);
+    jac_phi_q_t_lambda_lambda[31] = -(C_j[7] * t55 + C_j[4] * H_02);
+    jac_phi_q_t_lambda_lambda[32] = -(C_j[8] * t55 + C_j[5] * H_02);
+    jac_phi_q_t_lambda_lambda[35] = C_i[3] * H_00 - C_i[0] * H_10;
+    jac_phi_q_t_lambda_lambda[36] = C_i[4] * H_00 - C_i[1] * H_10;
+    jac_phi_q_t_lambda_lambda[37] = C_i[5] * H_00 - C_i[2] * H_10;
+    jac_phi_q_t_lambda_lambda[38] = C_j[6] * H_21 - C_j[3] * H_22;
+    jac_phi_q_t_lambda_lambda[39] = C_j[7] * H_21 - C_j[4] * H_22;
+    jac_phi_q_t_lambda_lambda[40] = C_j[8] * H_21 - C_j[5] * H_22;
+    jac_phi_q_t_lambda_lambda[42] = C_i[3] * H_02 - C_i[0] * t42;
+    jac_phi_q_t_lambda_lambda[43] = C_i[4] * H_02 - C_i[1] * t42;
+    jac_phi_q_t_lambda_lambda[44] = C_i[5] * H_02 - C_i[2] * t42;
+    jac_phi_q_t_lambda_lambda[45] = -(C_j[3] * sine_0 + C_j[0] * H_21);
+    jac_phi_q_t_lambda_lambda[46] = -(C_j[1] * H_21 + C_j[4] * sine_0);
+    jac_phi_q_t_lambda_lambda[47] = -(C_j[2] * H_21 + C_j[5] * sine_0);
 }
 
 JG_EXPORT int jg_ball_parametric_table4_substituted_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

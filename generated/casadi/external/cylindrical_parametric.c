@@ -53,7 +53,7 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
@@ -75,47 +75,47 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[18] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    const jg_real t17 = f_j_in_i_1 * g_j_world_0 - f_j_world_0 * g_j_in_i_1;
-    const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t17 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
+    const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_A_i[1] = -(t11 * g_star_in_i_1 + t17 * g_star_in_i_2);
     jac_phi_A_i[2] = C_i[6] * f_j_world_0;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = sine_0 * C_i[3] + cosine_0 * C_i[0];
+    const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t24 = f_j_in_i_1 * g_j_world_1 - f_j_world_1 * g_j_in_i_1;
+    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(t23 * g_star_in_i_1 + t24 * g_star_in_i_2);
     jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
+    const jg_real t29 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
     jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
     jac_phi_A_i[10] = C_i[6] * f_j_world_2;
     jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
-    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[16] = f_j_in_i_0;
     const jg_real t33 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
     jac_phi_A_i[13] = t11 * g_star_in_i_0 - t33 * g_star_in_i_2;
     jac_phi_A_i[14] = C_i[7] * f_j_world_0;
-    const jg_real f_star_in_i_1 = sine_0 * C_i[4] + cosine_0 * C_i[1];
+    const jg_real f_star_in_i_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     const jg_real t35 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
     jac_phi_A_i[17] = t23 * g_star_in_i_0 - t35 * g_star_in_i_2;
@@ -127,7 +127,7 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_A_i[23] = g_j_world_2 * f_star_in_i_1;
     jac_phi_A_i[25] = t17 * g_star_in_i_0 + t33 * g_star_in_i_1;
     jac_phi_A_i[26] = C_i[8] * f_j_world_0;
-    const jg_real f_star_in_i_2 = sine_0 * C_i[5] + cosine_0 * C_i[2];
+    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[27] = g_j_world_0 * f_star_in_i_2;
     jac_phi_A_i[29] = t24 * g_star_in_i_0 + t35 * g_star_in_i_1;
     jac_phi_A_i[30] = C_i[8] * f_j_world_1;
@@ -144,11 +144,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t41 = A_i[3] * C_j[3];
     const jg_real t42 = A_i[0] * C_j[3];
     const jg_real t43 = A_i[0] * C_j[0];
-    jac_phi_A_j[3] = (t38 * g_j_in_i_2 + f_j_in_i_1 * t39 - (t40 * g_j_in_i_1 + f_j_in_i_2 * t41)) * g_star_in_i_0 +
-        (t40 * g_j_in_i_0 + f_j_in_i_2 * t42 - (g_j_in_i_2 * t43 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (g_j_in_i_1
-        * t43 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + f_j_in_i_1 * t42)) * g_star_in_i_2;
-    jac_phi_A_j[4] = C_i[6] * t43 + C_i[7] * t38 + C_i[8] * t40;
-    jac_phi_A_j[5] = f_star_in_i_0 * t42 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
+    jac_phi_A_j[3] = (t38 * g_j_in_i_2 + t39 * f_j_in_i_1 - (t40 * g_j_in_i_1 + t41 * f_j_in_i_2)) * g_star_in_i_0 +
+        (t40 * g_j_in_i_0 + t42 * f_j_in_i_2 - (t43 * g_j_in_i_2 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (t43 *
+        g_j_in_i_1 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + t42 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[4] = C_i[7] * t38 + C_i[6] * t43 + C_i[8] * t40;
+    jac_phi_A_j[5] = t42 * f_star_in_i_0 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
@@ -158,11 +158,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t47 = A_i[4] * C_j[3];
     const jg_real t48 = A_i[1] * C_j[3];
     const jg_real t49 = A_i[1] * C_j[0];
-    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + f_j_in_i_1 * t45 - (t46 * g_j_in_i_1 + f_j_in_i_2 * t47)) * g_star_in_i_0 +
-        (t46 * g_j_in_i_0 + f_j_in_i_2 * t48 - (g_j_in_i_2 * t49 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (g_j_in_i_1
-        * t49 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + f_j_in_i_1 * t48)) * g_star_in_i_2;
-    jac_phi_A_j[10] = C_i[6] * t49 + C_i[7] * t44 + C_i[8] * t46;
-    jac_phi_A_j[11] = f_star_in_i_0 * t48 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
+    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + t45 * f_j_in_i_1 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
+        (t46 * g_j_in_i_0 + t48 * f_j_in_i_2 - (t49 * g_j_in_i_2 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (t49 *
+        g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + t48 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[10] = C_i[7] * t44 + C_i[6] * t49 + C_i[8] * t46;
+    jac_phi_A_j[11] = t48 * f_star_in_i_0 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
@@ -172,11 +172,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t53 = A_i[5] * C_j[3];
     const jg_real t54 = A_i[2] * C_j[3];
     const jg_real t55 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + f_j_in_i_1 * t51 - (t52 * g_j_in_i_1 + f_j_in_i_2 * t53)) * g_star_in_i_0
-        + (t52 * g_j_in_i_0 + f_j_in_i_2 * t54 - (g_j_in_i_2 * t55 + t51 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t55 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
-    jac_phi_A_j[16] = C_i[6] * t55 + C_i[7] * t50 + C_i[8] * t52;
-    jac_phi_A_j[17] = f_star_in_i_0 * t54 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
+    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + t51 * f_j_in_i_1 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
+        + (t52 * g_j_in_i_0 + t54 * f_j_in_i_2 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
+        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + t54 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
+    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
@@ -186,11 +186,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t59 = A_i[3] * C_j[4];
     const jg_real t60 = A_i[0] * C_j[4];
     const jg_real t61 = A_i[0] * C_j[1];
-    jac_phi_A_j[21] = (t56 * g_j_in_i_2 + f_j_in_i_1 * t57 - (t58 * g_j_in_i_1 + f_j_in_i_2 * t59)) * g_star_in_i_0
-        + (t58 * g_j_in_i_0 + f_j_in_i_2 * t60 - (g_j_in_i_2 * t61 + t57 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t61 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + f_j_in_i_1 * t60)) * g_star_in_i_2;
-    jac_phi_A_j[22] = C_i[6] * t61 + C_i[7] * t56 + C_i[8] * t58;
-    jac_phi_A_j[23] = f_star_in_i_0 * t60 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
+    jac_phi_A_j[21] = (t56 * g_j_in_i_2 + t57 * f_j_in_i_1 - (t58 * g_j_in_i_1 + t59 * f_j_in_i_2)) * g_star_in_i_0
+        + (t58 * g_j_in_i_0 + t60 * f_j_in_i_2 - (t61 * g_j_in_i_2 + t57 * f_j_in_i_0)) * g_star_in_i_1 + (t61 *
+        g_j_in_i_1 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + t60 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[22] = C_i[7] * t56 + C_i[6] * t61 + C_i[8] * t58;
+    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
@@ -200,11 +200,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t65 = A_i[4] * C_j[4];
     const jg_real t66 = A_i[1] * C_j[4];
     const jg_real t67 = A_i[1] * C_j[1];
-    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + f_j_in_i_1 * t63 - (t64 * g_j_in_i_1 + f_j_in_i_2 * t65)) * g_star_in_i_0
-        + (t64 * g_j_in_i_0 + f_j_in_i_2 * t66 - (g_j_in_i_2 * t67 + t63 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t67 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + f_j_in_i_1 * t66)) * g_star_in_i_2;
-    jac_phi_A_j[28] = C_i[6] * t67 + C_i[7] * t62 + C_i[8] * t64;
-    jac_phi_A_j[29] = f_star_in_i_0 * t66 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
+    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + t63 * f_j_in_i_1 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
+        + (t64 * g_j_in_i_0 + t66 * f_j_in_i_2 - (t67 * g_j_in_i_2 + t63 * f_j_in_i_0)) * g_star_in_i_1 + (t67 *
+        g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + t66 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[28] = C_i[7] * t62 + C_i[6] * t67 + C_i[8] * t64;
+    jac_phi_A_j[29] = t66 * f_star_in_i_0 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
@@ -214,11 +214,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t71 = A_i[5] * C_j[4];
     const jg_real t72 = A_i[2] * C_j[4];
     const jg_real t73 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + f_j_in_i_1 * t69 - (t70 * g_j_in_i_1 + f_j_in_i_2 * t71)) * g_star_in_i_0
-        + (t70 * g_j_in_i_0 + f_j_in_i_2 * t72 - (g_j_in_i_2 * t73 + t69 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t73 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + f_j_in_i_1 * t72)) * g_star_in_i_2;
-    jac_phi_A_j[34] = C_i[6] * t73 + C_i[7] * t68 + C_i[8] * t70;
-    jac_phi_A_j[35] = f_star_in_i_0 * t72 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
+    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + t69 * f_j_in_i_1 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
+        + (t70 * g_j_in_i_0 + t72 * f_j_in_i_2 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
+        g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + t72 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[34] = C_i[7] * t68 + C_i[6] * t73 + C_i[8] * t70;
+    jac_phi_A_j[35] = t72 * f_star_in_i_0 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
@@ -228,11 +228,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t77 = A_i[3] * C_j[5];
     const jg_real t78 = A_i[0] * C_j[5];
     const jg_real t79 = A_i[0] * C_j[2];
-    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + f_j_in_i_1 * t75 - (t76 * g_j_in_i_1 + f_j_in_i_2 * t77)) * g_star_in_i_0
-        + (t76 * g_j_in_i_0 + f_j_in_i_2 * t78 - (g_j_in_i_2 * t79 + t75 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t79 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + f_j_in_i_1 * t78)) * g_star_in_i_2;
-    jac_phi_A_j[40] = C_i[6] * t79 + C_i[7] * t74 + C_i[8] * t76;
-    jac_phi_A_j[41] = f_star_in_i_0 * t78 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
+    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
+        + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
+        g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[40] = C_i[7] * t74 + C_i[6] * t79 + C_i[8] * t76;
+    jac_phi_A_j[41] = t78 * f_star_in_i_0 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
@@ -242,11 +242,11 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t83 = A_i[4] * C_j[5];
     const jg_real t84 = A_i[1] * C_j[5];
     const jg_real t85 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + f_j_in_i_1 * t81 - (t82 * g_j_in_i_1 + f_j_in_i_2 * t83)) * g_star_in_i_0
-        + (t82 * g_j_in_i_0 + f_j_in_i_2 * t84 - (g_j_in_i_2 * t85 + t81 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t85 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + f_j_in_i_1 * t84)) * g_star_in_i_2;
-    jac_phi_A_j[46] = C_i[6] * t85 + C_i[7] * t80 + C_i[8] * t82;
-    jac_phi_A_j[47] = f_star_in_i_0 * t84 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
+    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + t81 * f_j_in_i_1 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
+        + (t82 * g_j_in_i_0 + t84 * f_j_in_i_2 - (t85 * g_j_in_i_2 + t81 * f_j_in_i_0)) * g_star_in_i_1 + (t85 *
+        g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + t84 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[46] = C_i[7] * t80 + C_i[6] * t85 + C_i[8] * t82;
+    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
@@ -256,34 +256,34 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t89 = A_i[5] * C_j[5];
     const jg_real t90 = A_i[2] * C_j[5];
     const jg_real t91 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + f_j_in_i_1 * t87 - (t88 * g_j_in_i_1 + f_j_in_i_2 * t89)) * g_star_in_i_0
-        + (t88 * g_j_in_i_0 + f_j_in_i_2 * t90 - (g_j_in_i_2 * t91 + t87 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t91 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + f_j_in_i_1 * t90)) * g_star_in_i_2;
-    jac_phi_A_j[52] = C_i[6] * t91 + C_i[7] * t86 + C_i[8] * t88;
-    jac_phi_A_j[53] = f_star_in_i_0 * t90 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
+    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + t87 * f_j_in_i_1 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
+        + (t88 * g_j_in_i_0 + t90 * f_j_in_i_2 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
+        g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + t90 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[52] = C_i[7] * t86 + C_i[6] * t91 + C_i[8] * t88;
+    jac_phi_A_j[53] = t90 * f_star_in_i_0 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
     jac_phi_alpha[0] = -C_i[6];
     jac_phi_alpha[1] = -C_i[7];
     jac_phi_alpha[2] = -C_i[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
-    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_alpha[3] = -(h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 * f_star_in_i_2);
-    jac_phi_alpha[4] = g_star_in_i_0 * g_j_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
+    jac_phi_alpha[4] = g_j_in_i_0 * g_star_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
     jac_phi_geometry[3] = -(h_j_in_i_0 * sine_0);
-    jac_phi_geometry[4] = cosine_0 * g_j_in_i_0;
-    jac_phi_geometry[5] = -(sine_0 * h_j_in_i_1);
+    jac_phi_geometry[4] = g_j_in_i_0 * cosine_0;
+    jac_phi_geometry[5] = -(h_j_in_i_1 * sine_0);
     jac_phi_geometry[6] = g_j_in_i_1 * cosine_0;
-    jac_phi_geometry[7] = -(sine_0 * h_j_in_i_2);
+    jac_phi_geometry[7] = -(h_j_in_i_2 * sine_0);
     jac_phi_geometry[8] = g_j_in_i_2 * cosine_0;
     jac_phi_geometry[9] = h_j_in_i_0 * cosine_0;
-    jac_phi_geometry[10] = sine_0 * g_j_in_i_0;
-    jac_phi_geometry[11] = cosine_0 * h_j_in_i_1;
+    jac_phi_geometry[10] = g_j_in_i_0 * sine_0;
+    jac_phi_geometry[11] = h_j_in_i_1 * cosine_0;
     jac_phi_geometry[12] = g_j_in_i_1 * sine_0;
-    jac_phi_geometry[13] = cosine_0 * h_j_in_i_2;
+    jac_phi_geometry[13] = h_j_in_i_2 * cosine_0;
     jac_phi_geometry[14] = g_j_in_i_2 * sine_0;
     const jg_real t95 = -alpha[0];
     jac_phi_geometry[15] = t95;
@@ -309,21 +309,21 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_geometry[29] = t104;
     jac_phi_geometry[30] = (t97 * g_j_in_i_2 - t98 * g_j_in_i_1) * g_star_in_i_0 + (t98 * g_j_in_i_0 - t96 *
         g_j_in_i_2) * g_star_in_i_1 + (t96 * g_j_in_i_1 - t97 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[31] = t96 * C_i[6] + t97 * C_i[7] + t98 * C_i[8];
+    jac_phi_geometry[31] = C_i[7] * t97 + C_i[6] * t96 + C_i[8] * t98;
     jac_phi_geometry[32] = (t100 * g_j_in_i_2 - t101 * g_j_in_i_1) * g_star_in_i_0 + (t101 * g_j_in_i_0 - t99 *
         g_j_in_i_2) * g_star_in_i_1 + (t99 * g_j_in_i_1 - t100 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[33] = t99 * C_i[6] + t100 * C_i[7] + t101 * C_i[8];
+    jac_phi_geometry[33] = C_i[7] * t100 + C_i[6] * t99 + C_i[8] * t101;
     jac_phi_geometry[34] = (t103 * g_j_in_i_2 - t104 * g_j_in_i_1) * g_star_in_i_0 + (t104 * g_j_in_i_0 - t102 *
         g_j_in_i_2) * g_star_in_i_1 + (t102 * g_j_in_i_1 - t103 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[35] = t102 * C_i[6] + t103 * C_i[7] + t104 * C_i[8];
-    jac_phi_geometry[36] = (t98 * f_j_in_i_1 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
-        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - t96 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[35] = C_i[7] * t103 + C_i[6] * t102 + C_i[8] * t104;
+    jac_phi_geometry[36] = (f_j_in_i_1 * t98 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
+        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - f_j_in_i_1 * t96) * g_star_in_i_2;
     jac_phi_geometry[37] = t96 * f_star_in_i_0 + t97 * f_star_in_i_1 + t98 * f_star_in_i_2;
-    jac_phi_geometry[38] = (t101 * f_j_in_i_1 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
-        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - t99 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[38] = (f_j_in_i_1 * t101 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
+        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - f_j_in_i_1 * t99) * g_star_in_i_2;
     jac_phi_geometry[39] = t99 * f_star_in_i_0 + t100 * f_star_in_i_1 + t101 * f_star_in_i_2;
-    jac_phi_geometry[40] = (t104 * f_j_in_i_1 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
-        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - t102 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[40] = (f_j_in_i_1 * t104 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
+        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - f_j_in_i_1 * t102) * g_star_in_i_2;
     jac_phi_geometry[41] = t102 * f_star_in_i_0 + t103 * f_star_in_i_1 + t104 * f_star_in_i_2;
 }
 
@@ -389,22 +389,22 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
     jac_phi_q_v_velocity[23] = A_ij_2;
     /* omega_i_in_j = omega_i, axes of body j */
-    const jg_real omega_i_in_j_0 = A_ij_0 * omega_i[0] + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
-    const jg_real omega_i_in_j_2 = A_ij_6 * omega_i[0] + A_ij_7 * omega_i[1] + A_ij_8 * omega_i[2];
+    const jg_real omega_i_in_j_0 = omega_i[0] * A_ij_0 + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
+    const jg_real omega_i_in_j_1 = omega_i[1] * A_ij_4 + omega_i[0] * A_ij_3 + omega_i[2] * A_ij_5;
     /* s_j_cross_omega_i_in_j = s_j x omega_i, axes of body j */
-    const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - omega_i_in_j_2 * s_j[0];
-    const jg_real t21 = A_j[3] * s_j_cross_omega_i_in_j_1;
+    const jg_real s_j_cross_omega_i_in_j_2 = s_j[0] * omega_i_in_j_1 - s_j[1] * omega_i_in_j_0;
+    const jg_real t21 = A_j[6] * s_j_cross_omega_i_in_j_2;
     const jg_real t22 = A_j[3] * A_ij_8 - A_j[6] * A_ij_5;
-    const jg_real t23 = A_ij_4 * A_j[6] - A_j[3] * A_ij_7;
-    const jg_real t24 = t22 * omega_i[1] + t23 * omega_i[2];
-    const jg_real t25 = A_j[6] * omega_i[0];
-    const jg_real t26 = s_j[2] * t24 + t25 * s_j[0];
-    const jg_real t27 = A_j[3] * omega_i[0];
-    const jg_real t28 = t25 * s_j[1] - t27 * s_j[2];
-    const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + A_ij_4 * omega_i[1] + A_ij_5 * omega_i[2];
-    const jg_real s_j_cross_omega_i_in_j_2 = omega_i_in_j_1 * s_j[0] - s_j[1] * omega_i_in_j_0;
-    const jg_real t31 = A_j[6] * s_j_cross_omega_i_in_j_2;
-    const jg_real t32 = s_j[1] * t24 + t27 * s_j[0];
+    const jg_real t23 = A_j[6] * A_ij_4 - A_j[3] * A_ij_7;
+    const jg_real t24 = omega_i[1] * t22 + omega_i[2] * t23;
+    const jg_real t25 = A_j[3] * omega_i[0];
+    const jg_real t26 = s_j[0] * t25 + s_j[1] * t24;
+    const jg_real omega_i_in_j_2 = omega_i[1] * A_ij_7 + omega_i[0] * A_ij_6 + omega_i[2] * A_ij_8;
+    const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
+    const jg_real t29 = A_j[3] * s_j_cross_omega_i_in_j_1;
+    const jg_real t30 = A_j[6] * omega_i[0];
+    const jg_real t31 = s_j[0] * t30 + s_j[2] * t24;
+    const jg_real t32 = s_j[1] * t30 - s_j[2] * t25;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
@@ -412,784 +412,785 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     const jg_real t37 = A_j[3] * v_0_in_j_1 + A_j[6] * v_0_in_j_2;
-    jac_phi_q_v_A_i[0] = t21 - A_ij_3 * t26 + A_ij_0 * t28 + (t31 + A_ij_6 * t32) + t37;
-    const jg_real s_j_cross_omega_i_in_j_0 = omega_i_in_j_2 * s_j[1] - omega_i_in_j_1 * s_j[2];
+    jac_phi_q_v_A_i[0] = t21 + A_ij_6 * t26 + (t29 - A_ij_3 * t31 + A_ij_0 * t32) + t37;
+    const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
     const jg_real t39 = t22 * s_j_cross_omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
     /* v_2_world = r_j - r_i, world axes */
     const jg_real v_2_world_0 = r_j[0] - r_i[0];
-    const jg_real t43 = t22 * v_0_in_j_0 + omega_i[2] * v_2_world_0;
-    jac_phi_q_v_A_i[1] = t28 * A_ij_1 - t39 - A_ij_4 * t26 + A_ij_7 * t32 - t43;
+    const jg_real t43 = v_0_in_j_0 * t22 + omega_i[2] * v_2_world_0;
+    jac_phi_q_v_A_i[1] = A_ij_1 * t32 - t39 - A_ij_4 * t31 + A_ij_7 * t26 - t43;
     const jg_real t44 = t23 * s_j_cross_omega_i_in_j_0;
-    const jg_real t45 = t23 * v_0_in_j_0 - omega_i[1] * v_2_world_0;
-    jac_phi_q_v_A_i[2] = t28 * A_ij_2 - t44 - A_ij_5 * t26 + A_ij_8 * t32 - t45;
+    const jg_real t45 = v_0_in_j_0 * t23 - omega_i[1] * v_2_world_0;
+    jac_phi_q_v_A_i[2] = A_ij_2 * t32 - t44 - A_ij_5 * t31 + A_ij_8 * t26 - t45;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real h_star_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real t50 = A_j[3] * g_star_in_i_0;
-    const jg_real t51 = t22 * C_i[7] + t23 * C_i[8];
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t51 = C_i[7] * t22 + C_i[8] * t23;
+    const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_ij_3 * g_star_in_i_0 + A_ij_4 * g_star_in_i_1 + A_ij_5 * g_star_in_i_2;
     const jg_real g_star_in_j_0 = A_ij_0 * g_star_in_i_0 + A_ij_1 * g_star_in_i_1 + A_ij_2 * g_star_in_i_2;
     const jg_real t56 = A_j[3] * C_i[6];
     const jg_real t57 = t22 * g_star_in_i_1 + t23 * g_star_in_i_2;
-    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real t59 = g_star_in_j_0 * t56 - t57 * h_star_in_j_1 - (h_star_in_j_0 * t50 - t51 * g_star_in_j_1);
+    const jg_real h_star_in_j_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + C_i[8] * A_ij_5;
+    const jg_real t59 = t56 * g_star_in_j_0 - h_star_in_j_1 * t57 - (h_star_in_j_0 * t50 - t51 * g_star_in_j_1);
     const jg_real t60 = A_j[6] * g_star_in_i_0;
     const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
     const jg_real t62 = A_j[6] * C_i[6];
-    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t64 = h_star_in_j_0 * t60 - t51 * g_star_in_j_2 - (g_star_in_j_0 * t62 - t57 * h_star_in_j_2);
-    const jg_real t65 = t50 * h_star_in_j_2 + g_star_in_j_1 * t62 - (h_star_in_j_1 * t60 + t56 * g_star_in_j_2);
-    const jg_real t66 = t50 * C_j[8] - t60 * C_j[7];
+    const jg_real h_star_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + A_ij_8 * C_i[8];
+    const jg_real t64 = h_star_in_j_0 * t60 - t51 * g_star_in_j_2 - (t62 * g_star_in_j_0 - h_star_in_j_2 * t57);
+    const jg_real t65 = h_star_in_j_2 * t50 + t62 * g_star_in_j_1 - (h_star_in_j_1 * t60 + t56 * g_star_in_j_2);
+    const jg_real t66 = C_j[8] * t50 - C_j[7] * t60;
     /* g_star_cross_h_j_in_j = g_star x h_j, axes of body j */
-    const jg_real g_star_cross_h_j_in_j_0 = g_star_in_j_1 * C_j[8] - g_star_in_j_2 * C_j[7];
-    const jg_real g_star_cross_h_j_in_j_1 = g_star_in_j_2 * C_j[6] - g_star_in_j_0 * C_j[8];
-    const jg_real t69 = t57 * C_j[8] + t60 * C_j[6];
-    const jg_real g_star_cross_h_j_in_j_2 = g_star_in_j_0 * C_j[7] - g_star_in_j_1 * C_j[6];
-    const jg_real t71 = t57 * C_j[7] + t50 * C_j[6];
-    jac_phi_q_v_A_i[3] = omega_i_in_j_0 * t66 - t24 * g_star_cross_h_j_in_j_0 + (t27 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t69) + (t25 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t71) - (t64 * C_j[7] + t65 *
-        C_j[6] + t59 * C_j[8]) * alphadot[1] - (omega_j[0] * t66 + omega_j[1] * t69 - omega_j[2] * t71);
+    const jg_real g_star_cross_h_j_in_j_0 = C_j[8] * g_star_in_j_1 - C_j[7] * g_star_in_j_2;
+    const jg_real g_star_cross_h_j_in_j_1 = C_j[6] * g_star_in_j_2 - C_j[8] * g_star_in_j_0;
+    const jg_real t69 = C_j[8] * t57 + C_j[6] * t60;
+    const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
+    const jg_real t71 = C_j[7] * t57 + C_j[6] * t50;
+    jac_phi_q_v_A_i[3] = t30 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t71 + (omega_i_in_j_0 * t66 - t24 *
+        g_star_cross_h_j_in_j_0 + (t25 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t69)) - alphadot[1] * (C_j[7] *
+        t64 + C_j[6] * t65 + C_j[8] * t59) - (omega_j[0] * t66 + omega_j[1] * t69 - omega_j[2] * t71);
     const jg_real t72 = t56 * C_j[2] - t62 * C_j[1];
     /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
-    const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - h_star_in_j_2 * C_j[1];
-    const jg_real h_star_cross_f_j_in_j_1 = h_star_in_j_2 * C_j[0] - h_star_in_j_0 * C_j[2];
-    const jg_real t75 = t51 * C_j[2] + t62 * C_j[0];
-    const jg_real h_star_cross_f_j_in_j_2 = h_star_in_j_0 * C_j[1] - h_star_in_j_1 * C_j[0];
-    const jg_real t77 = t51 * C_j[1] + t56 * C_j[0];
-    jac_phi_q_v_A_i[4] = omega_i_in_j_0 * t72 - t24 * h_star_cross_f_j_in_j_0 + (t27 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t75) + (t25 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t77) - (omega_j[1] * t75 +
+    const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - C_j[1] * h_star_in_j_2;
+    const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
+    const jg_real t75 = C_j[2] * t51 + t62 * C_j[0];
+    const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - h_star_in_j_1 * C_j[0];
+    const jg_real t77 = t56 * C_j[0] + C_j[1] * t51;
+    jac_phi_q_v_A_i[4] = t30 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t77 + (omega_i_in_j_0 * t72 - t24 *
+        h_star_cross_f_j_in_j_0 + (t25 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t75)) - (omega_j[1] * t75 +
         omega_j[0] * t72 - omega_j[2] * t77);
-    const jg_real t78 = t64 * C_j[5] - t59 * C_j[4];
+    const jg_real t78 = C_j[5] * t64 - C_j[4] * t59;
     /* f_star_in_j = f_star, axes of body j */
-    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - g_star_in_j_0 * h_star_in_j_2;
-    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - h_star_in_j_0 * g_star_in_j_1;
+    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
+    const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
     /* f_star_cross_g_j_in_j = f_star x g_j, axes of body j */
-    const jg_real f_star_cross_g_j_in_j_0 = f_star_in_j_1 * C_j[5] - f_star_in_j_2 * C_j[4];
-    const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - h_star_in_j_1 * g_star_in_j_2;
-    const jg_real f_star_cross_g_j_in_j_1 = f_star_in_j_2 * C_j[3] - f_star_in_j_0 * C_j[5];
-    const jg_real t84 = t59 * C_j[3] - t65 * C_j[5];
-    const jg_real f_star_cross_g_j_in_j_2 = f_star_in_j_0 * C_j[4] - f_star_in_j_1 * C_j[3];
-    const jg_real t86 = t65 * C_j[4] - t64 * C_j[3];
-    jac_phi_q_v_A_i[5] = omega_i_in_j_0 * t78 - t24 * f_star_cross_g_j_in_j_0 + (t27 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t84) + (t25 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t86) + alphadot[1] * (t50 * C_j[4]
-        - t57 * C_j[3] + t60 * C_j[5]) - (omega_j[0] * t78 + omega_j[1] * t84 + omega_j[2] * t86);
-    const jg_real t87 = A_j[4] * s_j_cross_omega_i_in_j_1;
+    const jg_real f_star_cross_g_j_in_j_0 = C_j[5] * f_star_in_j_1 - C_j[4] * f_star_in_j_2;
+    const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
+    const jg_real f_star_cross_g_j_in_j_1 = C_j[3] * f_star_in_j_2 - C_j[5] * f_star_in_j_0;
+    const jg_real t84 = C_j[3] * t59 - C_j[5] * t65;
+    const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
+    const jg_real t86 = C_j[4] * t65 - C_j[3] * t64;
+    jac_phi_q_v_A_i[5] = t30 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t86 + (omega_i_in_j_0 * t78 - t24 *
+        f_star_cross_g_j_in_j_0 + (t25 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t84)) + alphadot[1] * (C_j[4] *
+        t50 - C_j[3] * t57 + C_j[5] * t60) - (omega_j[0] * t78 + omega_j[1] * t84 + omega_j[2] * t86);
+    const jg_real t87 = A_j[7] * s_j_cross_omega_i_in_j_2;
     const jg_real t88 = A_j[4] * A_ij_8 - A_j[7] * A_ij_5;
-    const jg_real t89 = A_ij_4 * A_j[7] - A_j[4] * A_ij_7;
-    const jg_real t90 = t88 * omega_i[1] + t89 * omega_i[2];
-    const jg_real t91 = A_j[7] * omega_i[0];
-    const jg_real t92 = s_j[2] * t90 + t91 * s_j[0];
-    const jg_real t93 = A_j[4] * omega_i[0];
-    const jg_real t94 = t91 * s_j[1] - t93 * s_j[2];
-    const jg_real t95 = A_j[7] * s_j_cross_omega_i_in_j_2;
-    const jg_real t96 = s_j[1] * t90 + t93 * s_j[0];
+    const jg_real t89 = A_j[7] * A_ij_4 - A_j[4] * A_ij_7;
+    const jg_real t90 = omega_i[1] * t88 + omega_i[2] * t89;
+    const jg_real t91 = A_j[4] * omega_i[0];
+    const jg_real t92 = s_j[0] * t91 + s_j[1] * t90;
+    const jg_real t93 = A_j[4] * s_j_cross_omega_i_in_j_1;
+    const jg_real t94 = A_j[7] * omega_i[0];
+    const jg_real t95 = s_j[0] * t94 + s_j[2] * t90;
+    const jg_real t96 = s_j[1] * t94 - s_j[2] * t91;
     const jg_real t97 = A_j[4] * v_0_in_j_1 + A_j[7] * v_0_in_j_2;
-    jac_phi_q_v_A_i[6] = t87 - A_ij_3 * t92 + A_ij_0 * t94 + (t95 + A_ij_6 * t96) + t97;
+    jac_phi_q_v_A_i[6] = t87 + A_ij_6 * t92 + (t93 - A_ij_3 * t95 + A_ij_0 * t96) + t97;
     const jg_real t98 = t88 * s_j_cross_omega_i_in_j_0;
     const jg_real v_2_world_1 = r_j[1] - r_i[1];
-    const jg_real t100 = t88 * v_0_in_j_0 + omega_i[2] * v_2_world_1;
-    jac_phi_q_v_A_i[7] = t94 * A_ij_1 - t98 - A_ij_4 * t92 + A_ij_7 * t96 - t100;
+    const jg_real t100 = v_0_in_j_0 * t88 + omega_i[2] * v_2_world_1;
+    jac_phi_q_v_A_i[7] = A_ij_1 * t96 - t98 - A_ij_4 * t95 + A_ij_7 * t92 - t100;
     const jg_real t101 = t89 * s_j_cross_omega_i_in_j_0;
-    const jg_real t102 = t89 * v_0_in_j_0 - omega_i[1] * v_2_world_1;
-    jac_phi_q_v_A_i[8] = t94 * A_ij_2 - t101 - A_ij_5 * t92 + A_ij_8 * t96 - t102;
+    const jg_real t102 = v_0_in_j_0 * t89 - omega_i[1] * v_2_world_1;
+    jac_phi_q_v_A_i[8] = A_ij_2 * t96 - t101 - A_ij_5 * t95 + A_ij_8 * t92 - t102;
     const jg_real t103 = A_j[4] * g_star_in_i_0;
-    const jg_real t104 = t88 * C_i[7] + t89 * C_i[8];
+    const jg_real t104 = C_i[7] * t88 + C_i[8] * t89;
     const jg_real t105 = A_j[4] * C_i[6];
     const jg_real t106 = t88 * g_star_in_i_1 + t89 * g_star_in_i_2;
-    const jg_real t107 = g_star_in_j_0 * t105 - t106 * h_star_in_j_1 - (h_star_in_j_0 * t103 - t104 *
+    const jg_real t107 = t105 * g_star_in_j_0 - h_star_in_j_1 * t106 - (h_star_in_j_0 * t103 - t104 *
         g_star_in_j_1);
     const jg_real t108 = A_j[7] * g_star_in_i_0;
     const jg_real t109 = A_j[7] * C_i[6];
-    const jg_real t110 = h_star_in_j_0 * t108 - t104 * g_star_in_j_2 - (g_star_in_j_0 * t109 - t106 *
-        h_star_in_j_2);
-    const jg_real t111 = t103 * h_star_in_j_2 + g_star_in_j_1 * t109 - (h_star_in_j_1 * t108 + t105 *
+    const jg_real t110 = h_star_in_j_0 * t108 - t104 * g_star_in_j_2 - (t109 * g_star_in_j_0 - h_star_in_j_2 *
+        t106);
+    const jg_real t111 = h_star_in_j_2 * t103 + t109 * g_star_in_j_1 - (h_star_in_j_1 * t108 + t105 *
         g_star_in_j_2);
-    const jg_real t112 = t103 * C_j[8] - t108 * C_j[7];
-    const jg_real t113 = t106 * C_j[8] + t108 * C_j[6];
-    const jg_real t114 = t106 * C_j[7] + t103 * C_j[6];
-    jac_phi_q_v_A_i[9] = omega_i_in_j_0 * t112 - t90 * g_star_cross_h_j_in_j_0 + (t93 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t113) + (t91 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t114) - (t110 * C_j[7] + t111 *
-        C_j[6] + t107 * C_j[8]) * alphadot[1] - (omega_j[0] * t112 + omega_j[1] * t113 - omega_j[2] * t114);
+    const jg_real t112 = C_j[8] * t103 - C_j[7] * t108;
+    const jg_real t113 = C_j[8] * t106 + C_j[6] * t108;
+    const jg_real t114 = C_j[7] * t106 + C_j[6] * t103;
+    jac_phi_q_v_A_i[9] = t94 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t114 + (omega_i_in_j_0 * t112 - t90 *
+        g_star_cross_h_j_in_j_0 + (t91 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t113)) - alphadot[1] * (C_j[7] *
+        t110 + C_j[6] * t111 + C_j[8] * t107) - (omega_j[0] * t112 + omega_j[1] * t113 - omega_j[2] * t114);
     const jg_real t115 = t105 * C_j[2] - t109 * C_j[1];
-    const jg_real t116 = t104 * C_j[2] + t109 * C_j[0];
-    const jg_real t117 = t104 * C_j[1] + t105 * C_j[0];
-    jac_phi_q_v_A_i[10] = omega_i_in_j_0 * t115 - t90 * h_star_cross_f_j_in_j_0 + (t93 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t116) + (t91 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t117) - (omega_j[1] * t116 +
+    const jg_real t116 = C_j[2] * t104 + t109 * C_j[0];
+    const jg_real t117 = t105 * C_j[0] + C_j[1] * t104;
+    jac_phi_q_v_A_i[10] = t94 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t117 + (omega_i_in_j_0 * t115 - t90 *
+        h_star_cross_f_j_in_j_0 + (t91 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t116)) - (omega_j[1] * t116 +
         omega_j[0] * t115 - omega_j[2] * t117);
-    const jg_real t118 = t110 * C_j[5] - t107 * C_j[4];
-    const jg_real t119 = t107 * C_j[3] - t111 * C_j[5];
-    const jg_real t120 = t111 * C_j[4] - t110 * C_j[3];
-    jac_phi_q_v_A_i[11] = omega_i_in_j_0 * t118 - t90 * f_star_cross_g_j_in_j_0 + (t93 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t119) + (t91 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t120) + alphadot[1] * (t103 *
-        C_j[4] - t106 * C_j[3] + t108 * C_j[5]) - (omega_j[0] * t118 + omega_j[1] * t119 + omega_j[2] * t120);
-    const jg_real t121 = A_j[5] * s_j_cross_omega_i_in_j_1;
+    const jg_real t118 = C_j[5] * t110 - C_j[4] * t107;
+    const jg_real t119 = C_j[3] * t107 - C_j[5] * t111;
+    const jg_real t120 = C_j[4] * t111 - C_j[3] * t110;
+    jac_phi_q_v_A_i[11] = t94 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t120 + (omega_i_in_j_0 * t118 - t90 *
+        f_star_cross_g_j_in_j_0 + (t91 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t119)) + alphadot[1] * (C_j[4] *
+        t103 - C_j[3] * t106 + C_j[5] * t108) - (omega_j[0] * t118 + omega_j[1] * t119 + omega_j[2] * t120);
+    const jg_real t121 = A_j[8] * s_j_cross_omega_i_in_j_2;
     const jg_real t122 = A_j[5] * A_ij_8 - A_j[8] * A_ij_5;
-    const jg_real t123 = A_ij_4 * A_j[8] - A_j[5] * A_ij_7;
-    const jg_real t124 = t122 * omega_i[1] + t123 * omega_i[2];
-    const jg_real t125 = A_j[8] * omega_i[0];
-    const jg_real t126 = s_j[2] * t124 + t125 * s_j[0];
-    const jg_real t127 = A_j[5] * omega_i[0];
-    const jg_real t128 = t125 * s_j[1] - t127 * s_j[2];
-    const jg_real t129 = A_j[8] * s_j_cross_omega_i_in_j_2;
-    const jg_real t130 = s_j[1] * t124 + t127 * s_j[0];
+    const jg_real t123 = A_j[8] * A_ij_4 - A_j[5] * A_ij_7;
+    const jg_real t124 = omega_i[1] * t122 + omega_i[2] * t123;
+    const jg_real t125 = A_j[5] * omega_i[0];
+    const jg_real t126 = s_j[0] * t125 + s_j[1] * t124;
+    const jg_real t127 = A_j[5] * s_j_cross_omega_i_in_j_1;
+    const jg_real t128 = A_j[8] * omega_i[0];
+    const jg_real t129 = s_j[0] * t128 + s_j[2] * t124;
+    const jg_real t130 = s_j[1] * t128 - s_j[2] * t125;
     const jg_real t131 = A_j[5] * v_0_in_j_1 + A_j[8] * v_0_in_j_2;
-    jac_phi_q_v_A_i[12] = t121 - A_ij_3 * t126 + A_ij_0 * t128 + (t129 + A_ij_6 * t130) + t131;
+    jac_phi_q_v_A_i[12] = t121 + A_ij_6 * t126 + (t127 - A_ij_3 * t129 + A_ij_0 * t130) + t131;
     const jg_real t132 = t122 * s_j_cross_omega_i_in_j_0;
     const jg_real v_2_world_2 = r_j[2] - r_i[2];
-    const jg_real t134 = t122 * v_0_in_j_0 + omega_i[2] * v_2_world_2;
-    jac_phi_q_v_A_i[13] = t128 * A_ij_1 - t132 - A_ij_4 * t126 + A_ij_7 * t130 - t134;
+    const jg_real t134 = v_0_in_j_0 * t122 + omega_i[2] * v_2_world_2;
+    jac_phi_q_v_A_i[13] = A_ij_1 * t130 - t132 - A_ij_4 * t129 + A_ij_7 * t126 - t134;
     const jg_real t135 = t123 * s_j_cross_omega_i_in_j_0;
-    const jg_real t136 = t123 * v_0_in_j_0 - omega_i[1] * v_2_world_2;
-    jac_phi_q_v_A_i[14] = t128 * A_ij_2 - t135 - A_ij_5 * t126 + A_ij_8 * t130 - t136;
+    const jg_real t136 = v_0_in_j_0 * t123 - omega_i[1] * v_2_world_2;
+    jac_phi_q_v_A_i[14] = A_ij_2 * t130 - t135 - A_ij_5 * t129 + A_ij_8 * t126 - t136;
     const jg_real t137 = A_j[5] * g_star_in_i_0;
-    const jg_real t138 = t122 * C_i[7] + t123 * C_i[8];
+    const jg_real t138 = C_i[7] * t122 + C_i[8] * t123;
     const jg_real t139 = A_j[5] * C_i[6];
     const jg_real t140 = t122 * g_star_in_i_1 + t123 * g_star_in_i_2;
-    const jg_real t141 = g_star_in_j_0 * t139 - t140 * h_star_in_j_1 - (h_star_in_j_0 * t137 - t138 *
+    const jg_real t141 = t139 * g_star_in_j_0 - h_star_in_j_1 * t140 - (h_star_in_j_0 * t137 - t138 *
         g_star_in_j_1);
     const jg_real t142 = A_j[8] * g_star_in_i_0;
     const jg_real t143 = A_j[8] * C_i[6];
-    const jg_real t144 = h_star_in_j_0 * t142 - t138 * g_star_in_j_2 - (g_star_in_j_0 * t143 - t140 *
-        h_star_in_j_2);
-    const jg_real t145 = t137 * h_star_in_j_2 + g_star_in_j_1 * t143 - (h_star_in_j_1 * t142 + t139 *
+    const jg_real t144 = h_star_in_j_0 * t142 - t138 * g_star_in_j_2 - (t143 * g_star_in_j_0 - h_star_in_j_2 *
+        t140);
+    const jg_real t145 = h_star_in_j_2 * t137 + t143 * g_star_in_j_1 - (h_star_in_j_1 * t142 + t139 *
         g_star_in_j_2);
-    const jg_real t146 = t137 * C_j[8] - t142 * C_j[7];
-    const jg_real t147 = t140 * C_j[8] + t142 * C_j[6];
-    const jg_real t148 = t140 * C_j[7] + t137 * C_j[6];
-    jac_phi_q_v_A_i[15] = omega_i_in_j_0 * t146 - t124 * g_star_cross_h_j_in_j_0 + (t127 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t147) + (t125 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t148) - (t144 * C_j[7] + t145 *
-        C_j[6] + t141 * C_j[8]) * alphadot[1] - (omega_j[0] * t146 + omega_j[1] * t147 - omega_j[2] * t148);
+    const jg_real t146 = C_j[8] * t137 - C_j[7] * t142;
+    const jg_real t147 = C_j[8] * t140 + C_j[6] * t142;
+    const jg_real t148 = C_j[7] * t140 + C_j[6] * t137;
+    jac_phi_q_v_A_i[15] = t128 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t148 + (omega_i_in_j_0 * t146 - t124 *
+        g_star_cross_h_j_in_j_0 + (t125 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t147)) - alphadot[1] * (C_j[7]
+        * t144 + C_j[6] * t145 + C_j[8] * t141) - (omega_j[0] * t146 + omega_j[1] * t147 - omega_j[2] * t148);
     const jg_real t149 = t139 * C_j[2] - t143 * C_j[1];
-    const jg_real t150 = t138 * C_j[2] + t143 * C_j[0];
-    const jg_real t151 = t138 * C_j[1] + t139 * C_j[0];
-    jac_phi_q_v_A_i[16] = omega_i_in_j_0 * t149 - t124 * h_star_cross_f_j_in_j_0 + (t127 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t150) + (t125 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t151) - (omega_j[1] * t150 +
+    const jg_real t150 = C_j[2] * t138 + t143 * C_j[0];
+    const jg_real t151 = t139 * C_j[0] + C_j[1] * t138;
+    jac_phi_q_v_A_i[16] = t128 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t151 + (omega_i_in_j_0 * t149 - t124 *
+        h_star_cross_f_j_in_j_0 + (t125 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t150)) - (omega_j[1] * t150 +
         omega_j[0] * t149 - omega_j[2] * t151);
-    const jg_real t152 = t144 * C_j[5] - t141 * C_j[4];
-    const jg_real t153 = t141 * C_j[3] - t145 * C_j[5];
-    const jg_real t154 = t145 * C_j[4] - t144 * C_j[3];
-    jac_phi_q_v_A_i[17] = omega_i_in_j_0 * t152 - t124 * f_star_cross_g_j_in_j_0 + (t127 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t153) + (t125 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t154) + alphadot[1] * (t137 *
-        C_j[4] - t140 * C_j[3] + t142 * C_j[5]) - (omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154);
+    const jg_real t152 = C_j[5] * t144 - C_j[4] * t141;
+    const jg_real t153 = C_j[3] * t141 - C_j[5] * t145;
+    const jg_real t154 = C_j[4] * t145 - C_j[3] * t144;
+    jac_phi_q_v_A_i[17] = t128 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t154 + (omega_i_in_j_0 * t152 - t124 *
+        f_star_cross_g_j_in_j_0 + (t125 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t153)) + alphadot[1] * (C_j[4]
+        * t137 - C_j[3] * t140 + C_j[5] * t142) - (omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154);
     const jg_real t155 = A_j[6] * omega_i[1];
     const jg_real t156 = A_j[3] * omega_i[1];
-    const jg_real t157 = t155 * s_j[1] - t156 * s_j[2];
+    const jg_real t157 = s_j[1] * t155 - s_j[2] * t156;
     const jg_real t158 = A_j[3] * A_ij_6 - A_j[6] * A_ij_3;
-    const jg_real t159 = t22 * omega_i[0] - omega_i[2] * t158;
-    const jg_real t160 = s_j[2] * t159 - t155 * s_j[0];
-    const jg_real t161 = t156 * s_j[0] - s_j[1] * t159;
+    const jg_real t159 = omega_i[0] * t22 - omega_i[2] * t158;
+    const jg_real t160 = s_j[2] * t159 - s_j[0] * t155;
+    const jg_real t161 = s_j[0] * t156 - s_j[1] * t159;
     jac_phi_q_v_A_i[18] = t39 + A_ij_0 * t157 + A_ij_3 * t160 + A_ij_6 * t161 + t43;
-    jac_phi_q_v_A_i[19] = t21 + A_ij_4 * t160 + t157 * A_ij_1 + (t31 + A_ij_7 * t161) + t37;
-    const jg_real t162 = s_j_cross_omega_i_in_j_0 * t158;
-    const jg_real t163 = t158 * v_0_in_j_0 + omega_i[0] * v_2_world_0;
-    jac_phi_q_v_A_i[20] = t157 * A_ij_2 - t162 + A_ij_5 * t160 + A_ij_8 * t161 - t163;
+    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t161 + (t29 + A_ij_4 * t160 + A_ij_1 * t157) + t37;
+    const jg_real t162 = t158 * s_j_cross_omega_i_in_j_0;
+    const jg_real t163 = v_0_in_j_0 * t158 + omega_i[0] * v_2_world_0;
+    jac_phi_q_v_A_i[20] = A_ij_2 * t157 - t162 + A_ij_5 * t160 + A_ij_8 * t161 - t163;
     const jg_real t164 = A_j[3] * g_star_in_i_1;
-    const jg_real t165 = t22 * C_i[6] - t158 * C_i[8];
+    const jg_real t165 = C_i[6] * t22 - C_i[8] * t158;
     const jg_real t166 = A_j[3] * C_i[7];
     const jg_real t167 = t22 * g_star_in_i_0 - t158 * g_star_in_i_2;
-    const jg_real t168 = t167 * h_star_in_j_1 + g_star_in_j_0 * t166 - (h_star_in_j_0 * t164 + t165 *
+    const jg_real t168 = h_star_in_j_1 * t167 + t166 * g_star_in_j_0 - (h_star_in_j_0 * t164 + t165 *
         g_star_in_j_1);
     const jg_real t169 = A_j[6] * g_star_in_i_1;
     const jg_real t170 = A_j[6] * C_i[7];
-    const jg_real t171 = h_star_in_j_0 * t169 + t165 * g_star_in_j_2 - (t167 * h_star_in_j_2 + g_star_in_j_0 *
-        t170);
-    const jg_real t172 = t164 * h_star_in_j_2 + g_star_in_j_1 * t170 - (h_star_in_j_1 * t169 + t166 *
+    const jg_real t171 = h_star_in_j_0 * t169 + t165 * g_star_in_j_2 - (h_star_in_j_2 * t167 + t170 *
+        g_star_in_j_0);
+    const jg_real t172 = h_star_in_j_2 * t164 + t170 * g_star_in_j_1 - (h_star_in_j_1 * t169 + t166 *
         g_star_in_j_2);
-    const jg_real t173 = t164 * C_j[8] - t169 * C_j[7];
-    const jg_real t174 = t169 * C_j[6] - t167 * C_j[8];
-    const jg_real t175 = t167 * C_j[7] - t164 * C_j[6];
-    jac_phi_q_v_A_i[21] = t159 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t173 + (t156 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t174) + (t155 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175) - (t171 * C_j[7] + t172 *
-        C_j[6] + t168 * C_j[8]) * alphadot[1] - (omega_j[0] * t173 + omega_j[1] * t174 + omega_j[2] * t175);
+    const jg_real t173 = C_j[8] * t164 - C_j[7] * t169;
+    const jg_real t174 = C_j[6] * t169 - C_j[8] * t167;
+    const jg_real t175 = C_j[7] * t167 - C_j[6] * t164;
+    jac_phi_q_v_A_i[21] = t155 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175 + (t159 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t173 + (t156 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t174)) - alphadot[1] * (C_j[7] *
+        t171 + C_j[6] * t172 + C_j[8] * t168) - (omega_j[0] * t173 + omega_j[1] * t174 + omega_j[2] * t175);
     const jg_real t176 = t166 * C_j[2] - t170 * C_j[1];
-    const jg_real t177 = t170 * C_j[0] - t165 * C_j[2];
-    const jg_real t178 = t165 * C_j[1] - t166 * C_j[0];
-    jac_phi_q_v_A_i[22] = t159 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t176 + (t156 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t177) + (t155 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t178) - (omega_j[1] * t177 +
+    const jg_real t177 = t170 * C_j[0] - C_j[2] * t165;
+    const jg_real t178 = C_j[1] * t165 - t166 * C_j[0];
+    jac_phi_q_v_A_i[22] = t155 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t178 + (t159 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t176 + (t156 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t177)) - (omega_j[1] * t177 +
         omega_j[0] * t176 + omega_j[2] * t178);
-    const jg_real t179 = t171 * C_j[5] - t168 * C_j[4];
-    const jg_real t180 = t168 * C_j[3] - t172 * C_j[5];
-    const jg_real t181 = t172 * C_j[4] - t171 * C_j[3];
-    jac_phi_q_v_A_i[23] = t159 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t179 + (t156 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t180) + (t155 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t181) + alphadot[1] * (t167 *
-        C_j[3] + t164 * C_j[4] + t169 * C_j[5]) - (omega_j[0] * t179 + omega_j[1] * t180 + omega_j[2] * t181);
+    const jg_real t179 = C_j[5] * t171 - C_j[4] * t168;
+    const jg_real t180 = C_j[3] * t168 - C_j[5] * t172;
+    const jg_real t181 = C_j[4] * t172 - C_j[3] * t171;
+    jac_phi_q_v_A_i[23] = t155 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t181 + (t159 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t179 + (t156 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t180)) + alphadot[1] * (C_j[3] *
+        t167 + C_j[4] * t164 + C_j[5] * t169) - (omega_j[0] * t179 + omega_j[1] * t180 + omega_j[2] * t181);
     const jg_real t182 = A_j[7] * omega_i[1];
     const jg_real t183 = A_j[4] * omega_i[1];
-    const jg_real t184 = t182 * s_j[1] - t183 * s_j[2];
+    const jg_real t184 = s_j[1] * t182 - s_j[2] * t183;
     const jg_real t185 = A_j[4] * A_ij_6 - A_j[7] * A_ij_3;
-    const jg_real t186 = t88 * omega_i[0] - omega_i[2] * t185;
-    const jg_real t187 = s_j[2] * t186 - t182 * s_j[0];
-    const jg_real t188 = t183 * s_j[0] - s_j[1] * t186;
+    const jg_real t186 = omega_i[0] * t88 - omega_i[2] * t185;
+    const jg_real t187 = s_j[2] * t186 - s_j[0] * t182;
+    const jg_real t188 = s_j[0] * t183 - s_j[1] * t186;
     jac_phi_q_v_A_i[24] = t98 + A_ij_0 * t184 + A_ij_3 * t187 + A_ij_6 * t188 + t100;
-    jac_phi_q_v_A_i[25] = t87 + A_ij_4 * t187 + t184 * A_ij_1 + (t95 + A_ij_7 * t188) + t97;
-    const jg_real t189 = s_j_cross_omega_i_in_j_0 * t185;
-    const jg_real t190 = t185 * v_0_in_j_0 + omega_i[0] * v_2_world_1;
-    jac_phi_q_v_A_i[26] = t184 * A_ij_2 - t189 + A_ij_5 * t187 + A_ij_8 * t188 - t190;
+    jac_phi_q_v_A_i[25] = t87 + A_ij_7 * t188 + (t93 + A_ij_4 * t187 + A_ij_1 * t184) + t97;
+    const jg_real t189 = t185 * s_j_cross_omega_i_in_j_0;
+    const jg_real t190 = v_0_in_j_0 * t185 + omega_i[0] * v_2_world_1;
+    jac_phi_q_v_A_i[26] = A_ij_2 * t184 - t189 + A_ij_5 * t187 + A_ij_8 * t188 - t190;
     const jg_real t191 = A_j[4] * g_star_in_i_1;
-    const jg_real t192 = t88 * C_i[6] - t185 * C_i[8];
+    const jg_real t192 = C_i[6] * t88 - C_i[8] * t185;
     const jg_real t193 = A_j[4] * C_i[7];
     const jg_real t194 = t88 * g_star_in_i_0 - t185 * g_star_in_i_2;
-    const jg_real t195 = t194 * h_star_in_j_1 + g_star_in_j_0 * t193 - (h_star_in_j_0 * t191 + t192 *
+    const jg_real t195 = h_star_in_j_1 * t194 + t193 * g_star_in_j_0 - (h_star_in_j_0 * t191 + t192 *
         g_star_in_j_1);
     const jg_real t196 = A_j[7] * g_star_in_i_1;
     const jg_real t197 = A_j[7] * C_i[7];
-    const jg_real t198 = h_star_in_j_0 * t196 + t192 * g_star_in_j_2 - (t194 * h_star_in_j_2 + g_star_in_j_0 *
-        t197);
-    const jg_real t199 = t191 * h_star_in_j_2 + g_star_in_j_1 * t197 - (h_star_in_j_1 * t196 + t193 *
+    const jg_real t198 = h_star_in_j_0 * t196 + t192 * g_star_in_j_2 - (h_star_in_j_2 * t194 + t197 *
+        g_star_in_j_0);
+    const jg_real t199 = h_star_in_j_2 * t191 + t197 * g_star_in_j_1 - (h_star_in_j_1 * t196 + t193 *
         g_star_in_j_2);
-    const jg_real t200 = t191 * C_j[8] - t196 * C_j[7];
-    const jg_real t201 = t196 * C_j[6] - t194 * C_j[8];
-    const jg_real t202 = t194 * C_j[7] - t191 * C_j[6];
-    jac_phi_q_v_A_i[27] = t186 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t200 + (t183 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t201) + (t182 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202) - (t198 * C_j[7] + t199 *
-        C_j[6] + t195 * C_j[8]) * alphadot[1] - (omega_j[0] * t200 + omega_j[1] * t201 + omega_j[2] * t202);
+    const jg_real t200 = C_j[8] * t191 - C_j[7] * t196;
+    const jg_real t201 = C_j[6] * t196 - C_j[8] * t194;
+    const jg_real t202 = C_j[7] * t194 - C_j[6] * t191;
+    jac_phi_q_v_A_i[27] = t182 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202 + (t186 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t200 + (t183 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t201)) - alphadot[1] * (C_j[7] *
+        t198 + C_j[6] * t199 + C_j[8] * t195) - (omega_j[0] * t200 + omega_j[1] * t201 + omega_j[2] * t202);
     const jg_real t203 = t193 * C_j[2] - t197 * C_j[1];
-    const jg_real t204 = t197 * C_j[0] - t192 * C_j[2];
-    const jg_real t205 = t192 * C_j[1] - t193 * C_j[0];
-    jac_phi_q_v_A_i[28] = t186 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t203 + (t183 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t204) + (t182 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t205) - (omega_j[1] * t204 +
+    const jg_real t204 = t197 * C_j[0] - C_j[2] * t192;
+    const jg_real t205 = C_j[1] * t192 - t193 * C_j[0];
+    jac_phi_q_v_A_i[28] = t182 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t205 + (t186 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t203 + (t183 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t204)) - (omega_j[1] * t204 +
         omega_j[0] * t203 + omega_j[2] * t205);
-    const jg_real t206 = t198 * C_j[5] - t195 * C_j[4];
-    const jg_real t207 = t195 * C_j[3] - t199 * C_j[5];
-    const jg_real t208 = t199 * C_j[4] - t198 * C_j[3];
-    jac_phi_q_v_A_i[29] = t186 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t206 + (t183 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t207) + (t182 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t208) + alphadot[1] * (t194 *
-        C_j[3] + t191 * C_j[4] + t196 * C_j[5]) - (omega_j[0] * t206 + omega_j[1] * t207 + omega_j[2] * t208);
+    const jg_real t206 = C_j[5] * t198 - C_j[4] * t195;
+    const jg_real t207 = C_j[3] * t195 - C_j[5] * t199;
+    const jg_real t208 = C_j[4] * t199 - C_j[3] * t198;
+    jac_phi_q_v_A_i[29] = t182 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t208 + (t186 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t206 + (t183 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t207)) + alphadot[1] * (C_j[3] *
+        t194 + C_j[4] * t191 + C_j[5] * t196) - (omega_j[0] * t206 + omega_j[1] * t207 + omega_j[2] * t208);
     const jg_real t209 = A_j[8] * omega_i[1];
     const jg_real t210 = A_j[5] * omega_i[1];
-    const jg_real t211 = t209 * s_j[1] - t210 * s_j[2];
+    const jg_real t211 = s_j[1] * t209 - s_j[2] * t210;
     const jg_real t212 = A_j[5] * A_ij_6 - A_j[8] * A_ij_3;
-    const jg_real t213 = t122 * omega_i[0] - omega_i[2] * t212;
-    const jg_real t214 = s_j[2] * t213 - t209 * s_j[0];
-    const jg_real t215 = t210 * s_j[0] - s_j[1] * t213;
+    const jg_real t213 = omega_i[0] * t122 - omega_i[2] * t212;
+    const jg_real t214 = s_j[2] * t213 - s_j[0] * t209;
+    const jg_real t215 = s_j[0] * t210 - s_j[1] * t213;
     jac_phi_q_v_A_i[30] = t132 + A_ij_0 * t211 + A_ij_3 * t214 + A_ij_6 * t215 + t134;
-    jac_phi_q_v_A_i[31] = t121 + A_ij_4 * t214 + t211 * A_ij_1 + (t129 + A_ij_7 * t215) + t131;
-    const jg_real t216 = s_j_cross_omega_i_in_j_0 * t212;
-    const jg_real t217 = t212 * v_0_in_j_0 + omega_i[0] * v_2_world_2;
-    jac_phi_q_v_A_i[32] = t211 * A_ij_2 - t216 + A_ij_5 * t214 + A_ij_8 * t215 - t217;
+    jac_phi_q_v_A_i[31] = t121 + A_ij_7 * t215 + (t127 + A_ij_4 * t214 + A_ij_1 * t211) + t131;
+    const jg_real t216 = t212 * s_j_cross_omega_i_in_j_0;
+    const jg_real t217 = v_0_in_j_0 * t212 + omega_i[0] * v_2_world_2;
+    jac_phi_q_v_A_i[32] = A_ij_2 * t211 - t216 + A_ij_5 * t214 + A_ij_8 * t215 - t217;
     const jg_real t218 = A_j[5] * g_star_in_i_1;
-    const jg_real t219 = t122 * C_i[6] - t212 * C_i[8];
+    const jg_real t219 = C_i[6] * t122 - C_i[8] * t212;
     const jg_real t220 = A_j[5] * C_i[7];
     const jg_real t221 = t122 * g_star_in_i_0 - t212 * g_star_in_i_2;
-    const jg_real t222 = t221 * h_star_in_j_1 + g_star_in_j_0 * t220 - (h_star_in_j_0 * t218 + t219 *
+    const jg_real t222 = h_star_in_j_1 * t221 + t220 * g_star_in_j_0 - (h_star_in_j_0 * t218 + t219 *
         g_star_in_j_1);
     const jg_real t223 = A_j[8] * g_star_in_i_1;
     const jg_real t224 = A_j[8] * C_i[7];
-    const jg_real t225 = h_star_in_j_0 * t223 + t219 * g_star_in_j_2 - (t221 * h_star_in_j_2 + g_star_in_j_0 *
-        t224);
-    const jg_real t226 = t218 * h_star_in_j_2 + g_star_in_j_1 * t224 - (h_star_in_j_1 * t223 + t220 *
+    const jg_real t225 = h_star_in_j_0 * t223 + t219 * g_star_in_j_2 - (h_star_in_j_2 * t221 + t224 *
+        g_star_in_j_0);
+    const jg_real t226 = h_star_in_j_2 * t218 + t224 * g_star_in_j_1 - (h_star_in_j_1 * t223 + t220 *
         g_star_in_j_2);
-    const jg_real t227 = t218 * C_j[8] - t223 * C_j[7];
-    const jg_real t228 = t223 * C_j[6] - t221 * C_j[8];
-    const jg_real t229 = t221 * C_j[7] - t218 * C_j[6];
-    jac_phi_q_v_A_i[33] = t213 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t227 + (t210 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t228) + (t209 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229) - (t225 * C_j[7] + t226 *
-        C_j[6] + t222 * C_j[8]) * alphadot[1] - (omega_j[0] * t227 + omega_j[1] * t228 + omega_j[2] * t229);
+    const jg_real t227 = C_j[8] * t218 - C_j[7] * t223;
+    const jg_real t228 = C_j[6] * t223 - C_j[8] * t221;
+    const jg_real t229 = C_j[7] * t221 - C_j[6] * t218;
+    jac_phi_q_v_A_i[33] = t209 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229 + (t213 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t227 + (t210 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t228)) - alphadot[1] * (C_j[7] *
+        t225 + C_j[6] * t226 + C_j[8] * t222) - (omega_j[0] * t227 + omega_j[1] * t228 + omega_j[2] * t229);
     const jg_real t230 = t220 * C_j[2] - t224 * C_j[1];
-    const jg_real t231 = t224 * C_j[0] - t219 * C_j[2];
-    const jg_real t232 = t219 * C_j[1] - t220 * C_j[0];
-    jac_phi_q_v_A_i[34] = t213 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t230 + (t210 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t231) + (t209 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t232) - (omega_j[1] * t231 +
+    const jg_real t231 = t224 * C_j[0] - C_j[2] * t219;
+    const jg_real t232 = C_j[1] * t219 - t220 * C_j[0];
+    jac_phi_q_v_A_i[34] = t209 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t232 + (t213 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t230 + (t210 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t231)) - (omega_j[1] * t231 +
         omega_j[0] * t230 + omega_j[2] * t232);
-    const jg_real t233 = t225 * C_j[5] - t222 * C_j[4];
-    const jg_real t234 = t222 * C_j[3] - t226 * C_j[5];
-    const jg_real t235 = t226 * C_j[4] - t225 * C_j[3];
-    jac_phi_q_v_A_i[35] = t213 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t233 + (t210 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t234) + (t209 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t235) + alphadot[1] * (t221 *
-        C_j[3] + t218 * C_j[4] + t223 * C_j[5]) - (omega_j[0] * t233 + omega_j[1] * t234 + omega_j[2] * t235);
+    const jg_real t233 = C_j[5] * t225 - C_j[4] * t222;
+    const jg_real t234 = C_j[3] * t222 - C_j[5] * t226;
+    const jg_real t235 = C_j[4] * t226 - C_j[3] * t225;
+    jac_phi_q_v_A_i[35] = t209 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t235 + (t213 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t233 + (t210 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t234)) + alphadot[1] * (C_j[3] *
+        t221 + C_j[4] * t218 + C_j[5] * t223) - (omega_j[0] * t233 + omega_j[1] * t234 + omega_j[2] * t235);
     const jg_real t236 = A_j[6] * omega_i[2];
     const jg_real t237 = A_j[3] * omega_i[2];
-    const jg_real t238 = t236 * s_j[1] - t237 * s_j[2];
-    const jg_real t239 = t23 * omega_i[0] + omega_i[1] * t158;
-    const jg_real t240 = s_j[2] * t239 - t236 * s_j[0];
-    const jg_real t241 = t237 * s_j[0] - s_j[1] * t239;
+    const jg_real t238 = s_j[1] * t236 - s_j[2] * t237;
+    const jg_real t239 = omega_i[0] * t23 + omega_i[1] * t158;
+    const jg_real t240 = s_j[2] * t239 - s_j[0] * t236;
+    const jg_real t241 = s_j[0] * t237 - s_j[1] * t239;
     jac_phi_q_v_A_i[36] = t44 + A_ij_0 * t238 + A_ij_3 * t240 + A_ij_6 * t241 + t45;
-    jac_phi_q_v_A_i[37] = t162 + t238 * A_ij_1 + A_ij_4 * t240 + A_ij_7 * t241 + t163;
-    jac_phi_q_v_A_i[38] = t21 + A_ij_5 * t240 + t238 * A_ij_2 + (t31 + A_ij_8 * t241) + t37;
+    jac_phi_q_v_A_i[37] = t162 + A_ij_1 * t238 + A_ij_4 * t240 + A_ij_7 * t241 + t163;
+    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t241 + (t29 + A_ij_5 * t240 + A_ij_2 * t238) + t37;
     const jg_real t242 = A_j[3] * g_star_in_i_2;
-    const jg_real t243 = t23 * C_i[6] + t158 * C_i[7];
+    const jg_real t243 = C_i[6] * t23 + C_i[7] * t158;
     const jg_real t244 = A_j[3] * C_i[8];
     const jg_real t245 = t23 * g_star_in_i_0 + t158 * g_star_in_i_1;
-    const jg_real t246 = t245 * h_star_in_j_1 + g_star_in_j_0 * t244 - (h_star_in_j_0 * t242 + t243 *
+    const jg_real t246 = h_star_in_j_1 * t245 + t244 * g_star_in_j_0 - (h_star_in_j_0 * t242 + t243 *
         g_star_in_j_1);
     const jg_real t247 = A_j[6] * g_star_in_i_2;
     const jg_real t248 = A_j[6] * C_i[8];
-    const jg_real t249 = h_star_in_j_0 * t247 + t243 * g_star_in_j_2 - (t245 * h_star_in_j_2 + g_star_in_j_0 *
-        t248);
-    const jg_real t250 = t242 * h_star_in_j_2 + g_star_in_j_1 * t248 - (h_star_in_j_1 * t247 + t244 *
+    const jg_real t249 = h_star_in_j_0 * t247 + t243 * g_star_in_j_2 - (h_star_in_j_2 * t245 + t248 *
+        g_star_in_j_0);
+    const jg_real t250 = h_star_in_j_2 * t242 + t248 * g_star_in_j_1 - (h_star_in_j_1 * t247 + t244 *
         g_star_in_j_2);
-    const jg_real t251 = t242 * C_j[8] - t247 * C_j[7];
-    const jg_real t252 = t247 * C_j[6] - t245 * C_j[8];
-    const jg_real t253 = t245 * C_j[7] - t242 * C_j[6];
-    jac_phi_q_v_A_i[39] = t239 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t251 + (t237 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t252) + (t236 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t253) - (t249 * C_j[7] + t250 *
-        C_j[6] + t246 * C_j[8]) * alphadot[1] - (omega_j[0] * t251 + omega_j[1] * t252 + omega_j[2] * t253);
+    const jg_real t251 = C_j[8] * t242 - C_j[7] * t247;
+    const jg_real t252 = C_j[6] * t247 - C_j[8] * t245;
+    const jg_real t253 = C_j[7] * t245 - C_j[6] * t242;
+    jac_phi_q_v_A_i[39] = t236 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t253 + (t239 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t251 + (t237 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t252)) - alphadot[1] * (C_j[7] *
+        t249 + C_j[6] * t250 + C_j[8] * t246) - (omega_j[0] * t251 + omega_j[1] * t252 + omega_j[2] * t253);
     const jg_real t254 = t244 * C_j[2] - t248 * C_j[1];
     const jg_real t255 = t248 * C_j[0] - t243 * C_j[2];
     const jg_real t256 = t243 * C_j[1] - t244 * C_j[0];
-    jac_phi_q_v_A_i[40] = t239 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t254 + (t237 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t255) + (t236 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t256) - (omega_j[1] * t255 +
+    jac_phi_q_v_A_i[40] = t236 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t256 + (t239 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t254 + (t237 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t255)) - (omega_j[1] * t255 +
         omega_j[0] * t254 + omega_j[2] * t256);
-    const jg_real t257 = t249 * C_j[5] - t246 * C_j[4];
-    const jg_real t258 = t246 * C_j[3] - t250 * C_j[5];
-    const jg_real t259 = t250 * C_j[4] - t249 * C_j[3];
-    jac_phi_q_v_A_i[41] = t239 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t257 + (t237 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t258) + (t236 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t259) + alphadot[1] * (t245 *
-        C_j[3] + t242 * C_j[4] + t247 * C_j[5]) - (omega_j[0] * t257 + omega_j[1] * t258 + omega_j[2] * t259);
+    const jg_real t257 = C_j[5] * t249 - C_j[4] * t246;
+    const jg_real t258 = C_j[3] * t246 - C_j[5] * t250;
+    const jg_real t259 = C_j[4] * t250 - C_j[3] * t249;
+    jac_phi_q_v_A_i[41] = t236 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t259 + (t239 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t257 + (t237 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t258)) + alphadot[1] * (C_j[3] *
+        t245 + C_j[4] * t242 + C_j[5] * t247) - (omega_j[0] * t257 + omega_j[1] * t258 + omega_j[2] * t259);
     const jg_real t260 = A_j[7] * omega_i[2];
     const jg_real t261 = A_j[4] * omega_i[2];
-    const jg_real t262 = t260 * s_j[1] - t261 * s_j[2];
-    const jg_real t263 = t89 * omega_i[0] + omega_i[1] * t185;
-    const jg_real t264 = s_j[2] * t263 - t260 * s_j[0];
-    const jg_real t265 = t261 * s_j[0] - s_j[1] * t263;
+    const jg_real t262 = s_j[1] * t260 - s_j[2] * t261;
+    const jg_real t263 = omega_i[0] * t89 + omega_i[1] * t185;
+    const jg_real t264 = s_j[2] * t263 - s_j[0] * t260;
+    const jg_real t265 = s_j[0] * t261 - s_j[1] * t263;
     jac_phi_q_v_A_i[42] = t101 + A_ij_0 * t262 + A_ij_3 * t264 + A_ij_6 * t265 + t102;
-    jac_phi_q_v_A_i[43] = t189 + t262 * A_ij_1 + A_ij_4 * t264 + A_ij_7 * t265 + t190;
-    jac_phi_q_v_A_i[44] = t87 + A_ij_5 * t264 + t262 * A_ij_2 + (t95 + A_ij_8 * t265) + t97;
+    jac_phi_q_v_A_i[43] = t189 + A_ij_1 * t262 + A_ij_4 * t264 + A_ij_7 * t265 + t190;
+    jac_phi_q_v_A_i[44] = t87 + A_ij_8 * t265 + (t93 + A_ij_5 * t264 + A_ij_2 * t262) + t97;
     const jg_real t266 = A_j[4] * g_star_in_i_2;
-    const jg_real t267 = t89 * C_i[6] + t185 * C_i[7];
+    const jg_real t267 = C_i[6] * t89 + C_i[7] * t185;
     const jg_real t268 = A_j[4] * C_i[8];
     const jg_real t269 = t89 * g_star_in_i_0 + t185 * g_star_in_i_1;
-    const jg_real t270 = t269 * h_star_in_j_1 + g_star_in_j_0 * t268 - (h_star_in_j_0 * t266 + t267 *
+    const jg_real t270 = h_star_in_j_1 * t269 + t268 * g_star_in_j_0 - (h_star_in_j_0 * t266 + t267 *
         g_star_in_j_1);
     const jg_real t271 = A_j[7] * g_star_in_i_2;
     const jg_real t272 = A_j[7] * C_i[8];
-    const jg_real t273 = h_star_in_j_0 * t271 + t267 * g_star_in_j_2 - (t269 * h_star_in_j_2 + g_star_in_j_0 *
-        t272);
-    const jg_real t274 = t266 * h_star_in_j_2 + g_star_in_j_1 * t272 - (h_star_in_j_1 * t271 + t268 *
+    const jg_real t273 = h_star_in_j_0 * t271 + t267 * g_star_in_j_2 - (h_star_in_j_2 * t269 + t272 *
+        g_star_in_j_0);
+    const jg_real t274 = h_star_in_j_2 * t266 + t272 * g_star_in_j_1 - (h_star_in_j_1 * t271 + t268 *
         g_star_in_j_2);
-    const jg_real t275 = t266 * C_j[8] - t271 * C_j[7];
-    const jg_real t276 = t271 * C_j[6] - t269 * C_j[8];
-    const jg_real t277 = t269 * C_j[7] - t266 * C_j[6];
-    jac_phi_q_v_A_i[45] = t263 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t275 + (t261 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t276) + (t260 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t277) - (t273 * C_j[7] + t274 *
-        C_j[6] + t270 * C_j[8]) * alphadot[1] - (omega_j[0] * t275 + omega_j[1] * t276 + omega_j[2] * t277);
+    const jg_real t275 = C_j[8] * t266 - C_j[7] * t271;
+    const jg_real t276 = C_j[6] * t271 - C_j[8] * t269;
+    const jg_real t277 = C_j[7] * t269 - C_j[6] * t266;
+    jac_phi_q_v_A_i[45] = t260 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t277 + (t263 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t275 + (t261 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t276)) - alphadot[1] * (C_j[7] *
+        t273 + C_j[6] * t274 + C_j[8] * t270) - (omega_j[0] * t275 + omega_j[1] * t276 + omega_j[2] * t277);
     const jg_real t278 = t268 * C_j[2] - t272 * C_j[1];
     const jg_real t279 = t272 * C_j[0] - t267 * C_j[2];
     const jg_real t280 = t267 * C_j[1] - t268 * C_j[0];
-    jac_phi_q_v_A_i[46] = t263 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t278 + (t261 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t279) + (t260 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t280) - (omega_j[1] * t279 +
+    jac_phi_q_v_A_i[46] = t260 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t280 + (t263 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t278 + (t261 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t279)) - (omega_j[1] * t279 +
         omega_j[0] * t278 + omega_j[2] * t280);
-    const jg_real t281 = t273 * C_j[5] - t270 * C_j[4];
-    const jg_real t282 = t270 * C_j[3] - t274 * C_j[5];
-    const jg_real t283 = t274 * C_j[4] - t273 * C_j[3];
-    jac_phi_q_v_A_i[47] = t263 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t281 + (t261 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t282) + (t260 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t283) + alphadot[1] * (t269 *
-        C_j[3] + t266 * C_j[4] + t271 * C_j[5]) - (omega_j[0] * t281 + omega_j[1] * t282 + omega_j[2] * t283);
+    const jg_real t281 = C_j[5] * t273 - C_j[4] * t270;
+    const jg_real t282 = C_j[3] * t270 - C_j[5] * t274;
+    const jg_real t283 = C_j[4] * t274 - C_j[3] * t273;
+    jac_phi_q_v_A_i[47] = t260 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t283 + (t263 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t281 + (t261 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t282)) + alphadot[1] * (C_j[3] *
+        t269 + C_j[4] * t266 + C_j[5] * t271) - (omega_j[0] * t281 + omega_j[1] * t282 + omega_j[2] * t283);
     const jg_real t284 = A_j[8] * omega_i[2];
     const jg_real t285 = A_j[5] * omega_i[2];
-    const jg_real t286 = t284 * s_j[1] - t285 * s_j[2];
-    const jg_real t287 = t123 * omega_i[0] + omega_i[1] * t212;
-    const jg_real t288 = s_j[2] * t287 - t284 * s_j[0];
-    const jg_real t289 = t285 * s_j[0] - s_j[1] * t287;
+    const jg_real t286 = s_j[1] * t284 - s_j[2] * t285;
+    const jg_real t287 = omega_i[0] * t123 + omega_i[1] * t212;
+    const jg_real t288 = s_j[2] * t287 - s_j[0] * t284;
+    const jg_real t289 = s_j[0] * t285 - s_j[1] * t287;
     jac_phi_q_v_A_i[48] = t135 + A_ij_0 * t286 + A_ij_3 * t288 + A_ij_6 * t289 + t136;
-    jac_phi_q_v_A_i[49] = t216 + t286 * A_ij_1 + A_ij_4 * t288 + A_ij_7 * t289 + t217;
-    jac_phi_q_v_A_i[50] = t121 + A_ij_5 * t288 + t286 * A_ij_2 + (t129 + A_ij_8 * t289) + t131;
+    jac_phi_q_v_A_i[49] = t216 + A_ij_1 * t286 + A_ij_4 * t288 + A_ij_7 * t289 + t217;
+    jac_phi_q_v_A_i[50] = t121 + A_ij_8 * t289 + (t127 + A_ij_5 * t288 + A_ij_2 * t286) + t131;
     const jg_real t290 = A_j[5] * g_star_in_i_2;
-    const jg_real t291 = t123 * C_i[6] + t212 * C_i[7];
+    const jg_real t291 = C_i[6] * t123 + C_i[7] * t212;
     const jg_real t292 = A_j[5] * C_i[8];
     const jg_real t293 = t123 * g_star_in_i_0 + t212 * g_star_in_i_1;
-    const jg_real t294 = t293 * h_star_in_j_1 + g_star_in_j_0 * t292 - (h_star_in_j_0 * t290 + t291 *
+    const jg_real t294 = h_star_in_j_1 * t293 + t292 * g_star_in_j_0 - (h_star_in_j_0 * t290 + t291 *
         g_star_in_j_1);
     const jg_real t295 = A_j[8] * g_star_in_i_2;
     const jg_real t296 = A_j[8] * C_i[8];
-    const jg_real t297 = h_star_in_j_0 * t295 + t291 * g_star_in_j_2 - (t293 * h_star_in_j_2 + g_star_in_j_0 *
-        t296);
-    const jg_real t298 = t290 * h_star_in_j_2 + g_star_in_j_1 * t296 - (h_star_in_j_1 * t295 + t292 *
+    const jg_real t297 = h_star_in_j_0 * t295 + t291 * g_star_in_j_2 - (h_star_in_j_2 * t293 + t296 *
+        g_star_in_j_0);
+    const jg_real t298 = h_star_in_j_2 * t290 + t296 * g_star_in_j_1 - (h_star_in_j_1 * t295 + t292 *
         g_star_in_j_2);
-    const jg_real t299 = t290 * C_j[8] - t295 * C_j[7];
-    const jg_real t300 = t295 * C_j[6] - t293 * C_j[8];
-    const jg_real t301 = t293 * C_j[7] - t290 * C_j[6];
-    jac_phi_q_v_A_i[51] = t287 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t299 + (t285 * g_star_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t300) + (t284 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t301) - (t297 * C_j[7] + t298 *
-        C_j[6] + t294 * C_j[8]) * alphadot[1] - (omega_j[0] * t299 + omega_j[1] * t300 + omega_j[2] * t301);
+    const jg_real t299 = C_j[8] * t290 - C_j[7] * t295;
+    const jg_real t300 = C_j[6] * t295 - C_j[8] * t293;
+    const jg_real t301 = C_j[7] * t293 - C_j[6] * t290;
+    jac_phi_q_v_A_i[51] = t284 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t301 + (t287 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t299 + (t285 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t300)) - alphadot[1] * (C_j[7] *
+        t297 + C_j[6] * t298 + C_j[8] * t294) - (omega_j[0] * t299 + omega_j[1] * t300 + omega_j[2] * t301);
     const jg_real t302 = t292 * C_j[2] - t296 * C_j[1];
     const jg_real t303 = t296 * C_j[0] - t291 * C_j[2];
     const jg_real t304 = t291 * C_j[1] - t292 * C_j[0];
-    jac_phi_q_v_A_i[52] = t287 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t302 + (t285 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t303) + (t284 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t304) - (omega_j[1] * t303 +
+    jac_phi_q_v_A_i[52] = t284 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t304 + (t287 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t302 + (t285 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t303)) - (omega_j[1] * t303 +
         omega_j[0] * t302 + omega_j[2] * t304);
-    const jg_real t305 = t297 * C_j[5] - t294 * C_j[4];
-    const jg_real t306 = t294 * C_j[3] - t298 * C_j[5];
-    const jg_real t307 = t298 * C_j[4] - t297 * C_j[3];
-    jac_phi_q_v_A_i[53] = t287 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t305 + (t285 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t306) + (t284 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t307) + alphadot[1] * (t293 *
-        C_j[3] + t290 * C_j[4] + t295 * C_j[5]) - (omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307);
+    const jg_real t305 = C_j[5] * t297 - C_j[4] * t294;
+    const jg_real t306 = C_j[3] * t294 - C_j[5] * t298;
+    const jg_real t307 = C_j[4] * t298 - C_j[3] * t297;
+    jac_phi_q_v_A_i[53] = t284 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t307 + (t287 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t305 + (t285 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t306)) + alphadot[1] * (C_j[3] *
+        t293 + C_j[4] * t290 + C_j[5] * t295) - (omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307);
     const jg_real t308 = A_i[3] * A_ij_8 - A_i[6] * A_ij_7;
-    const jg_real t309 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
-    const jg_real t310 = t309 * s_j[2];
-    const jg_real t311 = A_i[6] * A_ij_6 - A_ij_8 * A_i[0];
-    const jg_real t312 = A_ij_7 * A_i[0] - A_i[3] * A_ij_6;
-    const jg_real t313 = t308 * omega_i[0] + omega_i[1] * t311 + omega_i[2] * t312;
+    const jg_real t309 = A_i[3] * omega_i[1] + A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t310 = s_j[2] * t309;
+    const jg_real t311 = A_i[6] * A_ij_6 - A_i[0] * A_ij_8;
+    const jg_real t312 = A_i[0] * A_ij_7 - A_i[3] * A_ij_6;
+    const jg_real t313 = omega_i[0] * t308 + omega_i[1] * t311 + omega_i[2] * t312;
     const jg_real t314 = s_j[2] * t313;
-    const jg_real t315 = t309 * s_j[0];
+    const jg_real t315 = s_j[0] * t309;
     const jg_real t316 = t315 - s_j[1] * t313;
-    jac_phi_q_v_A_j[0] = t308 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t310 + (A_i[0] * s_j_cross_omega_i_in_j_1 +
-        A_ij_3 * t314) + A_ij_6 * t316 + (t308 * v_0_in_j_0 + A_i[0] * v_0_in_j_1);
-    jac_phi_q_v_A_j[1] = s_j_cross_omega_i_in_j_0 * t311 - t310 * A_ij_1 + (A_i[3] * s_j_cross_omega_i_in_j_1 +
-        A_ij_4 * t314) + A_ij_7 * t316 + (t311 * v_0_in_j_0 + A_i[3] * v_0_in_j_1);
-    jac_phi_q_v_A_j[2] = s_j_cross_omega_i_in_j_0 * t312 - t310 * A_ij_2 + (A_i[6] * s_j_cross_omega_i_in_j_1 +
-        A_ij_5 * t314) + A_ij_8 * t316 + (t312 * v_0_in_j_0 + A_i[6] * v_0_in_j_1);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_1 + v_0_in_j_0 * t308 + (t308 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t310
+        + (A_i[0] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t314) + A_ij_6 * t316);
+    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_1 + v_0_in_j_0 * t311 + (t311 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t310
+        + (A_i[3] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t314) + A_ij_7 * t316);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_0_in_j_1 + v_0_in_j_0 * t312 + (t312 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t310
+        + (A_i[6] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t314) + A_ij_8 * t316);
     const jg_real t317 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
     const jg_real t318 = h_star_in_j_0 * t317;
-    const jg_real t319 = t308 * C_i[6] + t311 * C_i[7] + t312 * C_i[8];
+    const jg_real t319 = C_i[6] * t308 + C_i[7] * t311 + C_i[8] * t312;
     const jg_real t320 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t321 = g_star_in_j_0 * t320;
+    const jg_real t321 = t320 * g_star_in_j_0;
     const jg_real t322 = t308 * g_star_in_i_0 + t311 * g_star_in_i_1 + t312 * g_star_in_i_2;
-    const jg_real t323 = t322 * h_star_in_j_1 + t321 - (t318 + t319 * g_star_in_j_1);
-    const jg_real t324 = t319 * g_star_in_j_2 - t322 * h_star_in_j_2;
-    const jg_real t325 = t317 * h_star_in_j_2 - t320 * g_star_in_j_2;
-    const jg_real t326 = t317 * C_j[8];
-    const jg_real t327 = t322 * C_j[8];
-    const jg_real t328 = t317 * C_j[6];
-    const jg_real t329 = t322 * C_j[7] - t328;
+    const jg_real t323 = h_star_in_j_1 * t322 + t321 - (t318 + t319 * g_star_in_j_1);
+    const jg_real t324 = t319 * g_star_in_j_2 - h_star_in_j_2 * t322;
+    const jg_real t325 = h_star_in_j_2 * t317 - t320 * g_star_in_j_2;
+    const jg_real t326 = C_j[8] * t317;
+    const jg_real t327 = C_j[8] * t322;
+    const jg_real t328 = C_j[6] * t317;
+    const jg_real t329 = C_j[7] * t322 - t328;
     jac_phi_q_v_A_j[3] = t313 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t326 + (t309 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t327) + omega_i_in_j_2 * t329 - (t324 * C_j[7] + t325 * C_j[6] + t323 * C_j[8]) *
-        alphadot[1] - (omega_j[0] * t326 - omega_j[1] * t327 + omega_j[2] * t329);
+        omega_i_in_j_1 * t327) + omega_i_in_j_2 * t329 - alphadot[1] * (C_j[7] * t324 + C_j[6] * t325 + C_j[8] *
+        t323) - (omega_j[0] * t326 - omega_j[1] * t327 + omega_j[2] * t329);
     const jg_real t330 = t320 * C_j[2];
-    const jg_real t331 = t319 * C_j[2];
+    const jg_real t331 = C_j[2] * t319;
     const jg_real t332 = t320 * C_j[0];
-    const jg_real t333 = t319 * C_j[1] - t332;
+    const jg_real t333 = C_j[1] * t319 - t332;
     jac_phi_q_v_A_j[4] = t313 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t330 + (t309 * h_star_cross_f_j_in_j_1 -
         omega_i_in_j_1 * t331) + omega_i_in_j_2 * t333 - (omega_j[0] * t330 - omega_j[1] * t331 + omega_j[2] *
         t333);
-    const jg_real t334 = t324 * C_j[5] - t323 * C_j[4];
-    const jg_real t335 = t323 * C_j[3] - t325 * C_j[5];
-    const jg_real t336 = t325 * C_j[4] - t324 * C_j[3];
+    const jg_real t334 = C_j[5] * t324 - C_j[4] * t323;
+    const jg_real t335 = C_j[3] * t323 - C_j[5] * t325;
+    const jg_real t336 = C_j[4] * t325 - C_j[3] * t324;
     jac_phi_q_v_A_j[5] = t313 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t334 + (t309 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t335) + omega_i_in_j_2 * t336 + alphadot[1] * (t322 * C_j[3] + t317 * C_j[4]) - (omega_j[0]
+        omega_i_in_j_1 * t335) + omega_i_in_j_2 * t336 + alphadot[1] * (C_j[3] * t322 + C_j[4] * t317) - (omega_j[0]
         * t334 + omega_j[1] * t335 + omega_j[2] * t336);
     const jg_real t337 = A_i[4] * A_ij_8 - A_i[7] * A_ij_7;
-    const jg_real t338 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
-    const jg_real t339 = t338 * s_j[2];
-    const jg_real t340 = A_i[7] * A_ij_6 - A_ij_8 * A_i[1];
-    const jg_real t341 = A_ij_7 * A_i[1] - A_i[4] * A_ij_6;
-    const jg_real t342 = t337 * omega_i[0] + omega_i[1] * t340 + omega_i[2] * t341;
+    const jg_real t338 = A_i[4] * omega_i[1] + A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t339 = s_j[2] * t338;
+    const jg_real t340 = A_i[7] * A_ij_6 - A_i[1] * A_ij_8;
+    const jg_real t341 = A_i[1] * A_ij_7 - A_i[4] * A_ij_6;
+    const jg_real t342 = omega_i[0] * t337 + omega_i[1] * t340 + omega_i[2] * t341;
     const jg_real t343 = s_j[2] * t342;
-    const jg_real t344 = t338 * s_j[0];
+    const jg_real t344 = s_j[0] * t338;
     const jg_real t345 = t344 - s_j[1] * t342;
-    jac_phi_q_v_A_j[6] = t337 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t339 + (A_i[1] * s_j_cross_omega_i_in_j_1 +
-        A_ij_3 * t343) + A_ij_6 * t345 + (t337 * v_0_in_j_0 + A_i[1] * v_0_in_j_1);
-    jac_phi_q_v_A_j[7] = s_j_cross_omega_i_in_j_0 * t340 - t339 * A_ij_1 + (A_i[4] * s_j_cross_omega_i_in_j_1 +
-        A_ij_4 * t343) + A_ij_7 * t345 + (t340 * v_0_in_j_0 + A_i[4] * v_0_in_j_1);
-    jac_phi_q_v_A_j[8] = s_j_cross_omega_i_in_j_0 * t341 - t339 * A_ij_2 + (A_i[7] * s_j_cross_omega_i_in_j_1 +
-        A_ij_5 * t343) + A_ij_8 * t345 + (t341 * v_0_in_j_0 + A_i[7] * v_0_in_j_1);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_1 + v_0_in_j_0 * t337 + (t337 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t339
+        + (A_i[1] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t343) + A_ij_6 * t345);
+    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_1 + v_0_in_j_0 * t340 + (t340 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t339
+        + (A_i[4] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t343) + A_ij_7 * t345);
+    jac_phi_q_v_A_j[8] = A_i[7] * v_0_in_j_1 + v_0_in_j_0 * t341 + (t341 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t339
+        + (A_i[7] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t343) + A_ij_8 * t345);
     const jg_real t346 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
     const jg_real t347 = h_star_in_j_0 * t346;
-    const jg_real t348 = t337 * C_i[6] + t340 * C_i[7] + t341 * C_i[8];
+    const jg_real t348 = C_i[6] * t337 + C_i[7] * t340 + C_i[8] * t341;
     const jg_real t349 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t350 = g_star_in_j_0 * t349;
+    const jg_real t350 = t349 * g_star_in_j_0;
     const jg_real t351 = t337 * g_star_in_i_0 + t340 * g_star_in_i_1 + t341 * g_star_in_i_2;
-    const jg_real t352 = t351 * h_star_in_j_1 + t350 - (t347 + t348 * g_star_in_j_1);
-    const jg_real t353 = t348 * g_star_in_j_2 - t351 * h_star_in_j_2;
-    const jg_real t354 = t346 * h_star_in_j_2 - t349 * g_star_in_j_2;
-    const jg_real t355 = t346 * C_j[8];
-    const jg_real t356 = t351 * C_j[8];
-    const jg_real t357 = t346 * C_j[6];
-    const jg_real t358 = t351 * C_j[7] - t357;
+    const jg_real t352 = h_star_in_j_1 * t351 + t350 - (t347 + t348 * g_star_in_j_1);
+    const jg_real t353 = t348 * g_star_in_j_2 - h_star_in_j_2 * t351;
+    const jg_real t354 = h_star_in_j_2 * t346 - t349 * g_star_in_j_2;
+    const jg_real t355 = C_j[8] * t346;
+    const jg_real t356 = C_j[8] * t351;
+    const jg_real t357 = C_j[6] * t346;
+    const jg_real t358 = C_j[7] * t351 - t357;
     jac_phi_q_v_A_j[9] = t342 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t355 + (t338 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t356) + omega_i_in_j_2 * t358 - (t353 * C_j[7] + t354 * C_j[6] + t352 * C_j[8]) *
-        alphadot[1] - (omega_j[0] * t355 - omega_j[1] * t356 + omega_j[2] * t358);
+        omega_i_in_j_1 * t356) + omega_i_in_j_2 * t358 - alphadot[1] * (C_j[7] * t353 + C_j[6] * t354 + C_j[8] *
+        t352) - (omega_j[0] * t355 - omega_j[1] * t356 + omega_j[2] * t358);
     const jg_real t359 = t349 * C_j[2];
-    const jg_real t360 = t348 * C_j[2];
+    const jg_real t360 = C_j[2] * t348;
     const jg_real t361 = t349 * C_j[0];
-    const jg_real t362 = t348 * C_j[1] - t361;
+    const jg_real t362 = C_j[1] * t348 - t361;
     jac_phi_q_v_A_j[10] = t342 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t359 + (t338 * h_star_cross_f_j_in_j_1 -
         omega_i_in_j_1 * t360) + omega_i_in_j_2 * t362 - (omega_j[0] * t359 - omega_j[1] * t360 + omega_j[2] *
         t362);
-    const jg_real t363 = t353 * C_j[5] - t352 * C_j[4];
-    const jg_real t364 = t352 * C_j[3] - t354 * C_j[5];
-    const jg_real t365 = t354 * C_j[4] - t353 * C_j[3];
+    const jg_real t363 = C_j[5] * t353 - C_j[4] * t352;
+    const jg_real t364 = C_j[3] * t352 - C_j[5] * t354;
+    const jg_real t365 = C_j[4] * t354 - C_j[3] * t353;
     jac_phi_q_v_A_j[11] = t342 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t363 + (t338 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t364) + omega_i_in_j_2 * t365 + alphadot[1] * (t351 * C_j[3] + t346 * C_j[4]) - (omega_j[0]
+        omega_i_in_j_1 * t364) + omega_i_in_j_2 * t365 + alphadot[1] * (C_j[3] * t351 + C_j[4] * t346) - (omega_j[0]
         * t363 + omega_j[1] * t364 + omega_j[2] * t365);
     const jg_real t366 = A_i[5] * A_ij_8 - A_i[8] * A_ij_7;
-    const jg_real t367 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
-    const jg_real t368 = t367 * s_j[2];
-    const jg_real t369 = A_i[8] * A_ij_6 - A_ij_8 * A_i[2];
-    const jg_real t370 = A_ij_7 * A_i[2] - A_i[5] * A_ij_6;
-    const jg_real t371 = t366 * omega_i[0] + omega_i[1] * t369 + omega_i[2] * t370;
+    const jg_real t367 = A_i[5] * omega_i[1] + A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t368 = s_j[2] * t367;
+    const jg_real t369 = A_i[8] * A_ij_6 - A_i[2] * A_ij_8;
+    const jg_real t370 = A_i[2] * A_ij_7 - A_i[5] * A_ij_6;
+    const jg_real t371 = omega_i[0] * t366 + omega_i[1] * t369 + omega_i[2] * t370;
     const jg_real t372 = s_j[2] * t371;
-    const jg_real t373 = t367 * s_j[0];
+    const jg_real t373 = s_j[0] * t367;
     const jg_real t374 = t373 - s_j[1] * t371;
-    jac_phi_q_v_A_j[12] = t366 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t368 + (A_i[2] * s_j_cross_omega_i_in_j_1 +
-        A_ij_3 * t372) + A_ij_6 * t374 + (t366 * v_0_in_j_0 + A_i[2] * v_0_in_j_1);
-    jac_phi_q_v_A_j[13] = s_j_cross_omega_i_in_j_0 * t369 - t368 * A_ij_1 + (A_i[5] * s_j_cross_omega_i_in_j_1 +
-        A_ij_4 * t372) + A_ij_7 * t374 + (t369 * v_0_in_j_0 + A_i[5] * v_0_in_j_1);
-    jac_phi_q_v_A_j[14] = s_j_cross_omega_i_in_j_0 * t370 - t368 * A_ij_2 + (A_i[8] * s_j_cross_omega_i_in_j_1 +
-        A_ij_5 * t372) + A_ij_8 * t374 + (t370 * v_0_in_j_0 + A_i[8] * v_0_in_j_1);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_1 + v_0_in_j_0 * t366 + (t366 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t368
+        + (A_i[2] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t372) + A_ij_6 * t374);
+    jac_phi_q_v_A_j[13] = A_i[5] * v_0_in_j_1 + v_0_in_j_0 * t369 + (t369 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t368
+        + (A_i[5] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t372) + A_ij_7 * t374);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_0_in_j_1 + v_0_in_j_0 * t370 + (t370 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t368
+        + (A_i[8] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t372) + A_ij_8 * t374);
     const jg_real t375 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     const jg_real t376 = h_star_in_j_0 * t375;
-    const jg_real t377 = t366 * C_i[6] + t369 * C_i[7] + t370 * C_i[8];
+    const jg_real t377 = C_i[6] * t366 + C_i[7] * t369 + C_i[8] * t370;
     const jg_real t378 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t379 = g_star_in_j_0 * t378;
+    const jg_real t379 = t378 * g_star_in_j_0;
     const jg_real t380 = t366 * g_star_in_i_0 + t369 * g_star_in_i_1 + t370 * g_star_in_i_2;
-    const jg_real t381 = t380 * h_star_in_j_1 + t379 - (t376 + t377 * g_star_in_j_1);
-    const jg_real t382 = t377 * g_star_in_j_2 - t380 * h_star_in_j_2;
-    const jg_real t383 = t375 * h_star_in_j_2 - t378 * g_star_in_j_2;
-    const jg_real t384 = t375 * C_j[8];
-    const jg_real t385 = t380 * C_j[8];
-    const jg_real t386 = t375 * C_j[6];
-    const jg_real t387 = t380 * C_j[7] - t386;
+    const jg_real t381 = h_star_in_j_1 * t380 + t379 - (t376 + t377 * g_star_in_j_1);
+    const jg_real t382 = t377 * g_star_in_j_2 - h_star_in_j_2 * t380;
+    const jg_real t383 = h_star_in_j_2 * t375 - t378 * g_star_in_j_2;
+    const jg_real t384 = C_j[8] * t375;
+    const jg_real t385 = C_j[8] * t380;
+    const jg_real t386 = C_j[6] * t375;
+    const jg_real t387 = C_j[7] * t380 - t386;
     jac_phi_q_v_A_j[15] = t371 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t384 + (t367 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t385) + omega_i_in_j_2 * t387 - (t382 * C_j[7] + t383 * C_j[6] + t381 * C_j[8]) *
-        alphadot[1] - (omega_j[0] * t384 - omega_j[1] * t385 + omega_j[2] * t387);
+        omega_i_in_j_1 * t385) + omega_i_in_j_2 * t387 - alphadot[1] * (C_j[7] * t382 + C_j[6] * t383 + C_j[8] *
+        t381) - (omega_j[0] * t384 - omega_j[1] * t385 + omega_j[2] * t387);
     const jg_real t388 = t378 * C_j[2];
-    const jg_real t389 = t377 * C_j[2];
+    const jg_real t389 = C_j[2] * t377;
     const jg_real t390 = t378 * C_j[0];
-    const jg_real t391 = t377 * C_j[1] - t390;
+    const jg_real t391 = C_j[1] * t377 - t390;
     jac_phi_q_v_A_j[16] = t371 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t388 + (t367 * h_star_cross_f_j_in_j_1 -
         omega_i_in_j_1 * t389) + omega_i_in_j_2 * t391 - (omega_j[0] * t388 - omega_j[1] * t389 + omega_j[2] *
         t391);
-    const jg_real t392 = t382 * C_j[5] - t381 * C_j[4];
-    const jg_real t393 = t381 * C_j[3] - t383 * C_j[5];
-    const jg_real t394 = t383 * C_j[4] - t382 * C_j[3];
+    const jg_real t392 = C_j[5] * t382 - C_j[4] * t381;
+    const jg_real t393 = C_j[3] * t381 - C_j[5] * t383;
+    const jg_real t394 = C_j[4] * t383 - C_j[3] * t382;
     jac_phi_q_v_A_j[17] = t371 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t392 + (t367 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t393) + omega_i_in_j_2 * t394 + alphadot[1] * (t380 * C_j[3] + t375 * C_j[4]) - (omega_j[0]
+        omega_i_in_j_1 * t393) + omega_i_in_j_2 * t394 + alphadot[1] * (C_j[3] * t380 + C_j[4] * t375) - (omega_j[0]
         * t392 + omega_j[1] * t393 + omega_j[2] * t394);
-    const jg_real t395 = A_ij_4 * A_i[6] - A_i[3] * A_ij_5;
-    const jg_real t396 = t309 * s_j[1];
-    const jg_real t397 = A_ij_5 * A_i[0] - A_i[6] * A_ij_3;
-    const jg_real t398 = A_i[3] * A_ij_3 - A_ij_4 * A_i[0];
-    const jg_real t399 = t395 * omega_i[0] + omega_i[1] * t397 + omega_i[2] * t398;
-    const jg_real t400 = s_j[2] * t399 - t315;
-    const jg_real t401 = s_j[1] * t399;
-    jac_phi_q_v_A_j[18] = t395 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t396 + A_ij_3 * t400 + (A_i[0] *
-        s_j_cross_omega_i_in_j_2 - A_ij_6 * t401) + (t395 * v_0_in_j_0 + A_i[0] * v_0_in_j_2);
-    jac_phi_q_v_A_j[19] = s_j_cross_omega_i_in_j_0 * t397 + t396 * A_ij_1 + A_ij_4 * t400 + (A_i[3] *
-        s_j_cross_omega_i_in_j_2 - A_ij_7 * t401) + (t397 * v_0_in_j_0 + A_i[3] * v_0_in_j_2);
-    jac_phi_q_v_A_j[20] = s_j_cross_omega_i_in_j_0 * t398 + t396 * A_ij_2 + A_ij_5 * t400 + (A_i[6] *
-        s_j_cross_omega_i_in_j_2 - A_ij_8 * t401) + (t398 * v_0_in_j_0 + A_i[6] * v_0_in_j_2);
-    const jg_real t402 = t317 * C_j[7];
-    const jg_real t403 = t395 * g_star_in_i_0 + t397 * g_star_in_i_1 + t398 * g_star_in_i_2;
-    const jg_real t404 = t328 - t403 * C_j[8];
-    const jg_real t405 = t403 * C_j[7];
-    const jg_real t406 = t395 * C_i[6] + t397 * C_i[7] + t398 * C_i[8];
-    const jg_real t407 = t318 + t406 * g_star_in_j_2 - (t321 + t403 * h_star_in_j_2);
+    const jg_real t395 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
+    const jg_real t396 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
+    const jg_real t397 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
+    const jg_real t398 = omega_i[0] * t395 + omega_i[1] * t396 + omega_i[2] * t397;
+    const jg_real t399 = s_j[1] * t398;
+    const jg_real t400 = s_j[1] * t309;
+    const jg_real t401 = s_j[2] * t398 - t315;
+    jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_0 * t395 + (A_i[0] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
+        t399 + (t395 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t400 + A_ij_3 * t401));
+    jac_phi_q_v_A_j[19] = A_i[3] * v_0_in_j_2 + v_0_in_j_0 * t396 + (A_i[3] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t399 + (t396 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t400 + A_ij_4 * t401));
+    jac_phi_q_v_A_j[20] = A_i[6] * v_0_in_j_2 + v_0_in_j_0 * t397 + (A_i[6] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t399 + (t397 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t400 + A_ij_5 * t401));
+    const jg_real t402 = C_j[7] * t317;
+    const jg_real t403 = t395 * g_star_in_i_0 + t396 * g_star_in_i_1 + t397 * g_star_in_i_2;
+    const jg_real t404 = t328 - C_j[8] * t403;
+    const jg_real t405 = C_j[7] * t403;
+    const jg_real t406 = C_i[6] * t395 + C_i[7] * t396 + C_i[8] * t397;
+    const jg_real t407 = t318 + t406 * g_star_in_j_2 - (t321 + h_star_in_j_2 * t403);
     const jg_real t408 = t320 * g_star_in_j_1 - h_star_in_j_1 * t317;
-    const jg_real t409 = t403 * h_star_in_j_1 - t406 * g_star_in_j_1;
-    jac_phi_q_v_A_j[21] = t399 * g_star_cross_h_j_in_j_0 - omega_i_in_j_0 * t402 + omega_i_in_j_1 * t404 + (t309 *
-        g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t405) - (t407 * C_j[7] + t408 * C_j[6] + t409 * C_j[8]) *
-        alphadot[1] - (omega_j[1] * t404 - omega_j[0] * t402 + omega_j[2] * t405);
+    const jg_real t409 = h_star_in_j_1 * t403 - t406 * g_star_in_j_1;
+    jac_phi_q_v_A_j[21] = t309 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t405 + (t398 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t402 + omega_i_in_j_1 * t404) - alphadot[1] * (C_j[7] * t407 + C_j[6] * t408 + C_j[8] *
+        t409) - (omega_j[1] * t404 - omega_j[0] * t402 + omega_j[2] * t405);
     const jg_real t410 = t320 * C_j[1];
-    const jg_real t411 = t332 - t406 * C_j[2];
-    const jg_real t412 = t406 * C_j[1];
-    jac_phi_q_v_A_j[22] = t399 * h_star_cross_f_j_in_j_0 - omega_i_in_j_0 * t410 + omega_i_in_j_1 * t411 + (t309 *
-        h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t412) - (omega_j[1] * t411 - omega_j[0] * t410 + omega_j[2] *
+    const jg_real t411 = t332 - C_j[2] * t406;
+    const jg_real t412 = C_j[1] * t406;
+    jac_phi_q_v_A_j[22] = t309 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t412 + (t398 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t410 + omega_i_in_j_1 * t411) - (omega_j[1] * t411 - omega_j[0] * t410 + omega_j[2] *
         t412);
-    const jg_real t413 = t407 * C_j[5] - t409 * C_j[4];
-    const jg_real t414 = t409 * C_j[3] - t408 * C_j[5];
-    const jg_real t415 = t408 * C_j[4] - t407 * C_j[3];
-    jac_phi_q_v_A_j[23] = t399 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t413 + omega_i_in_j_1 * t414 + (t309 *
-        f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t415) + alphadot[1] * (t403 * C_j[3] + t317 * C_j[5]) -
-        (omega_j[0] * t413 + omega_j[1] * t414 + omega_j[2] * t415);
-    const jg_real t416 = A_ij_4 * A_i[7] - A_i[4] * A_ij_5;
-    const jg_real t417 = t338 * s_j[1];
-    const jg_real t418 = A_ij_5 * A_i[1] - A_i[7] * A_ij_3;
-    const jg_real t419 = A_i[4] * A_ij_3 - A_ij_4 * A_i[1];
-    const jg_real t420 = t416 * omega_i[0] + omega_i[1] * t418 + omega_i[2] * t419;
-    const jg_real t421 = s_j[2] * t420 - t344;
-    const jg_real t422 = s_j[1] * t420;
-    jac_phi_q_v_A_j[24] = t416 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t417 + A_ij_3 * t421 + (A_i[1] *
-        s_j_cross_omega_i_in_j_2 - A_ij_6 * t422) + (t416 * v_0_in_j_0 + A_i[1] * v_0_in_j_2);
-    jac_phi_q_v_A_j[25] = s_j_cross_omega_i_in_j_0 * t418 + t417 * A_ij_1 + A_ij_4 * t421 + (A_i[4] *
-        s_j_cross_omega_i_in_j_2 - A_ij_7 * t422) + (t418 * v_0_in_j_0 + A_i[4] * v_0_in_j_2);
-    jac_phi_q_v_A_j[26] = s_j_cross_omega_i_in_j_0 * t419 + t417 * A_ij_2 + A_ij_5 * t421 + (A_i[7] *
-        s_j_cross_omega_i_in_j_2 - A_ij_8 * t422) + (t419 * v_0_in_j_0 + A_i[7] * v_0_in_j_2);
-    const jg_real t423 = t346 * C_j[7];
-    const jg_real t424 = t416 * g_star_in_i_0 + t418 * g_star_in_i_1 + t419 * g_star_in_i_2;
-    const jg_real t425 = t357 - t424 * C_j[8];
-    const jg_real t426 = t424 * C_j[7];
-    const jg_real t427 = t416 * C_i[6] + t418 * C_i[7] + t419 * C_i[8];
-    const jg_real t428 = t347 + t427 * g_star_in_j_2 - (t350 + t424 * h_star_in_j_2);
+    const jg_real t413 = C_j[4] * t408 - C_j[3] * t407;
+    const jg_real t414 = C_j[5] * t407 - C_j[4] * t409;
+    const jg_real t415 = C_j[3] * t409 - C_j[5] * t408;
+    jac_phi_q_v_A_j[23] = t309 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t413 + (t398 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t414 + omega_i_in_j_1 * t415) + alphadot[1] * (C_j[3] * t403 + C_j[5] * t317) - (omega_j[0]
+        * t414 + omega_j[1] * t415 + omega_j[2] * t413);
+    const jg_real t416 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
+    const jg_real t417 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
+    const jg_real t418 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
+    const jg_real t419 = omega_i[0] * t416 + omega_i[1] * t417 + omega_i[2] * t418;
+    const jg_real t420 = s_j[1] * t419;
+    const jg_real t421 = s_j[1] * t338;
+    const jg_real t422 = s_j[2] * t419 - t344;
+    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_0 * t416 + (A_i[1] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
+        t420 + (t416 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t421 + A_ij_3 * t422));
+    jac_phi_q_v_A_j[25] = A_i[4] * v_0_in_j_2 + v_0_in_j_0 * t417 + (A_i[4] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t420 + (t417 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t421 + A_ij_4 * t422));
+    jac_phi_q_v_A_j[26] = A_i[7] * v_0_in_j_2 + v_0_in_j_0 * t418 + (A_i[7] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t420 + (t418 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t421 + A_ij_5 * t422));
+    const jg_real t423 = C_j[7] * t346;
+    const jg_real t424 = t416 * g_star_in_i_0 + t417 * g_star_in_i_1 + t418 * g_star_in_i_2;
+    const jg_real t425 = t357 - C_j[8] * t424;
+    const jg_real t426 = C_j[7] * t424;
+    const jg_real t427 = C_i[6] * t416 + C_i[7] * t417 + C_i[8] * t418;
+    const jg_real t428 = t347 + t427 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t424);
     const jg_real t429 = t349 * g_star_in_j_1 - h_star_in_j_1 * t346;
-    const jg_real t430 = t424 * h_star_in_j_1 - t427 * g_star_in_j_1;
-    jac_phi_q_v_A_j[27] = t420 * g_star_cross_h_j_in_j_0 - omega_i_in_j_0 * t423 + omega_i_in_j_1 * t425 + (t338 *
-        g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t426) - (t428 * C_j[7] + t429 * C_j[6] + t430 * C_j[8]) *
-        alphadot[1] - (omega_j[1] * t425 - omega_j[0] * t423 + omega_j[2] * t426);
+    const jg_real t430 = h_star_in_j_1 * t424 - t427 * g_star_in_j_1;
+    jac_phi_q_v_A_j[27] = t338 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t426 + (t419 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t423 + omega_i_in_j_1 * t425) - alphadot[1] * (C_j[7] * t428 + C_j[6] * t429 + C_j[8] *
+        t430) - (omega_j[1] * t425 - omega_j[0] * t423 + omega_j[2] * t426);
     const jg_real t431 = t349 * C_j[1];
-    const jg_real t432 = t361 - t427 * C_j[2];
-    const jg_real t433 = t427 * C_j[1];
-    jac_phi_q_v_A_j[28] = t420 * h_star_cross_f_j_in_j_0 - omega_i_in_j_0 * t431 + omega_i_in_j_1 * t432 + (t338 *
-        h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t433) - (omega_j[1] * t432 - omega_j[0] * t431 + omega_j[2] *
+    const jg_real t432 = t361 - C_j[2] * t427;
+    const jg_real t433 = C_j[1] * t427;
+    jac_phi_q_v_A_j[28] = t338 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t433 + (t419 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t431 + omega_i_in_j_1 * t432) - (omega_j[1] * t432 - omega_j[0] * t431 + omega_j[2] *
         t433);
-    const jg_real t434 = t428 * C_j[5] - t430 * C_j[4];
-    const jg_real t435 = t430 * C_j[3] - t429 * C_j[5];
-    const jg_real t436 = t429 * C_j[4] - t428 * C_j[3];
-    jac_phi_q_v_A_j[29] = t420 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t434 + omega_i_in_j_1 * t435 + (t338 *
-        f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t436) + alphadot[1] * (t424 * C_j[3] + t346 * C_j[5]) -
-        (omega_j[0] * t434 + omega_j[1] * t435 + omega_j[2] * t436);
-    const jg_real t437 = A_ij_4 * A_i[8] - A_i[5] * A_ij_5;
-    const jg_real t438 = t367 * s_j[1];
-    const jg_real t439 = A_ij_5 * A_i[2] - A_i[8] * A_ij_3;
-    const jg_real t440 = A_i[5] * A_ij_3 - A_ij_4 * A_i[2];
-    const jg_real t441 = t437 * omega_i[0] + omega_i[1] * t439 + omega_i[2] * t440;
-    const jg_real t442 = s_j[2] * t441 - t373;
-    const jg_real t443 = s_j[1] * t441;
-    jac_phi_q_v_A_j[30] = t437 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t438 + A_ij_3 * t442 + (A_i[2] *
-        s_j_cross_omega_i_in_j_2 - A_ij_6 * t443) + (t437 * v_0_in_j_0 + A_i[2] * v_0_in_j_2);
-    jac_phi_q_v_A_j[31] = s_j_cross_omega_i_in_j_0 * t439 + t438 * A_ij_1 + A_ij_4 * t442 + (A_i[5] *
-        s_j_cross_omega_i_in_j_2 - A_ij_7 * t443) + (t439 * v_0_in_j_0 + A_i[5] * v_0_in_j_2);
-    jac_phi_q_v_A_j[32] = s_j_cross_omega_i_in_j_0 * t440 + t438 * A_ij_2 + A_ij_5 * t442 + (A_i[8] *
-        s_j_cross_omega_i_in_j_2 - A_ij_8 * t443) + (t440 * v_0_in_j_0 + A_i[8] * v_0_in_j_2);
-    const jg_real t444 = t375 * C_j[7];
-    const jg_real t445 = t437 * g_star_in_i_0 + t439 * g_star_in_i_1 + t440 * g_star_in_i_2;
-    const jg_real t446 = t386 - t445 * C_j[8];
-    const jg_real t447 = t445 * C_j[7];
-    const jg_real t448 = t437 * C_i[6] + t439 * C_i[7] + t440 * C_i[8];
-    const jg_real t449 = t376 + t448 * g_star_in_j_2 - (t379 + t445 * h_star_in_j_2);
+    const jg_real t434 = C_j[4] * t429 - C_j[3] * t428;
+    const jg_real t435 = C_j[5] * t428 - C_j[4] * t430;
+    const jg_real t436 = C_j[3] * t430 - C_j[5] * t429;
+    jac_phi_q_v_A_j[29] = t338 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t434 + (t419 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t435 + omega_i_in_j_1 * t436) + alphadot[1] * (C_j[3] * t424 + C_j[5] * t346) - (omega_j[0]
+        * t435 + omega_j[1] * t436 + omega_j[2] * t434);
+    const jg_real t437 = A_i[8] * A_ij_4 - A_i[5] * A_ij_5;
+    const jg_real t438 = A_i[2] * A_ij_5 - A_i[8] * A_ij_3;
+    const jg_real t439 = A_i[5] * A_ij_3 - A_i[2] * A_ij_4;
+    const jg_real t440 = omega_i[0] * t437 + omega_i[1] * t438 + omega_i[2] * t439;
+    const jg_real t441 = s_j[1] * t440;
+    const jg_real t442 = s_j[1] * t367;
+    const jg_real t443 = s_j[2] * t440 - t373;
+    jac_phi_q_v_A_j[30] = A_i[2] * v_0_in_j_2 + v_0_in_j_0 * t437 + (A_i[2] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
+        t441 + (t437 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t442 + A_ij_3 * t443));
+    jac_phi_q_v_A_j[31] = A_i[5] * v_0_in_j_2 + v_0_in_j_0 * t438 + (A_i[5] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t441 + (t438 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t442 + A_ij_4 * t443));
+    jac_phi_q_v_A_j[32] = A_i[8] * v_0_in_j_2 + v_0_in_j_0 * t439 + (A_i[8] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t441 + (t439 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t442 + A_ij_5 * t443));
+    const jg_real t444 = C_j[7] * t375;
+    const jg_real t445 = t437 * g_star_in_i_0 + t438 * g_star_in_i_1 + t439 * g_star_in_i_2;
+    const jg_real t446 = t386 - C_j[8] * t445;
+    const jg_real t447 = C_j[7] * t445;
+    const jg_real t448 = C_i[6] * t437 + C_i[7] * t438 + C_i[8] * t439;
+    const jg_real t449 = t376 + t448 * g_star_in_j_2 - (t379 + h_star_in_j_2 * t445);
     const jg_real t450 = t378 * g_star_in_j_1 - h_star_in_j_1 * t375;
-    const jg_real t451 = t445 * h_star_in_j_1 - t448 * g_star_in_j_1;
-    jac_phi_q_v_A_j[33] = t441 * g_star_cross_h_j_in_j_0 - omega_i_in_j_0 * t444 + omega_i_in_j_1 * t446 + (t367 *
-        g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t447) - (t449 * C_j[7] + t450 * C_j[6] + t451 * C_j[8]) *
-        alphadot[1] - (omega_j[1] * t446 - omega_j[0] * t444 + omega_j[2] * t447);
+    const jg_real t451 = h_star_in_j_1 * t445 - t448 * g_star_in_j_1;
+    jac_phi_q_v_A_j[33] = t367 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t447 + (t440 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t444 + omega_i_in_j_1 * t446) - alphadot[1] * (C_j[7] * t449 + C_j[6] * t450 + C_j[8] *
+        t451) - (omega_j[1] * t446 - omega_j[0] * t444 + omega_j[2] * t447);
     const jg_real t452 = t378 * C_j[1];
-    const jg_real t453 = t390 - t448 * C_j[2];
-    const jg_real t454 = t448 * C_j[1];
-    jac_phi_q_v_A_j[34] = t441 * h_star_cross_f_j_in_j_0 - omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453 + (t367 *
-        h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t454) - (omega_j[1] * t453 - omega_j[0] * t452 + omega_j[2] *
+    const jg_real t453 = t390 - C_j[2] * t448;
+    const jg_real t454 = C_j[1] * t448;
+    jac_phi_q_v_A_j[34] = t367 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t454 + (t440 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453) - (omega_j[1] * t453 - omega_j[0] * t452 + omega_j[2] *
         t454);
-    const jg_real t455 = t449 * C_j[5] - t451 * C_j[4];
-    const jg_real t456 = t451 * C_j[3] - t450 * C_j[5];
-    const jg_real t457 = t450 * C_j[4] - t449 * C_j[3];
-    jac_phi_q_v_A_j[35] = t441 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t455 + omega_i_in_j_1 * t456 + (t367 *
-        f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t457) + alphadot[1] * (t445 * C_j[3] + t375 * C_j[5]) -
-        (omega_j[0] * t455 + omega_j[1] * t456 + omega_j[2] * t457);
-    const jg_real t458 = sine_0 * C_i[3] + cosine_0 * C_i[0];
-    const jg_real t459 = sine_0 * C_i[4] + cosine_0 * C_i[1];
-    const jg_real t460 = sine_0 * C_i[5] + cosine_0 * C_i[2];
+    const jg_real t455 = C_j[4] * t450 - C_j[3] * t449;
+    const jg_real t456 = C_j[5] * t449 - C_j[4] * t451;
+    const jg_real t457 = C_j[3] * t451 - C_j[5] * t450;
+    jac_phi_q_v_A_j[35] = t367 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t455 + (t440 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t456 + omega_i_in_j_1 * t457) + alphadot[1] * (C_j[3] * t445 + C_j[5] * t375) - (omega_j[0]
+        * t456 + omega_j[1] * t457 + omega_j[2] * t455);
+    const jg_real t458 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t459 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t460 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     const jg_real t461 = A_ij_3 * t458 + A_ij_4 * t459 + A_ij_5 * t460;
     const jg_real t462 = A_ij_0 * t458 + A_ij_1 * t459 + A_ij_2 * t460;
-    const jg_real t463 = h_star_in_j_0 * t461 - t462 * h_star_in_j_1;
+    const jg_real t463 = h_star_in_j_0 * t461 - h_star_in_j_1 * t462;
     const jg_real t464 = A_ij_6 * t458 + A_ij_7 * t459 + A_ij_8 * t460;
-    const jg_real t465 = t462 * h_star_in_j_2 - h_star_in_j_0 * t464;
-    const jg_real t466 = h_star_in_j_1 * t464 - t461 * h_star_in_j_2;
-    const jg_real t467 = t464 * C_j[7] - t461 * C_j[8];
-    const jg_real t468 = t462 * C_j[8] - t464 * C_j[6];
-    const jg_real t469 = t461 * C_j[6] - t462 * C_j[7];
-    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - (t465 * C_j[7] +
-        t466 * C_j[6] + t463 * C_j[8]) * alphadot[1] - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] * t469);
-    const jg_real t470 = t465 * C_j[5] - t463 * C_j[4];
-    const jg_real t471 = t463 * C_j[3] - t466 * C_j[5];
-    const jg_real t472 = t466 * C_j[4] - t465 * C_j[3];
+    const jg_real t465 = h_star_in_j_2 * t462 - h_star_in_j_0 * t464;
+    const jg_real t466 = h_star_in_j_1 * t464 - h_star_in_j_2 * t461;
+    const jg_real t467 = C_j[7] * t464 - C_j[8] * t461;
+    const jg_real t468 = C_j[8] * t462 - C_j[6] * t464;
+    const jg_real t469 = C_j[6] * t461 - C_j[7] * t462;
+    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - alphadot[1] *
+        (C_j[7] * t465 + C_j[6] * t466 + C_j[8] * t463) - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] *
+        t469);
+    const jg_real t470 = C_j[5] * t465 - C_j[4] * t463;
+    const jg_real t471 = C_j[3] * t463 - C_j[5] * t466;
+    const jg_real t472 = C_j[4] * t466 - C_j[3] * t465;
     jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t470 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t472 - alphadot[1] *
-        (t462 * C_j[3] + t461 * C_j[4] + t464 * C_j[5]) - (omega_j[0] * t470 + omega_j[1] * t471 + omega_j[2] *
+        (C_j[3] * t462 + C_j[4] * t461 + C_j[5] * t464) - (omega_j[0] * t470 + omega_j[1] * t471 + omega_j[2] *
         t472);
     const jg_real t473 = A_ij_3 * sine_0;
     const jg_real t474 = A_ij_0 * sine_0;
-    const jg_real t475 = h_star_in_j_0 * t473 - t474 * h_star_in_j_1;
+    const jg_real t475 = h_star_in_j_0 * t473 - h_star_in_j_1 * t474;
     const jg_real t476 = A_ij_6 * sine_0;
-    const jg_real t477 = t474 * h_star_in_j_2 - h_star_in_j_0 * t476;
-    const jg_real t478 = h_star_in_j_1 * t476 - t473 * h_star_in_j_2;
-    const jg_real t479 = t476 * C_j[7] - t473 * C_j[8];
-    const jg_real t480 = t474 * C_j[8] - t476 * C_j[6];
-    const jg_real t481 = t473 * C_j[6] - t474 * C_j[7];
-    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t479 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t481 - (t477 * C_j[7]
-        + t478 * C_j[6] + t475 * C_j[8]) * alphadot[1] - (omega_j[0] * t479 + omega_j[1] * t480 + omega_j[2] *
+    const jg_real t477 = h_star_in_j_2 * t474 - h_star_in_j_0 * t476;
+    const jg_real t478 = h_star_in_j_1 * t476 - h_star_in_j_2 * t473;
+    const jg_real t479 = C_j[7] * t476 - C_j[8] * t473;
+    const jg_real t480 = C_j[8] * t474 - C_j[6] * t476;
+    const jg_real t481 = C_j[6] * t473 - C_j[7] * t474;
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t479 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t481 - alphadot[1] *
+        (C_j[7] * t477 + C_j[6] * t478 + C_j[8] * t475) - (omega_j[0] * t479 + omega_j[1] * t480 + omega_j[2] *
         t481);
-    const jg_real t482 = t477 * C_j[5] - t475 * C_j[4];
-    const jg_real t483 = t475 * C_j[3] - t478 * C_j[5];
-    const jg_real t484 = t478 * C_j[4] - t477 * C_j[3];
+    const jg_real t482 = C_j[5] * t477 - C_j[4] * t475;
+    const jg_real t483 = C_j[3] * t475 - C_j[5] * t478;
+    const jg_real t484 = C_j[4] * t478 - C_j[3] * t477;
     jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t482 + omega_i_in_j_1 * t483 + omega_i_in_j_2 * t484 - alphadot[1] *
-        (t474 * C_j[3] + t473 * C_j[4] + t476 * C_j[5]) - (omega_j[0] * t482 + omega_j[1] * t483 + omega_j[2] *
+        (C_j[3] * t474 + C_j[4] * t473 + C_j[5] * t476) - (omega_j[0] * t482 + omega_j[1] * t483 + omega_j[2] *
         t484);
     const jg_real t485 = A_ij_4 * sine_0;
     const jg_real t486 = A_ij_1 * sine_0;
-    const jg_real t487 = h_star_in_j_0 * t485 - t486 * h_star_in_j_1;
+    const jg_real t487 = h_star_in_j_0 * t485 - h_star_in_j_1 * t486;
     const jg_real t488 = A_ij_7 * sine_0;
-    const jg_real t489 = t486 * h_star_in_j_2 - h_star_in_j_0 * t488;
-    const jg_real t490 = h_star_in_j_1 * t488 - t485 * h_star_in_j_2;
-    const jg_real t491 = t488 * C_j[7] - t485 * C_j[8];
-    const jg_real t492 = t486 * C_j[8] - t488 * C_j[6];
-    const jg_real t493 = t485 * C_j[6] - t486 * C_j[7];
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - (t489 * C_j[7]
-        + t490 * C_j[6] + t487 * C_j[8]) * alphadot[1] - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
+    const jg_real t489 = h_star_in_j_2 * t486 - h_star_in_j_0 * t488;
+    const jg_real t490 = h_star_in_j_1 * t488 - h_star_in_j_2 * t485;
+    const jg_real t491 = C_j[7] * t488 - C_j[8] * t485;
+    const jg_real t492 = C_j[8] * t486 - C_j[6] * t488;
+    const jg_real t493 = C_j[6] * t485 - C_j[7] * t486;
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - alphadot[1] *
+        (C_j[7] * t489 + C_j[6] * t490 + C_j[8] * t487) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
         t493);
-    const jg_real t494 = t489 * C_j[5] - t487 * C_j[4];
-    const jg_real t495 = t487 * C_j[3] - t490 * C_j[5];
-    const jg_real t496 = t490 * C_j[4] - t489 * C_j[3];
+    const jg_real t494 = C_j[5] * t489 - C_j[4] * t487;
+    const jg_real t495 = C_j[3] * t487 - C_j[5] * t490;
+    const jg_real t496 = C_j[4] * t490 - C_j[3] * t489;
     jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t494 + omega_i_in_j_1 * t495 + omega_i_in_j_2 * t496 - alphadot[1] *
-        (t486 * C_j[3] + t485 * C_j[4] + t488 * C_j[5]) - (omega_j[0] * t494 + omega_j[1] * t495 + omega_j[2] *
+        (C_j[3] * t486 + C_j[4] * t485 + C_j[5] * t488) - (omega_j[0] * t494 + omega_j[1] * t495 + omega_j[2] *
         t496);
     const jg_real t497 = A_ij_5 * sine_0;
     const jg_real t498 = A_ij_2 * sine_0;
-    const jg_real t499 = h_star_in_j_0 * t497 - t498 * h_star_in_j_1;
+    const jg_real t499 = h_star_in_j_0 * t497 - h_star_in_j_1 * t498;
     const jg_real t500 = A_ij_8 * sine_0;
-    const jg_real t501 = t498 * h_star_in_j_2 - h_star_in_j_0 * t500;
-    const jg_real t502 = h_star_in_j_1 * t500 - t497 * h_star_in_j_2;
-    const jg_real t503 = t500 * C_j[7] - t497 * C_j[8];
-    const jg_real t504 = t498 * C_j[8] - t500 * C_j[6];
-    const jg_real t505 = t497 * C_j[6] - t498 * C_j[7];
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - (t501 * C_j[7]
-        + t502 * C_j[6] + t499 * C_j[8]) * alphadot[1] - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
+    const jg_real t501 = h_star_in_j_2 * t498 - h_star_in_j_0 * t500;
+    const jg_real t502 = h_star_in_j_1 * t500 - h_star_in_j_2 * t497;
+    const jg_real t503 = C_j[7] * t500 - C_j[8] * t497;
+    const jg_real t504 = C_j[8] * t498 - C_j[6] * t500;
+    const jg_real t505 = C_j[6] * t497 - C_j[7] * t498;
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - alphadot[1] *
+        (C_j[7] * t501 + C_j[6] * t502 + C_j[8] * t499) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
         t505);
-    const jg_real t506 = t501 * C_j[5] - t499 * C_j[4];
-    const jg_real t507 = t499 * C_j[3] - t502 * C_j[5];
-    const jg_real t508 = t502 * C_j[4] - t501 * C_j[3];
+    const jg_real t506 = C_j[5] * t501 - C_j[4] * t499;
+    const jg_real t507 = C_j[3] * t499 - C_j[5] * t502;
+    const jg_real t508 = C_j[4] * t502 - C_j[3] * t501;
     jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t506 + omega_i_in_j_1 * t507 + omega_i_in_j_2 * t508 - alphadot[1] *
-        (t498 * C_j[3] + t497 * C_j[4] + t500 * C_j[5]) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] *
+        (C_j[3] * t498 + C_j[4] * t497 + C_j[5] * t500) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] *
         t508);
     const jg_real t509 = A_ij_3 * cosine_0;
     const jg_real t510 = A_ij_0 * cosine_0;
-    const jg_real t511 = t510 * h_star_in_j_1 - h_star_in_j_0 * t509;
+    const jg_real t511 = h_star_in_j_1 * t510 - h_star_in_j_0 * t509;
     const jg_real t512 = A_ij_6 * cosine_0;
-    const jg_real t513 = h_star_in_j_0 * t512 - t510 * h_star_in_j_2;
-    const jg_real t514 = t509 * h_star_in_j_2 - h_star_in_j_1 * t512;
-    const jg_real t515 = t509 * C_j[8] - t512 * C_j[7];
-    const jg_real t516 = t512 * C_j[6] - t510 * C_j[8];
-    const jg_real t517 = t510 * C_j[7] - t509 * C_j[6];
-    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 - (t513 * C_j[7]
-        + t514 * C_j[6] + t511 * C_j[8]) * alphadot[1] - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
+    const jg_real t513 = h_star_in_j_0 * t512 - h_star_in_j_2 * t510;
+    const jg_real t514 = h_star_in_j_2 * t509 - h_star_in_j_1 * t512;
+    const jg_real t515 = C_j[8] * t509 - C_j[7] * t512;
+    const jg_real t516 = C_j[6] * t512 - C_j[8] * t510;
+    const jg_real t517 = C_j[7] * t510 - C_j[6] * t509;
+    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 - alphadot[1] *
+        (C_j[7] * t513 + C_j[6] * t514 + C_j[8] * t511) - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
         t517);
-    const jg_real t518 = t513 * C_j[5] - t511 * C_j[4];
-    const jg_real t519 = t511 * C_j[3] - t514 * C_j[5];
-    const jg_real t520 = t514 * C_j[4] - t513 * C_j[3];
+    const jg_real t518 = C_j[5] * t513 - C_j[4] * t511;
+    const jg_real t519 = C_j[3] * t511 - C_j[5] * t514;
+    const jg_real t520 = C_j[4] * t514 - C_j[3] * t513;
     jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t518 + omega_i_in_j_1 * t519 + omega_i_in_j_2 * t520 + alphadot[1] *
-        (t510 * C_j[3] + t509 * C_j[4] + t512 * C_j[5]) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] *
+        (C_j[3] * t510 + C_j[4] * t509 + C_j[5] * t512) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] *
         t520);
     const jg_real t521 = A_ij_4 * cosine_0;
     const jg_real t522 = A_ij_1 * cosine_0;
-    const jg_real t523 = t522 * h_star_in_j_1 - h_star_in_j_0 * t521;
+    const jg_real t523 = h_star_in_j_1 * t522 - h_star_in_j_0 * t521;
     const jg_real t524 = A_ij_7 * cosine_0;
-    const jg_real t525 = h_star_in_j_0 * t524 - t522 * h_star_in_j_2;
-    const jg_real t526 = t521 * h_star_in_j_2 - h_star_in_j_1 * t524;
-    const jg_real t527 = t521 * C_j[8] - t524 * C_j[7];
-    const jg_real t528 = t524 * C_j[6] - t522 * C_j[8];
-    const jg_real t529 = t522 * C_j[7] - t521 * C_j[6];
-    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t528 + omega_i_in_j_2 * t529 - (t525 * C_j[7]
-        + t526 * C_j[6] + t523 * C_j[8]) * alphadot[1] - (omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] *
+    const jg_real t525 = h_star_in_j_0 * t524 - h_star_in_j_2 * t522;
+    const jg_real t526 = h_star_in_j_2 * t521 - h_star_in_j_1 * t524;
+    const jg_real t527 = C_j[8] * t521 - C_j[7] * t524;
+    const jg_real t528 = C_j[6] * t524 - C_j[8] * t522;
+    const jg_real t529 = C_j[7] * t522 - C_j[6] * t521;
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t528 + omega_i_in_j_2 * t529 - alphadot[1] *
+        (C_j[7] * t525 + C_j[6] * t526 + C_j[8] * t523) - (omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] *
         t529);
-    const jg_real t530 = t525 * C_j[5] - t523 * C_j[4];
-    const jg_real t531 = t523 * C_j[3] - t526 * C_j[5];
-    const jg_real t532 = t526 * C_j[4] - t525 * C_j[3];
+    const jg_real t530 = C_j[5] * t525 - C_j[4] * t523;
+    const jg_real t531 = C_j[3] * t523 - C_j[5] * t526;
+    const jg_real t532 = C_j[4] * t526 - C_j[3] * t525;
     jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t530 + omega_i_in_j_1 * t531 + omega_i_in_j_2 * t532 + alphadot[1] *
-        (t522 * C_j[3] + t521 * C_j[4] + t524 * C_j[5]) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
+        (C_j[3] * t522 + C_j[4] * t521 + C_j[5] * t524) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
         t532);
     const jg_real t533 = A_ij_5 * cosine_0;
     const jg_real t534 = A_ij_2 * cosine_0;
-    const jg_real t535 = t534 * h_star_in_j_1 - h_star_in_j_0 * t533;
+    const jg_real t535 = h_star_in_j_1 * t534 - h_star_in_j_0 * t533;
     const jg_real t536 = A_ij_8 * cosine_0;
-    const jg_real t537 = h_star_in_j_0 * t536 - t534 * h_star_in_j_2;
-    const jg_real t538 = t533 * h_star_in_j_2 - h_star_in_j_1 * t536;
-    const jg_real t539 = t533 * C_j[8] - t536 * C_j[7];
-    const jg_real t540 = t536 * C_j[6] - t534 * C_j[8];
-    const jg_real t541 = t534 * C_j[7] - t533 * C_j[6];
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 - (t537 *
-        C_j[7] + t538 * C_j[6] + t535 * C_j[8]) * alphadot[1] - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2]
-        * t541);
-    const jg_real t542 = t537 * C_j[5] - t535 * C_j[4];
-    const jg_real t543 = t535 * C_j[3] - t538 * C_j[5];
-    const jg_real t544 = t538 * C_j[4] - t537 * C_j[3];
+    const jg_real t537 = h_star_in_j_0 * t536 - h_star_in_j_2 * t534;
+    const jg_real t538 = h_star_in_j_2 * t533 - h_star_in_j_1 * t536;
+    const jg_real t539 = C_j[8] * t533 - C_j[7] * t536;
+    const jg_real t540 = C_j[6] * t536 - C_j[8] * t534;
+    const jg_real t541 = C_j[7] * t534 - C_j[6] * t533;
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 - alphadot[1] *
+        (C_j[7] * t537 + C_j[6] * t538 + C_j[8] * t535) - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] *
+        t541);
+    const jg_real t542 = C_j[5] * t537 - C_j[4] * t535;
+    const jg_real t543 = C_j[3] * t535 - C_j[5] * t538;
+    const jg_real t544 = C_j[4] * t538 - C_j[3] * t537;
     jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t542 + omega_i_in_j_1 * t543 + omega_i_in_j_2 * t544 + alphadot[1] *
-        (t534 * C_j[3] + t533 * C_j[4] + t536 * C_j[5]) - (omega_j[0] * t542 + omega_j[1] * t543 + omega_j[2] *
+        (C_j[3] * t534 + C_j[4] * t533 + C_j[5] * t536) - (omega_j[0] * t542 + omega_j[1] * t543 + omega_j[2] *
         t544);
     const jg_real t545 = -alphadot[0];
     jac_phi_q_v_geometry[12] = t545;
@@ -1198,127 +1199,127 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t546 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
     const jg_real t547 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
     const jg_real t548 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
-    jac_phi_q_v_geometry[13] = -((t547 * C_j[7] + t548 * C_j[6] + t546 * C_j[8]) * alphadot[1]);
+    jac_phi_q_v_geometry[13] = -(alphadot[1] * (C_j[7] * t547 + C_j[6] * t548 + C_j[8] * t546));
     const jg_real t549 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
     const jg_real t550 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
     const jg_real t551 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
     jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t549 + omega_i_in_j_1 * t550 + omega_i_in_j_2 * t551 - (omega_j[1] *
         t550 + omega_j[0] * t549 + omega_j[2] * t551);
-    const jg_real t552 = t547 * C_j[5] - t546 * C_j[4];
-    const jg_real t553 = t546 * C_j[3] - t548 * C_j[5];
-    const jg_real t554 = t548 * C_j[4] - t547 * C_j[3];
+    const jg_real t552 = C_j[5] * t547 - C_j[4] * t546;
+    const jg_real t553 = C_j[3] * t546 - C_j[5] * t548;
+    const jg_real t554 = C_j[4] * t548 - C_j[3] * t547;
     jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t552 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
         t552 + omega_j[1] * t553 + omega_j[2] * t554);
     const jg_real t555 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
     const jg_real t556 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
     const jg_real t557 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
-    jac_phi_q_v_geometry[17] = -((t556 * C_j[7] + t557 * C_j[6] + t555 * C_j[8]) * alphadot[1]);
+    jac_phi_q_v_geometry[17] = -(alphadot[1] * (C_j[7] * t556 + C_j[6] * t557 + C_j[8] * t555));
     const jg_real t558 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
     const jg_real t559 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
     const jg_real t560 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
     jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - (omega_j[1] *
         t559 + omega_j[0] * t558 + omega_j[2] * t560);
-    const jg_real t561 = t556 * C_j[5] - t555 * C_j[4];
-    const jg_real t562 = t555 * C_j[3] - t557 * C_j[5];
-    const jg_real t563 = t557 * C_j[4] - t556 * C_j[3];
+    const jg_real t561 = C_j[5] * t556 - C_j[4] * t555;
+    const jg_real t562 = C_j[3] * t555 - C_j[5] * t557;
+    const jg_real t563 = C_j[4] * t557 - C_j[3] * t556;
     jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
         t561 + omega_j[1] * t562 + omega_j[2] * t563);
     const jg_real t564 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
     const jg_real t565 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
     const jg_real t566 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
-    jac_phi_q_v_geometry[21] = -((t565 * C_j[7] + t566 * C_j[6] + t564 * C_j[8]) * alphadot[1]);
+    jac_phi_q_v_geometry[21] = -(alphadot[1] * (C_j[7] * t565 + C_j[6] * t566 + C_j[8] * t564));
     const jg_real t567 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
     const jg_real t568 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
     const jg_real t569 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
     jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - (omega_j[1] *
         t568 + omega_j[0] * t567 + omega_j[2] * t569);
-    const jg_real t570 = t565 * C_j[5] - t564 * C_j[4];
-    const jg_real t571 = t564 * C_j[3] - t566 * C_j[5];
-    const jg_real t572 = t566 * C_j[4] - t565 * C_j[3];
+    const jg_real t570 = C_j[5] * t565 - C_j[4] * t564;
+    const jg_real t571 = C_j[3] * t564 - C_j[5] * t566;
+    const jg_real t572 = C_j[4] * t566 - C_j[3] * t565;
     jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t570 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
         t570 + omega_j[1] * t571 + omega_j[2] * t572);
-    jac_phi_q_v_geometry[24] = A_ij_6 * omega_i_in_j_1 - omega_i_in_j_2 * A_ij_3 + (A_ij_3 * omega_j[2] - A_ij_6 *
-        omega_j[1]);
-    jac_phi_q_v_geometry[25] = A_ij_7 * omega_i_in_j_1 - A_ij_4 * omega_i_in_j_2 + (A_ij_4 * omega_j[2] - A_ij_7 *
-        omega_j[1]);
-    jac_phi_q_v_geometry[26] = A_ij_8 * omega_i_in_j_1 - A_ij_5 * omega_i_in_j_2 + (A_ij_5 * omega_j[2] - A_ij_8 *
-        omega_j[1]);
-    jac_phi_q_v_geometry[27] = A_ij_0 * omega_i_in_j_2 - A_ij_6 * omega_i_in_j_0 + (A_ij_6 * omega_j[0] - A_ij_0 *
-        omega_j[2]);
-    jac_phi_q_v_geometry[28] = omega_i_in_j_2 * A_ij_1 - A_ij_7 * omega_i_in_j_0 + (A_ij_7 * omega_j[0] - A_ij_1 *
-        omega_j[2]);
-    jac_phi_q_v_geometry[29] = omega_i_in_j_2 * A_ij_2 - A_ij_8 * omega_i_in_j_0 + (A_ij_8 * omega_j[0] - A_ij_2 *
-        omega_j[2]);
-    jac_phi_q_v_geometry[30] = A_ij_3 * omega_i_in_j_0 - A_ij_0 * omega_i_in_j_1 + (A_ij_0 * omega_j[1] - A_ij_3 *
-        omega_j[0]);
-    jac_phi_q_v_geometry[31] = A_ij_4 * omega_i_in_j_0 - omega_i_in_j_1 * A_ij_1 + (A_ij_1 * omega_j[1] - A_ij_4 *
-        omega_j[0]);
-    jac_phi_q_v_geometry[32] = A_ij_5 * omega_i_in_j_0 - omega_i_in_j_1 * A_ij_2 + (A_ij_2 * omega_j[1] - A_ij_5 *
-        omega_j[0]);
+    jac_phi_q_v_geometry[24] = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6 + (A_ij_6 * omega_i_in_j_1 - A_ij_3 *
+        omega_i_in_j_2);
+    jac_phi_q_v_geometry[25] = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7 + (A_ij_7 * omega_i_in_j_1 - A_ij_4 *
+        omega_i_in_j_2);
+    jac_phi_q_v_geometry[26] = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8 + (A_ij_8 * omega_i_in_j_1 - A_ij_5 *
+        omega_i_in_j_2);
+    jac_phi_q_v_geometry[27] = omega_j[0] * A_ij_6 - omega_j[2] * A_ij_0 + (A_ij_0 * omega_i_in_j_2 - A_ij_6 *
+        omega_i_in_j_0);
+    jac_phi_q_v_geometry[28] = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1 + (A_ij_1 * omega_i_in_j_2 - A_ij_7 *
+        omega_i_in_j_0);
+    jac_phi_q_v_geometry[29] = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2 + (A_ij_2 * omega_i_in_j_2 - A_ij_8 *
+        omega_i_in_j_0);
+    jac_phi_q_v_geometry[30] = omega_j[1] * A_ij_0 - omega_j[0] * A_ij_3 + (A_ij_3 * omega_i_in_j_0 - A_ij_0 *
+        omega_i_in_j_1);
+    jac_phi_q_v_geometry[31] = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4 + (A_ij_4 * omega_i_in_j_0 - A_ij_1 *
+        omega_i_in_j_1);
+    jac_phi_q_v_geometry[32] = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5 + (A_ij_5 * omega_i_in_j_0 - A_ij_2 *
+        omega_i_in_j_1);
     jac_phi_q_v_geometry[33] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
     jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
-    jac_phi_q_v_geometry[35] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
+    jac_phi_q_v_geometry[35] = h_star_in_j_1 * omega_i_in_j_0 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
-    jac_phi_q_v_geometry[36] = omega_i_in_j_1 * f_star_in_j_2 - omega_i_in_j_2 * f_star_in_j_1 + g_star_in_j_0 *
-        alphadot[1] - (omega_j[1] * f_star_in_j_2 - omega_j[2] * f_star_in_j_1);
-    jac_phi_q_v_geometry[37] = omega_i_in_j_2 * f_star_in_j_0 - omega_i_in_j_0 * f_star_in_j_2 + g_star_in_j_1 *
-        alphadot[1] - (omega_j[2] * f_star_in_j_0 - omega_j[0] * f_star_in_j_2);
-    jac_phi_q_v_geometry[38] = omega_i_in_j_0 * f_star_in_j_1 - omega_i_in_j_1 * f_star_in_j_0 + g_star_in_j_2 *
-        alphadot[1] - (omega_j[0] * f_star_in_j_1 - omega_j[1] * f_star_in_j_0);
-    jac_phi_q_v_geometry[39] = omega_i_in_j_1 * g_star_in_j_2 - omega_i_in_j_2 * g_star_in_j_1 - f_star_in_j_0 *
-        alphadot[1] - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
-    jac_phi_q_v_geometry[40] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - f_star_in_j_1 *
-        alphadot[1] - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
-    jac_phi_q_v_geometry[41] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - f_star_in_j_2 *
-        alphadot[1] - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
+    jac_phi_q_v_geometry[36] = omega_i_in_j_1 * f_star_in_j_2 - omega_i_in_j_2 * f_star_in_j_1 + alphadot[1] *
+        g_star_in_j_0 - (omega_j[1] * f_star_in_j_2 - omega_j[2] * f_star_in_j_1);
+    jac_phi_q_v_geometry[37] = omega_i_in_j_2 * f_star_in_j_0 - omega_i_in_j_0 * f_star_in_j_2 + alphadot[1] *
+        g_star_in_j_1 - (omega_j[2] * f_star_in_j_0 - omega_j[0] * f_star_in_j_2);
+    jac_phi_q_v_geometry[38] = omega_i_in_j_0 * f_star_in_j_1 - omega_i_in_j_1 * f_star_in_j_0 + alphadot[1] *
+        g_star_in_j_2 - (omega_j[0] * f_star_in_j_1 - omega_j[1] * f_star_in_j_0);
+    jac_phi_q_v_geometry[39] = omega_i_in_j_1 * g_star_in_j_2 - omega_i_in_j_2 * g_star_in_j_1 - alphadot[1] *
+        f_star_in_j_0 - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
+    jac_phi_q_v_geometry[40] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - alphadot[1] *
+        f_star_in_j_1 - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
+    jac_phi_q_v_geometry[41] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - alphadot[1] *
+        f_star_in_j_2 - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    const jg_real t573 = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
+    const jg_real t573 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_v_velocity[30] = t573;
-    const jg_real t574 = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
+    const jg_real t574 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[36] = t574;
-    const jg_real t575 = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
+    const jg_real t575 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_v_velocity[42] = t575;
     jac_phi_q_v_velocity[3] = A_ij_0 * t573 + A_ij_3 * t574 + A_ij_6 * t575;
     /* v_2_in_i = r_j - r_i, axes of body i */
     const jg_real v_2_in_i_2 = A_i[6] * v_2_world_0 + A_i[7] * v_2_world_1 + A_i[8] * v_2_world_2;
-    jac_phi_q_v_velocity[4] = t573 * A_ij_1 + A_ij_4 * t574 + A_ij_7 * t575 + v_2_in_i_2;
+    jac_phi_q_v_velocity[4] = A_ij_1 * t573 + A_ij_4 * t574 + A_ij_7 * t575 + v_2_in_i_2;
     const jg_real v_2_in_i_1 = A_i[3] * v_2_world_0 + A_i[4] * v_2_world_1 + A_i[5] * v_2_world_2;
-    jac_phi_q_v_velocity[5] = t573 * A_ij_2 + A_ij_5 * t574 + A_ij_8 * t575 - v_2_in_i_1;
+    jac_phi_q_v_velocity[5] = A_ij_2 * t573 + A_ij_5 * t574 + A_ij_8 * t575 - v_2_in_i_1;
     jac_phi_q_v_velocity[6] = A_ij_0 * g_star_cross_h_j_in_j_0 + A_ij_3 * g_star_cross_h_j_in_j_1 + A_ij_6 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[7] = A_ij_0 * h_star_cross_f_j_in_j_0 + A_ij_3 * h_star_cross_f_j_in_j_1 + A_ij_6 *
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[8] = A_ij_0 * f_star_cross_g_j_in_j_0 + A_ij_3 * f_star_cross_g_j_in_j_1 + A_ij_6 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t578 = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
+    const jg_real t578 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_v_velocity[31] = t578;
-    const jg_real t579 = s_j[2] * A_ij_1 - A_ij_7 * s_j[0];
+    const jg_real t579 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[37] = t579;
-    const jg_real t580 = A_ij_4 * s_j[0] - s_j[1] * A_ij_1;
+    const jg_real t580 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[43] = t580;
     jac_phi_q_v_velocity[9] = A_ij_0 * t578 + A_ij_3 * t579 + A_ij_6 * t580 - v_2_in_i_2;
-    jac_phi_q_v_velocity[10] = t578 * A_ij_1 + A_ij_4 * t579 + A_ij_7 * t580;
+    jac_phi_q_v_velocity[10] = A_ij_1 * t578 + A_ij_4 * t579 + A_ij_7 * t580;
     const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
-    jac_phi_q_v_velocity[11] = t578 * A_ij_2 + A_ij_5 * t579 + A_ij_8 * t580 + v_2_in_i_0;
+    jac_phi_q_v_velocity[11] = A_ij_2 * t578 + A_ij_5 * t579 + A_ij_8 * t580 + v_2_in_i_0;
     jac_phi_q_v_velocity[12] = A_ij_1 * g_star_cross_h_j_in_j_0 + A_ij_4 * g_star_cross_h_j_in_j_1 + A_ij_7 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[13] = A_ij_1 * h_star_cross_f_j_in_j_0 + A_ij_4 * h_star_cross_f_j_in_j_1 + A_ij_7 *
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ij_1 * f_star_cross_g_j_in_j_0 + A_ij_4 * f_star_cross_g_j_in_j_1 + A_ij_7 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t582 = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    const jg_real t582 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_v_velocity[32] = t582;
-    const jg_real t583 = s_j[2] * A_ij_2 - A_ij_8 * s_j[0];
+    const jg_real t583 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[38] = t583;
-    const jg_real t584 = A_ij_5 * s_j[0] - s_j[1] * A_ij_2;
+    const jg_real t584 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[44] = t584;
     jac_phi_q_v_velocity[15] = A_ij_0 * t582 + A_ij_3 * t583 + A_ij_6 * t584 + v_2_in_i_1;
-    jac_phi_q_v_velocity[16] = t582 * A_ij_1 + A_ij_4 * t583 + A_ij_7 * t584 - v_2_in_i_0;
-    jac_phi_q_v_velocity[17] = t582 * A_ij_2 + A_ij_5 * t583 + A_ij_8 * t584;
+    jac_phi_q_v_velocity[16] = A_ij_1 * t582 + A_ij_4 * t583 + A_ij_7 * t584 - v_2_in_i_0;
+    jac_phi_q_v_velocity[17] = A_ij_2 * t582 + A_ij_5 * t583 + A_ij_8 * t584;
     jac_phi_q_v_velocity[18] = A_ij_2 * g_star_cross_h_j_in_j_0 + A_ij_5 * g_star_cross_h_j_in_j_1 + A_ij_8 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[19] = A_ij_2 * h_star_cross_f_j_in_j_0 + A_ij_5 * h_star_cross_f_j_in_j_1 + A_ij_8 *
@@ -1338,10 +1339,10 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_velocity[49] = -C_i[7];
     jac_phi_q_v_velocity[50] = -C_i[8];
     /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = f_star_in_j_1 * C_j[7] + f_star_in_j_0 * C_j[6] + f_star_in_j_2 * C_j[8];
+    const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
     jac_phi_q_v_velocity[51] = -f_star_dot_h_j;
     /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
+    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[52] = g_star_dot_g_j;
 }
 
@@ -1406,19 +1407,19 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     jac_phi_q_t_lambda_lambda[27] = A_ji_7;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
+    const jg_real h_star_in_j_1 = C_i[7] * A_ji_4 + C_i[6] * A_ji_1 + C_i[8] * A_ji_7;
     const jg_real A_ji_0 = A_ji_8 * A_ji_4 - A_ji_5 * A_ji_7;
     jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - sine_0 * C_i[0];
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_ji_0 * g_star_in_i_0 + A_ji_3 * g_star_in_i_1 + A_ji_6 * g_star_in_i_2;
-    const jg_real h_star_in_j_0 = C_i[6] * A_ji_0 + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
+    const jg_real h_star_in_j_0 = C_i[7] * A_ji_3 + C_i[6] * A_ji_0 + C_i[8] * A_ji_6;
     const jg_real g_star_in_j_1 = A_ji_1 * g_star_in_i_0 + A_ji_4 * g_star_in_i_1 + A_ji_7 * g_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
@@ -1426,281 +1427,281 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real v_4_in_j_1 = C_j[4] * lambda[5];
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_6 * A_ji_4;
     jac_phi_q_t_lambda_lambda[6] = A_ji_2;
-    const jg_real g_star_in_j_2 = g_star_in_i_0 * A_ji_2 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
-    const jg_real h_star_in_j_2 = C_i[6] * A_ji_2 + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
-    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - g_star_in_j_0 * h_star_in_j_2;
+    const jg_real g_star_in_j_2 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
+    const jg_real h_star_in_j_2 = C_i[7] * A_ji_5 + C_i[6] * A_ji_2 + C_i[8] * A_ji_8;
+    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     const jg_real v_4_in_j_2 = lambda[5] * C_j[5];
     /* v_5_in_j = lambda_5 g_j x f_star, axes of body j */
-    const jg_real v_5_in_j_0 = f_star_in_j_2 * v_4_in_j_1 - f_star_in_j_1 * v_4_in_j_2;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
-    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
-    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
+    const jg_real v_5_in_j_0 = v_4_in_j_1 * f_star_in_j_2 - v_4_in_j_2 * f_star_in_j_1;
     /* v_2_in_j = lambda_4 f_j, axes of body j */
     const jg_real v_2_in_j_1 = lambda[4] * C_j[1];
     const jg_real v_2_in_j_2 = lambda[4] * C_j[2];
     /* v_3_in_j = lambda_4 f_j x h_star, axes of body j */
-    const jg_real v_3_in_j_0 = h_star_in_j_2 * v_2_in_j_1 - h_star_in_j_1 * v_2_in_j_2;
+    const jg_real v_3_in_j_0 = v_2_in_j_1 * h_star_in_j_2 - v_2_in_j_2 * h_star_in_j_1;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
+    jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_2;
+    const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
+    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
+    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
+    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* v_6_in_j = lambda_3 h_j, axes of body j */
     const jg_real v_6_in_j_1 = C_j[7] * lambda[3];
     const jg_real v_6_in_j_2 = lambda[3] * C_j[8];
     /* v_7_in_j = lambda_3 h_j x g_star, axes of body j */
-    const jg_real v_7_in_j_0 = g_star_in_j_2 * v_6_in_j_1 - g_star_in_j_1 * v_6_in_j_2;
+    const jg_real v_7_in_j_0 = v_6_in_j_1 * g_star_in_j_2 - v_6_in_j_2 * g_star_in_j_1;
     /* v_8_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
-    const jg_real v_8_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0 + v_5_in_j_0 + v_7_in_j_0;
-    const jg_real t53 = A_ji_8 * A_j[3] - A_j[6] * A_ji_7;
+    const jg_real v_8_in_j_0 = v_3_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 + v_5_in_j_0 + v_7_in_j_0;
+    const jg_real t53 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
     const jg_real t54 = A_j[6] * A_ji_6 - A_j[0] * A_ji_8;
-    const jg_real t55 = t54 * C_i[6] + A_j[3] * C_i[7];
+    const jg_real t55 = A_j[3] * C_i[7] + C_i[6] * t54;
     const jg_real t56 = t53 * g_star_in_i_0 + A_j[0] * g_star_in_i_1;
-    const jg_real t57 = C_i[6] * t53 + A_j[0] * C_i[7];
+    const jg_real t57 = A_j[0] * C_i[7] + C_i[6] * t53;
     const jg_real t58 = t54 * g_star_in_i_0 + A_j[3] * g_star_in_i_1;
     const jg_real t59 = t55 * g_star_in_j_0 + h_star_in_j_1 * t56 - (t57 * g_star_in_j_1 + h_star_in_j_0 * t58);
-    const jg_real t60 = A_j[0] * A_ji_7 - A_ji_6 * A_j[3];
-    const jg_real t61 = g_star_in_i_0 * t60 + A_j[6] * g_star_in_i_1;
-    const jg_real t62 = C_i[6] * t60 + A_j[6] * C_i[7];
-    const jg_real t63 = t57 * g_star_in_j_2 + h_star_in_j_0 * t61 - (g_star_in_j_0 * t62 + t56 * h_star_in_j_2);
-    const jg_real t64 = lambda[0] * t60 + lambda[1] * A_j[6];
+    const jg_real t60 = A_j[0] * A_ji_7 - A_j[3] * A_ji_6;
+    const jg_real t61 = t60 * g_star_in_i_0 + A_j[6] * g_star_in_i_1;
+    const jg_real t62 = A_j[6] * C_i[7] + C_i[6] * t60;
+    const jg_real t63 = t57 * g_star_in_j_2 + h_star_in_j_0 * t61 - (t62 * g_star_in_j_0 + h_star_in_j_2 * t56);
+    const jg_real t64 = lambda[1] * A_j[6] + lambda[0] * t60;
     jac_phi_q_t_lambda_A_i[11] = t64;
-    const jg_real t65 = lambda[0] * t54 + lambda[1] * A_j[3];
+    const jg_real t65 = lambda[1] * A_j[3] + lambda[0] * t54;
     jac_phi_q_t_lambda_A_i[10] = t65;
-    const jg_real t66 = t59 * v_4_in_j_1 - t63 * v_4_in_j_2 + (t64 * s_j[1] - t65 * s_j[2] + (t62 * v_2_in_j_1 - t55
-        * v_2_in_j_2)) + (t61 * v_6_in_j_1 - t58 * v_6_in_j_2);
+    const jg_real t66 = v_6_in_j_1 * t61 - v_6_in_j_2 * t58 + (v_2_in_j_1 * t62 - v_2_in_j_2 * t55 + (s_j[1] * t64 -
+        s_j[2] * t65) + (v_4_in_j_1 * t59 - v_4_in_j_2 * t63));
     jac_phi_q_t_lambda_A_i[12] = t66;
-    const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - h_star_in_j_1 * g_star_in_j_2;
+    const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real v_4_in_j_0 = lambda[5] * C_j[3];
-    const jg_real v_5_in_j_1 = v_4_in_j_2 * f_star_in_j_0 - f_star_in_j_2 * v_4_in_j_0;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
+    const jg_real v_5_in_j_1 = v_4_in_j_2 * f_star_in_j_0 - v_4_in_j_0 * f_star_in_j_2;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
     jac_phi_q_t_lambda_geometry[80] = lambda_0_1_2_in_j_0;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_2 * s_j[0];
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_2_in_j_0 = lambda[4] * C_j[0];
-    const jg_real v_3_in_j_1 = h_star_in_j_0 * v_2_in_j_2 - h_star_in_j_2 * v_2_in_j_0;
+    const jg_real v_3_in_j_1 = v_2_in_j_2 * h_star_in_j_0 - v_2_in_j_0 * h_star_in_j_2;
     const jg_real v_6_in_j_0 = lambda[3] * C_j[6];
-    const jg_real v_7_in_j_1 = g_star_in_j_0 * v_6_in_j_2 - g_star_in_j_2 * v_6_in_j_0;
+    const jg_real v_7_in_j_1 = v_6_in_j_2 * g_star_in_j_0 - v_6_in_j_0 * g_star_in_j_2;
     const jg_real v_8_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
-    const jg_real t77 = g_star_in_j_1 * t62 + t58 * h_star_in_j_2 - (t55 * g_star_in_j_2 + h_star_in_j_1 * t61);
-    const jg_real t78 = lambda[0] * t53 + lambda[1] * A_j[0];
+    const jg_real t77 = t62 * g_star_in_j_1 + h_star_in_j_2 * t58 - (t55 * g_star_in_j_2 + h_star_in_j_1 * t61);
+    const jg_real t78 = lambda[1] * A_j[0] + lambda[0] * t53;
     jac_phi_q_t_lambda_A_i[9] = t78;
-    const jg_real t79 = v_4_in_j_2 * t77 - t59 * v_4_in_j_0 + (s_j[2] * t78 - t64 * s_j[0] + (t57 * v_2_in_j_2 - t62
-        * v_2_in_j_0)) + (t56 * v_6_in_j_2 - t61 * v_6_in_j_0);
+    const jg_real t79 = v_6_in_j_2 * t56 - v_6_in_j_0 * t61 + (s_j[2] * t78 - s_j[0] * t64 + (v_2_in_j_2 * t57 -
+        v_2_in_j_0 * t62) + (v_4_in_j_2 * t77 - v_4_in_j_0 * t59));
     jac_phi_q_t_lambda_A_i[13] = t79;
-    const jg_real v_5_in_j_2 = f_star_in_j_1 * v_4_in_j_0 - v_4_in_j_1 * f_star_in_j_0;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - s_j[1] * lambda_0_1_2_in_j_0;
-    const jg_real v_3_in_j_2 = h_star_in_j_1 * v_2_in_j_0 - h_star_in_j_0 * v_2_in_j_1;
-    const jg_real v_7_in_j_2 = g_star_in_j_1 * v_6_in_j_0 - g_star_in_j_0 * v_6_in_j_1;
+    const jg_real v_5_in_j_2 = v_4_in_j_0 * f_star_in_j_1 - v_4_in_j_1 * f_star_in_j_0;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
+    const jg_real v_3_in_j_2 = v_2_in_j_0 * h_star_in_j_1 - v_2_in_j_1 * h_star_in_j_0;
+    const jg_real v_7_in_j_2 = v_6_in_j_0 * g_star_in_j_1 - v_6_in_j_1 * g_star_in_j_0;
     const jg_real v_8_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_5_in_j_2 + v_7_in_j_2;
-    const jg_real t85 = t63 * v_4_in_j_0 - v_4_in_j_1 * t77 + (t65 * s_j[0] - s_j[1] * t78 + (t55 * v_2_in_j_0 - t57
-        * v_2_in_j_1)) + (t58 * v_6_in_j_0 - t56 * v_6_in_j_1);
+    const jg_real t85 = v_6_in_j_0 * t58 - v_6_in_j_1 * t56 + (s_j[0] * t65 - s_j[1] * t78 + (v_2_in_j_0 * t55 -
+        v_2_in_j_1 * t57) + (v_4_in_j_0 * t63 - v_4_in_j_1 * t77));
     jac_phi_q_t_lambda_A_i[14] = t85;
-    jac_phi_q_t_lambda_A_i[6] = -(t53 * v_8_in_j_0 + A_ji_0 * t66 + (t54 * v_8_in_j_1 + A_ji_1 * t79) + (t60 *
-        v_8_in_j_2 + A_ji_2 * t85) + t10);
+    jac_phi_q_t_lambda_A_i[6] = -(t60 * v_8_in_j_2 + A_ji_2 * t85 + (t53 * v_8_in_j_0 + A_ji_0 * t66 + (t54 *
+        v_8_in_j_1 + A_ji_1 * t79)) + t10);
     const jg_real t86 = A_j[0] * v_8_in_j_0;
     const jg_real t87 = A_j[3] * v_8_in_j_1;
     const jg_real t88 = A_j[6] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[7] = -(t86 + A_ji_3 * t66 + (t87 + A_ji_4 * t79) + (t88 + A_ji_5 * t85));
+    jac_phi_q_t_lambda_A_i[7] = -(t88 + A_ji_5 * t85 + (t86 + A_ji_3 * t66 + (t87 + A_ji_4 * t79)));
     const jg_real t89 = lambda[0] * v_0_world_0;
     jac_phi_q_t_lambda_A_i[8] = t89 - (A_ji_6 * t66 + A_ji_7 * t79 + A_ji_8 * t85);
-    jac_phi_q_t_lambda_A_i[15] = -(h_star_in_j_0 * t78 + t57 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t65 + t55 *
-        lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t64 + t62 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[16] = t56 * v_4_in_j_0 + t58 * v_4_in_j_1 + t61 * v_4_in_j_2 - (t77 * v_6_in_j_0 + t63 *
-        v_6_in_j_1 + t59 * v_6_in_j_2);
-    const jg_real t90 = A_ji_8 * A_j[4] - A_j[7] * A_ji_7;
+    jac_phi_q_t_lambda_A_i[15] = -(t64 * h_star_in_j_2 + t62 * lambda_0_1_2_in_j_2 + (t65 * h_star_in_j_1 + t55 *
+        lambda_0_1_2_in_j_1 + (t78 * h_star_in_j_0 + t57 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[16] = v_4_in_j_0 * t56 + v_4_in_j_1 * t58 + v_4_in_j_2 * t61 - (v_6_in_j_0 * t77 +
+        v_6_in_j_1 * t63 + v_6_in_j_2 * t59);
+    const jg_real t90 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t91 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
-    const jg_real t92 = t91 * C_i[6] + A_j[4] * C_i[7];
+    const jg_real t92 = A_j[4] * C_i[7] + C_i[6] * t91;
     const jg_real t93 = t90 * g_star_in_i_0 + A_j[1] * g_star_in_i_1;
-    const jg_real t94 = C_i[6] * t90 + A_j[1] * C_i[7];
+    const jg_real t94 = A_j[1] * C_i[7] + C_i[6] * t90;
     const jg_real t95 = t91 * g_star_in_i_0 + A_j[4] * g_star_in_i_1;
     const jg_real t96 = t92 * g_star_in_j_0 + h_star_in_j_1 * t93 - (t94 * g_star_in_j_1 + h_star_in_j_0 * t95);
-    const jg_real t97 = A_j[1] * A_ji_7 - A_ji_6 * A_j[4];
-    const jg_real t98 = g_star_in_i_0 * t97 + A_j[7] * g_star_in_i_1;
-    const jg_real t99 = C_i[6] * t97 + A_j[7] * C_i[7];
-    const jg_real t100 = t94 * g_star_in_j_2 + h_star_in_j_0 * t98 - (g_star_in_j_0 * t99 + t93 * h_star_in_j_2);
-    const jg_real t101 = lambda[0] * t97 + lambda[1] * A_j[7];
+    const jg_real t97 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
+    const jg_real t98 = t97 * g_star_in_i_0 + A_j[7] * g_star_in_i_1;
+    const jg_real t99 = A_j[7] * C_i[7] + C_i[6] * t97;
+    const jg_real t100 = t94 * g_star_in_j_2 + h_star_in_j_0 * t98 - (t99 * g_star_in_j_0 + h_star_in_j_2 * t93);
+    const jg_real t101 = lambda[1] * A_j[7] + lambda[0] * t97;
     jac_phi_q_t_lambda_A_i[22] = t101;
-    const jg_real t102 = lambda[0] * t91 + lambda[1] * A_j[4];
+    const jg_real t102 = lambda[1] * A_j[4] + lambda[0] * t91;
     jac_phi_q_t_lambda_A_i[21] = t102;
-    const jg_real t103 = t96 * v_4_in_j_1 - t100 * v_4_in_j_2 + (t101 * s_j[1] - t102 * s_j[2] + (t99 * v_2_in_j_1 -
-        t92 * v_2_in_j_2)) + (t98 * v_6_in_j_1 - t95 * v_6_in_j_2);
+    const jg_real t103 = v_6_in_j_1 * t98 - v_6_in_j_2 * t95 + (v_2_in_j_1 * t99 - v_2_in_j_2 * t92 + (s_j[1] * t101
+        - s_j[2] * t102) + (v_4_in_j_1 * t96 - v_4_in_j_2 * t100));
     jac_phi_q_t_lambda_A_i[23] = t103;
-    const jg_real t104 = g_star_in_j_1 * t99 + t95 * h_star_in_j_2 - (t92 * g_star_in_j_2 + h_star_in_j_1 * t98);
-    const jg_real t105 = lambda[0] * t90 + lambda[1] * A_j[1];
+    const jg_real t104 = t99 * g_star_in_j_1 + h_star_in_j_2 * t95 - (t92 * g_star_in_j_2 + h_star_in_j_1 * t98);
+    const jg_real t105 = lambda[1] * A_j[1] + lambda[0] * t90;
     jac_phi_q_t_lambda_A_i[20] = t105;
-    const jg_real t106 = v_4_in_j_2 * t104 - t96 * v_4_in_j_0 + (s_j[2] * t105 - t101 * s_j[0] + (t94 * v_2_in_j_2 -
-        t99 * v_2_in_j_0)) + (t93 * v_6_in_j_2 - t98 * v_6_in_j_0);
+    const jg_real t106 = v_6_in_j_2 * t93 - v_6_in_j_0 * t98 + (s_j[2] * t105 - s_j[0] * t101 + (v_2_in_j_2 * t94 -
+        v_2_in_j_0 * t99) + (v_4_in_j_2 * t104 - v_4_in_j_0 * t96));
     jac_phi_q_t_lambda_A_i[24] = t106;
-    const jg_real t107 = t100 * v_4_in_j_0 - v_4_in_j_1 * t104 + (t102 * s_j[0] - s_j[1] * t105 + (t92 * v_2_in_j_0
-        - t94 * v_2_in_j_1)) + (t95 * v_6_in_j_0 - t93 * v_6_in_j_1);
+    const jg_real t107 = v_6_in_j_0 * t95 - v_6_in_j_1 * t93 + (s_j[0] * t102 - s_j[1] * t105 + (v_2_in_j_0 * t92 -
+        v_2_in_j_1 * t94) + (v_4_in_j_0 * t100 - v_4_in_j_1 * t104));
     jac_phi_q_t_lambda_A_i[25] = t107;
-    jac_phi_q_t_lambda_A_i[17] = -(t90 * v_8_in_j_0 + A_ji_0 * t103 + (t91 * v_8_in_j_1 + A_ji_1 * t106) + (t97 *
-        v_8_in_j_2 + A_ji_2 * t107) + t13);
+    jac_phi_q_t_lambda_A_i[17] = -(t97 * v_8_in_j_2 + A_ji_2 * t107 + (t90 * v_8_in_j_0 + A_ji_0 * t103 + (t91 *
+        v_8_in_j_1 + A_ji_1 * t106)) + t13);
     const jg_real t108 = A_j[1] * v_8_in_j_0;
     const jg_real t109 = A_j[4] * v_8_in_j_1;
     const jg_real t110 = A_j[7] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[18] = -(t108 + A_ji_3 * t103 + (t109 + A_ji_4 * t106) + (t110 + A_ji_5 * t107));
+    jac_phi_q_t_lambda_A_i[18] = -(t110 + A_ji_5 * t107 + (t108 + A_ji_3 * t103 + (t109 + A_ji_4 * t106)));
     const jg_real t111 = lambda[0] * v_0_world_1;
     jac_phi_q_t_lambda_A_i[19] = t111 - (A_ji_6 * t103 + A_ji_7 * t106 + A_ji_8 * t107);
-    jac_phi_q_t_lambda_A_i[26] = -(h_star_in_j_0 * t105 + t94 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t102 + t92 *
-        lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t101 + t99 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[27] = t93 * v_4_in_j_0 + t95 * v_4_in_j_1 + t98 * v_4_in_j_2 - (t104 * v_6_in_j_0 + t100
-        * v_6_in_j_1 + t96 * v_6_in_j_2);
-    const jg_real t112 = A_ji_8 * A_j[5] - A_j[8] * A_ji_7;
+    jac_phi_q_t_lambda_A_i[26] = -(t101 * h_star_in_j_2 + t99 * lambda_0_1_2_in_j_2 + (t102 * h_star_in_j_1 + t92 *
+        lambda_0_1_2_in_j_1 + (t105 * h_star_in_j_0 + t94 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[27] = v_4_in_j_0 * t93 + v_4_in_j_1 * t95 + v_4_in_j_2 * t98 - (v_6_in_j_0 * t104 +
+        v_6_in_j_1 * t100 + v_6_in_j_2 * t96);
+    const jg_real t112 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t113 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
-    const jg_real t114 = t113 * C_i[6] + A_j[5] * C_i[7];
+    const jg_real t114 = A_j[5] * C_i[7] + C_i[6] * t113;
     const jg_real t115 = t112 * g_star_in_i_0 + A_j[2] * g_star_in_i_1;
-    const jg_real t116 = C_i[6] * t112 + A_j[2] * C_i[7];
+    const jg_real t116 = A_j[2] * C_i[7] + C_i[6] * t112;
     const jg_real t117 = t113 * g_star_in_i_0 + A_j[5] * g_star_in_i_1;
     const jg_real t118 = t114 * g_star_in_j_0 + h_star_in_j_1 * t115 - (t116 * g_star_in_j_1 + h_star_in_j_0 *
         t117);
-    const jg_real t119 = A_j[2] * A_ji_7 - A_ji_6 * A_j[5];
-    const jg_real t120 = g_star_in_i_0 * t119 + A_j[8] * g_star_in_i_1;
-    const jg_real t121 = C_i[6] * t119 + A_j[8] * C_i[7];
-    const jg_real t122 = t116 * g_star_in_j_2 + h_star_in_j_0 * t120 - (g_star_in_j_0 * t121 + t115 *
-        h_star_in_j_2);
-    const jg_real t123 = lambda[0] * t119 + lambda[1] * A_j[8];
+    const jg_real t119 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
+    const jg_real t120 = t119 * g_star_in_i_0 + A_j[8] * g_star_in_i_1;
+    const jg_real t121 = A_j[8] * C_i[7] + C_i[6] * t119;
+    const jg_real t122 = t116 * g_star_in_j_2 + h_star_in_j_0 * t120 - (t121 * g_star_in_j_0 + h_star_in_j_2 *
+        t115);
+    const jg_real t123 = lambda[1] * A_j[8] + lambda[0] * t119;
     jac_phi_q_t_lambda_A_i[33] = t123;
-    const jg_real t124 = lambda[0] * t113 + lambda[1] * A_j[5];
+    const jg_real t124 = lambda[1] * A_j[5] + lambda[0] * t113;
     jac_phi_q_t_lambda_A_i[32] = t124;
-    const jg_real t125 = t118 * v_4_in_j_1 - t122 * v_4_in_j_2 + (t123 * s_j[1] - t124 * s_j[2] + (t121 * v_2_in_j_1
-        - t114 * v_2_in_j_2)) + (t120 * v_6_in_j_1 - t117 * v_6_in_j_2);
+    const jg_real t125 = v_6_in_j_1 * t120 - v_6_in_j_2 * t117 + (v_2_in_j_1 * t121 - v_2_in_j_2 * t114 + (s_j[1] *
+        t123 - s_j[2] * t124) + (v_4_in_j_1 * t118 - v_4_in_j_2 * t122));
     jac_phi_q_t_lambda_A_i[34] = t125;
-    const jg_real t126 = g_star_in_j_1 * t121 + t117 * h_star_in_j_2 - (t114 * g_star_in_j_2 + h_star_in_j_1 *
+    const jg_real t126 = t121 * g_star_in_j_1 + h_star_in_j_2 * t117 - (t114 * g_star_in_j_2 + h_star_in_j_1 *
         t120);
-    const jg_real t127 = lambda[0] * t112 + lambda[1] * A_j[2];
+    const jg_real t127 = lambda[1] * A_j[2] + lambda[0] * t112;
     jac_phi_q_t_lambda_A_i[31] = t127;
-    const jg_real t128 = v_4_in_j_2 * t126 - t118 * v_4_in_j_0 + (s_j[2] * t127 - t123 * s_j[0] + (t116 * v_2_in_j_2
-        - t121 * v_2_in_j_0)) + (t115 * v_6_in_j_2 - t120 * v_6_in_j_0);
+    const jg_real t128 = v_6_in_j_2 * t115 - v_6_in_j_0 * t120 + (s_j[2] * t127 - s_j[0] * t123 + (v_2_in_j_2 * t116
+        - v_2_in_j_0 * t121) + (v_4_in_j_2 * t126 - v_4_in_j_0 * t118));
     jac_phi_q_t_lambda_A_i[35] = t128;
-    const jg_real t129 = t122 * v_4_in_j_0 - v_4_in_j_1 * t126 + (t124 * s_j[0] - s_j[1] * t127 + (t114 * v_2_in_j_0
-        - t116 * v_2_in_j_1)) + (t117 * v_6_in_j_0 - t115 * v_6_in_j_1);
+    const jg_real t129 = v_6_in_j_0 * t117 - v_6_in_j_1 * t115 + (s_j[0] * t124 - s_j[1] * t127 + (v_2_in_j_0 * t114
+        - v_2_in_j_1 * t116) + (v_4_in_j_0 * t122 - v_4_in_j_1 * t126));
     jac_phi_q_t_lambda_A_i[36] = t129;
-    jac_phi_q_t_lambda_A_i[28] = -(t112 * v_8_in_j_0 + A_ji_0 * t125 + (t113 * v_8_in_j_1 + A_ji_1 * t128) + (t119 *
-        v_8_in_j_2 + A_ji_2 * t129) + t16);
+    jac_phi_q_t_lambda_A_i[28] = -(t119 * v_8_in_j_2 + A_ji_2 * t129 + (t112 * v_8_in_j_0 + A_ji_0 * t125 + (t113 *
+        v_8_in_j_1 + A_ji_1 * t128)) + t16);
     const jg_real t130 = A_j[2] * v_8_in_j_0;
     const jg_real t131 = A_j[5] * v_8_in_j_1;
     const jg_real t132 = A_j[8] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[29] = -(t130 + A_ji_3 * t125 + (t131 + A_ji_4 * t128) + (t132 + A_ji_5 * t129));
+    jac_phi_q_t_lambda_A_i[29] = -(t132 + A_ji_5 * t129 + (t130 + A_ji_3 * t125 + (t131 + A_ji_4 * t128)));
     const jg_real t133 = lambda[0] * v_0_world_2;
     jac_phi_q_t_lambda_A_i[30] = t133 - (A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t129);
-    jac_phi_q_t_lambda_A_i[37] = -(h_star_in_j_0 * t127 + t116 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t124 + t114
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t123 + t121 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[38] = t115 * v_4_in_j_0 + t117 * v_4_in_j_1 + t120 * v_4_in_j_2 - (t126 * v_6_in_j_0 +
-        t122 * v_6_in_j_1 + t118 * v_6_in_j_2);
-    const jg_real t134 = A_j[6] * A_ji_4 - A_ji_5 * A_j[3];
-    const jg_real t135 = A_ji_5 * A_j[0] - A_j[6] * A_ji_3;
-    const jg_real t136 = t135 * C_i[6] + A_j[3] * C_i[8];
+    jac_phi_q_t_lambda_A_i[37] = -(t123 * h_star_in_j_2 + t121 * lambda_0_1_2_in_j_2 + (t124 * h_star_in_j_1 + t114
+        * lambda_0_1_2_in_j_1 + (t127 * h_star_in_j_0 + t116 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[38] = v_4_in_j_0 * t115 + v_4_in_j_1 * t117 + v_4_in_j_2 * t120 - (v_6_in_j_0 * t126 +
+        v_6_in_j_1 * t122 + v_6_in_j_2 * t118);
+    const jg_real t134 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
+    const jg_real t135 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
+    const jg_real t136 = A_j[3] * C_i[8] + C_i[6] * t135;
     const jg_real t137 = t134 * g_star_in_i_0 + A_j[0] * g_star_in_i_2;
-    const jg_real t138 = C_i[6] * t134 + A_j[0] * C_i[8];
+    const jg_real t138 = A_j[0] * C_i[8] + C_i[6] * t134;
     const jg_real t139 = t135 * g_star_in_i_0 + A_j[3] * g_star_in_i_2;
     const jg_real t140 = t136 * g_star_in_j_0 + h_star_in_j_1 * t137 - (t138 * g_star_in_j_1 + h_star_in_j_0 *
         t139);
-    const jg_real t141 = A_ji_3 * A_j[3] - A_j[0] * A_ji_4;
-    const jg_real t142 = g_star_in_i_0 * t141 + A_j[6] * g_star_in_i_2;
-    const jg_real t143 = C_i[6] * t141 + A_j[6] * C_i[8];
-    const jg_real t144 = t138 * g_star_in_j_2 + h_star_in_j_0 * t142 - (g_star_in_j_0 * t143 + t137 *
-        h_star_in_j_2);
-    const jg_real t145 = lambda[0] * t141 + lambda[2] * A_j[6];
+    const jg_real t141 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
+    const jg_real t142 = t141 * g_star_in_i_0 + A_j[6] * g_star_in_i_2;
+    const jg_real t143 = A_j[6] * C_i[8] + C_i[6] * t141;
+    const jg_real t144 = t138 * g_star_in_j_2 + h_star_in_j_0 * t142 - (t143 * g_star_in_j_0 + h_star_in_j_2 *
+        t137);
+    const jg_real t145 = lambda[2] * A_j[6] + lambda[0] * t141;
     jac_phi_q_t_lambda_A_i[44] = t145;
-    const jg_real t146 = lambda[0] * t135 + lambda[2] * A_j[3];
+    const jg_real t146 = lambda[2] * A_j[3] + lambda[0] * t135;
     jac_phi_q_t_lambda_A_i[43] = t146;
-    const jg_real t147 = t140 * v_4_in_j_1 - t144 * v_4_in_j_2 + (t145 * s_j[1] - t146 * s_j[2] + (t143 * v_2_in_j_1
-        - t136 * v_2_in_j_2)) + (t142 * v_6_in_j_1 - t139 * v_6_in_j_2);
+    const jg_real t147 = v_6_in_j_1 * t142 - v_6_in_j_2 * t139 + (v_2_in_j_1 * t143 - v_2_in_j_2 * t136 + (s_j[1] *
+        t145 - s_j[2] * t146) + (v_4_in_j_1 * t140 - v_4_in_j_2 * t144));
     jac_phi_q_t_lambda_A_i[45] = t147;
-    const jg_real t148 = g_star_in_j_1 * t143 + t139 * h_star_in_j_2 - (t136 * g_star_in_j_2 + h_star_in_j_1 *
+    const jg_real t148 = t143 * g_star_in_j_1 + h_star_in_j_2 * t139 - (t136 * g_star_in_j_2 + h_star_in_j_1 *
         t142);
-    const jg_real t149 = lambda[0] * t134 + lambda[2] * A_j[0];
+    const jg_real t149 = lambda[2] * A_j[0] + lambda[0] * t134;
     jac_phi_q_t_lambda_A_i[42] = t149;
-    const jg_real t150 = v_4_in_j_2 * t148 - t140 * v_4_in_j_0 + (s_j[2] * t149 - t145 * s_j[0] + (t138 * v_2_in_j_2
-        - t143 * v_2_in_j_0)) + (t137 * v_6_in_j_2 - t142 * v_6_in_j_0);
+    const jg_real t150 = v_6_in_j_2 * t137 - v_6_in_j_0 * t142 + (s_j[2] * t149 - s_j[0] * t145 + (v_2_in_j_2 * t138
+        - v_2_in_j_0 * t143) + (v_4_in_j_2 * t148 - v_4_in_j_0 * t140));
     jac_phi_q_t_lambda_A_i[46] = t150;
-    const jg_real t151 = t144 * v_4_in_j_0 - v_4_in_j_1 * t148 + (t146 * s_j[0] - s_j[1] * t149 + (t136 * v_2_in_j_0
-        - t138 * v_2_in_j_1)) + (t139 * v_6_in_j_0 - t137 * v_6_in_j_1);
+    const jg_real t151 = v_6_in_j_0 * t139 - v_6_in_j_1 * t137 + (s_j[0] * t146 - s_j[1] * t149 + (v_2_in_j_0 * t136
+        - v_2_in_j_1 * t138) + (v_4_in_j_0 * t144 - v_4_in_j_1 * t148));
     jac_phi_q_t_lambda_A_i[47] = t151;
-    jac_phi_q_t_lambda_A_i[39] = t11 - (t134 * v_8_in_j_0 + A_ji_0 * t147 + (t135 * v_8_in_j_1 + A_ji_1 * t150) +
-        (t141 * v_8_in_j_2 + A_ji_2 * t151));
+    jac_phi_q_t_lambda_A_i[39] = t11 - (t141 * v_8_in_j_2 + A_ji_2 * t151 + (t134 * v_8_in_j_0 + A_ji_0 * t147 +
+        (t135 * v_8_in_j_1 + A_ji_1 * t150)));
     jac_phi_q_t_lambda_A_i[40] = -(A_ji_3 * t147 + A_ji_4 * t150 + A_ji_5 * t151 + t89);
-    jac_phi_q_t_lambda_A_i[41] = -(t86 + A_ji_6 * t147 + (t87 + A_ji_7 * t150) + (t88 + A_ji_8 * t151));
-    jac_phi_q_t_lambda_A_i[48] = -(h_star_in_j_0 * t149 + t138 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t146 + t136
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t145 + t143 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[49] = t137 * v_4_in_j_0 + t139 * v_4_in_j_1 + t142 * v_4_in_j_2 - (t148 * v_6_in_j_0 +
-        t144 * v_6_in_j_1 + t140 * v_6_in_j_2);
-    const jg_real t152 = A_j[7] * A_ji_4 - A_ji_5 * A_j[4];
-    const jg_real t153 = A_ji_5 * A_j[1] - A_j[7] * A_ji_3;
-    const jg_real t154 = t153 * C_i[6] + A_j[4] * C_i[8];
+    jac_phi_q_t_lambda_A_i[41] = -(t88 + A_ji_8 * t151 + (t86 + A_ji_6 * t147 + (t87 + A_ji_7 * t150)));
+    jac_phi_q_t_lambda_A_i[48] = -(h_star_in_j_2 * t145 + t143 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t146 + t136
+        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t149 + t138 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[49] = v_4_in_j_0 * t137 + v_4_in_j_1 * t139 + v_4_in_j_2 * t142 - (v_6_in_j_0 * t148 +
+        v_6_in_j_1 * t144 + v_6_in_j_2 * t140);
+    const jg_real t152 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
+    const jg_real t153 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
+    const jg_real t154 = A_j[4] * C_i[8] + C_i[6] * t153;
     const jg_real t155 = t152 * g_star_in_i_0 + A_j[1] * g_star_in_i_2;
-    const jg_real t156 = C_i[6] * t152 + A_j[1] * C_i[8];
+    const jg_real t156 = A_j[1] * C_i[8] + C_i[6] * t152;
     const jg_real t157 = t153 * g_star_in_i_0 + A_j[4] * g_star_in_i_2;
     const jg_real t158 = t154 * g_star_in_j_0 + h_star_in_j_1 * t155 - (t156 * g_star_in_j_1 + h_star_in_j_0 *
         t157);
-    const jg_real t159 = A_ji_3 * A_j[4] - A_j[1] * A_ji_4;
-    const jg_real t160 = g_star_in_i_0 * t159 + A_j[7] * g_star_in_i_2;
-    const jg_real t161 = C_i[6] * t159 + A_j[7] * C_i[8];
-    const jg_real t162 = t156 * g_star_in_j_2 + h_star_in_j_0 * t160 - (g_star_in_j_0 * t161 + t155 *
-        h_star_in_j_2);
-    const jg_real t163 = lambda[0] * t159 + lambda[2] * A_j[7];
+    const jg_real t159 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
+    const jg_real t160 = t159 * g_star_in_i_0 + A_j[7] * g_star_in_i_2;
+    const jg_real t161 = A_j[7] * C_i[8] + C_i[6] * t159;
+    const jg_real t162 = t156 * g_star_in_j_2 + h_star_in_j_0 * t160 - (t161 * g_star_in_j_0 + h_star_in_j_2 *
+        t155);
+    const jg_real t163 = lambda[2] * A_j[7] + lambda[0] * t159;
     jac_phi_q_t_lambda_A_i[55] = t163;
-    const jg_real t164 = lambda[0] * t153 + lambda[2] * A_j[4];
+    const jg_real t164 = lambda[2] * A_j[4] + lambda[0] * t153;
     jac_phi_q_t_lambda_A_i[54] = t164;
-    const jg_real t165 = t158 * v_4_in_j_1 - t162 * v_4_in_j_2 + (t163 * s_j[1] - t164 * s_j[2] + (t161 * v_2_in_j_1
-        - t154 * v_2_in_j_2)) + (t160 * v_6_in_j_1 - t157 * v_6_in_j_2);
+    const jg_real t165 = v_6_in_j_1 * t160 - v_6_in_j_2 * t157 + (v_2_in_j_1 * t161 - v_2_in_j_2 * t154 + (s_j[1] *
+        t163 - s_j[2] * t164) + (v_4_in_j_1 * t158 - v_4_in_j_2 * t162));
     jac_phi_q_t_lambda_A_i[56] = t165;
-    const jg_real t166 = g_star_in_j_1 * t161 + t157 * h_star_in_j_2 - (t154 * g_star_in_j_2 + h_star_in_j_1 *
+    const jg_real t166 = t161 * g_star_in_j_1 + h_star_in_j_2 * t157 - (t154 * g_star_in_j_2 + h_star_in_j_1 *
         t160);
-    const jg_real t167 = lambda[0] * t152 + lambda[2] * A_j[1];
+    const jg_real t167 = lambda[2] * A_j[1] + lambda[0] * t152;
     jac_phi_q_t_lambda_A_i[53] = t167;
-    const jg_real t168 = v_4_in_j_2 * t166 - t158 * v_4_in_j_0 + (s_j[2] * t167 - t163 * s_j[0] + (t156 * v_2_in_j_2
-        - t161 * v_2_in_j_0)) + (t155 * v_6_in_j_2 - t160 * v_6_in_j_0);
+    const jg_real t168 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (s_j[2] * t167 - s_j[0] * t163 + (v_2_in_j_2 * t156
+        - v_2_in_j_0 * t161) + (v_4_in_j_2 * t166 - v_4_in_j_0 * t158));
     jac_phi_q_t_lambda_A_i[57] = t168;
-    const jg_real t169 = t162 * v_4_in_j_0 - v_4_in_j_1 * t166 + (t164 * s_j[0] - s_j[1] * t167 + (t154 * v_2_in_j_0
-        - t156 * v_2_in_j_1)) + (t157 * v_6_in_j_0 - t155 * v_6_in_j_1);
+    const jg_real t169 = v_6_in_j_0 * t157 - v_6_in_j_1 * t155 + (s_j[0] * t164 - s_j[1] * t167 + (v_2_in_j_0 * t154
+        - v_2_in_j_1 * t156) + (v_4_in_j_0 * t162 - v_4_in_j_1 * t166));
     jac_phi_q_t_lambda_A_i[58] = t169;
-    jac_phi_q_t_lambda_A_i[50] = t14 - (t152 * v_8_in_j_0 + A_ji_0 * t165 + (t153 * v_8_in_j_1 + A_ji_1 * t168) +
-        (t159 * v_8_in_j_2 + A_ji_2 * t169));
+    jac_phi_q_t_lambda_A_i[50] = t14 - (t159 * v_8_in_j_2 + A_ji_2 * t169 + (t152 * v_8_in_j_0 + A_ji_0 * t165 +
+        (t153 * v_8_in_j_1 + A_ji_1 * t168)));
     jac_phi_q_t_lambda_A_i[51] = -(A_ji_3 * t165 + A_ji_4 * t168 + A_ji_5 * t169 + t111);
-    jac_phi_q_t_lambda_A_i[52] = -(t108 + A_ji_6 * t165 + (t109 + A_ji_7 * t168) + (t110 + A_ji_8 * t169));
-    jac_phi_q_t_lambda_A_i[59] = -(h_star_in_j_0 * t167 + t156 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t164 + t154
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[60] = t155 * v_4_in_j_0 + t157 * v_4_in_j_1 + t160 * v_4_in_j_2 - (t166 * v_6_in_j_0 +
-        t162 * v_6_in_j_1 + t158 * v_6_in_j_2);
-    const jg_real t170 = A_j[8] * A_ji_4 - A_ji_5 * A_j[5];
-    const jg_real t171 = A_ji_5 * A_j[2] - A_j[8] * A_ji_3;
-    const jg_real t172 = t171 * C_i[6] + A_j[5] * C_i[8];
+    jac_phi_q_t_lambda_A_i[52] = -(t110 + A_ji_8 * t169 + (t108 + A_ji_6 * t165 + (t109 + A_ji_7 * t168)));
+    jac_phi_q_t_lambda_A_i[59] = -(h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t164 + t154
+        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t167 + t156 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[60] = v_4_in_j_0 * t155 + v_4_in_j_1 * t157 + v_4_in_j_2 * t160 - (v_6_in_j_0 * t166 +
+        v_6_in_j_1 * t162 + v_6_in_j_2 * t158);
+    const jg_real t170 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
+    const jg_real t171 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
+    const jg_real t172 = A_j[5] * C_i[8] + C_i[6] * t171;
     const jg_real t173 = t170 * g_star_in_i_0 + A_j[2] * g_star_in_i_2;
-    const jg_real t174 = C_i[6] * t170 + A_j[2] * C_i[8];
+    const jg_real t174 = A_j[2] * C_i[8] + C_i[6] * t170;
     const jg_real t175 = t171 * g_star_in_i_0 + A_j[5] * g_star_in_i_2;
     const jg_real t176 = t172 * g_star_in_j_0 + h_star_in_j_1 * t173 - (t174 * g_star_in_j_1 + h_star_in_j_0 *
         t175);
-    const jg_real t177 = A_ji_3 * A_j[5] - A_j[2] * A_ji_4;
-    const jg_real t178 = g_star_in_i_0 * t177 + A_j[8] * g_star_in_i_2;
-    const jg_real t179 = C_i[6] * t177 + A_j[8] * C_i[8];
-    const jg_real t180 = t174 * g_star_in_j_2 + h_star_in_j_0 * t178 - (g_star_in_j_0 * t179 + t173 *
-        h_star_in_j_2);
-    const jg_real t181 = lambda[0] * t177 + lambda[2] * A_j[8];
+    const jg_real t177 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
+    const jg_real t178 = t177 * g_star_in_i_0 + A_j[8] * g_star_in_i_2;
+    const jg_real t179 = A_j[8] * C_i[8] + C_i[6] * t177;
+    const jg_real t180 = t174 * g_star_in_j_2 + h_star_in_j_0 * t178 - (t179 * g_star_in_j_0 + h_star_in_j_2 *
+        t173);
+    const jg_real t181 = lambda[2] * A_j[8] + lambda[0] * t177;
     jac_phi_q_t_lambda_A_i[66] = t181;
-    const jg_real t182 = lambda[0] * t171 + lambda[2] * A_j[5];
+    const jg_real t182 = lambda[2] * A_j[5] + lambda[0] * t171;
     jac_phi_q_t_lambda_A_i[65] = t182;
-    const jg_real t183 = t176 * v_4_in_j_1 - t180 * v_4_in_j_2 + (t181 * s_j[1] - t182 * s_j[2] + (t179 * v_2_in_j_1
-        - t172 * v_2_in_j_2)) + (t178 * v_6_in_j_1 - t175 * v_6_in_j_2);
+    const jg_real t183 = v_6_in_j_1 * t178 - v_6_in_j_2 * t175 + (v_2_in_j_1 * t179 - v_2_in_j_2 * t172 + (s_j[1] *
+        t181 - s_j[2] * t182) + (v_4_in_j_1 * t176 - v_4_in_j_2 * t180));
     jac_phi_q_t_lambda_A_i[67] = t183;
-    const jg_real t184 = g_star_in_j_1 * t179 + t175 * h_star_in_j_2 - (t172 * g_star_in_j_2 + h_star_in_j_1 *
+    const jg_real t184 = t179 * g_star_in_j_1 + h_star_in_j_2 * t175 - (t172 * g_star_in_j_2 + h_star_in_j_1 *
         t178);
-    const jg_real t185 = lambda[0] * t170 + lambda[2] * A_j[2];
+    const jg_real t185 = lambda[2] * A_j[2] + lambda[0] * t170;
     jac_phi_q_t_lambda_A_i[64] = t185;
-    const jg_real t186 = v_4_in_j_2 * t184 - t176 * v_4_in_j_0 + (s_j[2] * t185 - t181 * s_j[0] + (t174 * v_2_in_j_2
-        - t179 * v_2_in_j_0)) + (t173 * v_6_in_j_2 - t178 * v_6_in_j_0);
+    const jg_real t186 = v_6_in_j_2 * t173 - v_6_in_j_0 * t178 + (s_j[2] * t185 - s_j[0] * t181 + (v_2_in_j_2 * t174
+        - v_2_in_j_0 * t179) + (v_4_in_j_2 * t184 - v_4_in_j_0 * t176));
     jac_phi_q_t_lambda_A_i[68] = t186;
-    const jg_real t187 = t180 * v_4_in_j_0 - v_4_in_j_1 * t184 + (t182 * s_j[0] - s_j[1] * t185 + (t172 * v_2_in_j_0
-        - t174 * v_2_in_j_1)) + (t175 * v_6_in_j_0 - t173 * v_6_in_j_1);
+    const jg_real t187 = v_6_in_j_0 * t175 - v_6_in_j_1 * t173 + (s_j[0] * t182 - s_j[1] * t185 + (v_2_in_j_0 * t172
+        - v_2_in_j_1 * t174) + (v_4_in_j_0 * t180 - v_4_in_j_1 * t184));
     jac_phi_q_t_lambda_A_i[69] = t187;
-    jac_phi_q_t_lambda_A_i[61] = t17 - (t170 * v_8_in_j_0 + A_ji_0 * t183 + (t171 * v_8_in_j_1 + A_ji_1 * t186) +
-        (t177 * v_8_in_j_2 + A_ji_2 * t187));
+    jac_phi_q_t_lambda_A_i[61] = t17 - (t177 * v_8_in_j_2 + A_ji_2 * t187 + (t170 * v_8_in_j_0 + A_ji_0 * t183 +
+        (t171 * v_8_in_j_1 + A_ji_1 * t186)));
     jac_phi_q_t_lambda_A_i[62] = -(A_ji_3 * t183 + A_ji_4 * t186 + A_ji_5 * t187 + t133);
-    jac_phi_q_t_lambda_A_i[63] = -(t130 + A_ji_6 * t183 + (t131 + A_ji_7 * t186) + (t132 + A_ji_8 * t187));
-    jac_phi_q_t_lambda_A_i[70] = -(h_star_in_j_0 * t185 + t174 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t182 + t172
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t181 + t179 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_i[71] = t173 * v_4_in_j_0 + t175 * v_4_in_j_1 + t178 * v_4_in_j_2 - (t184 * v_6_in_j_0 +
-        t180 * v_6_in_j_1 + t176 * v_6_in_j_2);
+    jac_phi_q_t_lambda_A_i[63] = -(t132 + A_ji_8 * t187 + (t130 + A_ji_6 * t183 + (t131 + A_ji_7 * t186)));
+    jac_phi_q_t_lambda_A_i[70] = -(h_star_in_j_2 * t181 + t179 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t182 + t172
+        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t185 + t174 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[71] = v_4_in_j_0 * t173 + v_4_in_j_1 * t175 + v_4_in_j_2 * t178 - (v_6_in_j_0 * t184 +
+        v_6_in_j_1 * t180 + v_6_in_j_2 * t176);
     jac_phi_q_t_lambda_r_j[0] = -t0;
     jac_phi_q_t_lambda_r_j[1] = -t1;
     jac_phi_q_t_lambda_r_j[2] = -t2;
@@ -1710,506 +1711,506 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_r_j[6] = -t6;
     jac_phi_q_t_lambda_r_j[7] = -t7;
     jac_phi_q_t_lambda_r_j[8] = -t8;
-    const jg_real t188 = A_ji_5 * A_i[6] - A_i[3] * A_ji_8;
-    const jg_real t189 = t188 * g_star_in_i_0;
-    const jg_real t190 = t189 * h_star_in_j_2;
-    const jg_real t191 = A_i[6] * A_ji_4 - A_i[3] * A_ji_7;
-    const jg_real t192 = C_i[6] * t191;
-    const jg_real t193 = t192 * g_star_in_j_1;
-    const jg_real t194 = t188 * C_i[6];
-    const jg_real t195 = t194 * g_star_in_j_2;
-    const jg_real t196 = t191 * g_star_in_i_0;
-    const jg_real t197 = h_star_in_j_1 * t196;
-    const jg_real t198 = t190 - t193 - (t195 - t197);
-    const jg_real t199 = A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
-    const jg_real t200 = h_star_in_j_1 * t199;
-    const jg_real t201 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t202 = t201 * g_star_in_j_1;
-    const jg_real t203 = t194 * g_star_in_j_0 + t200 - (t202 + t189 * h_star_in_j_0);
-    const jg_real t204 = lambda[0] * t191;
-    jac_phi_q_t_lambda_A_j[69] = t204;
+    const jg_real t188 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t189 = t188 * g_star_in_j_2;
+    const jg_real t190 = A_i[6] * A_ji_4 - A_i[3] * A_ji_7;
+    const jg_real t191 = t190 * g_star_in_i_0;
+    const jg_real t192 = A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
+    const jg_real t193 = h_star_in_j_2 * t192;
+    const jg_real t194 = C_i[6] * t190;
+    const jg_real t195 = t189 - h_star_in_j_0 * t191 - (t193 - t194 * g_star_in_j_0);
+    const jg_real t196 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
+    const jg_real t197 = t196 * g_star_in_i_0;
+    const jg_real t198 = h_star_in_j_2 * t197;
+    const jg_real t199 = t194 * g_star_in_j_1;
+    const jg_real t200 = C_i[6] * t196;
+    const jg_real t201 = t200 * g_star_in_j_2;
+    const jg_real t202 = h_star_in_j_1 * t191;
+    const jg_real t203 = t198 - t199 - (t201 - t202);
+    const jg_real t204 = lambda[0] * t196;
+    jac_phi_q_t_lambda_A_j[4] = t204;
     const jg_real t205 = lambda[1] * A_i[3] + lambda[2] * A_i[6];
     jac_phi_q_t_lambda_A_j[3] = t205;
     jac_phi_q_t_lambda_A_j[37] = t205;
     jac_phi_q_t_lambda_A_j[71] = t205;
-    const jg_real t206 = t205 * s_j[2];
-    const jg_real t207 = t201 * v_2_in_j_2;
-    const jg_real t208 = t199 * v_6_in_j_2;
-    const jg_real t209 = v_4_in_j_2 * t198 - t203 * v_4_in_j_0 + (t206 + t204 * s_j[0] + (t207 + t192 * v_2_in_j_0))
-        + (t208 + t196 * v_6_in_j_0);
-    jac_phi_q_t_lambda_A_j[7] = t209;
-    const jg_real t210 = t201 * g_star_in_j_2;
-    const jg_real t211 = t199 * h_star_in_j_2;
-    const jg_real t212 = t210 - t196 * h_star_in_j_0 - (t211 - g_star_in_j_0 * t192);
-    const jg_real t213 = t204 * s_j[1];
-    const jg_real t214 = lambda[0] * t188;
-    jac_phi_q_t_lambda_A_j[4] = t214;
-    const jg_real t215 = t214 * s_j[2];
-    const jg_real t216 = t192 * v_2_in_j_1;
-    const jg_real t217 = t194 * v_2_in_j_2;
-    const jg_real t218 = t196 * v_6_in_j_1;
-    const jg_real t219 = t189 * v_6_in_j_2;
-    const jg_real t220 = t203 * v_4_in_j_1 - t212 * v_4_in_j_2 - (t213 + t215 + (t216 + t217)) - (t218 + t219);
-    jac_phi_q_t_lambda_A_j[6] = t220;
-    const jg_real t221 = t205 * s_j[1];
-    const jg_real t222 = t201 * v_2_in_j_1;
-    const jg_real t223 = t199 * v_6_in_j_1;
-    const jg_real t224 = t212 * v_4_in_j_0 - v_4_in_j_1 * t198 + (t214 * s_j[0] - t221 + (t194 * v_2_in_j_0 - t222))
-        + (t189 * v_6_in_j_0 - t223);
-    jac_phi_q_t_lambda_A_j[8] = t224;
-    jac_phi_q_t_lambda_A_j[0] = -(t188 * v_8_in_j_1 + A_ji_1 * t209 + A_ji_0 * t220 + (A_ji_2 * t224 - t191 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_8_in_j_0 + A_ji_3 * t220 + A_ji_4 * t209 + A_ji_5 * t224);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_8_in_j_0 + A_ji_6 * t220 + A_ji_7 * t209 + A_ji_8 * t224);
-    jac_phi_q_t_lambda_A_j[5] = -t204;
-    jac_phi_q_t_lambda_A_j[9] = h_star_in_j_2 * t204 + t192 * lambda_0_1_2_in_j_2 - (h_star_in_j_0 * t205 + t201 *
-        lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t214 + t194 * lambda_0_1_2_in_j_1));
-    jac_phi_q_t_lambda_A_j[10] = t199 * v_4_in_j_0 + t189 * v_4_in_j_1 - t196 * v_4_in_j_2 - (t198 * v_6_in_j_0 +
-        t212 * v_6_in_j_1 + t203 * v_6_in_j_2);
-    const jg_real t225 = A_ji_5 * A_i[7] - A_i[4] * A_ji_8;
-    const jg_real t226 = t225 * g_star_in_i_0;
-    const jg_real t227 = t226 * h_star_in_j_2;
-    const jg_real t228 = A_i[7] * A_ji_4 - A_i[4] * A_ji_7;
-    const jg_real t229 = C_i[6] * t228;
-    const jg_real t230 = t229 * g_star_in_j_1;
-    const jg_real t231 = t225 * C_i[6];
-    const jg_real t232 = t231 * g_star_in_j_2;
-    const jg_real t233 = t228 * g_star_in_i_0;
-    const jg_real t234 = h_star_in_j_1 * t233;
-    const jg_real t235 = t227 - t230 - (t232 - t234);
-    const jg_real t236 = A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
-    const jg_real t237 = h_star_in_j_1 * t236;
-    const jg_real t238 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t239 = t238 * g_star_in_j_1;
-    const jg_real t240 = t231 * g_star_in_j_0 + t237 - (t239 + t226 * h_star_in_j_0);
-    const jg_real t241 = lambda[0] * t228;
-    jac_phi_q_t_lambda_A_j[80] = t241;
+    const jg_real t206 = s_j[1] * t205;
+    const jg_real t207 = v_2_in_j_1 * t188;
+    const jg_real t208 = v_6_in_j_1 * t192;
+    const jg_real t209 = v_6_in_j_0 * t197 - t208 + (s_j[0] * t204 - t206 + (v_2_in_j_0 * t200 - t207) + (v_4_in_j_0
+        * t195 - v_4_in_j_1 * t203));
+    jac_phi_q_t_lambda_A_j[8] = t209;
+    const jg_real t210 = h_star_in_j_1 * t192;
+    const jg_real t211 = t188 * g_star_in_j_1;
+    const jg_real t212 = t200 * g_star_in_j_0 + t210 - (t211 + h_star_in_j_0 * t197);
+    const jg_real t213 = lambda[0] * t190;
+    jac_phi_q_t_lambda_A_j[69] = t213;
+    const jg_real t214 = s_j[2] * t205;
+    const jg_real t215 = v_2_in_j_2 * t188;
+    const jg_real t216 = v_6_in_j_2 * t192;
+    const jg_real t217 = t216 + v_6_in_j_0 * t191 + (t214 + s_j[0] * t213 + (t215 + v_2_in_j_0 * t194) + (v_4_in_j_2
+        * t203 - v_4_in_j_0 * t212));
+    jac_phi_q_t_lambda_A_j[7] = t217;
+    const jg_real t218 = v_2_in_j_2 * t200;
+    const jg_real t219 = v_2_in_j_1 * t194;
+    const jg_real t220 = s_j[2] * t204;
+    const jg_real t221 = s_j[1] * t213;
+    const jg_real t222 = v_6_in_j_2 * t197;
+    const jg_real t223 = v_6_in_j_1 * t191;
+    const jg_real t224 = v_4_in_j_1 * t212 - v_4_in_j_2 * t195 - (t218 + t219 + (t220 + t221)) - (t222 + t223);
+    jac_phi_q_t_lambda_A_j[6] = t224;
+    jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t209 - t190 * v_8_in_j_2 + (t196 * v_8_in_j_1 + A_ji_1 * t217 + A_ji_0 *
+        t224));
+    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_8_in_j_0 + A_ji_3 * t224 + A_ji_4 * t217 + A_ji_5 * t209);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_8_in_j_0 + A_ji_6 * t224 + A_ji_7 * t217 + A_ji_8 * t209);
+    jac_phi_q_t_lambda_A_j[5] = -t213;
+    jac_phi_q_t_lambda_A_j[9] = t213 * h_star_in_j_2 + t194 * lambda_0_1_2_in_j_2 - (t204 * h_star_in_j_1 + t200 *
+        lambda_0_1_2_in_j_1 + (t205 * h_star_in_j_0 + t188 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[10] = v_4_in_j_0 * t192 + v_4_in_j_1 * t197 - v_4_in_j_2 * t191 - (v_6_in_j_0 * t203 +
+        v_6_in_j_1 * t195 + v_6_in_j_2 * t212);
+    const jg_real t225 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t226 = t225 * g_star_in_j_2;
+    const jg_real t227 = A_i[7] * A_ji_4 - A_i[4] * A_ji_7;
+    const jg_real t228 = t227 * g_star_in_i_0;
+    const jg_real t229 = A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
+    const jg_real t230 = h_star_in_j_2 * t229;
+    const jg_real t231 = C_i[6] * t227;
+    const jg_real t232 = t226 - h_star_in_j_0 * t228 - (t230 - t231 * g_star_in_j_0);
+    const jg_real t233 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
+    const jg_real t234 = t233 * g_star_in_i_0;
+    const jg_real t235 = h_star_in_j_2 * t234;
+    const jg_real t236 = t231 * g_star_in_j_1;
+    const jg_real t237 = C_i[6] * t233;
+    const jg_real t238 = t237 * g_star_in_j_2;
+    const jg_real t239 = h_star_in_j_1 * t228;
+    const jg_real t240 = t235 - t236 - (t238 - t239);
+    const jg_real t241 = lambda[0] * t233;
+    jac_phi_q_t_lambda_A_j[15] = t241;
     const jg_real t242 = lambda[1] * A_i[4] + lambda[2] * A_i[7];
     jac_phi_q_t_lambda_A_j[14] = t242;
     jac_phi_q_t_lambda_A_j[48] = t242;
     jac_phi_q_t_lambda_A_j[82] = t242;
-    const jg_real t243 = t242 * s_j[2];
-    const jg_real t244 = t238 * v_2_in_j_2;
-    const jg_real t245 = t236 * v_6_in_j_2;
-    const jg_real t246 = v_4_in_j_2 * t235 - t240 * v_4_in_j_0 + (t243 + t241 * s_j[0] + (t244 + t229 * v_2_in_j_0))
-        + (t245 + t233 * v_6_in_j_0);
-    jac_phi_q_t_lambda_A_j[18] = t246;
-    const jg_real t247 = t238 * g_star_in_j_2;
-    const jg_real t248 = t236 * h_star_in_j_2;
-    const jg_real t249 = t247 - t233 * h_star_in_j_0 - (t248 - g_star_in_j_0 * t229);
-    const jg_real t250 = t241 * s_j[1];
-    const jg_real t251 = lambda[0] * t225;
-    jac_phi_q_t_lambda_A_j[15] = t251;
-    const jg_real t252 = t251 * s_j[2];
-    const jg_real t253 = t229 * v_2_in_j_1;
-    const jg_real t254 = t231 * v_2_in_j_2;
-    const jg_real t255 = t233 * v_6_in_j_1;
-    const jg_real t256 = t226 * v_6_in_j_2;
-    const jg_real t257 = t240 * v_4_in_j_1 - t249 * v_4_in_j_2 - (t250 + t252 + (t253 + t254)) - (t255 + t256);
-    jac_phi_q_t_lambda_A_j[17] = t257;
-    const jg_real t258 = t242 * s_j[1];
-    const jg_real t259 = t238 * v_2_in_j_1;
-    const jg_real t260 = t236 * v_6_in_j_1;
-    const jg_real t261 = t249 * v_4_in_j_0 - v_4_in_j_1 * t235 + (t251 * s_j[0] - t258 + (t231 * v_2_in_j_0 - t259))
-        + (t226 * v_6_in_j_0 - t260);
-    jac_phi_q_t_lambda_A_j[19] = t261;
-    jac_phi_q_t_lambda_A_j[11] = -(t225 * v_8_in_j_1 + A_ji_1 * t246 + A_ji_0 * t257 + (A_ji_2 * t261 - t228 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[12] = -(A_i[4] * v_8_in_j_0 + A_ji_3 * t257 + A_ji_4 * t246 + A_ji_5 * t261);
-    jac_phi_q_t_lambda_A_j[13] = -(A_i[7] * v_8_in_j_0 + A_ji_6 * t257 + A_ji_7 * t246 + A_ji_8 * t261);
-    jac_phi_q_t_lambda_A_j[16] = -t241;
-    jac_phi_q_t_lambda_A_j[20] = h_star_in_j_2 * t241 + t229 * lambda_0_1_2_in_j_2 - (h_star_in_j_0 * t242 + t238 *
-        lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t251 + t231 * lambda_0_1_2_in_j_1));
-    jac_phi_q_t_lambda_A_j[21] = t236 * v_4_in_j_0 + t226 * v_4_in_j_1 - t233 * v_4_in_j_2 - (t235 * v_6_in_j_0 +
-        t249 * v_6_in_j_1 + t240 * v_6_in_j_2);
-    const jg_real t262 = A_ji_5 * A_i[8] - A_i[5] * A_ji_8;
-    const jg_real t263 = t262 * g_star_in_i_0;
-    const jg_real t264 = t263 * h_star_in_j_2;
-    const jg_real t265 = A_i[8] * A_ji_4 - A_i[5] * A_ji_7;
-    const jg_real t266 = C_i[6] * t265;
-    const jg_real t267 = t266 * g_star_in_j_1;
-    const jg_real t268 = t262 * C_i[6];
-    const jg_real t269 = t268 * g_star_in_j_2;
-    const jg_real t270 = t265 * g_star_in_i_0;
-    const jg_real t271 = h_star_in_j_1 * t270;
-    const jg_real t272 = t264 - t267 - (t269 - t271);
-    const jg_real t273 = A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
-    const jg_real t274 = h_star_in_j_1 * t273;
-    const jg_real t275 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t276 = t275 * g_star_in_j_1;
-    const jg_real t277 = t268 * g_star_in_j_0 + t274 - (t276 + t263 * h_star_in_j_0);
-    const jg_real t278 = lambda[0] * t265;
-    jac_phi_q_t_lambda_A_j[91] = t278;
+    const jg_real t243 = s_j[1] * t242;
+    const jg_real t244 = v_2_in_j_1 * t225;
+    const jg_real t245 = v_6_in_j_1 * t229;
+    const jg_real t246 = v_6_in_j_0 * t234 - t245 + (s_j[0] * t241 - t243 + (v_2_in_j_0 * t237 - t244) + (v_4_in_j_0
+        * t232 - v_4_in_j_1 * t240));
+    jac_phi_q_t_lambda_A_j[19] = t246;
+    const jg_real t247 = h_star_in_j_1 * t229;
+    const jg_real t248 = t225 * g_star_in_j_1;
+    const jg_real t249 = t237 * g_star_in_j_0 + t247 - (t248 + h_star_in_j_0 * t234);
+    const jg_real t250 = lambda[0] * t227;
+    jac_phi_q_t_lambda_A_j[80] = t250;
+    const jg_real t251 = s_j[2] * t242;
+    const jg_real t252 = v_2_in_j_2 * t225;
+    const jg_real t253 = v_6_in_j_2 * t229;
+    const jg_real t254 = t253 + v_6_in_j_0 * t228 + (t251 + s_j[0] * t250 + (t252 + v_2_in_j_0 * t231) + (v_4_in_j_2
+        * t240 - v_4_in_j_0 * t249));
+    jac_phi_q_t_lambda_A_j[18] = t254;
+    const jg_real t255 = v_2_in_j_2 * t237;
+    const jg_real t256 = v_2_in_j_1 * t231;
+    const jg_real t257 = s_j[2] * t241;
+    const jg_real t258 = s_j[1] * t250;
+    const jg_real t259 = v_6_in_j_2 * t234;
+    const jg_real t260 = v_6_in_j_1 * t228;
+    const jg_real t261 = v_4_in_j_1 * t249 - v_4_in_j_2 * t232 - (t255 + t256 + (t257 + t258)) - (t259 + t260);
+    jac_phi_q_t_lambda_A_j[17] = t261;
+    jac_phi_q_t_lambda_A_j[11] = -(A_ji_2 * t246 - t227 * v_8_in_j_2 + (t233 * v_8_in_j_1 + A_ji_1 * t254 + A_ji_0 *
+        t261));
+    jac_phi_q_t_lambda_A_j[12] = -(A_i[4] * v_8_in_j_0 + A_ji_3 * t261 + A_ji_4 * t254 + A_ji_5 * t246);
+    jac_phi_q_t_lambda_A_j[13] = -(A_i[7] * v_8_in_j_0 + A_ji_6 * t261 + A_ji_7 * t254 + A_ji_8 * t246);
+    jac_phi_q_t_lambda_A_j[16] = -t250;
+    jac_phi_q_t_lambda_A_j[20] = t250 * h_star_in_j_2 + t231 * lambda_0_1_2_in_j_2 - (t241 * h_star_in_j_1 + t237 *
+        lambda_0_1_2_in_j_1 + (t242 * h_star_in_j_0 + t225 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[21] = v_4_in_j_0 * t229 + v_4_in_j_1 * t234 - v_4_in_j_2 * t228 - (v_6_in_j_0 * t240 +
+        v_6_in_j_1 * t232 + v_6_in_j_2 * t249);
+    const jg_real t262 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t263 = t262 * g_star_in_j_2;
+    const jg_real t264 = A_i[8] * A_ji_4 - A_i[5] * A_ji_7;
+    const jg_real t265 = t264 * g_star_in_i_0;
+    const jg_real t266 = A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
+    const jg_real t267 = h_star_in_j_2 * t266;
+    const jg_real t268 = C_i[6] * t264;
+    const jg_real t269 = t263 - h_star_in_j_0 * t265 - (t267 - t268 * g_star_in_j_0);
+    const jg_real t270 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
+    const jg_real t271 = t270 * g_star_in_i_0;
+    const jg_real t272 = h_star_in_j_2 * t271;
+    const jg_real t273 = t268 * g_star_in_j_1;
+    const jg_real t274 = C_i[6] * t270;
+    const jg_real t275 = t274 * g_star_in_j_2;
+    const jg_real t276 = h_star_in_j_1 * t265;
+    const jg_real t277 = t272 - t273 - (t275 - t276);
+    const jg_real t278 = lambda[0] * t270;
+    jac_phi_q_t_lambda_A_j[26] = t278;
     const jg_real t279 = lambda[1] * A_i[5] + lambda[2] * A_i[8];
     jac_phi_q_t_lambda_A_j[25] = t279;
     jac_phi_q_t_lambda_A_j[59] = t279;
     jac_phi_q_t_lambda_A_j[93] = t279;
-    const jg_real t280 = t279 * s_j[2];
-    const jg_real t281 = t275 * v_2_in_j_2;
-    const jg_real t282 = t273 * v_6_in_j_2;
-    const jg_real t283 = v_4_in_j_2 * t272 - t277 * v_4_in_j_0 + (t280 + t278 * s_j[0] + (t281 + t266 * v_2_in_j_0))
-        + (t282 + t270 * v_6_in_j_0);
-    jac_phi_q_t_lambda_A_j[29] = t283;
-    const jg_real t284 = t275 * g_star_in_j_2;
-    const jg_real t285 = t273 * h_star_in_j_2;
-    const jg_real t286 = t284 - t270 * h_star_in_j_0 - (t285 - g_star_in_j_0 * t266);
-    const jg_real t287 = t278 * s_j[1];
-    const jg_real t288 = lambda[0] * t262;
-    jac_phi_q_t_lambda_A_j[26] = t288;
-    const jg_real t289 = t288 * s_j[2];
-    const jg_real t290 = t266 * v_2_in_j_1;
-    const jg_real t291 = t268 * v_2_in_j_2;
-    const jg_real t292 = t270 * v_6_in_j_1;
-    const jg_real t293 = t263 * v_6_in_j_2;
-    const jg_real t294 = t277 * v_4_in_j_1 - t286 * v_4_in_j_2 - (t287 + t289 + (t290 + t291)) - (t292 + t293);
-    jac_phi_q_t_lambda_A_j[28] = t294;
-    const jg_real t295 = t279 * s_j[1];
-    const jg_real t296 = t275 * v_2_in_j_1;
-    const jg_real t297 = t273 * v_6_in_j_1;
-    const jg_real t298 = t286 * v_4_in_j_0 - v_4_in_j_1 * t272 + (t288 * s_j[0] - t295 + (t268 * v_2_in_j_0 - t296))
-        + (t263 * v_6_in_j_0 - t297);
-    jac_phi_q_t_lambda_A_j[30] = t298;
-    jac_phi_q_t_lambda_A_j[22] = -(t262 * v_8_in_j_1 + A_ji_1 * t283 + A_ji_0 * t294 + (A_ji_2 * t298 - t265 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[23] = -(A_i[5] * v_8_in_j_0 + A_ji_3 * t294 + A_ji_4 * t283 + A_ji_5 * t298);
-    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_8_in_j_0 + A_ji_6 * t294 + A_ji_7 * t283 + A_ji_8 * t298);
-    jac_phi_q_t_lambda_A_j[27] = -t278;
-    jac_phi_q_t_lambda_A_j[31] = h_star_in_j_2 * t278 + t266 * lambda_0_1_2_in_j_2 - (h_star_in_j_0 * t279 + t275 *
-        lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t288 + t268 * lambda_0_1_2_in_j_1));
-    jac_phi_q_t_lambda_A_j[32] = t273 * v_4_in_j_0 + t263 * v_4_in_j_1 - t270 * v_4_in_j_2 - (t272 * v_6_in_j_0 +
-        t286 * v_6_in_j_1 + t277 * v_6_in_j_2);
-    const jg_real t299 = t201 * g_star_in_j_0;
-    const jg_real t300 = t199 * h_star_in_j_0;
-    const jg_real t301 = t299 - h_star_in_j_1 * t189 - (t300 - t194 * g_star_in_j_1);
-    const jg_real t302 = A_i[3] * A_ji_6 - A_i[6] * A_ji_3;
-    const jg_real t303 = t302 * C_i[6];
-    const jg_real t304 = t303 * g_star_in_j_0;
-    const jg_real t305 = t302 * g_star_in_i_0;
-    const jg_real t306 = h_star_in_j_0 * t305;
-    const jg_real t307 = t304 + t190 - (t306 + t195);
-    const jg_real t308 = lambda[0] * t302;
-    jac_phi_q_t_lambda_A_j[70] = t308;
-    const jg_real t309 = t301 * v_4_in_j_1 - t307 * v_4_in_j_2 - (t308 * s_j[1] + t206 + (t303 * v_2_in_j_1 + t207))
-        - (t305 * v_6_in_j_1 + t208);
-    jac_phi_q_t_lambda_A_j[39] = t309;
-    const jg_real t310 = t211 - t303 * g_star_in_j_1 - (t210 - h_star_in_j_1 * t305);
-    const jg_real t311 = t308 * s_j[0];
-    const jg_real t312 = t303 * v_2_in_j_0;
-    const jg_real t313 = t305 * v_6_in_j_0;
-    const jg_real t314 = v_4_in_j_2 * t310 - t301 * v_4_in_j_0 + (t311 - t215 + (t312 - t217)) + (t313 - t219);
-    jac_phi_q_t_lambda_A_j[40] = t314;
-    const jg_real t315 = t205 * s_j[0];
-    const jg_real t316 = t201 * v_2_in_j_0;
-    const jg_real t317 = t199 * v_6_in_j_0;
-    const jg_real t318 = t307 * v_4_in_j_0 - v_4_in_j_1 * t310 + (t315 + s_j[1] * t214 + (t316 + t194 * v_2_in_j_1))
-        + (t317 + t189 * v_6_in_j_1);
-    jac_phi_q_t_lambda_A_j[41] = t318;
-    jac_phi_q_t_lambda_A_j[33] = -(A_ji_0 * t309 - t188 * v_8_in_j_0 + A_ji_1 * t314 + (A_ji_2 * t318 - t302 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[34] = -(A_i[3] * v_8_in_j_1 + A_ji_4 * t314 + A_ji_3 * t309 + A_ji_5 * t318);
-    jac_phi_q_t_lambda_A_j[35] = -(A_i[6] * v_8_in_j_1 + A_ji_7 * t314 + A_ji_6 * t309 + A_ji_8 * t318);
-    jac_phi_q_t_lambda_A_j[36] = -t214;
-    jac_phi_q_t_lambda_A_j[38] = -t308;
-    jac_phi_q_t_lambda_A_j[42] = h_star_in_j_2 * t308 + t303 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t205 + t201 *
-        lambda_0_1_2_in_j_1 - (h_star_in_j_0 * t214 + t194 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[43] = t199 * v_4_in_j_1 - t189 * v_4_in_j_0 - t305 * v_4_in_j_2 - (t310 * v_6_in_j_0 +
-        t307 * v_6_in_j_1 + t301 * v_6_in_j_2);
-    const jg_real t319 = t238 * g_star_in_j_0;
-    const jg_real t320 = t236 * h_star_in_j_0;
-    const jg_real t321 = t319 - h_star_in_j_1 * t226 - (t320 - t231 * g_star_in_j_1);
-    const jg_real t322 = A_i[4] * A_ji_6 - A_i[7] * A_ji_3;
-    const jg_real t323 = t322 * C_i[6];
-    const jg_real t324 = t323 * g_star_in_j_0;
-    const jg_real t325 = t322 * g_star_in_i_0;
-    const jg_real t326 = h_star_in_j_0 * t325;
-    const jg_real t327 = t324 + t227 - (t326 + t232);
-    const jg_real t328 = lambda[0] * t322;
-    jac_phi_q_t_lambda_A_j[81] = t328;
-    const jg_real t329 = t321 * v_4_in_j_1 - t327 * v_4_in_j_2 - (t328 * s_j[1] + t243 + (t323 * v_2_in_j_1 + t244))
-        - (t325 * v_6_in_j_1 + t245);
-    jac_phi_q_t_lambda_A_j[50] = t329;
-    const jg_real t330 = t248 - t323 * g_star_in_j_1 - (t247 - h_star_in_j_1 * t325);
-    const jg_real t331 = t328 * s_j[0];
-    const jg_real t332 = t323 * v_2_in_j_0;
-    const jg_real t333 = t325 * v_6_in_j_0;
-    const jg_real t334 = v_4_in_j_2 * t330 - t321 * v_4_in_j_0 + (t331 - t252 + (t332 - t254)) + (t333 - t256);
-    jac_phi_q_t_lambda_A_j[51] = t334;
-    const jg_real t335 = t242 * s_j[0];
-    const jg_real t336 = t238 * v_2_in_j_0;
-    const jg_real t337 = t236 * v_6_in_j_0;
-    const jg_real t338 = t327 * v_4_in_j_0 - v_4_in_j_1 * t330 + (t335 + s_j[1] * t251 + (t336 + t231 * v_2_in_j_1))
-        + (t337 + t226 * v_6_in_j_1);
-    jac_phi_q_t_lambda_A_j[52] = t338;
-    jac_phi_q_t_lambda_A_j[44] = -(A_ji_0 * t329 - t225 * v_8_in_j_0 + A_ji_1 * t334 + (A_ji_2 * t338 - t322 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[45] = -(A_i[4] * v_8_in_j_1 + A_ji_4 * t334 + A_ji_3 * t329 + A_ji_5 * t338);
-    jac_phi_q_t_lambda_A_j[46] = -(A_i[7] * v_8_in_j_1 + A_ji_7 * t334 + A_ji_6 * t329 + A_ji_8 * t338);
-    jac_phi_q_t_lambda_A_j[47] = -t251;
-    jac_phi_q_t_lambda_A_j[49] = -t328;
-    jac_phi_q_t_lambda_A_j[53] = h_star_in_j_2 * t328 + t323 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t242 + t238 *
-        lambda_0_1_2_in_j_1 - (h_star_in_j_0 * t251 + t231 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[54] = t236 * v_4_in_j_1 - t226 * v_4_in_j_0 - t325 * v_4_in_j_2 - (t330 * v_6_in_j_0 +
-        t327 * v_6_in_j_1 + t321 * v_6_in_j_2);
-    const jg_real t339 = t275 * g_star_in_j_0;
-    const jg_real t340 = t273 * h_star_in_j_0;
-    const jg_real t341 = t339 - h_star_in_j_1 * t263 - (t340 - t268 * g_star_in_j_1);
-    const jg_real t342 = A_i[5] * A_ji_6 - A_i[8] * A_ji_3;
-    const jg_real t343 = t342 * C_i[6];
-    const jg_real t344 = t343 * g_star_in_j_0;
-    const jg_real t345 = t342 * g_star_in_i_0;
-    const jg_real t346 = h_star_in_j_0 * t345;
-    const jg_real t347 = t344 + t264 - (t346 + t269);
-    const jg_real t348 = lambda[0] * t342;
-    jac_phi_q_t_lambda_A_j[92] = t348;
-    const jg_real t349 = t341 * v_4_in_j_1 - t347 * v_4_in_j_2 - (t348 * s_j[1] + t280 + (t343 * v_2_in_j_1 + t281))
-        - (t345 * v_6_in_j_1 + t282);
-    jac_phi_q_t_lambda_A_j[61] = t349;
-    const jg_real t350 = t285 - t343 * g_star_in_j_1 - (t284 - h_star_in_j_1 * t345);
-    const jg_real t351 = t348 * s_j[0];
-    const jg_real t352 = t343 * v_2_in_j_0;
-    const jg_real t353 = t345 * v_6_in_j_0;
-    const jg_real t354 = v_4_in_j_2 * t350 - t341 * v_4_in_j_0 + (t351 - t289 + (t352 - t291)) + (t353 - t293);
-    jac_phi_q_t_lambda_A_j[62] = t354;
-    const jg_real t355 = t279 * s_j[0];
-    const jg_real t356 = t275 * v_2_in_j_0;
-    const jg_real t357 = t273 * v_6_in_j_0;
-    const jg_real t358 = t347 * v_4_in_j_0 - v_4_in_j_1 * t350 + (t355 + s_j[1] * t288 + (t356 + t268 * v_2_in_j_1))
-        + (t357 + t263 * v_6_in_j_1);
-    jac_phi_q_t_lambda_A_j[63] = t358;
-    jac_phi_q_t_lambda_A_j[55] = -(A_ji_0 * t349 - t262 * v_8_in_j_0 + A_ji_1 * t354 + (A_ji_2 * t358 - t342 *
-        v_8_in_j_2));
-    jac_phi_q_t_lambda_A_j[56] = -(A_i[5] * v_8_in_j_1 + A_ji_4 * t354 + A_ji_3 * t349 + A_ji_5 * t358);
-    jac_phi_q_t_lambda_A_j[57] = -(A_i[8] * v_8_in_j_1 + A_ji_7 * t354 + A_ji_6 * t349 + A_ji_8 * t358);
-    jac_phi_q_t_lambda_A_j[58] = -t288;
-    jac_phi_q_t_lambda_A_j[60] = -t348;
-    jac_phi_q_t_lambda_A_j[64] = h_star_in_j_2 * t348 + t343 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t279 + t275 *
-        lambda_0_1_2_in_j_1 - (h_star_in_j_0 * t288 + t268 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[65] = t273 * v_4_in_j_1 - t263 * v_4_in_j_0 - t345 * v_4_in_j_2 - (t350 * v_6_in_j_0 +
-        t347 * v_6_in_j_1 + t341 * v_6_in_j_2);
-    const jg_real t359 = t304 + t197 - (t193 + t306);
-    const jg_real t360 = t300 + t192 * g_star_in_j_2 - (t299 + t196 * h_star_in_j_2);
-    const jg_real t361 = t359 * v_4_in_j_1 - t360 * v_4_in_j_2 + (t221 - t308 * s_j[2] + (t222 - t303 * v_2_in_j_2))
-        + (t223 - t305 * v_6_in_j_2);
+    const jg_real t280 = s_j[1] * t279;
+    const jg_real t281 = v_2_in_j_1 * t262;
+    const jg_real t282 = v_6_in_j_1 * t266;
+    const jg_real t283 = v_6_in_j_0 * t271 - t282 + (s_j[0] * t278 - t280 + (v_2_in_j_0 * t274 - t281) + (v_4_in_j_0
+        * t269 - v_4_in_j_1 * t277));
+    jac_phi_q_t_lambda_A_j[30] = t283;
+    const jg_real t284 = h_star_in_j_1 * t266;
+    const jg_real t285 = t262 * g_star_in_j_1;
+    const jg_real t286 = t274 * g_star_in_j_0 + t284 - (t285 + h_star_in_j_0 * t271);
+    const jg_real t287 = lambda[0] * t264;
+    jac_phi_q_t_lambda_A_j[91] = t287;
+    const jg_real t288 = s_j[2] * t279;
+    const jg_real t289 = v_2_in_j_2 * t262;
+    const jg_real t290 = v_6_in_j_2 * t266;
+    const jg_real t291 = t290 + v_6_in_j_0 * t265 + (t288 + s_j[0] * t287 + (t289 + v_2_in_j_0 * t268) + (v_4_in_j_2
+        * t277 - v_4_in_j_0 * t286));
+    jac_phi_q_t_lambda_A_j[29] = t291;
+    const jg_real t292 = v_2_in_j_2 * t274;
+    const jg_real t293 = v_2_in_j_1 * t268;
+    const jg_real t294 = s_j[2] * t278;
+    const jg_real t295 = s_j[1] * t287;
+    const jg_real t296 = v_6_in_j_2 * t271;
+    const jg_real t297 = v_6_in_j_1 * t265;
+    const jg_real t298 = v_4_in_j_1 * t286 - v_4_in_j_2 * t269 - (t292 + t293 + (t294 + t295)) - (t296 + t297);
+    jac_phi_q_t_lambda_A_j[28] = t298;
+    jac_phi_q_t_lambda_A_j[22] = -(A_ji_2 * t283 - t264 * v_8_in_j_2 + (t270 * v_8_in_j_1 + A_ji_1 * t291 + A_ji_0 *
+        t298));
+    jac_phi_q_t_lambda_A_j[23] = -(A_i[5] * v_8_in_j_0 + A_ji_3 * t298 + A_ji_4 * t291 + A_ji_5 * t283);
+    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_8_in_j_0 + A_ji_6 * t298 + A_ji_7 * t291 + A_ji_8 * t283);
+    jac_phi_q_t_lambda_A_j[27] = -t287;
+    jac_phi_q_t_lambda_A_j[31] = t287 * h_star_in_j_2 + t268 * lambda_0_1_2_in_j_2 - (t278 * h_star_in_j_1 + t274 *
+        lambda_0_1_2_in_j_1 + (t279 * h_star_in_j_0 + t262 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[32] = v_4_in_j_0 * t266 + v_4_in_j_1 * t271 - v_4_in_j_2 * t265 - (v_6_in_j_0 * t277 +
+        v_6_in_j_1 * t269 + v_6_in_j_2 * t286);
+    const jg_real t299 = A_i[3] * A_ji_6 - A_i[6] * A_ji_3;
+    const jg_real t300 = C_i[6] * t299;
+    const jg_real t301 = t300 * g_star_in_j_0;
+    const jg_real t302 = t299 * g_star_in_i_0;
+    const jg_real t303 = h_star_in_j_0 * t302;
+    const jg_real t304 = t301 + t198 - (t303 + t201);
+    const jg_real t305 = t193 - t300 * g_star_in_j_1 - (t189 - h_star_in_j_1 * t302);
+    const jg_real t306 = s_j[0] * t205;
+    const jg_real t307 = v_2_in_j_0 * t188;
+    const jg_real t308 = v_6_in_j_0 * t192;
+    const jg_real t309 = t308 + v_6_in_j_1 * t197 + (t306 + s_j[1] * t204 + (t307 + v_2_in_j_1 * t200) + (v_4_in_j_0
+        * t304 - v_4_in_j_1 * t305));
+    jac_phi_q_t_lambda_A_j[41] = t309;
+    const jg_real t310 = t188 * g_star_in_j_0;
+    const jg_real t311 = h_star_in_j_0 * t192;
+    const jg_real t312 = t310 - h_star_in_j_1 * t197 - (t311 - t200 * g_star_in_j_1);
+    const jg_real t313 = lambda[0] * t299;
+    jac_phi_q_t_lambda_A_j[70] = t313;
+    const jg_real t314 = v_4_in_j_1 * t312 - v_4_in_j_2 * t304 - (t215 + v_2_in_j_1 * t300 + (t214 + s_j[1] * t313))
+        - (t216 + v_6_in_j_1 * t302);
+    jac_phi_q_t_lambda_A_j[39] = t314;
+    const jg_real t315 = s_j[0] * t313;
+    const jg_real t316 = v_2_in_j_0 * t300;
+    const jg_real t317 = v_6_in_j_0 * t302;
+    const jg_real t318 = t317 - t222 + (t315 - t220 + (t316 - t218) + (v_4_in_j_2 * t305 - v_4_in_j_0 * t312));
+    jac_phi_q_t_lambda_A_j[40] = t318;
+    jac_phi_q_t_lambda_A_j[33] = -(A_ji_2 * t309 - t299 * v_8_in_j_2 + (A_ji_0 * t314 - t196 * v_8_in_j_0 + A_ji_1 *
+        t318));
+    jac_phi_q_t_lambda_A_j[34] = -(A_i[3] * v_8_in_j_1 + A_ji_4 * t318 + A_ji_3 * t314 + A_ji_5 * t309);
+    jac_phi_q_t_lambda_A_j[35] = -(A_i[6] * v_8_in_j_1 + A_ji_7 * t318 + A_ji_6 * t314 + A_ji_8 * t309);
+    jac_phi_q_t_lambda_A_j[36] = -t204;
+    jac_phi_q_t_lambda_A_j[38] = -t313;
+    jac_phi_q_t_lambda_A_j[42] = t313 * h_star_in_j_2 + t300 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t205 + t188 *
+        lambda_0_1_2_in_j_1 - (t204 * h_star_in_j_0 + t200 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[43] = v_4_in_j_1 * t192 - v_4_in_j_0 * t197 - v_4_in_j_2 * t302 - (v_6_in_j_0 * t305 +
+        v_6_in_j_1 * t304 + v_6_in_j_2 * t312);
+    const jg_real t319 = A_i[4] * A_ji_6 - A_i[7] * A_ji_3;
+    const jg_real t320 = C_i[6] * t319;
+    const jg_real t321 = t320 * g_star_in_j_0;
+    const jg_real t322 = t319 * g_star_in_i_0;
+    const jg_real t323 = h_star_in_j_0 * t322;
+    const jg_real t324 = t321 + t235 - (t323 + t238);
+    const jg_real t325 = t230 - t320 * g_star_in_j_1 - (t226 - h_star_in_j_1 * t322);
+    const jg_real t326 = s_j[0] * t242;
+    const jg_real t327 = v_2_in_j_0 * t225;
+    const jg_real t328 = v_6_in_j_0 * t229;
+    const jg_real t329 = t328 + v_6_in_j_1 * t234 + (t326 + s_j[1] * t241 + (t327 + v_2_in_j_1 * t237) + (v_4_in_j_0
+        * t324 - v_4_in_j_1 * t325));
+    jac_phi_q_t_lambda_A_j[52] = t329;
+    const jg_real t330 = t225 * g_star_in_j_0;
+    const jg_real t331 = h_star_in_j_0 * t229;
+    const jg_real t332 = t330 - h_star_in_j_1 * t234 - (t331 - t237 * g_star_in_j_1);
+    const jg_real t333 = lambda[0] * t319;
+    jac_phi_q_t_lambda_A_j[81] = t333;
+    const jg_real t334 = v_4_in_j_1 * t332 - v_4_in_j_2 * t324 - (t252 + v_2_in_j_1 * t320 + (t251 + s_j[1] * t333))
+        - (t253 + v_6_in_j_1 * t322);
+    jac_phi_q_t_lambda_A_j[50] = t334;
+    const jg_real t335 = s_j[0] * t333;
+    const jg_real t336 = v_2_in_j_0 * t320;
+    const jg_real t337 = v_6_in_j_0 * t322;
+    const jg_real t338 = t337 - t259 + (t335 - t257 + (t336 - t255) + (v_4_in_j_2 * t325 - v_4_in_j_0 * t332));
+    jac_phi_q_t_lambda_A_j[51] = t338;
+    jac_phi_q_t_lambda_A_j[44] = -(A_ji_2 * t329 - t319 * v_8_in_j_2 + (A_ji_0 * t334 - t233 * v_8_in_j_0 + A_ji_1 *
+        t338));
+    jac_phi_q_t_lambda_A_j[45] = -(A_i[4] * v_8_in_j_1 + A_ji_4 * t338 + A_ji_3 * t334 + A_ji_5 * t329);
+    jac_phi_q_t_lambda_A_j[46] = -(A_i[7] * v_8_in_j_1 + A_ji_7 * t338 + A_ji_6 * t334 + A_ji_8 * t329);
+    jac_phi_q_t_lambda_A_j[47] = -t241;
+    jac_phi_q_t_lambda_A_j[49] = -t333;
+    jac_phi_q_t_lambda_A_j[53] = t333 * h_star_in_j_2 + t320 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t242 + t225 *
+        lambda_0_1_2_in_j_1 - (t241 * h_star_in_j_0 + t237 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[54] = v_4_in_j_1 * t229 - v_4_in_j_0 * t234 - v_4_in_j_2 * t322 - (v_6_in_j_0 * t325 +
+        v_6_in_j_1 * t324 + v_6_in_j_2 * t332);
+    const jg_real t339 = A_i[5] * A_ji_6 - A_i[8] * A_ji_3;
+    const jg_real t340 = C_i[6] * t339;
+    const jg_real t341 = t340 * g_star_in_j_0;
+    const jg_real t342 = t339 * g_star_in_i_0;
+    const jg_real t343 = h_star_in_j_0 * t342;
+    const jg_real t344 = t341 + t272 - (t343 + t275);
+    const jg_real t345 = t267 - t340 * g_star_in_j_1 - (t263 - h_star_in_j_1 * t342);
+    const jg_real t346 = s_j[0] * t279;
+    const jg_real t347 = v_2_in_j_0 * t262;
+    const jg_real t348 = v_6_in_j_0 * t266;
+    const jg_real t349 = t348 + v_6_in_j_1 * t271 + (t346 + s_j[1] * t278 + (t347 + v_2_in_j_1 * t274) + (v_4_in_j_0
+        * t344 - v_4_in_j_1 * t345));
+    jac_phi_q_t_lambda_A_j[63] = t349;
+    const jg_real t350 = t262 * g_star_in_j_0;
+    const jg_real t351 = h_star_in_j_0 * t266;
+    const jg_real t352 = t350 - h_star_in_j_1 * t271 - (t351 - t274 * g_star_in_j_1);
+    const jg_real t353 = lambda[0] * t339;
+    jac_phi_q_t_lambda_A_j[92] = t353;
+    const jg_real t354 = v_4_in_j_1 * t352 - v_4_in_j_2 * t344 - (t289 + v_2_in_j_1 * t340 + (t288 + s_j[1] * t353))
+        - (t290 + v_6_in_j_1 * t342);
+    jac_phi_q_t_lambda_A_j[61] = t354;
+    const jg_real t355 = s_j[0] * t353;
+    const jg_real t356 = v_2_in_j_0 * t340;
+    const jg_real t357 = v_6_in_j_0 * t342;
+    const jg_real t358 = t357 - t296 + (t355 - t294 + (t356 - t292) + (v_4_in_j_2 * t345 - v_4_in_j_0 * t352));
+    jac_phi_q_t_lambda_A_j[62] = t358;
+    jac_phi_q_t_lambda_A_j[55] = -(A_ji_2 * t349 - t339 * v_8_in_j_2 + (A_ji_0 * t354 - t270 * v_8_in_j_0 + A_ji_1 *
+        t358));
+    jac_phi_q_t_lambda_A_j[56] = -(A_i[5] * v_8_in_j_1 + A_ji_4 * t358 + A_ji_3 * t354 + A_ji_5 * t349);
+    jac_phi_q_t_lambda_A_j[57] = -(A_i[8] * v_8_in_j_1 + A_ji_7 * t358 + A_ji_6 * t354 + A_ji_8 * t349);
+    jac_phi_q_t_lambda_A_j[58] = -t278;
+    jac_phi_q_t_lambda_A_j[60] = -t353;
+    jac_phi_q_t_lambda_A_j[64] = t353 * h_star_in_j_2 + t340 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t279 + t262 *
+        lambda_0_1_2_in_j_1 - (t278 * h_star_in_j_0 + t274 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[65] = v_4_in_j_1 * t266 - v_4_in_j_0 * t271 - v_4_in_j_2 * t342 - (v_6_in_j_0 * t345 +
+        v_6_in_j_1 * t344 + v_6_in_j_2 * t352);
+    const jg_real t359 = t301 + t202 - (t199 + t303);
+    const jg_real t360 = t311 + t194 * g_star_in_j_2 - (t310 + h_star_in_j_2 * t191);
+    const jg_real t361 = t208 - v_6_in_j_2 * t302 + (t207 - v_2_in_j_2 * t300 + (t206 - s_j[2] * t313) + (v_4_in_j_1
+        * t359 - v_4_in_j_2 * t360));
     jac_phi_q_t_lambda_A_j[72] = t361;
-    const jg_real t362 = t202 + t305 * h_star_in_j_2 - (t200 + t303 * g_star_in_j_2);
-    const jg_real t363 = v_4_in_j_2 * t362 - t359 * v_4_in_j_0 + (t204 * s_j[2] - t315 + (t192 * v_2_in_j_2 - t316))
-        + (t196 * v_6_in_j_2 - t317);
+    const jg_real t362 = t211 + h_star_in_j_2 * t302 - (t210 + t300 * g_star_in_j_2);
+    const jg_real t363 = v_6_in_j_2 * t191 - t308 + (s_j[2] * t213 - t306 + (v_2_in_j_2 * t194 - t307) + (v_4_in_j_2
+        * t362 - v_4_in_j_0 * t359));
     jac_phi_q_t_lambda_A_j[73] = t363;
-    const jg_real t364 = t360 * v_4_in_j_0 - v_4_in_j_1 * t362 + (t311 - t213 + (t312 - t216)) + (t313 - t218);
+    const jg_real t364 = t317 - t223 + (t315 - t221 + (t316 - t219) + (v_4_in_j_0 * t360 - v_4_in_j_1 * t362));
     jac_phi_q_t_lambda_A_j[74] = t364;
-    jac_phi_q_t_lambda_A_j[66] = -(t191 * v_8_in_j_0 + A_ji_0 * t361 + (t302 * v_8_in_j_1 + A_ji_1 * t363) + A_ji_2
+    jac_phi_q_t_lambda_A_j[66] = -(t190 * v_8_in_j_0 + A_ji_0 * t361 + (t299 * v_8_in_j_1 + A_ji_1 * t363) + A_ji_2
         * t364);
-    jac_phi_q_t_lambda_A_j[67] = -(A_ji_3 * t361 + A_ji_4 * t363 + (A_i[3] * v_8_in_j_2 + A_ji_5 * t364));
-    jac_phi_q_t_lambda_A_j[68] = -(A_ji_6 * t361 + A_ji_7 * t363 + (A_i[6] * v_8_in_j_2 + A_ji_8 * t364));
-    jac_phi_q_t_lambda_A_j[75] = -(h_star_in_j_0 * t204 + t192 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t308 + t303
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t205 + t201 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_j[76] = t196 * v_4_in_j_0 + t305 * v_4_in_j_1 + t199 * v_4_in_j_2 - (t362 * v_6_in_j_0 +
-        t360 * v_6_in_j_1 + t359 * v_6_in_j_2);
-    const jg_real t365 = t324 + t234 - (t230 + t326);
-    const jg_real t366 = t320 + t229 * g_star_in_j_2 - (t319 + t233 * h_star_in_j_2);
-    const jg_real t367 = t365 * v_4_in_j_1 - t366 * v_4_in_j_2 + (t258 - t328 * s_j[2] + (t259 - t323 * v_2_in_j_2))
-        + (t260 - t325 * v_6_in_j_2);
+    jac_phi_q_t_lambda_A_j[67] = -(A_i[3] * v_8_in_j_2 + A_ji_5 * t364 + (A_ji_3 * t361 + A_ji_4 * t363));
+    jac_phi_q_t_lambda_A_j[68] = -(A_i[6] * v_8_in_j_2 + A_ji_8 * t364 + (A_ji_6 * t361 + A_ji_7 * t363));
+    jac_phi_q_t_lambda_A_j[75] = -(t205 * h_star_in_j_2 + t188 * lambda_0_1_2_in_j_2 + (t313 * h_star_in_j_1 + t300
+        * lambda_0_1_2_in_j_1 + (t213 * h_star_in_j_0 + t194 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_j[76] = v_4_in_j_0 * t191 + v_4_in_j_1 * t302 + v_4_in_j_2 * t192 - (v_6_in_j_0 * t362 +
+        v_6_in_j_1 * t360 + v_6_in_j_2 * t359);
+    const jg_real t365 = t321 + t239 - (t236 + t323);
+    const jg_real t366 = t331 + t231 * g_star_in_j_2 - (t330 + h_star_in_j_2 * t228);
+    const jg_real t367 = t245 - v_6_in_j_2 * t322 + (t244 - v_2_in_j_2 * t320 + (t243 - s_j[2] * t333) + (v_4_in_j_1
+        * t365 - v_4_in_j_2 * t366));
     jac_phi_q_t_lambda_A_j[83] = t367;
-    const jg_real t368 = t239 + t325 * h_star_in_j_2 - (t237 + t323 * g_star_in_j_2);
-    const jg_real t369 = v_4_in_j_2 * t368 - t365 * v_4_in_j_0 + (t241 * s_j[2] - t335 + (t229 * v_2_in_j_2 - t336))
-        + (t233 * v_6_in_j_2 - t337);
+    const jg_real t368 = t248 + h_star_in_j_2 * t322 - (t247 + t320 * g_star_in_j_2);
+    const jg_real t369 = v_6_in_j_2 * t228 - t328 + (s_j[2] * t250 - t326 + (v_2_in_j_2 * t231 - t327) + (v_4_in_j_2
+        * t368 - v_4_in_j_0 * t365));
     jac_phi_q_t_lambda_A_j[84] = t369;
-    const jg_real t370 = t366 * v_4_in_j_0 - v_4_in_j_1 * t368 + (t331 - t250 + (t332 - t253)) + (t333 - t255);
+    const jg_real t370 = t337 - t260 + (t335 - t258 + (t336 - t256) + (v_4_in_j_0 * t366 - v_4_in_j_1 * t368));
     jac_phi_q_t_lambda_A_j[85] = t370;
-    jac_phi_q_t_lambda_A_j[77] = -(t228 * v_8_in_j_0 + A_ji_0 * t367 + (t322 * v_8_in_j_1 + A_ji_1 * t369) + A_ji_2
+    jac_phi_q_t_lambda_A_j[77] = -(t227 * v_8_in_j_0 + A_ji_0 * t367 + (t319 * v_8_in_j_1 + A_ji_1 * t369) + A_ji_2
         * t370);
-    jac_phi_q_t_lambda_A_j[78] = -(A_ji_3 * t367 + A_ji_4 * t369 + (A_i[4] * v_8_in_j_2 + A_ji_5 * t370));
-    jac_phi_q_t_lambda_A_j[79] = -(A_ji_6 * t367 + A_ji_7 * t369 + (A_i[7] * v_8_in_j_2 + A_ji_8 * t370));
-    jac_phi_q_t_lambda_A_j[86] = -(h_star_in_j_0 * t241 + t229 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t328 + t323
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t242 + t238 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_j[87] = t233 * v_4_in_j_0 + t325 * v_4_in_j_1 + t236 * v_4_in_j_2 - (t368 * v_6_in_j_0 +
-        t366 * v_6_in_j_1 + t365 * v_6_in_j_2);
-    const jg_real t371 = t344 + t271 - (t267 + t346);
-    const jg_real t372 = t340 + t266 * g_star_in_j_2 - (t339 + t270 * h_star_in_j_2);
-    const jg_real t373 = t371 * v_4_in_j_1 - t372 * v_4_in_j_2 + (t295 - t348 * s_j[2] + (t296 - t343 * v_2_in_j_2))
-        + (t297 - t345 * v_6_in_j_2);
+    jac_phi_q_t_lambda_A_j[78] = -(A_i[4] * v_8_in_j_2 + A_ji_5 * t370 + (A_ji_3 * t367 + A_ji_4 * t369));
+    jac_phi_q_t_lambda_A_j[79] = -(A_i[7] * v_8_in_j_2 + A_ji_8 * t370 + (A_ji_6 * t367 + A_ji_7 * t369));
+    jac_phi_q_t_lambda_A_j[86] = -(t242 * h_star_in_j_2 + t225 * lambda_0_1_2_in_j_2 + (t333 * h_star_in_j_1 + t320
+        * lambda_0_1_2_in_j_1 + (t250 * h_star_in_j_0 + t231 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_j[87] = v_4_in_j_0 * t228 + v_4_in_j_1 * t322 + v_4_in_j_2 * t229 - (v_6_in_j_0 * t368 +
+        v_6_in_j_1 * t366 + v_6_in_j_2 * t365);
+    const jg_real t371 = t341 + t276 - (t273 + t343);
+    const jg_real t372 = t351 + t268 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t265);
+    const jg_real t373 = t282 - v_6_in_j_2 * t342 + (t281 - v_2_in_j_2 * t340 + (t280 - s_j[2] * t353) + (v_4_in_j_1
+        * t371 - v_4_in_j_2 * t372));
     jac_phi_q_t_lambda_A_j[94] = t373;
-    const jg_real t374 = t276 + t345 * h_star_in_j_2 - (t274 + t343 * g_star_in_j_2);
-    const jg_real t375 = v_4_in_j_2 * t374 - t371 * v_4_in_j_0 + (t278 * s_j[2] - t355 + (t266 * v_2_in_j_2 - t356))
-        + (t270 * v_6_in_j_2 - t357);
+    const jg_real t374 = t285 + h_star_in_j_2 * t342 - (t284 + t340 * g_star_in_j_2);
+    const jg_real t375 = v_6_in_j_2 * t265 - t348 + (s_j[2] * t287 - t346 + (v_2_in_j_2 * t268 - t347) + (v_4_in_j_2
+        * t374 - v_4_in_j_0 * t371));
     jac_phi_q_t_lambda_A_j[95] = t375;
-    const jg_real t376 = t372 * v_4_in_j_0 - v_4_in_j_1 * t374 + (t351 - t287 + (t352 - t290)) + (t353 - t292);
+    const jg_real t376 = t357 - t297 + (t355 - t295 + (t356 - t293) + (v_4_in_j_0 * t372 - v_4_in_j_1 * t374));
     jac_phi_q_t_lambda_A_j[96] = t376;
-    jac_phi_q_t_lambda_A_j[88] = -(t265 * v_8_in_j_0 + A_ji_0 * t373 + (t342 * v_8_in_j_1 + A_ji_1 * t375) + A_ji_2
+    jac_phi_q_t_lambda_A_j[88] = -(t264 * v_8_in_j_0 + A_ji_0 * t373 + (t339 * v_8_in_j_1 + A_ji_1 * t375) + A_ji_2
         * t376);
-    jac_phi_q_t_lambda_A_j[89] = -(A_ji_3 * t373 + A_ji_4 * t375 + (A_i[5] * v_8_in_j_2 + A_ji_5 * t376));
-    jac_phi_q_t_lambda_A_j[90] = -(A_ji_6 * t373 + A_ji_7 * t375 + (A_i[8] * v_8_in_j_2 + A_ji_8 * t376));
-    jac_phi_q_t_lambda_A_j[97] = -(h_star_in_j_0 * t278 + t266 * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t348 + t343
-        * lambda_0_1_2_in_j_1) + (h_star_in_j_2 * t279 + t275 * lambda_0_1_2_in_j_2));
-    jac_phi_q_t_lambda_A_j[98] = t270 * v_4_in_j_0 + t345 * v_4_in_j_1 + t273 * v_4_in_j_2 - (t374 * v_6_in_j_0 +
-        t372 * v_6_in_j_1 + t371 * v_6_in_j_2);
-    const jg_real t377 = C_i[3] * sine_0 + cosine_0 * C_i[0];
-    const jg_real t378 = sine_0 * C_i[4] + cosine_0 * C_i[1];
-    const jg_real t379 = sine_0 * C_i[5] + cosine_0 * C_i[2];
+    jac_phi_q_t_lambda_A_j[89] = -(A_i[5] * v_8_in_j_2 + A_ji_5 * t376 + (A_ji_3 * t373 + A_ji_4 * t375));
+    jac_phi_q_t_lambda_A_j[90] = -(A_i[8] * v_8_in_j_2 + A_ji_8 * t376 + (A_ji_6 * t373 + A_ji_7 * t375));
+    jac_phi_q_t_lambda_A_j[97] = -(t279 * h_star_in_j_2 + t262 * lambda_0_1_2_in_j_2 + (t353 * h_star_in_j_1 + t340
+        * lambda_0_1_2_in_j_1 + (t287 * h_star_in_j_0 + t268 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_j[98] = v_4_in_j_0 * t265 + v_4_in_j_1 * t342 + v_4_in_j_2 * t266 - (v_6_in_j_0 * t374 +
+        v_6_in_j_1 * t372 + v_6_in_j_2 * t371);
+    const jg_real t377 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t378 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t379 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     const jg_real t380 = A_ji_1 * t377 + A_ji_4 * t378 + A_ji_7 * t379;
     const jg_real t381 = A_ji_0 * t377 + A_ji_3 * t378 + A_ji_6 * t379;
     const jg_real t382 = h_star_in_j_0 * t380 - h_star_in_j_1 * t381;
-    const jg_real t383 = t377 * A_ji_2 + A_ji_5 * t378 + A_ji_8 * t379;
-    const jg_real t384 = t381 * h_star_in_j_2 - h_star_in_j_0 * t383;
-    const jg_real t385 = t382 * v_4_in_j_1 - t384 * v_4_in_j_2 + (t380 * v_6_in_j_2 - t383 * v_6_in_j_1);
+    const jg_real t383 = A_ji_2 * t377 + A_ji_5 * t378 + A_ji_8 * t379;
+    const jg_real t384 = h_star_in_j_2 * t381 - h_star_in_j_0 * t383;
+    const jg_real t385 = v_6_in_j_2 * t380 - v_6_in_j_1 * t383 + (v_4_in_j_1 * t382 - v_4_in_j_2 * t384);
     jac_phi_q_t_lambda_alpha[3] = t385;
-    const jg_real t386 = h_star_in_j_1 * t383 - t380 * h_star_in_j_2;
-    const jg_real t387 = v_4_in_j_2 * t386 - t382 * v_4_in_j_0 + (t383 * v_6_in_j_0 - t381 * v_6_in_j_2);
+    const jg_real t386 = h_star_in_j_1 * t383 - h_star_in_j_2 * t380;
+    const jg_real t387 = v_6_in_j_0 * t383 - v_6_in_j_2 * t381 + (v_4_in_j_2 * t386 - v_4_in_j_0 * t382);
     jac_phi_q_t_lambda_alpha[4] = t387;
-    const jg_real t388 = t384 * v_4_in_j_0 - v_4_in_j_1 * t386 + (t381 * v_6_in_j_1 - t380 * v_6_in_j_0);
+    const jg_real t388 = v_6_in_j_1 * t381 - v_6_in_j_0 * t380 + (v_4_in_j_0 * t384 - v_4_in_j_1 * t386);
     jac_phi_q_t_lambda_alpha[5] = t388;
     jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t385 + A_ji_1 * t387 + A_ji_2 * t388);
     jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t385 + A_ji_4 * t387 + A_ji_5 * t388);
     jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t385 + A_ji_7 * t387 + A_ji_8 * t388);
-    jac_phi_q_t_lambda_alpha[6] = -(t386 * v_6_in_j_0 + t384 * v_6_in_j_1 + t382 * v_6_in_j_2 + (t381 * v_4_in_j_0 +
-        t380 * v_4_in_j_1 + t383 * v_4_in_j_2));
+    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t381 + v_4_in_j_1 * t380 + v_4_in_j_2 * t383 + (v_6_in_j_0 * t386 +
+        v_6_in_j_1 * t384 + v_6_in_j_2 * t382));
     const jg_real t389 = A_ji_1 * sine_0;
     const jg_real t390 = A_ji_0 * sine_0;
     const jg_real t391 = h_star_in_j_0 * t389 - h_star_in_j_1 * t390;
-    const jg_real t392 = sine_0 * A_ji_2;
-    const jg_real t393 = t390 * h_star_in_j_2 - h_star_in_j_0 * t392;
-    const jg_real t394 = t391 * v_4_in_j_1 - t393 * v_4_in_j_2 + (t389 * v_6_in_j_2 - t392 * v_6_in_j_1);
+    const jg_real t392 = A_ji_2 * sine_0;
+    const jg_real t393 = h_star_in_j_2 * t390 - h_star_in_j_0 * t392;
+    const jg_real t394 = v_6_in_j_2 * t389 - v_6_in_j_1 * t392 + (v_4_in_j_1 * t391 - v_4_in_j_2 * t393);
     jac_phi_q_t_lambda_geometry[3] = t394;
-    const jg_real t395 = h_star_in_j_1 * t392 - t389 * h_star_in_j_2;
-    const jg_real t396 = v_4_in_j_2 * t395 - t391 * v_4_in_j_0 + (t392 * v_6_in_j_0 - t390 * v_6_in_j_2);
+    const jg_real t395 = h_star_in_j_1 * t392 - h_star_in_j_2 * t389;
+    const jg_real t396 = v_6_in_j_0 * t392 - v_6_in_j_2 * t390 + (v_4_in_j_2 * t395 - v_4_in_j_0 * t391);
     jac_phi_q_t_lambda_geometry[4] = t396;
-    const jg_real t397 = t393 * v_4_in_j_0 - v_4_in_j_1 * t395 + (t390 * v_6_in_j_1 - t389 * v_6_in_j_0);
+    const jg_real t397 = v_6_in_j_1 * t390 - v_6_in_j_0 * t389 + (v_4_in_j_0 * t393 - v_4_in_j_1 * t395);
     jac_phi_q_t_lambda_geometry[5] = t397;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t394 + A_ji_1 * t396 + A_ji_2 * t397);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t394 + A_ji_4 * t396 + A_ji_5 * t397);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t394 + A_ji_7 * t396 + A_ji_8 * t397);
-    jac_phi_q_t_lambda_geometry[6] = -(t395 * v_6_in_j_0 + t393 * v_6_in_j_1 + t391 * v_6_in_j_2 + (t390 *
-        v_4_in_j_0 + t389 * v_4_in_j_1 + t392 * v_4_in_j_2));
+    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t390 + v_4_in_j_1 * t389 + v_4_in_j_2 * t392 + (v_6_in_j_0 *
+        t395 + v_6_in_j_1 * t393 + v_6_in_j_2 * t391));
     const jg_real t398 = A_ji_4 * sine_0;
     const jg_real t399 = A_ji_3 * sine_0;
     const jg_real t400 = h_star_in_j_0 * t398 - h_star_in_j_1 * t399;
     const jg_real t401 = A_ji_5 * sine_0;
-    const jg_real t402 = t399 * h_star_in_j_2 - h_star_in_j_0 * t401;
-    const jg_real t403 = t400 * v_4_in_j_1 - t402 * v_4_in_j_2 + (t398 * v_6_in_j_2 - t401 * v_6_in_j_1);
+    const jg_real t402 = h_star_in_j_2 * t399 - h_star_in_j_0 * t401;
+    const jg_real t403 = v_6_in_j_2 * t398 - v_6_in_j_1 * t401 + (v_4_in_j_1 * t400 - v_4_in_j_2 * t402);
     jac_phi_q_t_lambda_geometry[10] = t403;
-    const jg_real t404 = h_star_in_j_1 * t401 - t398 * h_star_in_j_2;
-    const jg_real t405 = v_4_in_j_2 * t404 - t400 * v_4_in_j_0 + (t401 * v_6_in_j_0 - t399 * v_6_in_j_2);
+    const jg_real t404 = h_star_in_j_1 * t401 - h_star_in_j_2 * t398;
+    const jg_real t405 = v_6_in_j_0 * t401 - v_6_in_j_2 * t399 + (v_4_in_j_2 * t404 - v_4_in_j_0 * t400);
     jac_phi_q_t_lambda_geometry[11] = t405;
-    const jg_real t406 = t402 * v_4_in_j_0 - v_4_in_j_1 * t404 + (t399 * v_6_in_j_1 - t398 * v_6_in_j_0);
+    const jg_real t406 = v_6_in_j_1 * t399 - v_6_in_j_0 * t398 + (v_4_in_j_0 * t402 - v_4_in_j_1 * t404);
     jac_phi_q_t_lambda_geometry[12] = t406;
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t403 + A_ji_1 * t405 + A_ji_2 * t406);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t403 + A_ji_4 * t405 + A_ji_5 * t406);
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t403 + A_ji_7 * t405 + A_ji_8 * t406);
-    jac_phi_q_t_lambda_geometry[13] = -(t404 * v_6_in_j_0 + t402 * v_6_in_j_1 + t400 * v_6_in_j_2 + (t399 *
-        v_4_in_j_0 + t398 * v_4_in_j_1 + t401 * v_4_in_j_2));
+    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t399 + v_4_in_j_1 * t398 + v_4_in_j_2 * t401 + (v_6_in_j_0 *
+        t404 + v_6_in_j_1 * t402 + v_6_in_j_2 * t400));
     const jg_real t407 = A_ji_7 * sine_0;
     const jg_real t408 = A_ji_6 * sine_0;
     const jg_real t409 = h_star_in_j_0 * t407 - h_star_in_j_1 * t408;
     const jg_real t410 = A_ji_8 * sine_0;
-    const jg_real t411 = t408 * h_star_in_j_2 - h_star_in_j_0 * t410;
-    const jg_real t412 = t409 * v_4_in_j_1 - t411 * v_4_in_j_2 + (t407 * v_6_in_j_2 - t410 * v_6_in_j_1);
+    const jg_real t411 = h_star_in_j_2 * t408 - h_star_in_j_0 * t410;
+    const jg_real t412 = v_6_in_j_2 * t407 - v_6_in_j_1 * t410 + (v_4_in_j_1 * t409 - v_4_in_j_2 * t411);
     jac_phi_q_t_lambda_geometry[17] = t412;
-    const jg_real t413 = h_star_in_j_1 * t410 - t407 * h_star_in_j_2;
-    const jg_real t414 = v_4_in_j_2 * t413 - t409 * v_4_in_j_0 + (t410 * v_6_in_j_0 - t408 * v_6_in_j_2);
+    const jg_real t413 = h_star_in_j_1 * t410 - h_star_in_j_2 * t407;
+    const jg_real t414 = v_6_in_j_0 * t410 - v_6_in_j_2 * t408 + (v_4_in_j_2 * t413 - v_4_in_j_0 * t409);
     jac_phi_q_t_lambda_geometry[18] = t414;
-    const jg_real t415 = t411 * v_4_in_j_0 - v_4_in_j_1 * t413 + (t408 * v_6_in_j_1 - t407 * v_6_in_j_0);
+    const jg_real t415 = v_6_in_j_1 * t408 - v_6_in_j_0 * t407 + (v_4_in_j_0 * t411 - v_4_in_j_1 * t413);
     jac_phi_q_t_lambda_geometry[19] = t415;
     jac_phi_q_t_lambda_geometry[14] = -(A_ji_0 * t412 + A_ji_1 * t414 + A_ji_2 * t415);
     jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t412 + A_ji_4 * t414 + A_ji_5 * t415);
     jac_phi_q_t_lambda_geometry[16] = -(A_ji_6 * t412 + A_ji_7 * t414 + A_ji_8 * t415);
-    jac_phi_q_t_lambda_geometry[20] = -(t413 * v_6_in_j_0 + t411 * v_6_in_j_1 + t409 * v_6_in_j_2 + (t408 *
-        v_4_in_j_0 + t407 * v_4_in_j_1 + t410 * v_4_in_j_2));
+    jac_phi_q_t_lambda_geometry[20] = -(v_4_in_j_0 * t408 + v_4_in_j_1 * t407 + v_4_in_j_2 * t410 + (v_6_in_j_0 *
+        t413 + v_6_in_j_1 * t411 + v_6_in_j_2 * t409));
     const jg_real t416 = A_ji_0 * cosine_0;
     const jg_real t417 = A_ji_1 * cosine_0;
     const jg_real t418 = h_star_in_j_1 * t416 - h_star_in_j_0 * t417;
-    const jg_real t419 = cosine_0 * A_ji_2;
-    const jg_real t420 = h_star_in_j_0 * t419 - t416 * h_star_in_j_2;
-    const jg_real t421 = t418 * v_4_in_j_1 - t420 * v_4_in_j_2 + (t419 * v_6_in_j_1 - t417 * v_6_in_j_2);
+    const jg_real t419 = A_ji_2 * cosine_0;
+    const jg_real t420 = h_star_in_j_0 * t419 - h_star_in_j_2 * t416;
+    const jg_real t421 = v_6_in_j_1 * t419 - v_6_in_j_2 * t417 + (v_4_in_j_1 * t418 - v_4_in_j_2 * t420);
     jac_phi_q_t_lambda_geometry[24] = t421;
-    const jg_real t422 = t417 * h_star_in_j_2 - h_star_in_j_1 * t419;
-    const jg_real t423 = v_4_in_j_2 * t422 - t418 * v_4_in_j_0 + (t416 * v_6_in_j_2 - t419 * v_6_in_j_0);
+    const jg_real t422 = h_star_in_j_2 * t417 - h_star_in_j_1 * t419;
+    const jg_real t423 = v_6_in_j_2 * t416 - v_6_in_j_0 * t419 + (v_4_in_j_2 * t422 - v_4_in_j_0 * t418);
     jac_phi_q_t_lambda_geometry[25] = t423;
-    const jg_real t424 = t420 * v_4_in_j_0 - v_4_in_j_1 * t422 + (t417 * v_6_in_j_0 - t416 * v_6_in_j_1);
+    const jg_real t424 = v_6_in_j_0 * t417 - v_6_in_j_1 * t416 + (v_4_in_j_0 * t420 - v_4_in_j_1 * t422);
     jac_phi_q_t_lambda_geometry[26] = t424;
     jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t421 + A_ji_1 * t423 + A_ji_2 * t424);
     jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t421 + A_ji_4 * t423 + A_ji_5 * t424);
     jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t421 + A_ji_7 * t423 + A_ji_8 * t424);
-    jac_phi_q_t_lambda_geometry[27] = t416 * v_4_in_j_0 + t417 * v_4_in_j_1 + t419 * v_4_in_j_2 - (t422 * v_6_in_j_0
-        + t420 * v_6_in_j_1 + t418 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t416 + v_4_in_j_1 * t417 + v_4_in_j_2 * t419 - (v_6_in_j_0 * t422
+        + v_6_in_j_1 * t420 + v_6_in_j_2 * t418);
     const jg_real t425 = A_ji_3 * cosine_0;
     const jg_real t426 = A_ji_4 * cosine_0;
     const jg_real t427 = h_star_in_j_1 * t425 - h_star_in_j_0 * t426;
     const jg_real t428 = A_ji_5 * cosine_0;
-    const jg_real t429 = h_star_in_j_0 * t428 - t425 * h_star_in_j_2;
-    const jg_real t430 = t427 * v_4_in_j_1 - t429 * v_4_in_j_2 + (t428 * v_6_in_j_1 - t426 * v_6_in_j_2);
+    const jg_real t429 = h_star_in_j_0 * t428 - h_star_in_j_2 * t425;
+    const jg_real t430 = v_6_in_j_1 * t428 - v_6_in_j_2 * t426 + (v_4_in_j_1 * t427 - v_4_in_j_2 * t429);
     jac_phi_q_t_lambda_geometry[31] = t430;
-    const jg_real t431 = t426 * h_star_in_j_2 - h_star_in_j_1 * t428;
-    const jg_real t432 = v_4_in_j_2 * t431 - t427 * v_4_in_j_0 + (t425 * v_6_in_j_2 - t428 * v_6_in_j_0);
+    const jg_real t431 = h_star_in_j_2 * t426 - h_star_in_j_1 * t428;
+    const jg_real t432 = v_6_in_j_2 * t425 - v_6_in_j_0 * t428 + (v_4_in_j_2 * t431 - v_4_in_j_0 * t427);
     jac_phi_q_t_lambda_geometry[32] = t432;
-    const jg_real t433 = t429 * v_4_in_j_0 - v_4_in_j_1 * t431 + (t426 * v_6_in_j_0 - t425 * v_6_in_j_1);
+    const jg_real t433 = v_6_in_j_0 * t426 - v_6_in_j_1 * t425 + (v_4_in_j_0 * t429 - v_4_in_j_1 * t431);
     jac_phi_q_t_lambda_geometry[33] = t433;
     jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t430 + A_ji_1 * t432 + A_ji_2 * t433);
     jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t430 + A_ji_4 * t432 + A_ji_5 * t433);
     jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t430 + A_ji_7 * t432 + A_ji_8 * t433);
-    jac_phi_q_t_lambda_geometry[34] = t425 * v_4_in_j_0 + t426 * v_4_in_j_1 + t428 * v_4_in_j_2 - (t431 * v_6_in_j_0
-        + t429 * v_6_in_j_1 + t427 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t425 + v_4_in_j_1 * t426 + v_4_in_j_2 * t428 - (v_6_in_j_0 * t431
+        + v_6_in_j_1 * t429 + v_6_in_j_2 * t427);
     const jg_real t434 = A_ji_6 * cosine_0;
     const jg_real t435 = A_ji_7 * cosine_0;
     const jg_real t436 = h_star_in_j_1 * t434 - h_star_in_j_0 * t435;
     const jg_real t437 = A_ji_8 * cosine_0;
-    const jg_real t438 = h_star_in_j_0 * t437 - t434 * h_star_in_j_2;
-    const jg_real t439 = t436 * v_4_in_j_1 - t438 * v_4_in_j_2 + (t437 * v_6_in_j_1 - t435 * v_6_in_j_2);
+    const jg_real t438 = h_star_in_j_0 * t437 - h_star_in_j_2 * t434;
+    const jg_real t439 = v_6_in_j_1 * t437 - v_6_in_j_2 * t435 + (v_4_in_j_1 * t436 - v_4_in_j_2 * t438);
     jac_phi_q_t_lambda_geometry[38] = t439;
-    const jg_real t440 = t435 * h_star_in_j_2 - h_star_in_j_1 * t437;
-    const jg_real t441 = v_4_in_j_2 * t440 - t436 * v_4_in_j_0 + (t434 * v_6_in_j_2 - t437 * v_6_in_j_0);
+    const jg_real t440 = h_star_in_j_2 * t435 - h_star_in_j_1 * t437;
+    const jg_real t441 = v_6_in_j_2 * t434 - v_6_in_j_0 * t437 + (v_4_in_j_2 * t440 - v_4_in_j_0 * t436);
     jac_phi_q_t_lambda_geometry[39] = t441;
-    const jg_real t442 = t438 * v_4_in_j_0 - v_4_in_j_1 * t440 + (t435 * v_6_in_j_0 - t434 * v_6_in_j_1);
+    const jg_real t442 = v_6_in_j_0 * t435 - v_6_in_j_1 * t434 + (v_4_in_j_0 * t438 - v_4_in_j_1 * t440);
     jac_phi_q_t_lambda_geometry[40] = t442;
     jac_phi_q_t_lambda_geometry[35] = -(A_ji_0 * t439 + A_ji_1 * t441 + A_ji_2 * t442);
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_3 * t439 + A_ji_4 * t441 + A_ji_5 * t442);
     jac_phi_q_t_lambda_geometry[37] = -(A_ji_6 * t439 + A_ji_7 * t441 + A_ji_8 * t442);
-    jac_phi_q_t_lambda_geometry[41] = t434 * v_4_in_j_0 + t435 * v_4_in_j_1 + t437 * v_4_in_j_2 - (t440 * v_6_in_j_0
-        + t438 * v_6_in_j_1 + t436 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[41] = v_4_in_j_0 * t434 + v_4_in_j_1 * t435 + v_4_in_j_2 * t437 - (v_6_in_j_0 * t440
+        + v_6_in_j_1 * t438 + v_6_in_j_2 * t436);
     const jg_real t443 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    const jg_real t444 = A_ji_0 * g_star_in_j_2 - g_star_in_j_0 * A_ji_2;
-    const jg_real t445 = t443 * v_4_in_j_1 - t444 * v_4_in_j_2 + (A_ji_2 * v_2_in_j_1 - A_ji_1 * v_2_in_j_2);
+    const jg_real t444 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
+    const jg_real t445 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t443 - v_4_in_j_2 * t444);
     jac_phi_q_t_lambda_geometry[45] = t445;
-    const jg_real t446 = g_star_in_j_1 * A_ji_2 - A_ji_1 * g_star_in_j_2;
-    const jg_real t447 = v_4_in_j_2 * t446 - t443 * v_4_in_j_0 + (A_ji_0 * v_2_in_j_2 - A_ji_2 * v_2_in_j_0);
+    const jg_real t446 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
+    const jg_real t447 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t446 - v_4_in_j_0 * t443);
     jac_phi_q_t_lambda_geometry[46] = t447;
-    const jg_real t448 = t444 * v_4_in_j_0 - v_4_in_j_1 * t446 + (A_ji_1 * v_2_in_j_0 - A_ji_0 * v_2_in_j_1);
+    const jg_real t448 = v_2_in_j_0 * A_ji_1 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t444 - v_4_in_j_1 * t446);
     jac_phi_q_t_lambda_geometry[47] = t448;
     jac_phi_q_t_lambda_geometry[42] = -(A_ji_0 * t445 + A_ji_1 * t447 + A_ji_2 * t448);
     jac_phi_q_t_lambda_geometry[43] = -(A_ji_3 * t445 + A_ji_4 * t447 + A_ji_5 * t448);
     jac_phi_q_t_lambda_geometry[44] = -(A_ji_6 * t445 + A_ji_7 * t447 + A_ji_8 * t448);
-    jac_phi_q_t_lambda_geometry[48] = -(A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_2 *
+    jac_phi_q_t_lambda_geometry[48] = -(A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_2 *
         lambda_0_1_2_in_j_2);
-    jac_phi_q_t_lambda_geometry[49] = -(t446 * v_6_in_j_0 + t444 * v_6_in_j_1 + t443 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[49] = -(v_6_in_j_0 * t446 + v_6_in_j_1 * t444 + v_6_in_j_2 * t443);
     const jg_real t449 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
     const jg_real t450 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t451 = t449 * v_4_in_j_1 - t450 * v_4_in_j_2 + (A_ji_5 * v_2_in_j_1 - A_ji_4 * v_2_in_j_2);
+    const jg_real t451 = v_2_in_j_1 * A_ji_5 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t449 - v_4_in_j_2 * t450);
     jac_phi_q_t_lambda_geometry[53] = t451;
     const jg_real t452 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t453 = v_4_in_j_2 * t452 - t449 * v_4_in_j_0 + (A_ji_3 * v_2_in_j_2 - A_ji_5 * v_2_in_j_0);
+    const jg_real t453 = v_2_in_j_2 * A_ji_3 - v_2_in_j_0 * A_ji_5 + (v_4_in_j_2 * t452 - v_4_in_j_0 * t449);
     jac_phi_q_t_lambda_geometry[54] = t453;
-    const jg_real t454 = t450 * v_4_in_j_0 - v_4_in_j_1 * t452 + (A_ji_4 * v_2_in_j_0 - A_ji_3 * v_2_in_j_1);
+    const jg_real t454 = v_2_in_j_0 * A_ji_4 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t450 - v_4_in_j_1 * t452);
     jac_phi_q_t_lambda_geometry[55] = t454;
     jac_phi_q_t_lambda_geometry[50] = -(A_ji_0 * t451 + A_ji_1 * t453 + A_ji_2 * t454);
     jac_phi_q_t_lambda_geometry[51] = -(A_ji_3 * t451 + A_ji_4 * t453 + A_ji_5 * t454);
     jac_phi_q_t_lambda_geometry[52] = -(A_ji_6 * t451 + A_ji_7 * t453 + A_ji_8 * t454);
-    jac_phi_q_t_lambda_geometry[56] = -(A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_5 *
+    jac_phi_q_t_lambda_geometry[56] = -(A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_5 *
         lambda_0_1_2_in_j_2);
-    jac_phi_q_t_lambda_geometry[57] = -(t452 * v_6_in_j_0 + t450 * v_6_in_j_1 + t449 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[57] = -(v_6_in_j_0 * t452 + v_6_in_j_1 * t450 + v_6_in_j_2 * t449);
     const jg_real t455 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
     const jg_real t456 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
-    const jg_real t457 = t455 * v_4_in_j_1 - t456 * v_4_in_j_2 + (A_ji_8 * v_2_in_j_1 - A_ji_7 * v_2_in_j_2);
+    const jg_real t457 = v_2_in_j_1 * A_ji_8 - v_2_in_j_2 * A_ji_7 + (v_4_in_j_1 * t455 - v_4_in_j_2 * t456);
     jac_phi_q_t_lambda_geometry[61] = t457;
     const jg_real t458 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t459 = v_4_in_j_2 * t458 - t455 * v_4_in_j_0 + (A_ji_6 * v_2_in_j_2 - A_ji_8 * v_2_in_j_0);
+    const jg_real t459 = v_2_in_j_2 * A_ji_6 - v_2_in_j_0 * A_ji_8 + (v_4_in_j_2 * t458 - v_4_in_j_0 * t455);
     jac_phi_q_t_lambda_geometry[62] = t459;
-    const jg_real t460 = t456 * v_4_in_j_0 - v_4_in_j_1 * t458 + (A_ji_7 * v_2_in_j_0 - A_ji_6 * v_2_in_j_1);
+    const jg_real t460 = v_2_in_j_0 * A_ji_7 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t456 - v_4_in_j_1 * t458);
     jac_phi_q_t_lambda_geometry[63] = t460;
     jac_phi_q_t_lambda_geometry[58] = -(A_ji_0 * t457 + A_ji_1 * t459 + A_ji_2 * t460);
     jac_phi_q_t_lambda_geometry[59] = -(A_ji_3 * t457 + A_ji_4 * t459 + A_ji_5 * t460);
     jac_phi_q_t_lambda_geometry[60] = -(A_ji_6 * t457 + A_ji_7 * t459 + A_ji_8 * t460);
-    jac_phi_q_t_lambda_geometry[64] = -(A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_8 *
+    jac_phi_q_t_lambda_geometry[64] = -(A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_8 *
         lambda_0_1_2_in_j_2);
-    jac_phi_q_t_lambda_geometry[65] = -(t458 * v_6_in_j_0 + t456 * v_6_in_j_1 + t455 * v_6_in_j_2);
+    jac_phi_q_t_lambda_geometry[65] = -(v_6_in_j_0 * t458 + v_6_in_j_1 * t456 + v_6_in_j_2 * t455);
     jac_phi_q_t_lambda_geometry[66] = A_ji_1 * lambda_0_1_2_in_j_2 - A_ji_2 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[67] = A_ji_4 * lambda_0_1_2_in_j_2 - A_ji_5 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[68] = A_ji_7 * lambda_0_1_2_in_j_2 - A_ji_8 * lambda_0_1_2_in_j_1;
@@ -2222,15 +2223,15 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[77] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[79] = -lambda_0_1_2_in_j_1;
-    const jg_real t461 = h_star_in_j_2 * lambda[4];
+    const jg_real t461 = lambda[4] * h_star_in_j_2;
     jac_phi_q_t_lambda_geometry[89] = t461;
-    const jg_real t462 = h_star_in_j_1 * lambda[4];
+    const jg_real t462 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[85] = t462;
     jac_phi_q_t_lambda_geometry[81] = A_ji_1 * t461 - A_ji_2 * t462;
     jac_phi_q_t_lambda_geometry[82] = A_ji_4 * t461 - A_ji_5 * t462;
     jac_phi_q_t_lambda_geometry[83] = A_ji_7 * t461 - A_ji_8 * t462;
     jac_phi_q_t_lambda_geometry[84] = -t461;
-    const jg_real t463 = h_star_in_j_0 * lambda[4];
+    const jg_real t463 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[95] = t463;
     jac_phi_q_t_lambda_geometry[86] = A_ji_2 * t463 - A_ji_0 * t461;
     jac_phi_q_t_lambda_geometry[87] = A_ji_5 * t463 - A_ji_3 * t461;
@@ -2240,7 +2241,7 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[92] = A_ji_3 * t462 - A_ji_4 * t463;
     jac_phi_q_t_lambda_geometry[93] = A_ji_6 * t462 - A_ji_7 * t463;
     jac_phi_q_t_lambda_geometry[94] = -t462;
-    const jg_real t464 = f_star_in_j_2 * lambda[5];
+    const jg_real t464 = lambda[5] * f_star_in_j_2;
     jac_phi_q_t_lambda_geometry[105] = t464;
     const jg_real t465 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[100] = t465;
@@ -2248,48 +2249,48 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[97] = A_ji_4 * t464 - A_ji_5 * t465;
     jac_phi_q_t_lambda_geometry[98] = A_ji_7 * t464 - A_ji_8 * t465;
     jac_phi_q_t_lambda_geometry[99] = -t464;
-    jac_phi_q_t_lambda_geometry[101] = g_star_in_j_0 * lambda[5];
+    jac_phi_q_t_lambda_geometry[101] = lambda[5] * g_star_in_j_0;
     const jg_real t466 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[112] = t466;
     jac_phi_q_t_lambda_geometry[102] = A_ji_2 * t466 - A_ji_0 * t464;
     jac_phi_q_t_lambda_geometry[103] = A_ji_5 * t466 - A_ji_3 * t464;
     jac_phi_q_t_lambda_geometry[104] = A_ji_8 * t466 - A_ji_6 * t464;
     jac_phi_q_t_lambda_geometry[106] = -t466;
-    jac_phi_q_t_lambda_geometry[107] = g_star_in_j_1 * lambda[5];
+    jac_phi_q_t_lambda_geometry[107] = lambda[5] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[108] = A_ji_0 * t465 - A_ji_1 * t466;
     jac_phi_q_t_lambda_geometry[109] = A_ji_3 * t465 - A_ji_4 * t466;
     jac_phi_q_t_lambda_geometry[110] = A_ji_6 * t465 - A_ji_7 * t466;
     jac_phi_q_t_lambda_geometry[111] = -t465;
     jac_phi_q_t_lambda_geometry[113] = lambda[5] * g_star_in_j_2;
-    const jg_real t467 = g_star_in_j_2 * lambda[3];
+    const jg_real t467 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[123] = t467;
-    const jg_real t468 = g_star_in_j_1 * lambda[3];
+    const jg_real t468 = lambda[3] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[118] = t468;
     jac_phi_q_t_lambda_geometry[114] = A_ji_1 * t467 - A_ji_2 * t468;
     jac_phi_q_t_lambda_geometry[115] = A_ji_4 * t467 - A_ji_5 * t468;
     jac_phi_q_t_lambda_geometry[116] = A_ji_7 * t467 - A_ji_8 * t468;
     jac_phi_q_t_lambda_geometry[117] = -t467;
     jac_phi_q_t_lambda_geometry[119] = -(lambda[3] * f_star_in_j_0);
-    const jg_real t469 = g_star_in_j_0 * lambda[3];
+    const jg_real t469 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[130] = t469;
     jac_phi_q_t_lambda_geometry[120] = A_ji_2 * t469 - A_ji_0 * t467;
     jac_phi_q_t_lambda_geometry[121] = A_ji_5 * t469 - A_ji_3 * t467;
     jac_phi_q_t_lambda_geometry[122] = A_ji_8 * t469 - A_ji_6 * t467;
     jac_phi_q_t_lambda_geometry[124] = -t469;
-    jac_phi_q_t_lambda_geometry[125] = -(f_star_in_j_1 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[125] = -(lambda[3] * f_star_in_j_1);
     jac_phi_q_t_lambda_geometry[126] = A_ji_0 * t468 - A_ji_1 * t469;
     jac_phi_q_t_lambda_geometry[127] = A_ji_3 * t468 - A_ji_4 * t469;
     jac_phi_q_t_lambda_geometry[128] = A_ji_6 * t468 - A_ji_7 * t469;
     jac_phi_q_t_lambda_geometry[129] = -t468;
-    jac_phi_q_t_lambda_geometry[131] = -(f_star_in_j_2 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[131] = -(lambda[3] * f_star_in_j_2);
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    const jg_real t470 = A_ji_2 * s_j[1] - A_ji_1 * s_j[2];
+    const jg_real t470 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t470;
-    const jg_real t471 = A_ji_0 * s_j[2] - A_ji_2 * s_j[0];
+    const jg_real t471 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t471;
-    const jg_real t472 = A_ji_1 * s_j[0] - A_ji_0 * s_j[1];
+    const jg_real t472 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t472;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t470 + A_ji_1 * t471 + A_ji_2 * t472);
     /* v_0_in_i = r_j - r_i, axes of body i */
@@ -2297,57 +2298,57 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t470 + A_ji_4 * t471 + A_ji_5 * t472 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t470 + A_ji_7 * t471 + A_ji_8 * t472);
-    jac_phi_q_t_lambda_lambda[10] = -(A_ji_0 * h_star_in_j_0 + A_ji_1 * h_star_in_j_1 + A_ji_2 * h_star_in_j_2);
-    const jg_real t475 = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
+    jac_phi_q_t_lambda_lambda[10] = -(A_ji_1 * h_star_in_j_1 + A_ji_0 * h_star_in_j_0 + A_ji_2 * h_star_in_j_2);
+    const jg_real t475 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[18] = t475;
-    const jg_real t476 = A_ji_3 * s_j[2] - A_ji_5 * s_j[0];
+    const jg_real t476 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     jac_phi_q_t_lambda_lambda[19] = t476;
-    const jg_real t477 = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    const jg_real t477 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_t_lambda_lambda[20] = t477;
     jac_phi_q_t_lambda_lambda[12] = v_0_in_i_2 - (A_ji_0 * t475 + A_ji_1 * t476 + A_ji_2 * t477);
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_3 * t475 + A_ji_4 * t476 + A_ji_5 * t477);
     const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     jac_phi_q_t_lambda_lambda[14] = -(A_ji_6 * t475 + A_ji_7 * t476 + A_ji_8 * t477 + v_0_in_i_0);
-    jac_phi_q_t_lambda_lambda[21] = -(A_ji_3 * h_star_in_j_0 + A_ji_4 * h_star_in_j_1 + A_ji_5 * h_star_in_j_2);
-    const jg_real t479 = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
+    jac_phi_q_t_lambda_lambda[21] = -(A_ji_4 * h_star_in_j_1 + A_ji_3 * h_star_in_j_0 + A_ji_5 * h_star_in_j_2);
+    const jg_real t479 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_t_lambda_lambda[29] = t479;
-    const jg_real t480 = A_ji_6 * s_j[2] - A_ji_8 * s_j[0];
+    const jg_real t480 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[30] = t480;
-    const jg_real t481 = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    const jg_real t481 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_t_lambda_lambda[31] = t481;
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_0 * t479 + A_ji_1 * t480 + A_ji_2 * t481 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[24] = v_0_in_i_0 - (A_ji_3 * t479 + A_ji_4 * t480 + A_ji_5 * t481);
     jac_phi_q_t_lambda_lambda[25] = -(A_ji_6 * t479 + A_ji_7 * t480 + A_ji_8 * t481);
-    jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * h_star_in_j_0 + A_ji_7 * h_star_in_j_1 + A_ji_8 * h_star_in_j_2);
-    const jg_real t482 = g_star_in_j_2 * C_j[7] - g_star_in_j_1 * C_j[8];
+    jac_phi_q_t_lambda_lambda[32] = -(A_ji_7 * h_star_in_j_1 + A_ji_6 * h_star_in_j_0 + A_ji_8 * h_star_in_j_2);
+    const jg_real t482 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
     jac_phi_q_t_lambda_lambda[36] = t482;
-    const jg_real t483 = g_star_in_j_0 * C_j[8] - g_star_in_j_2 * C_j[6];
+    const jg_real t483 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
     jac_phi_q_t_lambda_lambda[37] = t483;
-    const jg_real t484 = g_star_in_j_1 * C_j[6] - g_star_in_j_0 * C_j[7];
+    const jg_real t484 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[38] = t484;
     jac_phi_q_t_lambda_lambda[33] = -(A_ji_0 * t482 + A_ji_1 * t483 + A_ji_2 * t484);
     jac_phi_q_t_lambda_lambda[34] = -(A_ji_3 * t482 + A_ji_4 * t483 + A_ji_5 * t484);
     jac_phi_q_t_lambda_lambda[35] = -(A_ji_6 * t482 + A_ji_7 * t483 + A_ji_8 * t484);
-    jac_phi_q_t_lambda_lambda[39] = -(f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8]);
-    const jg_real t485 = h_star_in_j_2 * C_j[1] - h_star_in_j_1 * C_j[2];
+    jac_phi_q_t_lambda_lambda[39] = -(C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2);
+    const jg_real t485 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
     jac_phi_q_t_lambda_lambda[43] = t485;
-    const jg_real t486 = h_star_in_j_0 * C_j[2] - h_star_in_j_2 * C_j[0];
+    const jg_real t486 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
     jac_phi_q_t_lambda_lambda[44] = t486;
-    const jg_real t487 = h_star_in_j_1 * C_j[0] - h_star_in_j_0 * C_j[1];
+    const jg_real t487 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
     jac_phi_q_t_lambda_lambda[45] = t487;
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_0 * t485 + A_ji_1 * t486 + A_ji_2 * t487);
     jac_phi_q_t_lambda_lambda[41] = -(A_ji_3 * t485 + A_ji_4 * t486 + A_ji_5 * t487);
     jac_phi_q_t_lambda_lambda[42] = -(A_ji_6 * t485 + A_ji_7 * t486 + A_ji_8 * t487);
-    const jg_real t488 = f_star_in_j_2 * C_j[4] - f_star_in_j_1 * C_j[5];
+    const jg_real t488 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_lambda[49] = t488;
-    const jg_real t489 = C_j[5] * f_star_in_j_0 - f_star_in_j_2 * C_j[3];
+    const jg_real t489 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
     jac_phi_q_t_lambda_lambda[50] = t489;
-    const jg_real t490 = f_star_in_j_1 * C_j[3] - C_j[4] * f_star_in_j_0;
+    const jg_real t490 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
     jac_phi_q_t_lambda_lambda[51] = t490;
     jac_phi_q_t_lambda_lambda[46] = -(A_ji_0 * t488 + A_ji_1 * t489 + A_ji_2 * t490);
     jac_phi_q_t_lambda_lambda[47] = -(A_ji_3 * t488 + A_ji_4 * t489 + A_ji_5 * t490);
     jac_phi_q_t_lambda_lambda[48] = -(A_ji_6 * t488 + A_ji_7 * t489 + A_ji_8 * t490);
-    jac_phi_q_t_lambda_lambda[52] = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
+    jac_phi_q_t_lambda_lambda[52] = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
 }
 
 JG_EXPORT int jg_cylindrical_parametric_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

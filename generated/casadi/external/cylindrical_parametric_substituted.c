@@ -53,7 +53,7 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
@@ -75,47 +75,47 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[18] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    const jg_real t17 = f_j_in_i_1 * g_j_world_0 - f_j_world_0 * g_j_in_i_1;
-    const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t17 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
+    const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_A_i[1] = -(t11 * g_star_in_i_1 + t17 * g_star_in_i_2);
     jac_phi_A_i[2] = C_i[6] * f_j_world_0;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = sine_0 * C_i[3] + cosine_0 * C_i[0];
+    const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t24 = f_j_in_i_1 * g_j_world_1 - f_j_world_1 * g_j_in_i_1;
+    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(t23 * g_star_in_i_1 + t24 * g_star_in_i_2);
     jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
+    const jg_real t29 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
     jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
     jac_phi_A_i[10] = C_i[6] * f_j_world_2;
     jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
-    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[16] = f_j_in_i_0;
     const jg_real t33 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
     jac_phi_A_i[13] = t11 * g_star_in_i_0 - t33 * g_star_in_i_2;
     jac_phi_A_i[14] = C_i[7] * f_j_world_0;
-    const jg_real f_star_in_i_1 = sine_0 * C_i[4] + cosine_0 * C_i[1];
+    const jg_real f_star_in_i_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     const jg_real t35 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
     jac_phi_A_i[17] = t23 * g_star_in_i_0 - t35 * g_star_in_i_2;
@@ -127,7 +127,7 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     jac_phi_A_i[23] = g_j_world_2 * f_star_in_i_1;
     jac_phi_A_i[25] = t17 * g_star_in_i_0 + t33 * g_star_in_i_1;
     jac_phi_A_i[26] = C_i[8] * f_j_world_0;
-    const jg_real f_star_in_i_2 = sine_0 * C_i[5] + cosine_0 * C_i[2];
+    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[27] = g_j_world_0 * f_star_in_i_2;
     jac_phi_A_i[29] = t24 * g_star_in_i_0 + t35 * g_star_in_i_1;
     jac_phi_A_i[30] = C_i[8] * f_j_world_1;
@@ -144,11 +144,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t41 = A_i[3] * C_j[3];
     const jg_real t42 = A_i[0] * C_j[3];
     const jg_real t43 = A_i[0] * C_j[0];
-    jac_phi_A_j[3] = (t38 * g_j_in_i_2 + f_j_in_i_1 * t39 - (t40 * g_j_in_i_1 + f_j_in_i_2 * t41)) * g_star_in_i_0 +
-        (t40 * g_j_in_i_0 + f_j_in_i_2 * t42 - (g_j_in_i_2 * t43 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (g_j_in_i_1
-        * t43 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + f_j_in_i_1 * t42)) * g_star_in_i_2;
-    jac_phi_A_j[4] = C_i[6] * t43 + C_i[7] * t38 + C_i[8] * t40;
-    jac_phi_A_j[5] = f_star_in_i_0 * t42 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
+    jac_phi_A_j[3] = (t38 * g_j_in_i_2 + t39 * f_j_in_i_1 - (t40 * g_j_in_i_1 + t41 * f_j_in_i_2)) * g_star_in_i_0 +
+        (t40 * g_j_in_i_0 + t42 * f_j_in_i_2 - (t43 * g_j_in_i_2 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (t43 *
+        g_j_in_i_1 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + t42 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[4] = C_i[7] * t38 + C_i[6] * t43 + C_i[8] * t40;
+    jac_phi_A_j[5] = t42 * f_star_in_i_0 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
@@ -158,11 +158,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t47 = A_i[4] * C_j[3];
     const jg_real t48 = A_i[1] * C_j[3];
     const jg_real t49 = A_i[1] * C_j[0];
-    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + f_j_in_i_1 * t45 - (t46 * g_j_in_i_1 + f_j_in_i_2 * t47)) * g_star_in_i_0 +
-        (t46 * g_j_in_i_0 + f_j_in_i_2 * t48 - (g_j_in_i_2 * t49 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (g_j_in_i_1
-        * t49 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + f_j_in_i_1 * t48)) * g_star_in_i_2;
-    jac_phi_A_j[10] = C_i[6] * t49 + C_i[7] * t44 + C_i[8] * t46;
-    jac_phi_A_j[11] = f_star_in_i_0 * t48 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
+    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + t45 * f_j_in_i_1 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
+        (t46 * g_j_in_i_0 + t48 * f_j_in_i_2 - (t49 * g_j_in_i_2 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (t49 *
+        g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + t48 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[10] = C_i[7] * t44 + C_i[6] * t49 + C_i[8] * t46;
+    jac_phi_A_j[11] = t48 * f_star_in_i_0 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
@@ -172,11 +172,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t53 = A_i[5] * C_j[3];
     const jg_real t54 = A_i[2] * C_j[3];
     const jg_real t55 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + f_j_in_i_1 * t51 - (t52 * g_j_in_i_1 + f_j_in_i_2 * t53)) * g_star_in_i_0
-        + (t52 * g_j_in_i_0 + f_j_in_i_2 * t54 - (g_j_in_i_2 * t55 + t51 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t55 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
-    jac_phi_A_j[16] = C_i[6] * t55 + C_i[7] * t50 + C_i[8] * t52;
-    jac_phi_A_j[17] = f_star_in_i_0 * t54 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
+    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + t51 * f_j_in_i_1 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
+        + (t52 * g_j_in_i_0 + t54 * f_j_in_i_2 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
+        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + t54 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
+    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
@@ -186,11 +186,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t59 = A_i[3] * C_j[4];
     const jg_real t60 = A_i[0] * C_j[4];
     const jg_real t61 = A_i[0] * C_j[1];
-    jac_phi_A_j[21] = (t56 * g_j_in_i_2 + f_j_in_i_1 * t57 - (t58 * g_j_in_i_1 + f_j_in_i_2 * t59)) * g_star_in_i_0
-        + (t58 * g_j_in_i_0 + f_j_in_i_2 * t60 - (g_j_in_i_2 * t61 + t57 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t61 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + f_j_in_i_1 * t60)) * g_star_in_i_2;
-    jac_phi_A_j[22] = C_i[6] * t61 + C_i[7] * t56 + C_i[8] * t58;
-    jac_phi_A_j[23] = f_star_in_i_0 * t60 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
+    jac_phi_A_j[21] = (t56 * g_j_in_i_2 + t57 * f_j_in_i_1 - (t58 * g_j_in_i_1 + t59 * f_j_in_i_2)) * g_star_in_i_0
+        + (t58 * g_j_in_i_0 + t60 * f_j_in_i_2 - (t61 * g_j_in_i_2 + t57 * f_j_in_i_0)) * g_star_in_i_1 + (t61 *
+        g_j_in_i_1 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + t60 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[22] = C_i[7] * t56 + C_i[6] * t61 + C_i[8] * t58;
+    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
@@ -200,11 +200,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t65 = A_i[4] * C_j[4];
     const jg_real t66 = A_i[1] * C_j[4];
     const jg_real t67 = A_i[1] * C_j[1];
-    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + f_j_in_i_1 * t63 - (t64 * g_j_in_i_1 + f_j_in_i_2 * t65)) * g_star_in_i_0
-        + (t64 * g_j_in_i_0 + f_j_in_i_2 * t66 - (g_j_in_i_2 * t67 + t63 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t67 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + f_j_in_i_1 * t66)) * g_star_in_i_2;
-    jac_phi_A_j[28] = C_i[6] * t67 + C_i[7] * t62 + C_i[8] * t64;
-    jac_phi_A_j[29] = f_star_in_i_0 * t66 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
+    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + t63 * f_j_in_i_1 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
+        + (t64 * g_j_in_i_0 + t66 * f_j_in_i_2 - (t67 * g_j_in_i_2 + t63 * f_j_in_i_0)) * g_star_in_i_1 + (t67 *
+        g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + t66 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[28] = C_i[7] * t62 + C_i[6] * t67 + C_i[8] * t64;
+    jac_phi_A_j[29] = t66 * f_star_in_i_0 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
@@ -214,11 +214,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t71 = A_i[5] * C_j[4];
     const jg_real t72 = A_i[2] * C_j[4];
     const jg_real t73 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + f_j_in_i_1 * t69 - (t70 * g_j_in_i_1 + f_j_in_i_2 * t71)) * g_star_in_i_0
-        + (t70 * g_j_in_i_0 + f_j_in_i_2 * t72 - (g_j_in_i_2 * t73 + t69 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t73 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + f_j_in_i_1 * t72)) * g_star_in_i_2;
-    jac_phi_A_j[34] = C_i[6] * t73 + C_i[7] * t68 + C_i[8] * t70;
-    jac_phi_A_j[35] = f_star_in_i_0 * t72 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
+    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + t69 * f_j_in_i_1 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
+        + (t70 * g_j_in_i_0 + t72 * f_j_in_i_2 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
+        g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + t72 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[34] = C_i[7] * t68 + C_i[6] * t73 + C_i[8] * t70;
+    jac_phi_A_j[35] = t72 * f_star_in_i_0 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
@@ -228,11 +228,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t77 = A_i[3] * C_j[5];
     const jg_real t78 = A_i[0] * C_j[5];
     const jg_real t79 = A_i[0] * C_j[2];
-    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + f_j_in_i_1 * t75 - (t76 * g_j_in_i_1 + f_j_in_i_2 * t77)) * g_star_in_i_0
-        + (t76 * g_j_in_i_0 + f_j_in_i_2 * t78 - (g_j_in_i_2 * t79 + t75 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t79 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + f_j_in_i_1 * t78)) * g_star_in_i_2;
-    jac_phi_A_j[40] = C_i[6] * t79 + C_i[7] * t74 + C_i[8] * t76;
-    jac_phi_A_j[41] = f_star_in_i_0 * t78 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
+    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
+        + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
+        g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[40] = C_i[7] * t74 + C_i[6] * t79 + C_i[8] * t76;
+    jac_phi_A_j[41] = t78 * f_star_in_i_0 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
@@ -242,11 +242,11 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t83 = A_i[4] * C_j[5];
     const jg_real t84 = A_i[1] * C_j[5];
     const jg_real t85 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + f_j_in_i_1 * t81 - (t82 * g_j_in_i_1 + f_j_in_i_2 * t83)) * g_star_in_i_0
-        + (t82 * g_j_in_i_0 + f_j_in_i_2 * t84 - (g_j_in_i_2 * t85 + t81 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t85 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + f_j_in_i_1 * t84)) * g_star_in_i_2;
-    jac_phi_A_j[46] = C_i[6] * t85 + C_i[7] * t80 + C_i[8] * t82;
-    jac_phi_A_j[47] = f_star_in_i_0 * t84 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
+    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + t81 * f_j_in_i_1 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
+        + (t82 * g_j_in_i_0 + t84 * f_j_in_i_2 - (t85 * g_j_in_i_2 + t81 * f_j_in_i_0)) * g_star_in_i_1 + (t85 *
+        g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + t84 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[46] = C_i[7] * t80 + C_i[6] * t85 + C_i[8] * t82;
+    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
@@ -256,34 +256,34 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     const jg_real t89 = A_i[5] * C_j[5];
     const jg_real t90 = A_i[2] * C_j[5];
     const jg_real t91 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + f_j_in_i_1 * t87 - (t88 * g_j_in_i_1 + f_j_in_i_2 * t89)) * g_star_in_i_0
-        + (t88 * g_j_in_i_0 + f_j_in_i_2 * t90 - (g_j_in_i_2 * t91 + t87 * f_j_in_i_0)) * g_star_in_i_1 +
-        (g_j_in_i_1 * t91 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + f_j_in_i_1 * t90)) * g_star_in_i_2;
-    jac_phi_A_j[52] = C_i[6] * t91 + C_i[7] * t86 + C_i[8] * t88;
-    jac_phi_A_j[53] = f_star_in_i_0 * t90 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
+    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + t87 * f_j_in_i_1 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
+        + (t88 * g_j_in_i_0 + t90 * f_j_in_i_2 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
+        g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + t90 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[52] = C_i[7] * t86 + C_i[6] * t91 + C_i[8] * t88;
+    jac_phi_A_j[53] = t90 * f_star_in_i_0 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
     jac_phi_alpha[0] = -C_i[6];
     jac_phi_alpha[1] = -C_i[7];
     jac_phi_alpha[2] = -C_i[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
-    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_alpha[3] = -(h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 * f_star_in_i_2);
-    jac_phi_alpha[4] = g_star_in_i_0 * g_j_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
+    jac_phi_alpha[4] = g_j_in_i_0 * g_star_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
     jac_phi_geometry[3] = -(h_j_in_i_0 * sine_0);
-    jac_phi_geometry[4] = cosine_0 * g_j_in_i_0;
-    jac_phi_geometry[5] = -(sine_0 * h_j_in_i_1);
+    jac_phi_geometry[4] = g_j_in_i_0 * cosine_0;
+    jac_phi_geometry[5] = -(h_j_in_i_1 * sine_0);
     jac_phi_geometry[6] = g_j_in_i_1 * cosine_0;
-    jac_phi_geometry[7] = -(sine_0 * h_j_in_i_2);
+    jac_phi_geometry[7] = -(h_j_in_i_2 * sine_0);
     jac_phi_geometry[8] = g_j_in_i_2 * cosine_0;
     jac_phi_geometry[9] = h_j_in_i_0 * cosine_0;
-    jac_phi_geometry[10] = sine_0 * g_j_in_i_0;
-    jac_phi_geometry[11] = cosine_0 * h_j_in_i_1;
+    jac_phi_geometry[10] = g_j_in_i_0 * sine_0;
+    jac_phi_geometry[11] = h_j_in_i_1 * cosine_0;
     jac_phi_geometry[12] = g_j_in_i_1 * sine_0;
-    jac_phi_geometry[13] = cosine_0 * h_j_in_i_2;
+    jac_phi_geometry[13] = h_j_in_i_2 * cosine_0;
     jac_phi_geometry[14] = g_j_in_i_2 * sine_0;
     const jg_real t95 = -alpha[0];
     jac_phi_geometry[15] = t95;
@@ -309,21 +309,21 @@ static void jg_cylindrical_parametric_substituted_phi_jacobian(const jg_real *JG
     jac_phi_geometry[29] = t104;
     jac_phi_geometry[30] = (t97 * g_j_in_i_2 - t98 * g_j_in_i_1) * g_star_in_i_0 + (t98 * g_j_in_i_0 - t96 *
         g_j_in_i_2) * g_star_in_i_1 + (t96 * g_j_in_i_1 - t97 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[31] = t96 * C_i[6] + t97 * C_i[7] + t98 * C_i[8];
+    jac_phi_geometry[31] = C_i[7] * t97 + C_i[6] * t96 + C_i[8] * t98;
     jac_phi_geometry[32] = (t100 * g_j_in_i_2 - t101 * g_j_in_i_1) * g_star_in_i_0 + (t101 * g_j_in_i_0 - t99 *
         g_j_in_i_2) * g_star_in_i_1 + (t99 * g_j_in_i_1 - t100 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[33] = t99 * C_i[6] + t100 * C_i[7] + t101 * C_i[8];
+    jac_phi_geometry[33] = C_i[7] * t100 + C_i[6] * t99 + C_i[8] * t101;
     jac_phi_geometry[34] = (t103 * g_j_in_i_2 - t104 * g_j_in_i_1) * g_star_in_i_0 + (t104 * g_j_in_i_0 - t102 *
         g_j_in_i_2) * g_star_in_i_1 + (t102 * g_j_in_i_1 - t103 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[35] = t102 * C_i[6] + t103 * C_i[7] + t104 * C_i[8];
-    jac_phi_geometry[36] = (t98 * f_j_in_i_1 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
-        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - t96 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[35] = C_i[7] * t103 + C_i[6] * t102 + C_i[8] * t104;
+    jac_phi_geometry[36] = (f_j_in_i_1 * t98 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
+        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - f_j_in_i_1 * t96) * g_star_in_i_2;
     jac_phi_geometry[37] = t96 * f_star_in_i_0 + t97 * f_star_in_i_1 + t98 * f_star_in_i_2;
-    jac_phi_geometry[38] = (t101 * f_j_in_i_1 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
-        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - t99 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[38] = (f_j_in_i_1 * t101 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
+        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - f_j_in_i_1 * t99) * g_star_in_i_2;
     jac_phi_geometry[39] = t99 * f_star_in_i_0 + t100 * f_star_in_i_1 + t101 * f_star_in_i_2;
-    jac_phi_geometry[40] = (t104 * f_j_in_i_1 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
-        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - t102 * f_j_in_i_1) * g_star_in_i_2;
+    jac_phi_geometry[40] = (f_j_in_i_1 * t104 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
+        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - f_j_in_i_1 * t102) * g_star_in_i_2;
     jac_phi_geometry[41] = t102 * f_star_in_i_0 + t103 * f_star_in_i_1 + t104 * f_star_in_i_2;
 }
 
@@ -352,18 +352,18 @@ static void jg_cylindrical_parametric_substituted_phi_q_v_jacobian(const jg_real
     jac_phi_q_v_velocity[7] = C_i[6];
     jac_phi_q_v_alpha[1] = C_i[8] * omega_i[0] - C_i[6] * omega_i[2];
     jac_phi_q_v_alpha[2] = C_i[6] * omega_i[1] - C_i[7] * omega_i[0];
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_j_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_q_v_velocity[6] = g_j_in_i_0;
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    jac_phi_q_v_velocity[5] = f_j_in_i_0;
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
+    jac_phi_q_v_velocity[5] = f_j_in_i_0;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
@@ -373,54 +373,54 @@ static void jg_cylindrical_parametric_substituted_phi_q_v_jacobian(const jg_real
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
-    jac_phi_q_v_alpha[3] = g_j_in_i_0 * v_j_in_joint_j_0 - f_j_in_i_0 * v_j_in_joint_j_1 - (g_j_in_i_0 *
-        s_j_cross_omega_j_in_joint_j_0 - f_j_in_i_0 * s_j_cross_omega_j_in_joint_j_1);
-    const jg_real g_j_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    jac_phi_q_v_alpha[3] = v_j_in_joint_j_0 * g_j_in_i_0 - v_j_in_joint_j_1 * f_j_in_i_0 -
+        (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_0 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_0);
+    const jg_real g_j_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_v_velocity[11] = g_j_in_i_1;
-    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real f_j_in_i_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_v_velocity[10] = f_j_in_i_1;
     jac_phi_q_v_alpha[4] = v_j_in_joint_j_0 * g_j_in_i_1 - v_j_in_joint_j_1 * f_j_in_i_1 -
         (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_1 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_1);
-    const jg_real g_j_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real g_j_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_v_velocity[16] = g_j_in_i_2;
-    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real f_j_in_i_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     jac_phi_q_v_velocity[15] = f_j_in_i_2;
     jac_phi_q_v_alpha[5] = v_j_in_joint_j_0 * g_j_in_i_2 - v_j_in_joint_j_1 * f_j_in_i_2 -
         (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_2 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_2);
     /* omega_i_dot_g_j = omega_i . g_j */
-    const jg_real omega_i_dot_g_j = g_j_in_i_0 * omega_i[0] + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
+    const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
     jac_phi_q_v_alpha[6] = omega_i_dot_g_j;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = f_j_in_i_0 * omega_i[0] + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
+    const jg_real omega_i_dot_f_j = omega_i[0] * f_j_in_i_0 + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
     jac_phi_q_v_alpha[7] = -omega_i_dot_f_j;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
-    const jg_real t17 = cosine_0 * v_j_in_joint_j_0 - sine_0 * v_j_in_joint_j_1 - (cosine_0 *
-        s_j_cross_omega_j_in_joint_j_0 - sine_0 * s_j_cross_omega_j_in_joint_j_1);
+    const jg_real t17 = v_j_in_joint_j_0 * cosine_0 - v_j_in_joint_j_1 * sine_0 - (s_j_cross_omega_j_in_joint_j_0 *
+        cosine_0 - s_j_cross_omega_j_in_joint_j_1 * sine_0);
     jac_phi_q_v_geometry[6] = t17;
     jac_phi_q_v_geometry[9] = t17;
     jac_phi_q_v_geometry[12] = t17;
-    const jg_real t18 = cosine_0 * omega_i[0];
+    const jg_real t18 = omega_i[0] * cosine_0;
     jac_phi_q_v_geometry[7] = t18;
     jac_phi_q_v_geometry[17] = t18;
-    const jg_real t19 = sine_0 * omega_i[0];
+    const jg_real t19 = omega_i[0] * sine_0;
     jac_phi_q_v_geometry[16] = t19;
     jac_phi_q_v_geometry[8] = -t19;
-    const jg_real t20 = cosine_0 * omega_i[1];
+    const jg_real t20 = omega_i[1] * cosine_0;
     jac_phi_q_v_geometry[10] = t20;
     jac_phi_q_v_geometry[20] = t20;
-    const jg_real t21 = sine_0 * omega_i[1];
+    const jg_real t21 = omega_i[1] * sine_0;
     jac_phi_q_v_geometry[19] = t21;
     jac_phi_q_v_geometry[11] = -t21;
-    const jg_real t22 = cosine_0 * omega_i[2];
+    const jg_real t22 = omega_i[2] * cosine_0;
     jac_phi_q_v_geometry[13] = t22;
     jac_phi_q_v_geometry[23] = t22;
-    const jg_real t23 = sine_0 * omega_i[2];
+    const jg_real t23 = omega_i[2] * sine_0;
     jac_phi_q_v_geometry[22] = t23;
     jac_phi_q_v_geometry[14] = -t23;
-    const jg_real t24 = sine_0 * v_j_in_joint_j_0 + cosine_0 * v_j_in_joint_j_1 - (sine_0 *
-        s_j_cross_omega_j_in_joint_j_0 + cosine_0 * s_j_cross_omega_j_in_joint_j_1);
+    const jg_real t24 = v_j_in_joint_j_0 * sine_0 + v_j_in_joint_j_1 * cosine_0 - (s_j_cross_omega_j_in_joint_j_0 *
+        sine_0 + s_j_cross_omega_j_in_joint_j_1 * cosine_0);
     jac_phi_q_v_geometry[15] = t24;
     jac_phi_q_v_geometry[18] = t24;
     jac_phi_q_v_geometry[21] = t24;
@@ -443,60 +443,60 @@ static void jg_cylindrical_parametric_substituted_phi_q_v_jacobian(const jg_real
     const jg_real t31 = C_j[2] * omega_j[1] - C_j[1] * omega_j[2];
     const jg_real t32 = C_j[5] * omega_j[1] - C_j[4] * omega_j[2];
     const jg_real t33 = C_j[8] * omega_j[1] - C_j[7] * omega_j[2];
-    jac_phi_q_v_geometry[36] = -(f_j_in_i_0 * t31 + g_j_in_i_0 * t32 + C_i[6] * t33);
-    jac_phi_q_v_geometry[37] = -(t31 * f_j_in_i_1 + t32 * g_j_in_i_1 + t33 * C_i[7]);
-    jac_phi_q_v_geometry[38] = -(t31 * f_j_in_i_2 + t32 * g_j_in_i_2 + t33 * C_i[8]);
+    jac_phi_q_v_geometry[36] = -(t31 * f_j_in_i_0 + t32 * g_j_in_i_0 + C_i[6] * t33);
+    jac_phi_q_v_geometry[37] = -(t31 * f_j_in_i_1 + t32 * g_j_in_i_1 + C_i[7] * t33);
+    jac_phi_q_v_geometry[38] = -(t31 * f_j_in_i_2 + t32 * g_j_in_i_2 + C_i[8] * t33);
     const jg_real t34 = C_j[0] * omega_j[2] - C_j[2] * omega_j[0];
     const jg_real t35 = C_j[3] * omega_j[2] - C_j[5] * omega_j[0];
     const jg_real t36 = C_j[6] * omega_j[2] - C_j[8] * omega_j[0];
-    jac_phi_q_v_geometry[39] = -(f_j_in_i_0 * t34 + g_j_in_i_0 * t35 + C_i[6] * t36);
-    jac_phi_q_v_geometry[40] = -(t34 * f_j_in_i_1 + t35 * g_j_in_i_1 + t36 * C_i[7]);
-    jac_phi_q_v_geometry[41] = -(t34 * f_j_in_i_2 + t35 * g_j_in_i_2 + t36 * C_i[8]);
+    jac_phi_q_v_geometry[39] = -(t34 * f_j_in_i_0 + t35 * g_j_in_i_0 + C_i[6] * t36);
+    jac_phi_q_v_geometry[40] = -(t34 * f_j_in_i_1 + t35 * g_j_in_i_1 + C_i[7] * t36);
+    jac_phi_q_v_geometry[41] = -(t34 * f_j_in_i_2 + t35 * g_j_in_i_2 + C_i[8] * t36);
     const jg_real t37 = C_j[1] * omega_j[0] - C_j[0] * omega_j[1];
     const jg_real t38 = C_j[4] * omega_j[0] - C_j[3] * omega_j[1];
     const jg_real t39 = C_j[7] * omega_j[0] - C_j[6] * omega_j[1];
-    jac_phi_q_v_geometry[42] = -(f_j_in_i_0 * t37 + g_j_in_i_0 * t38 + C_i[6] * t39);
-    jac_phi_q_v_geometry[43] = -(t37 * f_j_in_i_1 + t38 * g_j_in_i_1 + t39 * C_i[7]);
-    jac_phi_q_v_geometry[44] = -(t37 * f_j_in_i_2 + t38 * g_j_in_i_2 + t39 * C_i[8]);
-    jac_phi_q_v_geometry[45] = f_j_in_i_0 * v_j[0] - f_j_in_i_0 * s_j_cross_omega_j_in_j_0;
+    jac_phi_q_v_geometry[42] = -(t37 * f_j_in_i_0 + t38 * g_j_in_i_0 + C_i[6] * t39);
+    jac_phi_q_v_geometry[43] = -(t37 * f_j_in_i_1 + t38 * g_j_in_i_1 + C_i[7] * t39);
+    jac_phi_q_v_geometry[44] = -(t37 * f_j_in_i_2 + t38 * g_j_in_i_2 + C_i[8] * t39);
+    jac_phi_q_v_geometry[45] = v_j[0] * f_j_in_i_0 - s_j_cross_omega_j_in_j_0 * f_j_in_i_0;
     jac_phi_q_v_geometry[46] = v_j[0] * f_j_in_i_1 - s_j_cross_omega_j_in_j_0 * f_j_in_i_1;
     jac_phi_q_v_geometry[47] = v_j[0] * f_j_in_i_2 - s_j_cross_omega_j_in_j_0 * f_j_in_i_2;
     const jg_real t40 = -omega_j[0];
     jac_phi_q_v_geometry[48] = t40;
     jac_phi_q_v_geometry[60] = t40;
     jac_phi_q_v_geometry[72] = t40;
-    jac_phi_q_v_geometry[49] = f_j_in_i_0 * v_j[1] - f_j_in_i_0 * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[49] = v_j[1] * f_j_in_i_0 - s_j_cross_omega_j_in_j_1 * f_j_in_i_0;
     jac_phi_q_v_geometry[50] = v_j[1] * f_j_in_i_1 - s_j_cross_omega_j_in_j_1 * f_j_in_i_1;
     jac_phi_q_v_geometry[51] = v_j[1] * f_j_in_i_2 - s_j_cross_omega_j_in_j_1 * f_j_in_i_2;
     const jg_real t41 = -omega_j[1];
     jac_phi_q_v_geometry[52] = t41;
     jac_phi_q_v_geometry[64] = t41;
     jac_phi_q_v_geometry[76] = t41;
-    jac_phi_q_v_geometry[53] = f_j_in_i_0 * v_j[2] - f_j_in_i_0 * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[53] = v_j[2] * f_j_in_i_0 - s_j_cross_omega_j_in_j_2 * f_j_in_i_0;
     jac_phi_q_v_geometry[54] = v_j[2] * f_j_in_i_1 - s_j_cross_omega_j_in_j_2 * f_j_in_i_1;
     jac_phi_q_v_geometry[55] = v_j[2] * f_j_in_i_2 - s_j_cross_omega_j_in_j_2 * f_j_in_i_2;
     const jg_real t42 = -omega_j[2];
     jac_phi_q_v_geometry[56] = t42;
     jac_phi_q_v_geometry[68] = t42;
     jac_phi_q_v_geometry[80] = t42;
-    jac_phi_q_v_geometry[57] = g_j_in_i_0 * v_j[0] - g_j_in_i_0 * s_j_cross_omega_j_in_j_0;
+    jac_phi_q_v_geometry[57] = v_j[0] * g_j_in_i_0 - s_j_cross_omega_j_in_j_0 * g_j_in_i_0;
     jac_phi_q_v_geometry[58] = v_j[0] * g_j_in_i_1 - s_j_cross_omega_j_in_j_0 * g_j_in_i_1;
     jac_phi_q_v_geometry[59] = v_j[0] * g_j_in_i_2 - s_j_cross_omega_j_in_j_0 * g_j_in_i_2;
-    jac_phi_q_v_geometry[61] = g_j_in_i_0 * v_j[1] - g_j_in_i_0 * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[61] = v_j[1] * g_j_in_i_0 - s_j_cross_omega_j_in_j_1 * g_j_in_i_0;
     jac_phi_q_v_geometry[62] = v_j[1] * g_j_in_i_1 - s_j_cross_omega_j_in_j_1 * g_j_in_i_1;
     jac_phi_q_v_geometry[63] = v_j[1] * g_j_in_i_2 - s_j_cross_omega_j_in_j_1 * g_j_in_i_2;
-    jac_phi_q_v_geometry[65] = g_j_in_i_0 * v_j[2] - g_j_in_i_0 * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[65] = v_j[2] * g_j_in_i_0 - s_j_cross_omega_j_in_j_2 * g_j_in_i_0;
     jac_phi_q_v_geometry[66] = v_j[2] * g_j_in_i_1 - s_j_cross_omega_j_in_j_2 * g_j_in_i_1;
     jac_phi_q_v_geometry[67] = v_j[2] * g_j_in_i_2 - s_j_cross_omega_j_in_j_2 * g_j_in_i_2;
     jac_phi_q_v_geometry[69] = v_j[0] * C_i[6] - C_i[6] * s_j_cross_omega_j_in_j_0;
-    jac_phi_q_v_geometry[70] = v_j[0] * C_i[7] - s_j_cross_omega_j_in_j_0 * C_i[7];
-    jac_phi_q_v_geometry[71] = v_j[0] * C_i[8] - s_j_cross_omega_j_in_j_0 * C_i[8];
+    jac_phi_q_v_geometry[70] = v_j[0] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_0;
+    jac_phi_q_v_geometry[71] = v_j[0] * C_i[8] - C_i[8] * s_j_cross_omega_j_in_j_0;
     jac_phi_q_v_geometry[73] = v_j[1] * C_i[6] - C_i[6] * s_j_cross_omega_j_in_j_1;
-    jac_phi_q_v_geometry[74] = v_j[1] * C_i[7] - s_j_cross_omega_j_in_j_1 * C_i[7];
-    jac_phi_q_v_geometry[75] = v_j[1] * C_i[8] - s_j_cross_omega_j_in_j_1 * C_i[8];
+    jac_phi_q_v_geometry[74] = v_j[1] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[75] = v_j[1] * C_i[8] - C_i[8] * s_j_cross_omega_j_in_j_1;
     jac_phi_q_v_geometry[77] = v_j[2] * C_i[6] - C_i[6] * s_j_cross_omega_j_in_j_2;
-    jac_phi_q_v_geometry[78] = v_j[2] * C_i[7] - s_j_cross_omega_j_in_j_2 * C_i[7];
-    jac_phi_q_v_geometry[79] = v_j[2] * C_i[8] - s_j_cross_omega_j_in_j_2 * C_i[8];
+    jac_phi_q_v_geometry[78] = v_j[2] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[79] = v_j[2] * C_i[8] - C_i[8] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
@@ -510,39 +510,39 @@ static void jg_cylindrical_parametric_substituted_phi_q_v_jacobian(const jg_real
     const jg_real v_0_in_i_0 = C_i[6] * alpha[0] + s_i[0];
     jac_phi_q_v_velocity[9] = v_0_in_i_0;
     jac_phi_q_v_velocity[14] = -v_0_in_i_0;
-    jac_phi_q_v_velocity[18] = f_j_in_i_0 * C_j[0] + g_j_in_i_0 * C_j[3] + C_j[6] * C_i[6];
+    jac_phi_q_v_velocity[18] = C_j[0] * f_j_in_i_0 + C_j[3] * g_j_in_i_0 + C_j[6] * C_i[6];
     jac_phi_q_v_velocity[19] = C_j[0] * f_j_in_i_1 + C_j[3] * g_j_in_i_1 + C_j[6] * C_i[7];
     jac_phi_q_v_velocity[20] = C_j[0] * f_j_in_i_2 + C_j[3] * g_j_in_i_2 + C_j[6] * C_i[8];
-    jac_phi_q_v_velocity[21] = f_j_in_i_0 * C_j[1] + g_j_in_i_0 * C_j[4] + C_j[7] * C_i[6];
+    jac_phi_q_v_velocity[21] = C_j[1] * f_j_in_i_0 + C_j[4] * g_j_in_i_0 + C_j[7] * C_i[6];
     jac_phi_q_v_velocity[22] = C_j[1] * f_j_in_i_1 + C_j[4] * g_j_in_i_1 + C_j[7] * C_i[7];
     jac_phi_q_v_velocity[23] = C_j[1] * f_j_in_i_2 + C_j[4] * g_j_in_i_2 + C_j[7] * C_i[8];
-    jac_phi_q_v_velocity[24] = f_j_in_i_0 * C_j[2] + g_j_in_i_0 * C_j[5] + C_j[8] * C_i[6];
+    jac_phi_q_v_velocity[24] = C_j[2] * f_j_in_i_0 + C_j[5] * g_j_in_i_0 + C_j[8] * C_i[6];
     jac_phi_q_v_velocity[25] = C_j[2] * f_j_in_i_1 + C_j[5] * g_j_in_i_1 + C_j[8] * C_i[7];
     jac_phi_q_v_velocity[26] = C_j[2] * f_j_in_i_2 + C_j[5] * g_j_in_i_2 + C_j[8] * C_i[8];
     const jg_real t46 = C_j[1] * s_j[2] - C_j[2] * s_j[1];
     const jg_real t47 = C_j[4] * s_j[2] - C_j[5] * s_j[1];
     const jg_real t48 = C_j[7] * s_j[2] - C_j[8] * s_j[1];
-    jac_phi_q_v_velocity[27] = -(f_j_in_i_0 * t46 + g_j_in_i_0 * t47 + C_i[6] * t48);
-    jac_phi_q_v_velocity[28] = -(t46 * f_j_in_i_1 + t47 * g_j_in_i_1 + t48 * C_i[7]);
-    jac_phi_q_v_velocity[29] = -(t46 * f_j_in_i_2 + t47 * g_j_in_i_2 + t48 * C_i[8]);
+    jac_phi_q_v_velocity[27] = -(t46 * f_j_in_i_0 + t47 * g_j_in_i_0 + C_i[6] * t48);
+    jac_phi_q_v_velocity[28] = -(t46 * f_j_in_i_1 + t47 * g_j_in_i_1 + C_i[7] * t48);
+    jac_phi_q_v_velocity[29] = -(t46 * f_j_in_i_2 + t47 * g_j_in_i_2 + C_i[8] * t48);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
     const jg_real t49 = C_j[2] * s_j[0] - C_j[0] * s_j[2];
     const jg_real t50 = C_j[5] * s_j[0] - C_j[3] * s_j[2];
     const jg_real t51 = C_j[8] * s_j[0] - C_j[6] * s_j[2];
-    jac_phi_q_v_velocity[33] = -(f_j_in_i_0 * t49 + g_j_in_i_0 * t50 + C_i[6] * t51);
-    jac_phi_q_v_velocity[34] = -(t49 * f_j_in_i_1 + t50 * g_j_in_i_1 + t51 * C_i[7]);
-    jac_phi_q_v_velocity[35] = -(t49 * f_j_in_i_2 + t50 * g_j_in_i_2 + t51 * C_i[8]);
+    jac_phi_q_v_velocity[33] = -(t49 * f_j_in_i_0 + t50 * g_j_in_i_0 + C_i[6] * t51);
+    jac_phi_q_v_velocity[34] = -(t49 * f_j_in_i_1 + t50 * g_j_in_i_1 + C_i[7] * t51);
+    jac_phi_q_v_velocity[35] = -(t49 * f_j_in_i_2 + t50 * g_j_in_i_2 + C_i[8] * t51);
     jac_phi_q_v_velocity[36] = -C_j[1];
     jac_phi_q_v_velocity[37] = -C_j[4];
     jac_phi_q_v_velocity[38] = -C_j[7];
     const jg_real t52 = C_j[0] * s_j[1] - C_j[1] * s_j[0];
     const jg_real t53 = C_j[3] * s_j[1] - C_j[4] * s_j[0];
     const jg_real t54 = C_j[6] * s_j[1] - C_j[7] * s_j[0];
-    jac_phi_q_v_velocity[39] = -(f_j_in_i_0 * t52 + g_j_in_i_0 * t53 + C_i[6] * t54);
-    jac_phi_q_v_velocity[40] = -(t52 * f_j_in_i_1 + t53 * g_j_in_i_1 + t54 * C_i[7]);
-    jac_phi_q_v_velocity[41] = -(t52 * f_j_in_i_2 + t53 * g_j_in_i_2 + t54 * C_i[8]);
+    jac_phi_q_v_velocity[39] = -(t52 * f_j_in_i_0 + t53 * g_j_in_i_0 + C_i[6] * t54);
+    jac_phi_q_v_velocity[40] = -(t52 * f_j_in_i_1 + t53 * g_j_in_i_1 + C_i[7] * t54);
+    jac_phi_q_v_velocity[41] = -(t52 * f_j_in_i_2 + t53 * g_j_in_i_2 + C_i[8] * t54);
     jac_phi_q_v_velocity[42] = -C_j[2];
     jac_phi_q_v_velocity[43] = -C_j[5];
     jac_phi_q_v_velocity[44] = -C_j[8];
@@ -574,39 +574,39 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* v_2_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
-    const jg_real v_2_in_joint_i_0 = lambda[3] * cosine_0 - sine_0 * lambda[4];
+    const jg_real v_2_in_joint_i_0 = lambda[3] * cosine_0 - lambda[4] * sine_0;
     jac_phi_q_t_lambda_geometry[6] = v_2_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[13] = v_2_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[20] = v_2_in_joint_i_0;
-    const jg_real v_2_in_joint_i_1 = lambda[3] * sine_0 + cosine_0 * lambda[4];
+    const jg_real v_2_in_joint_i_1 = lambda[3] * sine_0 + lambda[4] * cosine_0;
     jac_phi_q_t_lambda_geometry[27] = v_2_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[34] = v_2_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[41] = v_2_in_joint_i_1;
-    jac_phi_q_t_lambda_alpha[3] = v_2_in_joint_i_0 * C_i[3] - v_2_in_joint_i_1 * C_i[0];
-    jac_phi_q_t_lambda_alpha[4] = v_2_in_joint_i_0 * C_i[4] - v_2_in_joint_i_1 * C_i[1];
-    jac_phi_q_t_lambda_alpha[5] = v_2_in_joint_i_0 * C_i[5] - v_2_in_joint_i_1 * C_i[2];
+    jac_phi_q_t_lambda_alpha[3] = C_i[3] * v_2_in_joint_i_0 - C_i[0] * v_2_in_joint_i_1;
+    jac_phi_q_t_lambda_alpha[4] = C_i[4] * v_2_in_joint_i_0 - C_i[1] * v_2_in_joint_i_1;
+    jac_phi_q_t_lambda_alpha[5] = C_i[5] * v_2_in_joint_i_0 - C_i[2] * v_2_in_joint_i_1;
     /* lambda_0_1_2_dot_g_i = lambda_0_1_2 . g_i */
     const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     /* lambda_0_1_2_dot_f_i = lambda_0_1_2 . f_i */
     const jg_real lambda_0_1_2_dot_f_i = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_1 = cosine_0 * lambda_0_1_2_dot_g_i - sine_0 * lambda_0_1_2_dot_f_i;
+    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_dot_g_i * cosine_0 - lambda_0_1_2_dot_f_i * sine_0;
     jac_phi_q_t_lambda_geometry[96] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[100] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[104] = lambda_0_1_2_in_joint_j_1;
-    const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_dot_f_i + sine_0 * lambda_0_1_2_dot_g_i;
+    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_dot_f_i * cosine_0 + lambda_0_1_2_dot_g_i * sine_0;
     jac_phi_q_t_lambda_geometry[84] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[88] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[92] = lambda_0_1_2_in_joint_j_0;
-    const jg_real t8 = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
+    const jg_real t8 = C_j[0] * lambda_0_1_2_in_joint_j_1 - C_j[3] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[6] = t8;
-    const jg_real t9 = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
+    const jg_real t9 = C_j[1] * lambda_0_1_2_in_joint_j_1 - C_j[4] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[7] = t9;
-    const jg_real t10 = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
+    const jg_real t10 = C_j[2] * lambda_0_1_2_in_joint_j_1 - C_j[5] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[8] = t10;
-    jac_phi_q_t_lambda_alpha[9] = t10 * s_j[1] - t9 * s_j[2];
-    jac_phi_q_t_lambda_alpha[10] = t8 * s_j[2] - t10 * s_j[0];
-    jac_phi_q_t_lambda_alpha[11] = t9 * s_j[0] - t8 * s_j[1];
+    jac_phi_q_t_lambda_alpha[9] = s_j[1] * t10 - s_j[2] * t9;
+    jac_phi_q_t_lambda_alpha[10] = s_j[2] * t8 - s_j[0] * t10;
+    jac_phi_q_t_lambda_alpha[11] = s_j[0] * t9 - s_j[1] * t8;
     const jg_real t11 = -lambda[1];
     jac_phi_q_t_lambda_geometry[1] = t11;
     jac_phi_q_t_lambda_geometry[67] = t11;
@@ -618,64 +618,64 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_geometry[57] = t13;
     const jg_real t14 = lambda[0] * cosine_0;
     const jg_real t15 = lambda[0] * sine_0;
-    const jg_real t16 = t14 * C_j[0] - t15 * C_j[3];
+    const jg_real t16 = C_j[0] * t14 - C_j[3] * t15;
     jac_phi_q_t_lambda_geometry[7] = t16;
-    const jg_real t17 = t14 * C_j[1] - t15 * C_j[4];
+    const jg_real t17 = C_j[1] * t14 - C_j[4] * t15;
     jac_phi_q_t_lambda_geometry[8] = t17;
-    const jg_real t18 = t14 * C_j[2] - t15 * C_j[5];
+    const jg_real t18 = C_j[2] * t14 - C_j[5] * t15;
     jac_phi_q_t_lambda_geometry[9] = t18;
-    jac_phi_q_t_lambda_geometry[10] = t18 * s_j[1] - t17 * s_j[2];
-    jac_phi_q_t_lambda_geometry[11] = t16 * s_j[2] - t18 * s_j[0];
-    jac_phi_q_t_lambda_geometry[12] = t17 * s_j[0] - t16 * s_j[1];
+    jac_phi_q_t_lambda_geometry[10] = s_j[1] * t18 - s_j[2] * t17;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t16 - s_j[0] * t18;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t17 - s_j[1] * t16;
     const jg_real t19 = lambda[1] * cosine_0;
     const jg_real t20 = lambda[1] * sine_0;
-    const jg_real t21 = t19 * C_j[0] - t20 * C_j[3];
+    const jg_real t21 = C_j[0] * t19 - C_j[3] * t20;
     jac_phi_q_t_lambda_geometry[14] = t21;
-    const jg_real t22 = t19 * C_j[1] - t20 * C_j[4];
+    const jg_real t22 = C_j[1] * t19 - C_j[4] * t20;
     jac_phi_q_t_lambda_geometry[15] = t22;
-    const jg_real t23 = t19 * C_j[2] - t20 * C_j[5];
+    const jg_real t23 = C_j[2] * t19 - C_j[5] * t20;
     jac_phi_q_t_lambda_geometry[16] = t23;
-    jac_phi_q_t_lambda_geometry[17] = t23 * s_j[1] - t22 * s_j[2];
-    jac_phi_q_t_lambda_geometry[18] = t21 * s_j[2] - t23 * s_j[0];
-    jac_phi_q_t_lambda_geometry[19] = t22 * s_j[0] - t21 * s_j[1];
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t23 - s_j[2] * t22;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t21 - s_j[0] * t23;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t22 - s_j[1] * t21;
     const jg_real t24 = lambda[2] * cosine_0;
     const jg_real t25 = lambda[2] * sine_0;
-    const jg_real t26 = t24 * C_j[0] - t25 * C_j[3];
+    const jg_real t26 = C_j[0] * t24 - C_j[3] * t25;
     jac_phi_q_t_lambda_geometry[21] = t26;
-    const jg_real t27 = t24 * C_j[1] - t25 * C_j[4];
+    const jg_real t27 = C_j[1] * t24 - C_j[4] * t25;
     jac_phi_q_t_lambda_geometry[22] = t27;
-    const jg_real t28 = t24 * C_j[2] - t25 * C_j[5];
+    const jg_real t28 = C_j[2] * t24 - C_j[5] * t25;
     jac_phi_q_t_lambda_geometry[23] = t28;
-    jac_phi_q_t_lambda_geometry[24] = t28 * s_j[1] - t27 * s_j[2];
-    jac_phi_q_t_lambda_geometry[25] = t26 * s_j[2] - t28 * s_j[0];
-    jac_phi_q_t_lambda_geometry[26] = t27 * s_j[0] - t26 * s_j[1];
-    const jg_real t29 = t15 * C_j[0] + t14 * C_j[3];
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t28 - s_j[2] * t27;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t26 - s_j[0] * t28;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t27 - s_j[1] * t26;
+    const jg_real t29 = C_j[0] * t15 + C_j[3] * t14;
     jac_phi_q_t_lambda_geometry[28] = t29;
-    const jg_real t30 = t15 * C_j[1] + t14 * C_j[4];
+    const jg_real t30 = C_j[1] * t15 + C_j[4] * t14;
     jac_phi_q_t_lambda_geometry[29] = t30;
-    const jg_real t31 = t15 * C_j[2] + t14 * C_j[5];
+    const jg_real t31 = C_j[2] * t15 + C_j[5] * t14;
     jac_phi_q_t_lambda_geometry[30] = t31;
-    jac_phi_q_t_lambda_geometry[31] = t31 * s_j[1] - t30 * s_j[2];
-    jac_phi_q_t_lambda_geometry[32] = t29 * s_j[2] - t31 * s_j[0];
-    jac_phi_q_t_lambda_geometry[33] = t30 * s_j[0] - t29 * s_j[1];
-    const jg_real t32 = t20 * C_j[0] + t19 * C_j[3];
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t31 - s_j[2] * t30;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t29 - s_j[0] * t31;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t30 - s_j[1] * t29;
+    const jg_real t32 = C_j[0] * t20 + C_j[3] * t19;
     jac_phi_q_t_lambda_geometry[35] = t32;
-    const jg_real t33 = t20 * C_j[1] + t19 * C_j[4];
+    const jg_real t33 = C_j[1] * t20 + C_j[4] * t19;
     jac_phi_q_t_lambda_geometry[36] = t33;
-    const jg_real t34 = t20 * C_j[2] + t19 * C_j[5];
+    const jg_real t34 = C_j[2] * t20 + C_j[5] * t19;
     jac_phi_q_t_lambda_geometry[37] = t34;
-    jac_phi_q_t_lambda_geometry[38] = t34 * s_j[1] - t33 * s_j[2];
-    jac_phi_q_t_lambda_geometry[39] = t32 * s_j[2] - t34 * s_j[0];
-    jac_phi_q_t_lambda_geometry[40] = t33 * s_j[0] - t32 * s_j[1];
-    const jg_real t35 = t25 * C_j[0] + t24 * C_j[3];
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t34 - s_j[2] * t33;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t32 - s_j[0] * t34;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t33 - s_j[1] * t32;
+    const jg_real t35 = C_j[0] * t25 + C_j[3] * t24;
     jac_phi_q_t_lambda_geometry[42] = t35;
-    const jg_real t36 = t25 * C_j[1] + t24 * C_j[4];
+    const jg_real t36 = C_j[1] * t25 + C_j[4] * t24;
     jac_phi_q_t_lambda_geometry[43] = t36;
-    const jg_real t37 = t25 * C_j[2] + t24 * C_j[5];
+    const jg_real t37 = C_j[2] * t25 + C_j[5] * t24;
     jac_phi_q_t_lambda_geometry[44] = t37;
-    jac_phi_q_t_lambda_geometry[45] = t37 * s_j[1] - t36 * s_j[2];
-    jac_phi_q_t_lambda_geometry[46] = t35 * s_j[2] - t37 * s_j[0];
-    jac_phi_q_t_lambda_geometry[47] = t36 * s_j[0] - t35 * s_j[1];
+    jac_phi_q_t_lambda_geometry[45] = s_j[1] * t37 - s_j[2] * t36;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t35 - s_j[0] * t37;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t36 - s_j[1] * t35;
     jac_phi_q_t_lambda_geometry[48] = lambda[5];
     jac_phi_q_t_lambda_geometry[59] = lambda[5];
     jac_phi_q_t_lambda_geometry[70] = lambda[5];
@@ -690,9 +690,9 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_geometry[52] = t41;
     const jg_real t42 = lambda[0] * C_j[8];
     jac_phi_q_t_lambda_geometry[53] = t42;
-    jac_phi_q_t_lambda_geometry[54] = t42 * s_j[1] - t41 * s_j[2];
-    jac_phi_q_t_lambda_geometry[55] = t40 * s_j[2] - t42 * s_j[0];
-    jac_phi_q_t_lambda_geometry[56] = t41 * s_j[0] - t40 * s_j[1];
+    jac_phi_q_t_lambda_geometry[54] = s_j[1] * t42 - s_j[2] * t41;
+    jac_phi_q_t_lambda_geometry[55] = s_j[2] * t40 - s_j[0] * t42;
+    jac_phi_q_t_lambda_geometry[56] = s_j[0] * t41 - s_j[1] * t40;
     jac_phi_q_t_lambda_geometry[58] = -t38;
     const jg_real t43 = lambda[0] * alpha[0];
     jac_phi_q_t_lambda_geometry[60] = t43;
@@ -702,9 +702,9 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_geometry[62] = t45;
     const jg_real t46 = lambda[1] * C_j[8];
     jac_phi_q_t_lambda_geometry[63] = t46;
-    jac_phi_q_t_lambda_geometry[64] = t46 * s_j[1] - t45 * s_j[2];
-    jac_phi_q_t_lambda_geometry[65] = t44 * s_j[2] - t46 * s_j[0];
-    jac_phi_q_t_lambda_geometry[66] = t45 * s_j[0] - t44 * s_j[1];
+    jac_phi_q_t_lambda_geometry[64] = s_j[1] * t46 - s_j[2] * t45;
+    jac_phi_q_t_lambda_geometry[65] = s_j[2] * t44 - s_j[0] * t46;
+    jac_phi_q_t_lambda_geometry[66] = s_j[0] * t45 - s_j[1] * t44;
     jac_phi_q_t_lambda_geometry[69] = -t43;
     const jg_real t47 = lambda[2] * C_j[6];
     jac_phi_q_t_lambda_geometry[71] = t47;
@@ -712,24 +712,24 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_geometry[72] = t48;
     const jg_real t49 = lambda[2] * C_j[8];
     jac_phi_q_t_lambda_geometry[73] = t49;
-    jac_phi_q_t_lambda_geometry[74] = t49 * s_j[1] - t48 * s_j[2];
-    jac_phi_q_t_lambda_geometry[75] = t47 * s_j[2] - t49 * s_j[0];
-    jac_phi_q_t_lambda_geometry[76] = t48 * s_j[0] - t47 * s_j[1];
+    jac_phi_q_t_lambda_geometry[74] = s_j[1] * t49 - s_j[2] * t48;
+    jac_phi_q_t_lambda_geometry[75] = s_j[2] * t47 - s_j[0] * t49;
+    jac_phi_q_t_lambda_geometry[76] = s_j[0] * t48 - s_j[1] * t47;
     /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
     const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     jac_phi_q_t_lambda_geometry[108] = lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[112] = lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[116] = lambda_0_1_2_dot_h_i;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
-        lambda_0_1_2_dot_h_i * C_j[8];
+    const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 + C_j[5] * lambda_0_1_2_in_joint_j_1 +
+        C_j[8] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[80] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[78] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
-        lambda_0_1_2_dot_h_i * C_j[7];
+    const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 + C_j[4] * lambda_0_1_2_in_joint_j_1 +
+        C_j[7] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
-        lambda_0_1_2_dot_h_i * C_j[6];
+    const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 + C_j[3] * lambda_0_1_2_in_joint_j_1 +
+        C_j[6] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[81] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[82] = -lambda_0_1_2_in_j_1;
@@ -737,39 +737,39 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_geometry[85] = t54;
     jac_phi_q_t_lambda_geometry[90] = t54;
     jac_phi_q_t_lambda_geometry[95] = t54;
-    const jg_real t55 = lambda_0_1_2_in_joint_j_0 * s_j[2];
+    const jg_real t55 = s_j[2] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[86] = t55;
-    const jg_real t56 = lambda_0_1_2_in_joint_j_0 * s_j[1];
+    const jg_real t56 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[93] = t56;
     jac_phi_q_t_lambda_geometry[87] = -t56;
     jac_phi_q_t_lambda_geometry[89] = -t55;
-    const jg_real t57 = lambda_0_1_2_in_joint_j_0 * s_j[0];
+    const jg_real t57 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[91] = t57;
     jac_phi_q_t_lambda_geometry[94] = -t57;
     const jg_real t58 = -lambda[4];
     jac_phi_q_t_lambda_geometry[97] = t58;
     jac_phi_q_t_lambda_geometry[102] = t58;
     jac_phi_q_t_lambda_geometry[107] = t58;
-    const jg_real t59 = lambda_0_1_2_in_joint_j_1 * s_j[2];
+    const jg_real t59 = s_j[2] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[98] = t59;
-    const jg_real t60 = lambda_0_1_2_in_joint_j_1 * s_j[1];
+    const jg_real t60 = s_j[1] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[105] = t60;
     jac_phi_q_t_lambda_geometry[99] = -t60;
     jac_phi_q_t_lambda_geometry[101] = -t59;
-    const jg_real t61 = lambda_0_1_2_in_joint_j_1 * s_j[0];
+    const jg_real t61 = s_j[0] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[103] = t61;
     jac_phi_q_t_lambda_geometry[106] = -t61;
     const jg_real t62 = -lambda[5];
     jac_phi_q_t_lambda_geometry[109] = t62;
     jac_phi_q_t_lambda_geometry[114] = t62;
     jac_phi_q_t_lambda_geometry[119] = t62;
-    const jg_real t63 = lambda_0_1_2_dot_h_i * s_j[2];
+    const jg_real t63 = s_j[2] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[110] = t63;
-    const jg_real t64 = lambda_0_1_2_dot_h_i * s_j[1];
+    const jg_real t64 = s_j[1] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[117] = t64;
     jac_phi_q_t_lambda_geometry[111] = -t64;
     jac_phi_q_t_lambda_geometry[113] = -t63;
-    const jg_real t65 = lambda_0_1_2_dot_h_i * s_j[0];
+    const jg_real t65 = s_j[0] * lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_geometry[115] = t65;
     jac_phi_q_t_lambda_geometry[118] = -t65;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
@@ -781,51 +781,51 @@ static void jg_cylindrical_parametric_substituted_phi_q_t_lambda_jacobian(const 
     jac_phi_q_t_lambda_lambda[1] = -v_0_in_i_2;
     const jg_real v_0_in_i_1 = alpha[0] * C_i[7] + s_i[1];
     jac_phi_q_t_lambda_lambda[2] = v_0_in_i_1;
-    const jg_real t68 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real t68 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     jac_phi_q_t_lambda_lambda[30] = t68;
-    const jg_real t69 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t69 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_q_t_lambda_lambda[36] = t69;
-    const jg_real t70 = t68 * C_j[0] + t69 * C_j[3] + C_i[6] * C_j[6];
+    const jg_real t70 = C_j[0] * t68 + C_j[3] * t69 + C_i[6] * C_j[6];
     jac_phi_q_t_lambda_lambda[3] = t70;
-    const jg_real t71 = t68 * C_j[1] + t69 * C_j[4] + C_i[6] * C_j[7];
+    const jg_real t71 = C_j[1] * t68 + C_j[4] * t69 + C_i[6] * C_j[7];
     jac_phi_q_t_lambda_lambda[4] = t71;
-    const jg_real t72 = t68 * C_j[2] + t69 * C_j[5] + C_i[6] * C_j[8];
+    const jg_real t72 = C_j[2] * t68 + C_j[5] * t69 + C_i[6] * C_j[8];
     jac_phi_q_t_lambda_lambda[5] = t72;
-    jac_phi_q_t_lambda_lambda[6] = t72 * s_j[1] - t71 * s_j[2];
-    jac_phi_q_t_lambda_lambda[7] = t70 * s_j[2] - t72 * s_j[0];
-    jac_phi_q_t_lambda_lambda[8] = t71 * s_j[0] - t70 * s_j[1];
+    jac_phi_q_t_lambda_lambda[6] = s_j[1] * t72 - s_j[2] * t71;
+    jac_phi_q_t_lambda_lambda[7] = s_j[2] * t70 - s_j[0] * t72;
+    jac_phi_q_t_lambda_lambda[8] = s_j[0] * t71 - s_j[1] * t70;
     jac_phi_q_t_lambda_lambda[9] = -C_i[6];
     const jg_real v_0_in_i_0 = C_i[6] * alpha[0] + s_i[0];
     jac_phi_q_t_lambda_lambda[22] = v_0_in_i_0;
     jac_phi_q_t_lambda_lambda[12] = -v_0_in_i_0;
-    const jg_real t74 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real t74 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_t_lambda_lambda[31] = t74;
-    const jg_real t75 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real t75 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_t_lambda_lambda[37] = t75;
-    const jg_real t76 = t74 * C_j[0] + t75 * C_j[3] + C_i[7] * C_j[6];
+    const jg_real t76 = C_j[0] * t74 + C_j[3] * t75 + C_i[7] * C_j[6];
     jac_phi_q_t_lambda_lambda[13] = t76;
-    const jg_real t77 = t74 * C_j[1] + t75 * C_j[4] + C_i[7] * C_j[7];
+    const jg_real t77 = C_j[1] * t74 + C_j[4] * t75 + C_i[7] * C_j[7];
     jac_phi_q_t_lambda_lambda[14] = t77;
-    const jg_real t78 = t74 * C_j[2] + t75 * C_j[5] + C_i[7] * C_j[8];
+    const jg_real t78 = C_j[2] * t74 + C_j[5] * t75 + C_i[7] * C_j[8];
     jac_phi_q_t_lambda_lambda[15] = t78;
-    jac_phi_q_t_lambda_lambda[16] = t78 * s_j[1] - t77 * s_j[2];
-    jac_phi_q_t_lambda_lambda[17] = t76 * s_j[2] - t78 * s_j[0];
-    jac_phi_q_t_lambda_lambda[18] = t77 * s_j[0] - t76 * s_j[1];
+    jac_phi_q_t_lambda_lambda[16] = s_j[1] * t78 - s_j[2] * t77;
+    jac_phi_q_t_lambda_lambda[17] = s_j[2] * t76 - s_j[0] * t78;
+    jac_phi_q_t_lambda_lambda[18] = s_j[0] * t77 - s_j[1] * t76;
     jac_phi_q_t_lambda_lambda[19] = -C_i[7];
     jac_phi_q_t_lambda_lambda[21] = -v_0_in_i_1;
-    const jg_real t79 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real t79 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     jac_phi_q_t_lambda_lambda[32] = t79;
-    const jg_real t80 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t80 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_t_lambda_lambda[38] = t80;
-    const jg_real t81 = t79 * C_j[0] + t80 * C_j[3] + C_i[8] * C_j[6];
+    const jg_real t81 = C_j[0] * t79 + C_j[3] * t80 + C_i[8] * C_j[6];
     jac_phi_q_t_lambda_lambda[23] = t81;
-    const jg_real t82 = t79 * C_j[1] + t80 * C_j[4] + C_i[8] * C_j[7];
+    const jg_real t82 = C_j[1] * t79 + C_j[4] * t80 + C_i[8] * C_j[7];
     jac_phi_q_t_lambda_lambda[24] = t82;
-    const jg_real t83 = t79 * C_j[2] + t80 * C_j[5] + C_i[8] * C_j[8];
+    const jg_real t83 = C_j[2] * t79 + C_j[5] * t80 + C_i[8] * C_j[8];
     jac_phi_q_t_lambda_lambda[25] = t83;
-    jac_phi_q_t_lambda_lambda[26] = t83 * s_j[1] - t82 * s_j[2];
-    jac_phi_q_t_lambda_lambda[27] = t81 * s_j[2] - t83 * s_j[0];
-    jac_phi_q_t_lambda_lambda[28] = t82 * s_j[0] - t81 * s_j[1];
+    jac_phi_q_t_lambda_lambda[26] = s_j[1] * t83 - s_j[2] * t82;
+    jac_phi_q_t_lambda_lambda[27] = s_j[2] * t81 - s_j[0] * t83;
+    jac_phi_q_t_lambda_lambda[28] = s_j[0] * t82 - s_j[1] * t81;
     jac_phi_q_t_lambda_lambda[29] = -C_i[8];
     jac_phi_q_t_lambda_lambda[33] = -C_j[0];
     jac_phi_q_t_lambda_lambda[34] = -C_j[1];

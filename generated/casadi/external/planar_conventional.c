@@ -41,112 +41,112 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_r_i[2] = -t2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    jac_phi_A_i[0] = h_j_world_0 * C_i[0];
-    jac_phi_A_i[1] = h_j_world_0 * C_i[3];
+    jac_phi_A_i[0] = C_i[0] * h_j_world_0;
+    jac_phi_A_i[1] = C_i[3] * h_j_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
-    jac_phi_A_i[2] = e_ij_world_0 * C_i[6];
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    jac_phi_A_i[2] = C_i[6] * e_ij_world_0;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    jac_phi_A_i[3] = h_j_world_1 * C_i[0];
-    jac_phi_A_i[4] = h_j_world_1 * C_i[3];
+    jac_phi_A_i[3] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[4] = C_i[3] * h_j_world_1;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
-    jac_phi_A_i[5] = e_ij_world_1 * C_i[6];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    jac_phi_A_i[5] = C_i[6] * e_ij_world_1;
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    jac_phi_A_i[6] = h_j_world_2 * C_i[0];
-    jac_phi_A_i[7] = h_j_world_2 * C_i[3];
+    jac_phi_A_i[6] = C_i[0] * h_j_world_2;
+    jac_phi_A_i[7] = C_i[3] * h_j_world_2;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
-    jac_phi_A_i[8] = e_ij_world_2 * C_i[6];
-    jac_phi_A_i[9] = h_j_world_0 * C_i[1];
-    jac_phi_A_i[10] = h_j_world_0 * C_i[4];
-    jac_phi_A_i[11] = e_ij_world_0 * C_i[7];
-    jac_phi_A_i[12] = h_j_world_1 * C_i[1];
-    jac_phi_A_i[13] = h_j_world_1 * C_i[4];
-    jac_phi_A_i[14] = e_ij_world_1 * C_i[7];
-    jac_phi_A_i[15] = h_j_world_2 * C_i[1];
-    jac_phi_A_i[16] = h_j_world_2 * C_i[4];
-    jac_phi_A_i[17] = e_ij_world_2 * C_i[7];
-    jac_phi_A_i[18] = h_j_world_0 * C_i[2];
-    jac_phi_A_i[19] = h_j_world_0 * C_i[5];
-    jac_phi_A_i[20] = e_ij_world_0 * C_i[8];
-    jac_phi_A_i[21] = h_j_world_1 * C_i[2];
-    jac_phi_A_i[22] = h_j_world_1 * C_i[5];
-    jac_phi_A_i[23] = e_ij_world_1 * C_i[8];
-    jac_phi_A_i[24] = h_j_world_2 * C_i[2];
-    jac_phi_A_i[25] = h_j_world_2 * C_i[5];
-    jac_phi_A_i[26] = e_ij_world_2 * C_i[8];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[8] = C_i[6] * e_ij_world_2;
+    jac_phi_A_i[9] = C_i[1] * h_j_world_0;
+    jac_phi_A_i[10] = C_i[4] * h_j_world_0;
+    jac_phi_A_i[11] = C_i[7] * e_ij_world_0;
+    jac_phi_A_i[12] = C_i[1] * h_j_world_1;
+    jac_phi_A_i[13] = C_i[4] * h_j_world_1;
+    jac_phi_A_i[14] = C_i[7] * e_ij_world_1;
+    jac_phi_A_i[15] = C_i[1] * h_j_world_2;
+    jac_phi_A_i[16] = C_i[4] * h_j_world_2;
+    jac_phi_A_i[17] = C_i[7] * e_ij_world_2;
+    jac_phi_A_i[18] = C_i[2] * h_j_world_0;
+    jac_phi_A_i[19] = C_i[5] * h_j_world_0;
+    jac_phi_A_i[20] = C_i[8] * e_ij_world_0;
+    jac_phi_A_i[21] = C_i[2] * h_j_world_1;
+    jac_phi_A_i[22] = C_i[5] * h_j_world_1;
+    jac_phi_A_i[23] = C_i[8] * e_ij_world_1;
+    jac_phi_A_i[24] = C_i[2] * h_j_world_2;
+    jac_phi_A_i[25] = C_i[5] * h_j_world_2;
+    jac_phi_A_i[26] = C_i[8] * e_ij_world_2;
     const jg_real t15 = C_j[6] * A_i[0];
     const jg_real t16 = C_j[6] * A_i[3];
     const jg_real t17 = C_j[6] * A_i[6];
-    jac_phi_A_j[0] = t15 * C_i[0] + t16 * C_i[1] + t17 * C_i[2];
-    jac_phi_A_j[1] = t15 * C_i[3] + t16 * C_i[4] + t17 * C_i[5];
+    jac_phi_A_j[0] = C_i[0] * t15 + C_i[1] * t16 + C_i[2] * t17;
+    jac_phi_A_j[1] = C_i[3] * t15 + C_i[4] * t16 + C_i[5] * t17;
     jac_phi_A_j[2] = A_i[0] * s_j[0] * C_i[6] + A_i[3] * s_j[0] * C_i[7] + A_i[6] * s_j[0] * C_i[8];
     const jg_real t18 = C_j[6] * A_i[1];
     const jg_real t19 = C_j[6] * A_i[4];
     const jg_real t20 = C_j[6] * A_i[7];
-    jac_phi_A_j[3] = t18 * C_i[0] + t19 * C_i[1] + t20 * C_i[2];
-    jac_phi_A_j[4] = t18 * C_i[3] + t19 * C_i[4] + t20 * C_i[5];
+    jac_phi_A_j[3] = C_i[0] * t18 + C_i[1] * t19 + C_i[2] * t20;
+    jac_phi_A_j[4] = C_i[3] * t18 + C_i[4] * t19 + C_i[5] * t20;
     jac_phi_A_j[5] = A_i[1] * s_j[0] * C_i[6] + A_i[4] * s_j[0] * C_i[7] + A_i[7] * s_j[0] * C_i[8];
     const jg_real t21 = C_j[6] * A_i[2];
     const jg_real t22 = C_j[6] * A_i[5];
     const jg_real t23 = C_j[6] * A_i[8];
-    jac_phi_A_j[6] = t21 * C_i[0] + t22 * C_i[1] + t23 * C_i[2];
-    jac_phi_A_j[7] = t21 * C_i[3] + t22 * C_i[4] + t23 * C_i[5];
+    jac_phi_A_j[6] = C_i[0] * t21 + C_i[1] * t22 + C_i[2] * t23;
+    jac_phi_A_j[7] = C_i[3] * t21 + C_i[4] * t22 + C_i[5] * t23;
     jac_phi_A_j[8] = A_i[2] * s_j[0] * C_i[6] + A_i[5] * s_j[0] * C_i[7] + A_i[8] * s_j[0] * C_i[8];
     const jg_real t24 = C_j[7] * A_i[0];
     const jg_real t25 = C_j[7] * A_i[3];
     const jg_real t26 = C_j[7] * A_i[6];
-    jac_phi_A_j[9] = t24 * C_i[0] + t25 * C_i[1] + t26 * C_i[2];
-    jac_phi_A_j[10] = t24 * C_i[3] + t25 * C_i[4] + t26 * C_i[5];
+    jac_phi_A_j[9] = C_i[0] * t24 + C_i[1] * t25 + C_i[2] * t26;
+    jac_phi_A_j[10] = C_i[3] * t24 + C_i[4] * t25 + C_i[5] * t26;
     jac_phi_A_j[11] = A_i[0] * s_j[1] * C_i[6] + A_i[3] * s_j[1] * C_i[7] + A_i[6] * s_j[1] * C_i[8];
     const jg_real t27 = C_j[7] * A_i[1];
     const jg_real t28 = C_j[7] * A_i[4];
     const jg_real t29 = C_j[7] * A_i[7];
-    jac_phi_A_j[12] = t27 * C_i[0] + t28 * C_i[1] + t29 * C_i[2];
-    jac_phi_A_j[13] = t27 * C_i[3] + t28 * C_i[4] + t29 * C_i[5];
+    jac_phi_A_j[12] = C_i[0] * t27 + C_i[1] * t28 + C_i[2] * t29;
+    jac_phi_A_j[13] = C_i[3] * t27 + C_i[4] * t28 + C_i[5] * t29;
     jac_phi_A_j[14] = A_i[1] * s_j[1] * C_i[6] + A_i[4] * s_j[1] * C_i[7] + A_i[7] * s_j[1] * C_i[8];
     const jg_real t30 = C_j[7] * A_i[2];
     const jg_real t31 = C_j[7] * A_i[5];
     const jg_real t32 = C_j[7] * A_i[8];
-    jac_phi_A_j[15] = t30 * C_i[0] + t31 * C_i[1] + t32 * C_i[2];
-    jac_phi_A_j[16] = t30 * C_i[3] + t31 * C_i[4] + t32 * C_i[5];
+    jac_phi_A_j[15] = C_i[0] * t30 + C_i[1] * t31 + C_i[2] * t32;
+    jac_phi_A_j[16] = C_i[3] * t30 + C_i[4] * t31 + C_i[5] * t32;
     jac_phi_A_j[17] = A_i[2] * s_j[1] * C_i[6] + A_i[5] * s_j[1] * C_i[7] + A_i[8] * s_j[1] * C_i[8];
     const jg_real t33 = C_j[8] * A_i[0];
     const jg_real t34 = C_j[8] * A_i[3];
     const jg_real t35 = C_j[8] * A_i[6];
-    jac_phi_A_j[18] = t33 * C_i[0] + t34 * C_i[1] + t35 * C_i[2];
-    jac_phi_A_j[19] = t33 * C_i[3] + t34 * C_i[4] + t35 * C_i[5];
+    jac_phi_A_j[18] = C_i[0] * t33 + C_i[1] * t34 + C_i[2] * t35;
+    jac_phi_A_j[19] = C_i[3] * t33 + C_i[4] * t34 + C_i[5] * t35;
     jac_phi_A_j[20] = A_i[0] * s_j[2] * C_i[6] + A_i[3] * s_j[2] * C_i[7] + A_i[6] * s_j[2] * C_i[8];
     const jg_real t36 = C_j[8] * A_i[1];
     const jg_real t37 = C_j[8] * A_i[4];
     const jg_real t38 = C_j[8] * A_i[7];
-    jac_phi_A_j[21] = t36 * C_i[0] + t37 * C_i[1] + t38 * C_i[2];
-    jac_phi_A_j[22] = t36 * C_i[3] + t37 * C_i[4] + t38 * C_i[5];
+    jac_phi_A_j[21] = C_i[0] * t36 + C_i[1] * t37 + C_i[2] * t38;
+    jac_phi_A_j[22] = C_i[3] * t36 + C_i[4] * t37 + C_i[5] * t38;
     jac_phi_A_j[23] = A_i[1] * s_j[2] * C_i[6] + A_i[4] * s_j[2] * C_i[7] + A_i[7] * s_j[2] * C_i[8];
     const jg_real t39 = C_j[8] * A_i[2];
     const jg_real t40 = C_j[8] * A_i[5];
     const jg_real t41 = C_j[8] * A_i[8];
-    jac_phi_A_j[24] = t39 * C_i[0] + t40 * C_i[1] + t41 * C_i[2];
-    jac_phi_A_j[25] = t39 * C_i[3] + t40 * C_i[4] + t41 * C_i[5];
+    jac_phi_A_j[24] = C_i[0] * t39 + C_i[1] * t40 + C_i[2] * t41;
+    jac_phi_A_j[25] = C_i[3] * t39 + C_i[4] * t40 + C_i[5] * t41;
     jac_phi_A_j[26] = A_i[2] * s_j[2] * C_i[6] + A_i[5] * s_j[2] * C_i[7] + A_i[8] * s_j[2] * C_i[8];
     jac_phi_geometry[0] = -C_i[6];
     jac_phi_geometry[1] = -C_i[7];
     jac_phi_geometry[2] = -C_i[8];
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = h_j_world_0 * A_i[0] + h_j_world_1 * A_i[1] + h_j_world_2 * A_i[2];
+    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[3] = h_j_in_i_0;
     jac_phi_geometry[6] = h_j_in_i_0;
-    const jg_real h_j_in_i_1 = h_j_world_0 * A_i[3] + h_j_world_1 * A_i[4] + h_j_world_2 * A_i[5];
+    const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[4] = h_j_in_i_1;
     jac_phi_geometry[7] = h_j_in_i_1;
-    const jg_real h_j_in_i_2 = h_j_world_0 * A_i[6] + h_j_world_1 * A_i[7] + h_j_world_2 * A_i[8];
+    const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[5] = h_j_in_i_2;
     jac_phi_geometry[8] = h_j_in_i_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
@@ -163,21 +163,21 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t51 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t52 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t53 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[12] = t51 * C_i[6] + t52 * C_i[7] + t53 * C_i[8];
+    jac_phi_geometry[12] = C_i[6] * t51 + C_i[7] * t52 + C_i[8] * t53;
     const jg_real t54 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t55 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t56 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[13] = t54 * C_i[6] + t55 * C_i[7] + t56 * C_i[8];
+    jac_phi_geometry[13] = C_i[6] * t54 + C_i[7] * t55 + C_i[8] * t56;
     const jg_real t57 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t58 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t59 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_geometry[14] = t57 * C_i[6] + t58 * C_i[7] + t59 * C_i[8];
-    jac_phi_geometry[15] = t51 * C_i[0] + t52 * C_i[1] + t53 * C_i[2];
-    jac_phi_geometry[16] = t51 * C_i[3] + t52 * C_i[4] + t53 * C_i[5];
-    jac_phi_geometry[17] = t54 * C_i[0] + t55 * C_i[1] + t56 * C_i[2];
-    jac_phi_geometry[18] = t54 * C_i[3] + t55 * C_i[4] + t56 * C_i[5];
-    jac_phi_geometry[19] = t57 * C_i[0] + t58 * C_i[1] + t59 * C_i[2];
-    jac_phi_geometry[20] = t57 * C_i[3] + t58 * C_i[4] + t59 * C_i[5];
+    jac_phi_geometry[14] = C_i[6] * t57 + C_i[7] * t58 + C_i[8] * t59;
+    jac_phi_geometry[15] = C_i[0] * t51 + C_i[1] * t52 + C_i[2] * t53;
+    jac_phi_geometry[16] = C_i[3] * t51 + C_i[4] * t52 + C_i[5] * t53;
+    jac_phi_geometry[17] = C_i[0] * t54 + C_i[1] * t55 + C_i[2] * t56;
+    jac_phi_geometry[18] = C_i[3] * t54 + C_i[4] * t55 + C_i[5] * t56;
+    jac_phi_geometry[19] = C_i[0] * t57 + C_i[1] * t58 + C_i[2] * t59;
+    jac_phi_geometry[20] = C_i[3] * t57 + C_i[4] * t58 + C_i[5] * t59;
 }
 
 static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -226,428 +226,428 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     /* omega_j_in_joint_i = omega_j, axes of joint i */
-    const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
-        omega_j[2];
+    const jg_real omega_j_in_joint_i_2 = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] *
+        h_i_in_j_2;
     const jg_real t18 = C_i[3] * A_j[0];
     const jg_real t19 = C_i[3] * A_j[3];
     const jg_real t20 = C_i[3] * A_j[6];
-    const jg_real t21 = t18 * C_j[6] + t19 * C_j[7] + t20 * C_j[8];
+    const jg_real t21 = C_j[6] * t18 + C_j[7] * t19 + C_j[8] * t20;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
-    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    const jg_real h_j_in_joint_i_1 = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     const jg_real t26 = A_j[0] * C_i[6];
     const jg_real t27 = A_j[3] * C_i[6];
     const jg_real t28 = A_j[6] * C_i[6];
-    const jg_real t29 = t26 * omega_j[0] + t27 * omega_j[1] + t28 * omega_j[2];
-    const jg_real omega_j_in_joint_i_1 = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 *
-        omega_j[2];
+    const jg_real t29 = omega_j[0] * t26 + omega_j[1] * t27 + omega_j[2] * t28;
+    const jg_real omega_j_in_joint_i_1 = omega_j[0] * g_i_in_j_0 + omega_j[1] * g_i_in_j_1 + omega_j[2] *
+        g_i_in_j_2;
     const jg_real t31 = C_j[6] * t26 + C_j[7] * t27 + C_j[8] * t28;
     const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
-    const jg_real t33 = t18 * omega_j[0] + t19 * omega_j[1] + t20 * omega_j[2];
+    const jg_real t33 = omega_j[0] * t18 + omega_j[1] * t19 + omega_j[2] * t20;
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    jac_phi_q_v_A_i[0] = t21 * omega_i_in_joint_i_2 - t31 * omega_i_in_joint_i_1 - (t21 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t29 - (t31 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t33));
+    jac_phi_q_v_A_i[0] = omega_i_in_joint_i_2 * t21 - omega_i_in_joint_i_1 * t31 - (t21 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t29 - (omega_j_in_joint_i_1 * t31 + t33 * h_j_in_joint_i_2));
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
         f_i_in_j_2;
-    const jg_real t39 = t19 * h_i_in_j_2 + g_i_in_j_1 * t28 - (t20 * h_i_in_j_1 + g_i_in_j_2 * t27);
-    const jg_real t40 = t20 * h_i_in_j_0 + g_i_in_j_2 * t26 - (t18 * h_i_in_j_2 + g_i_in_j_0 * t28);
-    const jg_real t41 = t18 * h_i_in_j_1 + g_i_in_j_0 * t27 - (t19 * h_i_in_j_0 + g_i_in_j_1 * t26);
+    const jg_real t39 = t19 * h_i_in_j_2 + t28 * g_i_in_j_1 - (t20 * h_i_in_j_1 + t27 * g_i_in_j_2);
+    const jg_real t40 = t20 * h_i_in_j_0 + t26 * g_i_in_j_2 - (t18 * h_i_in_j_2 + t28 * g_i_in_j_0);
+    const jg_real t41 = t18 * h_i_in_j_1 + t27 * g_i_in_j_0 - (t19 * h_i_in_j_0 + t26 * g_i_in_j_1);
     const jg_real t42 = omega_j[0] * t39 + omega_j[1] * t40 + omega_j[2] * t41;
     const jg_real t43 = C_j[6] * t39 + C_j[7] * t40 + C_j[8] * t41;
     const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
-    jac_phi_q_v_A_i[1] = t31 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t43 - (t31 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[1] = omega_i_in_joint_i_0 * t31 - omega_i_in_joint_i_2 * t43 - (t31 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t42 - (omega_j_in_joint_i_2 * t43 + t29 * h_j_in_joint_i_0));
     /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
-    const jg_real t46 = t18 * s_j[0] + t19 * s_j[1] + t20 * s_j[2];
+    const jg_real s_j_dot_g_i = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
+    const jg_real t46 = s_j[0] * t18 + s_j[1] * t19 + s_j[2] * t20;
     /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
-    const jg_real t48 = t39 * s_j[0] + t40 * s_j[1] + t41 * s_j[2];
-    const jg_real t49 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_2 - g_i_world_2 * C_i[6]);
-    const jg_real t50 = C_i[3] * omega_i_in_joint_i_0;
-    const jg_real t51 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[6] - C_i[3] * h_i_world_1);
-    jac_phi_q_v_A_i[2] = t42 * s_j_dot_g_i + omega_j_in_joint_i_0 * t46 - (t33 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t48) - (omega_i_in_joint_i_0 * t46 - omega_i_in_joint_i_1 * t48 + (t50 * r_j[0] + t49 * r_j[1] + t51 *
-        r_j[2]) - (t50 * r_i[0] + t49 * r_i[1] + t51 * r_i[2]) + C_i[6] * v_i[0] - C_i[6] * v_j[0]);
+    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    const jg_real t48 = s_j[0] * t39 + s_j[1] * t40 + s_j[2] * t41;
+    const jg_real t49 = omega_i_in_joint_i_1 * (C_i[6] * g_i_world_1 - C_i[3] * h_i_world_1);
+    const jg_real t50 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_2 - C_i[6] * g_i_world_2);
+    const jg_real t51 = C_i[3] * omega_i_in_joint_i_0;
+    jac_phi_q_v_A_i[2] = s_j_dot_g_i * t42 + t46 * omega_j_in_joint_i_0 - (t33 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t48) - (r_j[0] * t51 + r_j[1] * t50 + r_j[2] * t49 + (omega_i_in_joint_i_0 * t46 - omega_i_in_joint_i_1 *
+        t48) - (r_i[0] * t51 + r_i[1] * t50 + r_i[2] * t49) + C_i[6] * v_i[0] - C_i[6] * v_j[0]);
     const jg_real t52 = C_i[3] * A_j[1];
     const jg_real t53 = C_i[3] * A_j[4];
     const jg_real t54 = C_i[3] * A_j[7];
-    const jg_real t55 = t52 * C_j[6] + t53 * C_j[7] + t54 * C_j[8];
+    const jg_real t55 = C_j[6] * t52 + C_j[7] * t53 + C_j[8] * t54;
     const jg_real t56 = A_j[1] * C_i[6];
     const jg_real t57 = A_j[4] * C_i[6];
     const jg_real t58 = A_j[7] * C_i[6];
-    const jg_real t59 = t56 * omega_j[0] + t57 * omega_j[1] + t58 * omega_j[2];
+    const jg_real t59 = omega_j[0] * t56 + omega_j[1] * t57 + omega_j[2] * t58;
     const jg_real t60 = C_j[6] * t56 + C_j[7] * t57 + C_j[8] * t58;
-    const jg_real t61 = t52 * omega_j[0] + t53 * omega_j[1] + t54 * omega_j[2];
-    jac_phi_q_v_A_i[3] = t55 * omega_i_in_joint_i_2 - t60 * omega_i_in_joint_i_1 - (t55 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t59 - (t60 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t61));
-    const jg_real t62 = t53 * h_i_in_j_2 + g_i_in_j_1 * t58 - (t54 * h_i_in_j_1 + g_i_in_j_2 * t57);
-    const jg_real t63 = t54 * h_i_in_j_0 + g_i_in_j_2 * t56 - (t52 * h_i_in_j_2 + g_i_in_j_0 * t58);
-    const jg_real t64 = t52 * h_i_in_j_1 + g_i_in_j_0 * t57 - (t53 * h_i_in_j_0 + g_i_in_j_1 * t56);
+    const jg_real t61 = omega_j[0] * t52 + omega_j[1] * t53 + omega_j[2] * t54;
+    jac_phi_q_v_A_i[3] = omega_i_in_joint_i_2 * t55 - omega_i_in_joint_i_1 * t60 - (t55 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t59 - (omega_j_in_joint_i_1 * t60 + t61 * h_j_in_joint_i_2));
+    const jg_real t62 = t53 * h_i_in_j_2 + t58 * g_i_in_j_1 - (t54 * h_i_in_j_1 + t57 * g_i_in_j_2);
+    const jg_real t63 = t54 * h_i_in_j_0 + t56 * g_i_in_j_2 - (t52 * h_i_in_j_2 + t58 * g_i_in_j_0);
+    const jg_real t64 = t52 * h_i_in_j_1 + t57 * g_i_in_j_0 - (t53 * h_i_in_j_0 + t56 * g_i_in_j_1);
     const jg_real t65 = omega_j[0] * t62 + omega_j[1] * t63 + omega_j[2] * t64;
     const jg_real t66 = C_j[6] * t62 + C_j[7] * t63 + C_j[8] * t64;
-    jac_phi_q_v_A_i[4] = t60 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t66 - (t60 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[4] = omega_i_in_joint_i_0 * t60 - omega_i_in_joint_i_2 * t66 - (t60 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t65 - (omega_j_in_joint_i_2 * t66 + t59 * h_j_in_joint_i_0));
-    const jg_real t67 = t52 * s_j[0] + t53 * s_j[1] + t54 * s_j[2];
-    const jg_real t68 = t62 * s_j[0] + t63 * s_j[1] + t64 * s_j[2];
-    const jg_real t69 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_0 - g_i_world_0 * C_i[6]);
-    jac_phi_q_v_A_i[5] = t65 * s_j_dot_g_i + omega_j_in_joint_i_0 * t67 - (t61 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t68) - (omega_i_in_joint_i_0 * t67 - omega_i_in_joint_i_1 * t68 + (t50 * r_j[1] - t49 * r_j[0] + t69 *
-        r_j[2]) - (t50 * r_i[1] - t49 * r_i[0] + t69 * r_i[2]) + C_i[6] * v_i[1] - C_i[6] * v_j[1]);
+    const jg_real t67 = s_j[0] * t52 + s_j[1] * t53 + s_j[2] * t54;
+    const jg_real t68 = s_j[0] * t62 + s_j[1] * t63 + s_j[2] * t64;
+    const jg_real t69 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_0 - C_i[6] * g_i_world_0);
+    jac_phi_q_v_A_i[5] = s_j_dot_g_i * t65 + t67 * omega_j_in_joint_i_0 - (t61 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t68) - (r_j[1] * t51 - r_j[0] * t50 + r_j[2] * t69 + (omega_i_in_joint_i_0 * t67 - omega_i_in_joint_i_1 *
+        t68) - (r_i[1] * t51 - r_i[0] * t50 + r_i[2] * t69) + C_i[6] * v_i[1] - C_i[6] * v_j[1]);
     const jg_real t70 = C_i[3] * A_j[2];
     const jg_real t71 = C_i[3] * A_j[5];
     const jg_real t72 = C_i[3] * A_j[8];
-    const jg_real t73 = t70 * C_j[6] + t71 * C_j[7] + t72 * C_j[8];
+    const jg_real t73 = C_j[6] * t70 + C_j[7] * t71 + C_j[8] * t72;
     const jg_real t74 = A_j[2] * C_i[6];
     const jg_real t75 = A_j[5] * C_i[6];
     const jg_real t76 = A_j[8] * C_i[6];
-    const jg_real t77 = t74 * omega_j[0] + t75 * omega_j[1] + t76 * omega_j[2];
+    const jg_real t77 = omega_j[0] * t74 + omega_j[1] * t75 + omega_j[2] * t76;
     const jg_real t78 = C_j[6] * t74 + C_j[7] * t75 + C_j[8] * t76;
-    const jg_real t79 = t70 * omega_j[0] + t71 * omega_j[1] + t72 * omega_j[2];
-    jac_phi_q_v_A_i[6] = t73 * omega_i_in_joint_i_2 - t78 * omega_i_in_joint_i_1 - (t73 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t77 - (t78 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t79));
-    const jg_real t80 = t71 * h_i_in_j_2 + g_i_in_j_1 * t76 - (t72 * h_i_in_j_1 + g_i_in_j_2 * t75);
-    const jg_real t81 = t72 * h_i_in_j_0 + g_i_in_j_2 * t74 - (t70 * h_i_in_j_2 + g_i_in_j_0 * t76);
-    const jg_real t82 = t70 * h_i_in_j_1 + g_i_in_j_0 * t75 - (t71 * h_i_in_j_0 + g_i_in_j_1 * t74);
+    const jg_real t79 = omega_j[0] * t70 + omega_j[1] * t71 + omega_j[2] * t72;
+    jac_phi_q_v_A_i[6] = omega_i_in_joint_i_2 * t73 - omega_i_in_joint_i_1 * t78 - (t73 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t77 - (omega_j_in_joint_i_1 * t78 + t79 * h_j_in_joint_i_2));
+    const jg_real t80 = t71 * h_i_in_j_2 + t76 * g_i_in_j_1 - (t72 * h_i_in_j_1 + t75 * g_i_in_j_2);
+    const jg_real t81 = t72 * h_i_in_j_0 + t74 * g_i_in_j_2 - (t70 * h_i_in_j_2 + t76 * g_i_in_j_0);
+    const jg_real t82 = t70 * h_i_in_j_1 + t75 * g_i_in_j_0 - (t71 * h_i_in_j_0 + t74 * g_i_in_j_1);
     const jg_real t83 = omega_j[0] * t80 + omega_j[1] * t81 + omega_j[2] * t82;
     const jg_real t84 = C_j[6] * t80 + C_j[7] * t81 + C_j[8] * t82;
-    jac_phi_q_v_A_i[7] = t78 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t84 - (t78 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[7] = omega_i_in_joint_i_0 * t78 - omega_i_in_joint_i_2 * t84 - (t78 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t83 - (omega_j_in_joint_i_2 * t84 + t77 * h_j_in_joint_i_0));
-    const jg_real t85 = t70 * s_j[0] + t71 * s_j[1] + t72 * s_j[2];
-    const jg_real t86 = t80 * s_j[0] + t81 * s_j[1] + t82 * s_j[2];
-    jac_phi_q_v_A_i[8] = t83 * s_j_dot_g_i + omega_j_in_joint_i_0 * t85 - (t79 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t86) - (omega_i_in_joint_i_0 * t85 - omega_i_in_joint_i_1 * t86 + (t50 * r_j[2] - (t51 * r_j[0] + t69 *
-        r_j[1])) - (t50 * r_i[2] - (t51 * r_i[0] + t69 * r_i[1])) + C_i[6] * v_i[2] - C_i[6] * v_j[2]);
+    const jg_real t85 = s_j[0] * t70 + s_j[1] * t71 + s_j[2] * t72;
+    const jg_real t86 = s_j[0] * t80 + s_j[1] * t81 + s_j[2] * t82;
+    jac_phi_q_v_A_i[8] = s_j_dot_g_i * t83 + t85 * omega_j_in_joint_i_0 - (t79 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t86) - (r_j[2] * t51 - (r_j[0] * t49 + r_j[1] * t69) + (omega_i_in_joint_i_0 * t85 - omega_i_in_joint_i_1
+        * t86) - (r_i[2] * t51 - (r_i[0] * t49 + r_i[1] * t69)) + C_i[6] * v_i[2] - C_i[6] * v_j[2]);
     const jg_real t87 = C_i[4] * A_j[0];
     const jg_real t88 = C_i[4] * A_j[3];
     const jg_real t89 = C_i[4] * A_j[6];
-    const jg_real t90 = t87 * C_j[6] + t88 * C_j[7] + t89 * C_j[8];
+    const jg_real t90 = C_j[6] * t87 + C_j[7] * t88 + C_j[8] * t89;
     const jg_real t91 = A_j[0] * C_i[7];
     const jg_real t92 = A_j[3] * C_i[7];
     const jg_real t93 = A_j[6] * C_i[7];
-    const jg_real t94 = t91 * omega_j[0] + t92 * omega_j[1] + t93 * omega_j[2];
+    const jg_real t94 = omega_j[0] * t91 + omega_j[1] * t92 + omega_j[2] * t93;
     const jg_real t95 = C_j[6] * t91 + C_j[7] * t92 + C_j[8] * t93;
-    const jg_real t96 = t87 * omega_j[0] + t88 * omega_j[1] + t89 * omega_j[2];
-    jac_phi_q_v_A_i[9] = t90 * omega_i_in_joint_i_2 - t95 * omega_i_in_joint_i_1 - (t90 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t94 - (t95 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t96));
-    const jg_real t97 = t88 * h_i_in_j_2 + g_i_in_j_1 * t93 - (t89 * h_i_in_j_1 + g_i_in_j_2 * t92);
-    const jg_real t98 = t89 * h_i_in_j_0 + g_i_in_j_2 * t91 - (t87 * h_i_in_j_2 + g_i_in_j_0 * t93);
-    const jg_real t99 = t87 * h_i_in_j_1 + g_i_in_j_0 * t92 - (t88 * h_i_in_j_0 + g_i_in_j_1 * t91);
+    const jg_real t96 = omega_j[0] * t87 + omega_j[1] * t88 + omega_j[2] * t89;
+    jac_phi_q_v_A_i[9] = omega_i_in_joint_i_2 * t90 - omega_i_in_joint_i_1 * t95 - (t90 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t94 - (omega_j_in_joint_i_1 * t95 + t96 * h_j_in_joint_i_2));
+    const jg_real t97 = t88 * h_i_in_j_2 + t93 * g_i_in_j_1 - (t89 * h_i_in_j_1 + t92 * g_i_in_j_2);
+    const jg_real t98 = t89 * h_i_in_j_0 + t91 * g_i_in_j_2 - (t87 * h_i_in_j_2 + t93 * g_i_in_j_0);
+    const jg_real t99 = t87 * h_i_in_j_1 + t92 * g_i_in_j_0 - (t88 * h_i_in_j_0 + t91 * g_i_in_j_1);
     const jg_real t100 = omega_j[0] * t97 + omega_j[1] * t98 + omega_j[2] * t99;
     const jg_real t101 = C_j[6] * t97 + C_j[7] * t98 + C_j[8] * t99;
-    jac_phi_q_v_A_i[10] = t95 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t101 - (t95 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[10] = omega_i_in_joint_i_0 * t95 - omega_i_in_joint_i_2 * t101 - (t95 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t100 - (omega_j_in_joint_i_2 * t101 + t94 * h_j_in_joint_i_0));
-    const jg_real t102 = t87 * s_j[0] + t88 * s_j[1] + t89 * s_j[2];
-    const jg_real t103 = t97 * s_j[0] + t98 * s_j[1] + t99 * s_j[2];
-    const jg_real t104 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_2 - g_i_world_2 * C_i[7]);
-    const jg_real t105 = C_i[4] * omega_i_in_joint_i_0;
-    const jg_real t106 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[7] - C_i[4] * h_i_world_1);
-    jac_phi_q_v_A_i[11] = t100 * s_j_dot_g_i + omega_j_in_joint_i_0 * t102 - (t96 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t103) - (omega_i_in_joint_i_0 * t102 - omega_i_in_joint_i_1 * t103 + (t105 * r_j[0] +
-        t104 * r_j[1] + t106 * r_j[2]) - (t105 * r_i[0] + t104 * r_i[1] + t106 * r_i[2]) + C_i[7] * v_i[0] - C_i[7]
+    const jg_real t102 = s_j[0] * t87 + s_j[1] * t88 + s_j[2] * t89;
+    const jg_real t103 = s_j[0] * t97 + s_j[1] * t98 + s_j[2] * t99;
+    const jg_real t104 = omega_i_in_joint_i_1 * (C_i[7] * g_i_world_1 - C_i[4] * h_i_world_1);
+    const jg_real t105 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_2 - C_i[7] * g_i_world_2);
+    const jg_real t106 = C_i[4] * omega_i_in_joint_i_0;
+    jac_phi_q_v_A_i[11] = s_j_dot_g_i * t100 + t102 * omega_j_in_joint_i_0 - (t96 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t103) - (r_j[0] * t106 + r_j[1] * t105 + r_j[2] * t104 + (omega_i_in_joint_i_0 * t102
+        - omega_i_in_joint_i_1 * t103) - (r_i[0] * t106 + r_i[1] * t105 + r_i[2] * t104) + C_i[7] * v_i[0] - C_i[7]
         * v_j[0]);
     const jg_real t107 = C_i[4] * A_j[1];
     const jg_real t108 = C_i[4] * A_j[4];
     const jg_real t109 = C_i[4] * A_j[7];
-    const jg_real t110 = t107 * C_j[6] + t108 * C_j[7] + t109 * C_j[8];
+    const jg_real t110 = C_j[6] * t107 + C_j[7] * t108 + C_j[8] * t109;
     const jg_real t111 = A_j[1] * C_i[7];
     const jg_real t112 = A_j[4] * C_i[7];
     const jg_real t113 = A_j[7] * C_i[7];
-    const jg_real t114 = t111 * omega_j[0] + t112 * omega_j[1] + t113 * omega_j[2];
+    const jg_real t114 = omega_j[0] * t111 + omega_j[1] * t112 + omega_j[2] * t113;
     const jg_real t115 = C_j[6] * t111 + C_j[7] * t112 + C_j[8] * t113;
-    const jg_real t116 = t107 * omega_j[0] + t108 * omega_j[1] + t109 * omega_j[2];
-    jac_phi_q_v_A_i[12] = t110 * omega_i_in_joint_i_2 - t115 * omega_i_in_joint_i_1 - (t110 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t114 - (t115 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t116));
-    const jg_real t117 = t108 * h_i_in_j_2 + g_i_in_j_1 * t113 - (t109 * h_i_in_j_1 + g_i_in_j_2 * t112);
-    const jg_real t118 = t109 * h_i_in_j_0 + g_i_in_j_2 * t111 - (t107 * h_i_in_j_2 + g_i_in_j_0 * t113);
-    const jg_real t119 = t107 * h_i_in_j_1 + g_i_in_j_0 * t112 - (t108 * h_i_in_j_0 + g_i_in_j_1 * t111);
+    const jg_real t116 = omega_j[0] * t107 + omega_j[1] * t108 + omega_j[2] * t109;
+    jac_phi_q_v_A_i[12] = omega_i_in_joint_i_2 * t110 - omega_i_in_joint_i_1 * t115 - (t110 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t114 - (omega_j_in_joint_i_1 * t115 + t116 * h_j_in_joint_i_2));
+    const jg_real t117 = t108 * h_i_in_j_2 + t113 * g_i_in_j_1 - (t109 * h_i_in_j_1 + t112 * g_i_in_j_2);
+    const jg_real t118 = t109 * h_i_in_j_0 + t111 * g_i_in_j_2 - (t107 * h_i_in_j_2 + t113 * g_i_in_j_0);
+    const jg_real t119 = t107 * h_i_in_j_1 + t112 * g_i_in_j_0 - (t108 * h_i_in_j_0 + t111 * g_i_in_j_1);
     const jg_real t120 = omega_j[0] * t117 + omega_j[1] * t118 + omega_j[2] * t119;
     const jg_real t121 = C_j[6] * t117 + C_j[7] * t118 + C_j[8] * t119;
-    jac_phi_q_v_A_i[13] = t115 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t121 - (t115 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[13] = omega_i_in_joint_i_0 * t115 - omega_i_in_joint_i_2 * t121 - (t115 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t120 - (omega_j_in_joint_i_2 * t121 + t114 * h_j_in_joint_i_0));
-    const jg_real t122 = t107 * s_j[0] + t108 * s_j[1] + t109 * s_j[2];
-    const jg_real t123 = t117 * s_j[0] + t118 * s_j[1] + t119 * s_j[2];
-    const jg_real t124 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_0 - g_i_world_0 * C_i[7]);
-    jac_phi_q_v_A_i[14] = t120 * s_j_dot_g_i + omega_j_in_joint_i_0 * t122 - (t116 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t123) - (omega_i_in_joint_i_0 * t122 - omega_i_in_joint_i_1 * t123 + (t105 * r_j[1] -
-        t104 * r_j[0] + t124 * r_j[2]) - (t105 * r_i[1] - t104 * r_i[0] + t124 * r_i[2]) + C_i[7] * v_i[1] - C_i[7]
+    const jg_real t122 = s_j[0] * t107 + s_j[1] * t108 + s_j[2] * t109;
+    const jg_real t123 = s_j[0] * t117 + s_j[1] * t118 + s_j[2] * t119;
+    const jg_real t124 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_0 - C_i[7] * g_i_world_0);
+    jac_phi_q_v_A_i[14] = s_j_dot_g_i * t120 + t122 * omega_j_in_joint_i_0 - (t116 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t123) - (r_j[1] * t106 - r_j[0] * t105 + r_j[2] * t124 + (omega_i_in_joint_i_0 * t122
+        - omega_i_in_joint_i_1 * t123) - (r_i[1] * t106 - r_i[0] * t105 + r_i[2] * t124) + C_i[7] * v_i[1] - C_i[7]
         * v_j[1]);
     const jg_real t125 = C_i[4] * A_j[2];
     const jg_real t126 = C_i[4] * A_j[5];
     const jg_real t127 = C_i[4] * A_j[8];
-    const jg_real t128 = t125 * C_j[6] + t126 * C_j[7] + t127 * C_j[8];
+    const jg_real t128 = C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127;
     const jg_real t129 = A_j[2] * C_i[7];
     const jg_real t130 = A_j[5] * C_i[7];
     const jg_real t131 = A_j[8] * C_i[7];
-    const jg_real t132 = t129 * omega_j[0] + t130 * omega_j[1] + t131 * omega_j[2];
+    const jg_real t132 = omega_j[0] * t129 + omega_j[1] * t130 + omega_j[2] * t131;
     const jg_real t133 = C_j[6] * t129 + C_j[7] * t130 + C_j[8] * t131;
-    const jg_real t134 = t125 * omega_j[0] + t126 * omega_j[1] + t127 * omega_j[2];
-    jac_phi_q_v_A_i[15] = t128 * omega_i_in_joint_i_2 - t133 * omega_i_in_joint_i_1 - (t128 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t132 - (t133 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t134));
-    const jg_real t135 = t126 * h_i_in_j_2 + g_i_in_j_1 * t131 - (t127 * h_i_in_j_1 + g_i_in_j_2 * t130);
-    const jg_real t136 = t127 * h_i_in_j_0 + g_i_in_j_2 * t129 - (t125 * h_i_in_j_2 + g_i_in_j_0 * t131);
-    const jg_real t137 = t125 * h_i_in_j_1 + g_i_in_j_0 * t130 - (t126 * h_i_in_j_0 + g_i_in_j_1 * t129);
+    const jg_real t134 = omega_j[0] * t125 + omega_j[1] * t126 + omega_j[2] * t127;
+    jac_phi_q_v_A_i[15] = omega_i_in_joint_i_2 * t128 - omega_i_in_joint_i_1 * t133 - (t128 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t132 - (omega_j_in_joint_i_1 * t133 + t134 * h_j_in_joint_i_2));
+    const jg_real t135 = t126 * h_i_in_j_2 + t131 * g_i_in_j_1 - (t127 * h_i_in_j_1 + t130 * g_i_in_j_2);
+    const jg_real t136 = t127 * h_i_in_j_0 + t129 * g_i_in_j_2 - (t125 * h_i_in_j_2 + t131 * g_i_in_j_0);
+    const jg_real t137 = t125 * h_i_in_j_1 + t130 * g_i_in_j_0 - (t126 * h_i_in_j_0 + t129 * g_i_in_j_1);
     const jg_real t138 = omega_j[0] * t135 + omega_j[1] * t136 + omega_j[2] * t137;
     const jg_real t139 = C_j[6] * t135 + C_j[7] * t136 + C_j[8] * t137;
-    jac_phi_q_v_A_i[16] = t133 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t139 - (t133 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[16] = omega_i_in_joint_i_0 * t133 - omega_i_in_joint_i_2 * t139 - (t133 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t138 - (omega_j_in_joint_i_2 * t139 + t132 * h_j_in_joint_i_0));
-    const jg_real t140 = t125 * s_j[0] + t126 * s_j[1] + t127 * s_j[2];
-    const jg_real t141 = t135 * s_j[0] + t136 * s_j[1] + t137 * s_j[2];
-    jac_phi_q_v_A_i[17] = t138 * s_j_dot_g_i + omega_j_in_joint_i_0 * t140 - (t134 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t141) - (omega_i_in_joint_i_0 * t140 - omega_i_in_joint_i_1 * t141 + (t105 * r_j[2] -
-        (t106 * r_j[0] + t124 * r_j[1])) - (t105 * r_i[2] - (t106 * r_i[0] + t124 * r_i[1])) + C_i[7] * v_i[2] -
+    const jg_real t140 = s_j[0] * t125 + s_j[1] * t126 + s_j[2] * t127;
+    const jg_real t141 = s_j[0] * t135 + s_j[1] * t136 + s_j[2] * t137;
+    jac_phi_q_v_A_i[17] = s_j_dot_g_i * t138 + t140 * omega_j_in_joint_i_0 - (t134 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t141) - (r_j[2] * t106 - (r_j[0] * t104 + r_j[1] * t124) + (omega_i_in_joint_i_0 *
+        t140 - omega_i_in_joint_i_1 * t141) - (r_i[2] * t106 - (r_i[0] * t104 + r_i[1] * t124)) + C_i[7] * v_i[2] -
         C_i[7] * v_j[2]);
     const jg_real t142 = C_i[5] * A_j[0];
     const jg_real t143 = C_i[5] * A_j[3];
     const jg_real t144 = C_i[5] * A_j[6];
-    const jg_real t145 = t142 * C_j[6] + t143 * C_j[7] + t144 * C_j[8];
+    const jg_real t145 = C_j[6] * t142 + C_j[7] * t143 + C_j[8] * t144;
     const jg_real t146 = A_j[0] * C_i[8];
     const jg_real t147 = A_j[3] * C_i[8];
     const jg_real t148 = A_j[6] * C_i[8];
-    const jg_real t149 = t146 * omega_j[0] + t147 * omega_j[1] + t148 * omega_j[2];
+    const jg_real t149 = omega_j[0] * t146 + omega_j[1] * t147 + omega_j[2] * t148;
     const jg_real t150 = C_j[6] * t146 + C_j[7] * t147 + C_j[8] * t148;
-    const jg_real t151 = t142 * omega_j[0] + t143 * omega_j[1] + t144 * omega_j[2];
-    jac_phi_q_v_A_i[18] = t145 * omega_i_in_joint_i_2 - t150 * omega_i_in_joint_i_1 - (t145 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t149 - (t150 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t151));
-    const jg_real t152 = t143 * h_i_in_j_2 + g_i_in_j_1 * t148 - (t144 * h_i_in_j_1 + g_i_in_j_2 * t147);
-    const jg_real t153 = t144 * h_i_in_j_0 + g_i_in_j_2 * t146 - (t142 * h_i_in_j_2 + g_i_in_j_0 * t148);
-    const jg_real t154 = t142 * h_i_in_j_1 + g_i_in_j_0 * t147 - (t143 * h_i_in_j_0 + g_i_in_j_1 * t146);
+    const jg_real t151 = omega_j[0] * t142 + omega_j[1] * t143 + omega_j[2] * t144;
+    jac_phi_q_v_A_i[18] = omega_i_in_joint_i_2 * t145 - omega_i_in_joint_i_1 * t150 - (t145 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t149 - (omega_j_in_joint_i_1 * t150 + t151 * h_j_in_joint_i_2));
+    const jg_real t152 = t143 * h_i_in_j_2 + t148 * g_i_in_j_1 - (t144 * h_i_in_j_1 + t147 * g_i_in_j_2);
+    const jg_real t153 = t144 * h_i_in_j_0 + t146 * g_i_in_j_2 - (t142 * h_i_in_j_2 + t148 * g_i_in_j_0);
+    const jg_real t154 = t142 * h_i_in_j_1 + t147 * g_i_in_j_0 - (t143 * h_i_in_j_0 + t146 * g_i_in_j_1);
     const jg_real t155 = omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154;
     const jg_real t156 = C_j[6] * t152 + C_j[7] * t153 + C_j[8] * t154;
-    jac_phi_q_v_A_i[19] = t150 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t156 - (t150 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[19] = omega_i_in_joint_i_0 * t150 - omega_i_in_joint_i_2 * t156 - (t150 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t155 - (omega_j_in_joint_i_2 * t156 + t149 * h_j_in_joint_i_0));
-    const jg_real t157 = t142 * s_j[0] + t143 * s_j[1] + t144 * s_j[2];
-    const jg_real t158 = t152 * s_j[0] + t153 * s_j[1] + t154 * s_j[2];
-    const jg_real t159 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_2 - g_i_world_2 * C_i[8]);
-    const jg_real t160 = C_i[5] * omega_i_in_joint_i_0;
-    const jg_real t161 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[8] - C_i[5] * h_i_world_1);
-    jac_phi_q_v_A_i[20] = t155 * s_j_dot_g_i + omega_j_in_joint_i_0 * t157 - (t151 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t158) - (omega_i_in_joint_i_0 * t157 - omega_i_in_joint_i_1 * t158 + (t160 * r_j[0] +
-        t159 * r_j[1] + t161 * r_j[2]) - (t160 * r_i[0] + t159 * r_i[1] + t161 * r_i[2]) + C_i[8] * v_i[0] - C_i[8]
+    const jg_real t157 = s_j[0] * t142 + s_j[1] * t143 + s_j[2] * t144;
+    const jg_real t158 = s_j[0] * t152 + s_j[1] * t153 + s_j[2] * t154;
+    const jg_real t159 = omega_i_in_joint_i_1 * (C_i[8] * g_i_world_1 - C_i[5] * h_i_world_1);
+    const jg_real t160 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_2 - C_i[8] * g_i_world_2);
+    const jg_real t161 = C_i[5] * omega_i_in_joint_i_0;
+    jac_phi_q_v_A_i[20] = s_j_dot_g_i * t155 + t157 * omega_j_in_joint_i_0 - (t151 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t158) - (r_j[0] * t161 + r_j[1] * t160 + r_j[2] * t159 + (omega_i_in_joint_i_0 * t157
+        - omega_i_in_joint_i_1 * t158) - (r_i[0] * t161 + r_i[1] * t160 + r_i[2] * t159) + C_i[8] * v_i[0] - C_i[8]
         * v_j[0]);
     const jg_real t162 = C_i[5] * A_j[1];
     const jg_real t163 = C_i[5] * A_j[4];
     const jg_real t164 = C_i[5] * A_j[7];
-    const jg_real t165 = t162 * C_j[6] + t163 * C_j[7] + t164 * C_j[8];
+    const jg_real t165 = C_j[6] * t162 + C_j[7] * t163 + C_j[8] * t164;
     const jg_real t166 = A_j[1] * C_i[8];
     const jg_real t167 = A_j[4] * C_i[8];
     const jg_real t168 = A_j[7] * C_i[8];
-    const jg_real t169 = t166 * omega_j[0] + t167 * omega_j[1] + t168 * omega_j[2];
+    const jg_real t169 = omega_j[0] * t166 + omega_j[1] * t167 + omega_j[2] * t168;
     const jg_real t170 = C_j[6] * t166 + C_j[7] * t167 + C_j[8] * t168;
-    const jg_real t171 = t162 * omega_j[0] + t163 * omega_j[1] + t164 * omega_j[2];
-    jac_phi_q_v_A_i[21] = t165 * omega_i_in_joint_i_2 - t170 * omega_i_in_joint_i_1 - (t165 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t169 - (t170 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t171));
-    const jg_real t172 = t163 * h_i_in_j_2 + g_i_in_j_1 * t168 - (t164 * h_i_in_j_1 + g_i_in_j_2 * t167);
-    const jg_real t173 = t164 * h_i_in_j_0 + g_i_in_j_2 * t166 - (t162 * h_i_in_j_2 + g_i_in_j_0 * t168);
-    const jg_real t174 = t162 * h_i_in_j_1 + g_i_in_j_0 * t167 - (t163 * h_i_in_j_0 + g_i_in_j_1 * t166);
+    const jg_real t171 = omega_j[0] * t162 + omega_j[1] * t163 + omega_j[2] * t164;
+    jac_phi_q_v_A_i[21] = omega_i_in_joint_i_2 * t165 - omega_i_in_joint_i_1 * t170 - (t165 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t169 - (omega_j_in_joint_i_1 * t170 + t171 * h_j_in_joint_i_2));
+    const jg_real t172 = t163 * h_i_in_j_2 + t168 * g_i_in_j_1 - (t164 * h_i_in_j_1 + t167 * g_i_in_j_2);
+    const jg_real t173 = t164 * h_i_in_j_0 + t166 * g_i_in_j_2 - (t162 * h_i_in_j_2 + t168 * g_i_in_j_0);
+    const jg_real t174 = t162 * h_i_in_j_1 + t167 * g_i_in_j_0 - (t163 * h_i_in_j_0 + t166 * g_i_in_j_1);
     const jg_real t175 = omega_j[0] * t172 + omega_j[1] * t173 + omega_j[2] * t174;
     const jg_real t176 = C_j[6] * t172 + C_j[7] * t173 + C_j[8] * t174;
-    jac_phi_q_v_A_i[22] = t170 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t176 - (t170 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[22] = omega_i_in_joint_i_0 * t170 - omega_i_in_joint_i_2 * t176 - (t170 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t175 - (omega_j_in_joint_i_2 * t176 + t169 * h_j_in_joint_i_0));
-    const jg_real t177 = t162 * s_j[0] + t163 * s_j[1] + t164 * s_j[2];
-    const jg_real t178 = t172 * s_j[0] + t173 * s_j[1] + t174 * s_j[2];
-    const jg_real t179 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_0 - g_i_world_0 * C_i[8]);
-    jac_phi_q_v_A_i[23] = t175 * s_j_dot_g_i + omega_j_in_joint_i_0 * t177 - (t171 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t178) - (omega_i_in_joint_i_0 * t177 - omega_i_in_joint_i_1 * t178 + (t160 * r_j[1] -
-        t159 * r_j[0] + t179 * r_j[2]) - (t160 * r_i[1] - t159 * r_i[0] + t179 * r_i[2]) + C_i[8] * v_i[1] - C_i[8]
+    const jg_real t177 = s_j[0] * t162 + s_j[1] * t163 + s_j[2] * t164;
+    const jg_real t178 = s_j[0] * t172 + s_j[1] * t173 + s_j[2] * t174;
+    const jg_real t179 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_0 - C_i[8] * g_i_world_0);
+    jac_phi_q_v_A_i[23] = s_j_dot_g_i * t175 + t177 * omega_j_in_joint_i_0 - (t171 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t178) - (r_j[1] * t161 - r_j[0] * t160 + r_j[2] * t179 + (omega_i_in_joint_i_0 * t177
+        - omega_i_in_joint_i_1 * t178) - (r_i[1] * t161 - r_i[0] * t160 + r_i[2] * t179) + C_i[8] * v_i[1] - C_i[8]
         * v_j[1]);
     const jg_real t180 = C_i[5] * A_j[2];
     const jg_real t181 = C_i[5] * A_j[5];
     const jg_real t182 = C_i[5] * A_j[8];
-    const jg_real t183 = t180 * C_j[6] + t181 * C_j[7] + t182 * C_j[8];
+    const jg_real t183 = C_j[6] * t180 + C_j[7] * t181 + C_j[8] * t182;
     const jg_real t184 = A_j[2] * C_i[8];
     const jg_real t185 = A_j[5] * C_i[8];
     const jg_real t186 = A_j[8] * C_i[8];
-    const jg_real t187 = t184 * omega_j[0] + t185 * omega_j[1] + t186 * omega_j[2];
+    const jg_real t187 = omega_j[0] * t184 + omega_j[1] * t185 + omega_j[2] * t186;
     const jg_real t188 = C_j[6] * t184 + C_j[7] * t185 + C_j[8] * t186;
-    const jg_real t189 = t180 * omega_j[0] + t181 * omega_j[1] + t182 * omega_j[2];
-    jac_phi_q_v_A_i[24] = t183 * omega_i_in_joint_i_2 - t188 * omega_i_in_joint_i_1 - (t183 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t187 - (t188 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t189));
-    const jg_real t190 = t181 * h_i_in_j_2 + g_i_in_j_1 * t186 - (t182 * h_i_in_j_1 + g_i_in_j_2 * t185);
-    const jg_real t191 = t182 * h_i_in_j_0 + g_i_in_j_2 * t184 - (t180 * h_i_in_j_2 + g_i_in_j_0 * t186);
-    const jg_real t192 = t180 * h_i_in_j_1 + g_i_in_j_0 * t185 - (t181 * h_i_in_j_0 + g_i_in_j_1 * t184);
+    const jg_real t189 = omega_j[0] * t180 + omega_j[1] * t181 + omega_j[2] * t182;
+    jac_phi_q_v_A_i[24] = omega_i_in_joint_i_2 * t183 - omega_i_in_joint_i_1 * t188 - (t183 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t187 - (omega_j_in_joint_i_1 * t188 + t189 * h_j_in_joint_i_2));
+    const jg_real t190 = t181 * h_i_in_j_2 + t186 * g_i_in_j_1 - (t182 * h_i_in_j_1 + t185 * g_i_in_j_2);
+    const jg_real t191 = t182 * h_i_in_j_0 + t184 * g_i_in_j_2 - (t180 * h_i_in_j_2 + t186 * g_i_in_j_0);
+    const jg_real t192 = t180 * h_i_in_j_1 + t185 * g_i_in_j_0 - (t181 * h_i_in_j_0 + t184 * g_i_in_j_1);
     const jg_real t193 = omega_j[0] * t190 + omega_j[1] * t191 + omega_j[2] * t192;
     const jg_real t194 = C_j[6] * t190 + C_j[7] * t191 + C_j[8] * t192;
-    jac_phi_q_v_A_i[25] = t188 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t194 - (t188 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_i[25] = omega_i_in_joint_i_0 * t188 - omega_i_in_joint_i_2 * t194 - (t188 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t193 - (omega_j_in_joint_i_2 * t194 + t187 * h_j_in_joint_i_0));
-    const jg_real t195 = t180 * s_j[0] + t181 * s_j[1] + t182 * s_j[2];
-    const jg_real t196 = t190 * s_j[0] + t191 * s_j[1] + t192 * s_j[2];
-    jac_phi_q_v_A_i[26] = t193 * s_j_dot_g_i + omega_j_in_joint_i_0 * t195 - (t189 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t196) - (omega_i_in_joint_i_0 * t195 - omega_i_in_joint_i_1 * t196 + (t160 * r_j[2] -
-        (t161 * r_j[0] + t179 * r_j[1])) - (t160 * r_i[2] - (t161 * r_i[0] + t179 * r_i[1])) + C_i[8] * v_i[2] -
+    const jg_real t195 = s_j[0] * t180 + s_j[1] * t181 + s_j[2] * t182;
+    const jg_real t196 = s_j[0] * t190 + s_j[1] * t191 + s_j[2] * t192;
+    jac_phi_q_v_A_i[26] = s_j_dot_g_i * t193 + t195 * omega_j_in_joint_i_0 - (t189 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t196) - (r_j[2] * t161 - (r_j[0] * t159 + r_j[1] * t179) + (omega_i_in_joint_i_0 *
+        t195 - omega_i_in_joint_i_1 * t196) - (r_i[2] * t161 - (r_i[0] * t159 + r_i[1] * t179)) + C_i[8] * v_i[2] -
         C_i[8] * v_j[2]);
     jac_phi_q_v_r_j[0] = -h_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[1] = -h_i_cross_omega_i_world_1;
     jac_phi_q_v_r_j[2] = -h_i_cross_omega_i_world_2;
-    const jg_real t197 = g_i_world_0 * C_j[6];
-    const jg_real t198 = h_i_world_0 * omega_j[0];
+    const jg_real t197 = C_j[6] * g_i_world_0;
+    const jg_real t198 = omega_j[0] * h_i_world_0;
     const jg_real t199 = C_j[6] * h_i_world_0;
-    const jg_real t200 = g_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[0] = t197 * omega_i_in_joint_i_2 - t199 * omega_i_in_joint_i_1 - (t197 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t198 - (t199 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t200));
-    const jg_real t201 = g_i_world_0 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_0;
-    const jg_real t202 = g_i_in_j_1 * h_i_world_0 - g_i_world_0 * h_i_in_j_1;
+    const jg_real t200 = omega_j[0] * g_i_world_0;
+    jac_phi_q_v_A_j[0] = omega_i_in_joint_i_2 * t197 - omega_i_in_joint_i_1 * t199 - (t197 * omega_j_in_joint_i_2 +
+        t198 * h_j_in_joint_i_1 - (t199 * omega_j_in_joint_i_1 + t200 * h_j_in_joint_i_2));
+    const jg_real t201 = g_i_world_0 * h_i_in_j_2 - h_i_world_0 * g_i_in_j_2;
+    const jg_real t202 = h_i_world_0 * g_i_in_j_1 - g_i_world_0 * h_i_in_j_1;
     const jg_real t203 = omega_j[1] * t201 + omega_j[2] * t202;
     const jg_real t204 = C_j[7] * t201 + C_j[8] * t202;
-    jac_phi_q_v_A_j[1] = omega_i_in_joint_i_2 * t204 + t199 * omega_i_in_joint_i_0 - (t199 * omega_j_in_joint_i_0 -
+    jac_phi_q_v_A_j[1] = omega_i_in_joint_i_0 * t199 + omega_i_in_joint_i_2 * t204 - (t199 * omega_j_in_joint_i_0 -
         h_j_in_joint_i_2 * t203 - (t198 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t204));
     const jg_real t205 = g_i_world_0 * s_j[0];
-    const jg_real t206 = t201 * s_j[1] + t202 * s_j[2];
-    jac_phi_q_v_A_j[2] = omega_j_in_joint_i_0 * t205 - t203 * s_j_dot_g_i - (t200 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t206) - (omega_i_in_joint_i_1 * t206 + omega_i_in_joint_i_0 * t205);
-    const jg_real t207 = g_i_world_1 * C_j[6];
-    const jg_real t208 = h_i_world_1 * omega_j[0];
+    const jg_real t206 = s_j[1] * t201 + s_j[2] * t202;
+    jac_phi_q_v_A_j[2] = t205 * omega_j_in_joint_i_0 - s_j_dot_g_i * t203 - (t200 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t206) - (omega_i_in_joint_i_0 * t205 + omega_i_in_joint_i_1 * t206);
+    const jg_real t207 = C_j[6] * g_i_world_1;
+    const jg_real t208 = omega_j[0] * h_i_world_1;
     const jg_real t209 = C_j[6] * h_i_world_1;
-    const jg_real t210 = g_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[3] = t207 * omega_i_in_joint_i_2 - t209 * omega_i_in_joint_i_1 - (t207 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t208 - (t209 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t210));
-    const jg_real t211 = g_i_world_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_1;
-    const jg_real t212 = g_i_in_j_1 * h_i_world_1 - g_i_world_1 * h_i_in_j_1;
+    const jg_real t210 = omega_j[0] * g_i_world_1;
+    jac_phi_q_v_A_j[3] = omega_i_in_joint_i_2 * t207 - omega_i_in_joint_i_1 * t209 - (t207 * omega_j_in_joint_i_2 +
+        t208 * h_j_in_joint_i_1 - (t209 * omega_j_in_joint_i_1 + t210 * h_j_in_joint_i_2));
+    const jg_real t211 = g_i_world_1 * h_i_in_j_2 - h_i_world_1 * g_i_in_j_2;
+    const jg_real t212 = h_i_world_1 * g_i_in_j_1 - g_i_world_1 * h_i_in_j_1;
     const jg_real t213 = omega_j[1] * t211 + omega_j[2] * t212;
     const jg_real t214 = C_j[7] * t211 + C_j[8] * t212;
-    jac_phi_q_v_A_j[4] = omega_i_in_joint_i_2 * t214 + t209 * omega_i_in_joint_i_0 - (t209 * omega_j_in_joint_i_0 -
+    jac_phi_q_v_A_j[4] = omega_i_in_joint_i_0 * t209 + omega_i_in_joint_i_2 * t214 - (t209 * omega_j_in_joint_i_0 -
         h_j_in_joint_i_2 * t213 - (t208 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t214));
-    const jg_real t215 = g_i_world_1 * s_j[0];
-    const jg_real t216 = t211 * s_j[1] + t212 * s_j[2];
-    jac_phi_q_v_A_j[5] = omega_j_in_joint_i_0 * t215 - t213 * s_j_dot_g_i - (t210 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_1 * t216 + omega_i_in_joint_i_0 * t215);
-    const jg_real t217 = g_i_world_2 * C_j[6];
-    const jg_real t218 = h_i_world_2 * omega_j[0];
+    const jg_real t215 = s_j[0] * g_i_world_1;
+    const jg_real t216 = s_j[1] * t211 + s_j[2] * t212;
+    jac_phi_q_v_A_j[5] = t215 * omega_j_in_joint_i_0 - s_j_dot_g_i * t213 - (t210 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_0 * t215 + omega_i_in_joint_i_1 * t216);
+    const jg_real t217 = C_j[6] * g_i_world_2;
+    const jg_real t218 = omega_j[0] * h_i_world_2;
     const jg_real t219 = C_j[6] * h_i_world_2;
-    const jg_real t220 = g_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[6] = t217 * omega_i_in_joint_i_2 - t219 * omega_i_in_joint_i_1 - (t217 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t218 - (t219 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t220));
-    const jg_real t221 = g_i_world_2 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_2;
-    const jg_real t222 = g_i_in_j_1 * h_i_world_2 - g_i_world_2 * h_i_in_j_1;
+    const jg_real t220 = omega_j[0] * g_i_world_2;
+    jac_phi_q_v_A_j[6] = omega_i_in_joint_i_2 * t217 - omega_i_in_joint_i_1 * t219 - (t217 * omega_j_in_joint_i_2 +
+        t218 * h_j_in_joint_i_1 - (t219 * omega_j_in_joint_i_1 + t220 * h_j_in_joint_i_2));
+    const jg_real t221 = g_i_world_2 * h_i_in_j_2 - h_i_world_2 * g_i_in_j_2;
+    const jg_real t222 = h_i_world_2 * g_i_in_j_1 - g_i_world_2 * h_i_in_j_1;
     const jg_real t223 = omega_j[1] * t221 + omega_j[2] * t222;
     const jg_real t224 = C_j[7] * t221 + C_j[8] * t222;
-    jac_phi_q_v_A_j[7] = omega_i_in_joint_i_2 * t224 + t219 * omega_i_in_joint_i_0 - (t219 * omega_j_in_joint_i_0 -
+    jac_phi_q_v_A_j[7] = omega_i_in_joint_i_0 * t219 + omega_i_in_joint_i_2 * t224 - (t219 * omega_j_in_joint_i_0 -
         h_j_in_joint_i_2 * t223 - (t218 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t224));
-    const jg_real t225 = g_i_world_2 * s_j[0];
-    const jg_real t226 = t221 * s_j[1] + t222 * s_j[2];
-    jac_phi_q_v_A_j[8] = omega_j_in_joint_i_0 * t225 - t223 * s_j_dot_g_i - (t220 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_1 * t226 + omega_i_in_joint_i_0 * t225);
-    const jg_real t227 = g_i_world_0 * C_j[7];
-    const jg_real t228 = h_i_world_0 * omega_j[1];
+    const jg_real t225 = s_j[0] * g_i_world_2;
+    const jg_real t226 = s_j[1] * t221 + s_j[2] * t222;
+    jac_phi_q_v_A_j[8] = t225 * omega_j_in_joint_i_0 - s_j_dot_g_i * t223 - (t220 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_0 * t225 + omega_i_in_joint_i_1 * t226);
+    const jg_real t227 = C_j[7] * g_i_world_0;
+    const jg_real t228 = omega_j[1] * h_i_world_0;
     const jg_real t229 = C_j[7] * h_i_world_0;
-    const jg_real t230 = g_i_world_0 * omega_j[1];
-    jac_phi_q_v_A_j[9] = t227 * omega_i_in_joint_i_2 - t229 * omega_i_in_joint_i_1 - (t227 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t228 - (t229 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t230));
-    const jg_real t231 = g_i_world_0 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_0;
+    const jg_real t230 = omega_j[1] * g_i_world_0;
+    jac_phi_q_v_A_j[9] = omega_i_in_joint_i_2 * t227 - omega_i_in_joint_i_1 * t229 - (t227 * omega_j_in_joint_i_2 +
+        t228 * h_j_in_joint_i_1 - (t229 * omega_j_in_joint_i_1 + t230 * h_j_in_joint_i_2));
+    const jg_real t231 = g_i_world_0 * h_i_in_j_0 - h_i_world_0 * g_i_in_j_0;
     const jg_real t232 = omega_j[0] * t201 - omega_j[2] * t231;
     const jg_real t233 = C_j[6] * t201 - C_j[8] * t231;
-    jac_phi_q_v_A_j[10] = t229 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t233 - (t229 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[10] = omega_i_in_joint_i_0 * t229 - omega_i_in_joint_i_2 * t233 - (t229 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t232 - (omega_j_in_joint_i_2 * t233 + t228 * h_j_in_joint_i_0));
     const jg_real t234 = g_i_world_0 * s_j[1];
-    const jg_real t235 = t201 * s_j[0] - t231 * s_j[2];
-    jac_phi_q_v_A_j[11] = t232 * s_j_dot_g_i + omega_j_in_joint_i_0 * t234 - (t230 * s_j_dot_f_i +
+    const jg_real t235 = s_j[0] * t201 - s_j[2] * t231;
+    jac_phi_q_v_A_j[11] = s_j_dot_g_i * t232 + t234 * omega_j_in_joint_i_0 - (t230 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t235) - (omega_i_in_joint_i_0 * t234 - omega_i_in_joint_i_1 * t235);
-    const jg_real t236 = g_i_world_1 * C_j[7];
-    const jg_real t237 = h_i_world_1 * omega_j[1];
+    const jg_real t236 = C_j[7] * g_i_world_1;
+    const jg_real t237 = omega_j[1] * h_i_world_1;
     const jg_real t238 = C_j[7] * h_i_world_1;
-    const jg_real t239 = g_i_world_1 * omega_j[1];
-    jac_phi_q_v_A_j[12] = t236 * omega_i_in_joint_i_2 - t238 * omega_i_in_joint_i_1 - (t236 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t237 - (t238 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t239));
-    const jg_real t240 = g_i_world_1 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_1;
+    const jg_real t239 = omega_j[1] * g_i_world_1;
+    jac_phi_q_v_A_j[12] = omega_i_in_joint_i_2 * t236 - omega_i_in_joint_i_1 * t238 - (t236 * omega_j_in_joint_i_2 +
+        t237 * h_j_in_joint_i_1 - (t238 * omega_j_in_joint_i_1 + t239 * h_j_in_joint_i_2));
+    const jg_real t240 = g_i_world_1 * h_i_in_j_0 - h_i_world_1 * g_i_in_j_0;
     const jg_real t241 = omega_j[0] * t211 - omega_j[2] * t240;
     const jg_real t242 = C_j[6] * t211 - C_j[8] * t240;
-    jac_phi_q_v_A_j[13] = t238 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t242 - (t238 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[13] = omega_i_in_joint_i_0 * t238 - omega_i_in_joint_i_2 * t242 - (t238 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t241 - (omega_j_in_joint_i_2 * t242 + t237 * h_j_in_joint_i_0));
-    const jg_real t243 = g_i_world_1 * s_j[1];
-    const jg_real t244 = t211 * s_j[0] - t240 * s_j[2];
-    jac_phi_q_v_A_j[14] = t241 * s_j_dot_g_i + omega_j_in_joint_i_0 * t243 - (t239 * s_j_dot_f_i +
+    const jg_real t243 = s_j[1] * g_i_world_1;
+    const jg_real t244 = s_j[0] * t211 - s_j[2] * t240;
+    jac_phi_q_v_A_j[14] = s_j_dot_g_i * t241 + t243 * omega_j_in_joint_i_0 - (t239 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t244) - (omega_i_in_joint_i_0 * t243 - omega_i_in_joint_i_1 * t244);
-    const jg_real t245 = g_i_world_2 * C_j[7];
-    const jg_real t246 = h_i_world_2 * omega_j[1];
+    const jg_real t245 = C_j[7] * g_i_world_2;
+    const jg_real t246 = omega_j[1] * h_i_world_2;
     const jg_real t247 = C_j[7] * h_i_world_2;
-    const jg_real t248 = g_i_world_2 * omega_j[1];
-    jac_phi_q_v_A_j[15] = t245 * omega_i_in_joint_i_2 - t247 * omega_i_in_joint_i_1 - (t245 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t246 - (t247 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t248));
-    const jg_real t249 = g_i_world_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_2;
+    const jg_real t248 = omega_j[1] * g_i_world_2;
+    jac_phi_q_v_A_j[15] = omega_i_in_joint_i_2 * t245 - omega_i_in_joint_i_1 * t247 - (t245 * omega_j_in_joint_i_2 +
+        t246 * h_j_in_joint_i_1 - (t247 * omega_j_in_joint_i_1 + t248 * h_j_in_joint_i_2));
+    const jg_real t249 = g_i_world_2 * h_i_in_j_0 - h_i_world_2 * g_i_in_j_0;
     const jg_real t250 = omega_j[0] * t221 - omega_j[2] * t249;
     const jg_real t251 = C_j[6] * t221 - C_j[8] * t249;
-    jac_phi_q_v_A_j[16] = t247 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t251 - (t247 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[16] = omega_i_in_joint_i_0 * t247 - omega_i_in_joint_i_2 * t251 - (t247 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t250 - (omega_j_in_joint_i_2 * t251 + t246 * h_j_in_joint_i_0));
-    const jg_real t252 = g_i_world_2 * s_j[1];
-    const jg_real t253 = t221 * s_j[0] - t249 * s_j[2];
-    jac_phi_q_v_A_j[17] = t250 * s_j_dot_g_i + omega_j_in_joint_i_0 * t252 - (t248 * s_j_dot_f_i +
+    const jg_real t252 = s_j[1] * g_i_world_2;
+    const jg_real t253 = s_j[0] * t221 - s_j[2] * t249;
+    jac_phi_q_v_A_j[17] = s_j_dot_g_i * t250 + t252 * omega_j_in_joint_i_0 - (t248 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t253) - (omega_i_in_joint_i_0 * t252 - omega_i_in_joint_i_1 * t253);
-    const jg_real t254 = g_i_world_0 * C_j[8];
-    const jg_real t255 = h_i_world_0 * omega_j[2];
+    const jg_real t254 = C_j[8] * g_i_world_0;
+    const jg_real t255 = omega_j[2] * h_i_world_0;
     const jg_real t256 = C_j[8] * h_i_world_0;
-    const jg_real t257 = g_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[18] = t254 * omega_i_in_joint_i_2 - t256 * omega_i_in_joint_i_1 - (t254 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t255 - (t256 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t257));
+    const jg_real t257 = omega_j[2] * g_i_world_0;
+    jac_phi_q_v_A_j[18] = omega_i_in_joint_i_2 * t254 - omega_i_in_joint_i_1 * t256 - (t254 * omega_j_in_joint_i_2 +
+        t255 * h_j_in_joint_i_1 - (t256 * omega_j_in_joint_i_1 + t257 * h_j_in_joint_i_2));
     const jg_real t258 = omega_j[0] * t202 + omega_j[1] * t231;
     const jg_real t259 = C_j[6] * t202 + C_j[7] * t231;
-    jac_phi_q_v_A_j[19] = t256 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t259 - (t256 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[19] = omega_i_in_joint_i_0 * t256 - omega_i_in_joint_i_2 * t259 - (t256 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t258 - (omega_j_in_joint_i_2 * t259 + t255 * h_j_in_joint_i_0));
     const jg_real t260 = g_i_world_0 * s_j[2];
-    const jg_real t261 = t202 * s_j[0] + t231 * s_j[1];
-    jac_phi_q_v_A_j[20] = t258 * s_j_dot_g_i + omega_j_in_joint_i_0 * t260 - (t257 * s_j_dot_f_i +
+    const jg_real t261 = s_j[0] * t202 + s_j[1] * t231;
+    jac_phi_q_v_A_j[20] = s_j_dot_g_i * t258 + t260 * omega_j_in_joint_i_0 - (t257 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t261) - (omega_i_in_joint_i_0 * t260 - omega_i_in_joint_i_1 * t261);
-    const jg_real t262 = g_i_world_1 * C_j[8];
-    const jg_real t263 = h_i_world_1 * omega_j[2];
+    const jg_real t262 = C_j[8] * g_i_world_1;
+    const jg_real t263 = omega_j[2] * h_i_world_1;
     const jg_real t264 = C_j[8] * h_i_world_1;
-    const jg_real t265 = g_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[21] = t262 * omega_i_in_joint_i_2 - t264 * omega_i_in_joint_i_1 - (t262 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t263 - (t264 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t265));
+    const jg_real t265 = omega_j[2] * g_i_world_1;
+    jac_phi_q_v_A_j[21] = omega_i_in_joint_i_2 * t262 - omega_i_in_joint_i_1 * t264 - (t262 * omega_j_in_joint_i_2 +
+        t263 * h_j_in_joint_i_1 - (t264 * omega_j_in_joint_i_1 + t265 * h_j_in_joint_i_2));
     const jg_real t266 = omega_j[0] * t212 + omega_j[1] * t240;
     const jg_real t267 = C_j[6] * t212 + C_j[7] * t240;
-    jac_phi_q_v_A_j[22] = t264 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t267 - (t264 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[22] = omega_i_in_joint_i_0 * t264 - omega_i_in_joint_i_2 * t267 - (t264 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t266 - (omega_j_in_joint_i_2 * t267 + t263 * h_j_in_joint_i_0));
-    const jg_real t268 = g_i_world_1 * s_j[2];
-    const jg_real t269 = t212 * s_j[0] + t240 * s_j[1];
-    jac_phi_q_v_A_j[23] = t266 * s_j_dot_g_i + omega_j_in_joint_i_0 * t268 - (t265 * s_j_dot_f_i +
+    const jg_real t268 = s_j[2] * g_i_world_1;
+    const jg_real t269 = s_j[0] * t212 + s_j[1] * t240;
+    jac_phi_q_v_A_j[23] = s_j_dot_g_i * t266 + t268 * omega_j_in_joint_i_0 - (t265 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t269) - (omega_i_in_joint_i_0 * t268 - omega_i_in_joint_i_1 * t269);
-    const jg_real t270 = g_i_world_2 * C_j[8];
-    const jg_real t271 = h_i_world_2 * omega_j[2];
+    const jg_real t270 = C_j[8] * g_i_world_2;
+    const jg_real t271 = omega_j[2] * h_i_world_2;
     const jg_real t272 = C_j[8] * h_i_world_2;
-    const jg_real t273 = g_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[24] = t270 * omega_i_in_joint_i_2 - t272 * omega_i_in_joint_i_1 - (t270 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t271 - (t272 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t273));
+    const jg_real t273 = omega_j[2] * g_i_world_2;
+    jac_phi_q_v_A_j[24] = omega_i_in_joint_i_2 * t270 - omega_i_in_joint_i_1 * t272 - (t270 * omega_j_in_joint_i_2 +
+        t271 * h_j_in_joint_i_1 - (t272 * omega_j_in_joint_i_1 + t273 * h_j_in_joint_i_2));
     const jg_real t274 = omega_j[0] * t222 + omega_j[1] * t249;
     const jg_real t275 = C_j[6] * t222 + C_j[7] * t249;
-    jac_phi_q_v_A_j[25] = t272 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t275 - (t272 * omega_j_in_joint_i_0 +
+    jac_phi_q_v_A_j[25] = omega_i_in_joint_i_0 * t272 - omega_i_in_joint_i_2 * t275 - (t272 * omega_j_in_joint_i_0 +
         h_j_in_joint_i_2 * t274 - (omega_j_in_joint_i_2 * t275 + t271 * h_j_in_joint_i_0));
-    const jg_real t276 = g_i_world_2 * s_j[2];
-    const jg_real t277 = t222 * s_j[0] + t249 * s_j[1];
-    jac_phi_q_v_A_j[26] = t274 * s_j_dot_g_i + omega_j_in_joint_i_0 * t276 - (t273 * s_j_dot_f_i +
+    const jg_real t276 = s_j[2] * g_i_world_2;
+    const jg_real t277 = s_j[0] * t222 + s_j[1] * t249;
+    jac_phi_q_v_A_j[26] = s_j_dot_g_i * t274 + t276 * omega_j_in_joint_i_0 - (t273 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t277) - (omega_i_in_joint_i_0 * t276 - omega_i_in_joint_i_1 * t277);
-    const jg_real t278 = h_j_in_joint_i_2 * omega_i[0];
+    const jg_real t278 = omega_i[0] * h_j_in_joint_i_2;
     jac_phi_q_v_geometry[0] = t278;
-    const jg_real t279 = g_i_world_0 * omega_i[0];
-    const jg_real t280 = g_i_world_1 * omega_i[0];
-    const jg_real t281 = g_i_world_2 * omega_i[0];
-    jac_phi_q_v_geometry[1] = t279 * r_i[0] + t280 * r_i[1] + t281 * r_i[2] - (t279 * r_j[0] + t280 * r_j[1] + t281
-        * r_j[2] + omega_i[0] * s_j_dot_g_i);
-    const jg_real t282 = h_j_in_joint_i_2 * omega_i[1];
+    const jg_real t279 = omega_i[0] * g_i_world_0;
+    const jg_real t280 = omega_i[0] * g_i_world_1;
+    const jg_real t281 = omega_i[0] * g_i_world_2;
+    jac_phi_q_v_geometry[1] = r_i[0] * t279 + r_i[1] * t280 + r_i[2] * t281 - (r_j[0] * t279 + r_j[1] * t280 +
+        r_j[2] * t281 + omega_i[0] * s_j_dot_g_i);
+    const jg_real t282 = omega_i[1] * h_j_in_joint_i_2;
     jac_phi_q_v_geometry[2] = t282;
-    const jg_real t283 = g_i_world_0 * omega_i[1];
-    const jg_real t284 = g_i_world_1 * omega_i[1];
-    const jg_real t285 = g_i_world_2 * omega_i[1];
-    jac_phi_q_v_geometry[3] = t283 * r_i[0] + t284 * r_i[1] + t285 * r_i[2] - (t283 * r_j[0] + t284 * r_j[1] + t285
-        * r_j[2] + omega_i[1] * s_j_dot_g_i);
-    const jg_real t286 = h_j_in_joint_i_2 * omega_i[2];
+    const jg_real t283 = omega_i[1] * g_i_world_0;
+    const jg_real t284 = omega_i[1] * g_i_world_1;
+    const jg_real t285 = omega_i[1] * g_i_world_2;
+    jac_phi_q_v_geometry[3] = r_i[0] * t283 + r_i[1] * t284 + r_i[2] * t285 - (r_j[0] * t283 + r_j[1] * t284 +
+        r_j[2] * t285 + omega_i[1] * s_j_dot_g_i);
+    const jg_real t286 = omega_i[2] * h_j_in_joint_i_2;
     jac_phi_q_v_geometry[4] = t286;
-    const jg_real t287 = g_i_world_0 * omega_i[2];
-    const jg_real t288 = g_i_world_1 * omega_i[2];
-    const jg_real t289 = g_i_world_2 * omega_i[2];
-    jac_phi_q_v_geometry[5] = t287 * r_i[0] + t288 * r_i[1] + t289 * r_i[2] - (t287 * r_j[0] + t288 * r_j[1] + t289
-        * r_j[2] + omega_i[2] * s_j_dot_g_i);
+    const jg_real t287 = omega_i[2] * g_i_world_0;
+    const jg_real t288 = omega_i[2] * g_i_world_1;
+    const jg_real t289 = omega_i[2] * g_i_world_2;
+    jac_phi_q_v_geometry[5] = r_i[0] * t287 + r_i[1] * t288 + r_i[2] * t289 - (r_j[0] * t287 + r_j[1] * t288 +
+        r_j[2] * t289 + omega_i[2] * s_j_dot_g_i);
     const jg_real t290 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real t291 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real t292 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t293 = t290 * C_j[6] + t291 * C_j[7] + t292 * C_j[8];
-    const jg_real t294 = t290 * omega_j[0] + t291 * omega_j[1] + t292 * omega_j[2];
-    jac_phi_q_v_geometry[6] = t293 * omega_i_in_joint_i_2 - t278 - (t293 * omega_j_in_joint_i_2 - t294 *
+    const jg_real t293 = C_j[6] * t290 + C_j[7] * t291 + C_j[8] * t292;
+    const jg_real t294 = omega_j[0] * t290 + omega_j[1] * t291 + omega_j[2] * t292;
+    jac_phi_q_v_geometry[6] = omega_i_in_joint_i_2 * t293 - t278 - (t293 * omega_j_in_joint_i_2 - t294 *
         h_j_in_joint_i_2);
     const jg_real t295 = t291 * h_i_in_j_2 - t292 * h_i_in_j_1;
     const jg_real t296 = t292 * h_i_in_j_0 - t290 * h_i_in_j_2;
@@ -656,24 +656,24 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t299 = C_j[6] * t295 + C_j[7] * t296 + C_j[8] * t297;
     jac_phi_q_v_geometry[7] = -(h_j_in_joint_i_2 * t298 - omega_j_in_joint_i_2 * t299 + omega_i_in_joint_i_2 *
         t299);
-    const jg_real t300 = t290 * s_j[0] + t291 * s_j[1] + t292 * s_j[2];
-    const jg_real t301 = t295 * s_j[0] + t296 * s_j[1] + t297 * s_j[2];
+    const jg_real t300 = s_j[0] * t290 + s_j[1] * t291 + s_j[2] * t292;
+    const jg_real t301 = s_j[0] * t295 + s_j[1] * t296 + s_j[2] * t297;
     const jg_real t302 = A_i[0] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[1]
         * h_i_world_2 - A_i[2] * h_i_world_1));
     const jg_real t303 = A_i[1] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[2]
         * h_i_world_0 - A_i[0] * h_i_world_2));
     const jg_real t304 = A_i[2] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[0]
         * h_i_world_1 - A_i[1] * h_i_world_0));
-    jac_phi_q_v_geometry[8] = t298 * s_j_dot_g_i + omega_j_in_joint_i_0 * t300 - (t294 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t301) - (omega_i_in_joint_i_0 * t300 - (omega_i[0] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t301) + (t302 * r_j[0] + t303 * r_j[1] + t304 * r_j[2]) - (t302 * r_i[0] + t303 *
-        r_i[1] + t304 * r_i[2]));
+    jac_phi_q_v_geometry[8] = s_j_dot_g_i * t298 + t300 * omega_j_in_joint_i_0 - (t294 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t301) - (r_j[0] * t302 + r_j[1] * t303 + r_j[2] * t304 + (omega_i_in_joint_i_0 * t300
+        - (omega_i[0] * s_j_dot_f_i + omega_i_in_joint_i_1 * t301)) - (r_i[0] * t302 + r_i[1] * t303 + r_i[2] *
+        t304));
     const jg_real t305 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real t306 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real t307 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t308 = t305 * C_j[6] + t306 * C_j[7] + t307 * C_j[8];
-    const jg_real t309 = t305 * omega_j[0] + t306 * omega_j[1] + t307 * omega_j[2];
-    jac_phi_q_v_geometry[9] = t308 * omega_i_in_joint_i_2 - t282 - (t308 * omega_j_in_joint_i_2 - t309 *
+    const jg_real t308 = C_j[6] * t305 + C_j[7] * t306 + C_j[8] * t307;
+    const jg_real t309 = omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307;
+    jac_phi_q_v_geometry[9] = omega_i_in_joint_i_2 * t308 - t282 - (t308 * omega_j_in_joint_i_2 - t309 *
         h_j_in_joint_i_2);
     const jg_real t310 = t306 * h_i_in_j_2 - t307 * h_i_in_j_1;
     const jg_real t311 = t307 * h_i_in_j_0 - t305 * h_i_in_j_2;
@@ -682,24 +682,24 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t314 = C_j[6] * t310 + C_j[7] * t311 + C_j[8] * t312;
     jac_phi_q_v_geometry[10] = -(h_j_in_joint_i_2 * t313 - omega_j_in_joint_i_2 * t314 + omega_i_in_joint_i_2 *
         t314);
-    const jg_real t315 = t305 * s_j[0] + t306 * s_j[1] + t307 * s_j[2];
-    const jg_real t316 = t310 * s_j[0] + t311 * s_j[1] + t312 * s_j[2];
+    const jg_real t315 = s_j[0] * t305 + s_j[1] * t306 + s_j[2] * t307;
+    const jg_real t316 = s_j[0] * t310 + s_j[1] * t311 + s_j[2] * t312;
     const jg_real t317 = A_i[3] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[4]
         * h_i_world_2 - A_i[5] * h_i_world_1));
     const jg_real t318 = A_i[4] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[5]
         * h_i_world_0 - A_i[3] * h_i_world_2));
     const jg_real t319 = A_i[5] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[3]
         * h_i_world_1 - A_i[4] * h_i_world_0));
-    jac_phi_q_v_geometry[11] = t313 * s_j_dot_g_i + omega_j_in_joint_i_0 * t315 - (t309 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t316) - (omega_i_in_joint_i_0 * t315 - (omega_i[1] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t316) + (t317 * r_j[0] + t318 * r_j[1] + t319 * r_j[2]) - (t317 * r_i[0] + t318 *
-        r_i[1] + t319 * r_i[2]));
+    jac_phi_q_v_geometry[11] = s_j_dot_g_i * t313 + t315 * omega_j_in_joint_i_0 - (t309 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t316) - (r_j[0] * t317 + r_j[1] * t318 + r_j[2] * t319 + (omega_i_in_joint_i_0 * t315
+        - (omega_i[1] * s_j_dot_f_i + omega_i_in_joint_i_1 * t316)) - (r_i[0] * t317 + r_i[1] * t318 + r_i[2] *
+        t319));
     const jg_real t320 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t321 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real t322 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t323 = t320 * C_j[6] + t321 * C_j[7] + t322 * C_j[8];
-    const jg_real t324 = t320 * omega_j[0] + t321 * omega_j[1] + t322 * omega_j[2];
-    jac_phi_q_v_geometry[12] = t323 * omega_i_in_joint_i_2 - t286 - (t323 * omega_j_in_joint_i_2 - t324 *
+    const jg_real t323 = C_j[6] * t320 + C_j[7] * t321 + C_j[8] * t322;
+    const jg_real t324 = omega_j[0] * t320 + omega_j[1] * t321 + omega_j[2] * t322;
+    jac_phi_q_v_geometry[12] = omega_i_in_joint_i_2 * t323 - t286 - (t323 * omega_j_in_joint_i_2 - t324 *
         h_j_in_joint_i_2);
     const jg_real t325 = t321 * h_i_in_j_2 - t322 * h_i_in_j_1;
     const jg_real t326 = t322 * h_i_in_j_0 - t320 * h_i_in_j_2;
@@ -708,119 +708,119 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t329 = C_j[6] * t325 + C_j[7] * t326 + C_j[8] * t327;
     jac_phi_q_v_geometry[13] = -(h_j_in_joint_i_2 * t328 - omega_j_in_joint_i_2 * t329 + omega_i_in_joint_i_2 *
         t329);
-    const jg_real t330 = t320 * s_j[0] + t321 * s_j[1] + t322 * s_j[2];
-    const jg_real t331 = t325 * s_j[0] + t326 * s_j[1] + t327 * s_j[2];
+    const jg_real t330 = s_j[0] * t320 + s_j[1] * t321 + s_j[2] * t322;
+    const jg_real t331 = s_j[0] * t325 + s_j[1] * t326 + s_j[2] * t327;
     const jg_real t332 = A_i[6] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[7]
         * h_i_world_2 - A_i[8] * h_i_world_1));
     const jg_real t333 = A_i[7] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[8]
         * h_i_world_0 - A_i[6] * h_i_world_2));
     const jg_real t334 = A_i[8] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[6]
         * h_i_world_1 - A_i[7] * h_i_world_0));
-    jac_phi_q_v_geometry[14] = t328 * s_j_dot_g_i + omega_j_in_joint_i_0 * t330 - (t324 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t331) - (omega_i_in_joint_i_0 * t330 - (omega_i[2] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t331) + (t332 * r_j[0] + t333 * r_j[1] + t334 * r_j[2]) - (t332 * r_i[0] + t333 *
-        r_i[1] + t334 * r_i[2]));
-    jac_phi_q_v_geometry[15] = h_j_in_joint_i_1 * omega_i[0] - t293 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
+    jac_phi_q_v_geometry[14] = s_j_dot_g_i * t328 + t330 * omega_j_in_joint_i_0 - (t324 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t331) - (r_j[0] * t332 + r_j[1] * t333 + r_j[2] * t334 + (omega_i_in_joint_i_0 * t330
+        - (omega_i[2] * s_j_dot_f_i + omega_i_in_joint_i_1 * t331)) - (r_i[0] * t332 + r_i[1] * t333 + r_i[2] *
+        t334));
+    jac_phi_q_v_geometry[15] = omega_i[0] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t293 - (h_j_in_joint_i_1 *
         t294 - t293 * omega_j_in_joint_i_1);
     const jg_real t335 = g_i_in_j_1 * t292 - t291 * g_i_in_j_2;
     const jg_real t336 = t290 * g_i_in_j_2 - g_i_in_j_0 * t292;
     const jg_real t337 = g_i_in_j_0 * t291 - t290 * g_i_in_j_1;
     const jg_real t338 = omega_j[0] * t335 + omega_j[1] * t336 + omega_j[2] * t337;
     const jg_real t339 = C_j[6] * t335 + C_j[7] * t336 + C_j[8] * t337;
-    jac_phi_q_v_geometry[16] = t293 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t339 + omega_i[0] *
+    jac_phi_q_v_geometry[16] = omega_i_in_joint_i_0 * t293 - (omega_i_in_joint_i_2 * t339 + omega_i[0] *
         h_j_in_joint_i_0) - (t293 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t338 - (omega_j_in_joint_i_2 * t339 +
         t294 * h_j_in_joint_i_0));
-    const jg_real t340 = t335 * s_j[0] + t336 * s_j[1] + t337 * s_j[2];
-    const jg_real t341 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[2] - A_i[1] * g_i_world_2);
-    const jg_real t342 = omega_i_in_joint_i_1 * (A_i[0] * g_i_world_2 - g_i_world_0 * A_i[2]);
-    const jg_real t343 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[1] - A_i[0] * g_i_world_1);
-    jac_phi_q_v_geometry[17] = t338 * s_j_dot_g_i - omega_j_in_joint_i_1 * t340 - (t341 * r_i[0] + t342 * r_i[1] +
-        t343 * r_i[2] - (t341 * r_j[0] + t342 * r_j[1] + t343 * r_j[2] + omega_i_in_joint_i_1 * t340) + (A_i[0] *
-        v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2]) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
-    jac_phi_q_v_geometry[18] = h_j_in_joint_i_1 * omega_i[1] - t308 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
+    const jg_real t340 = s_j[0] * t335 + s_j[1] * t336 + s_j[2] * t337;
+    const jg_real t341 = omega_i_in_joint_i_1 * (A_i[2] * g_i_world_1 - A_i[1] * g_i_world_2);
+    const jg_real t342 = omega_i_in_joint_i_1 * (A_i[0] * g_i_world_2 - A_i[2] * g_i_world_0);
+    const jg_real t343 = omega_i_in_joint_i_1 * (A_i[1] * g_i_world_0 - A_i[0] * g_i_world_1);
+    jac_phi_q_v_geometry[17] = s_j_dot_g_i * t338 - omega_j_in_joint_i_1 * t340 - (A_i[0] * v_i[0] + A_i[1] * v_i[1]
+        + A_i[2] * v_i[2] + (r_i[0] * t341 + r_i[1] * t342 + r_i[2] * t343 - (r_j[0] * t341 + r_j[1] * t342 + r_j[2]
+        * t343 + omega_i_in_joint_i_1 * t340)) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
+    jac_phi_q_v_geometry[18] = omega_i[1] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t308 - (h_j_in_joint_i_1 *
         t309 - t308 * omega_j_in_joint_i_1);
     const jg_real t344 = g_i_in_j_1 * t307 - t306 * g_i_in_j_2;
     const jg_real t345 = t305 * g_i_in_j_2 - g_i_in_j_0 * t307;
     const jg_real t346 = g_i_in_j_0 * t306 - t305 * g_i_in_j_1;
     const jg_real t347 = omega_j[0] * t344 + omega_j[1] * t345 + omega_j[2] * t346;
     const jg_real t348 = C_j[6] * t344 + C_j[7] * t345 + C_j[8] * t346;
-    jac_phi_q_v_geometry[19] = t308 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t348 + omega_i[1] *
+    jac_phi_q_v_geometry[19] = omega_i_in_joint_i_0 * t308 - (omega_i_in_joint_i_2 * t348 + omega_i[1] *
         h_j_in_joint_i_0) - (t308 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t347 - (omega_j_in_joint_i_2 * t348 +
         t309 * h_j_in_joint_i_0));
-    const jg_real t349 = t344 * s_j[0] + t345 * s_j[1] + t346 * s_j[2];
-    const jg_real t350 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[5] - A_i[4] * g_i_world_2);
-    const jg_real t351 = omega_i_in_joint_i_1 * (A_i[3] * g_i_world_2 - g_i_world_0 * A_i[5]);
-    const jg_real t352 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[4] - A_i[3] * g_i_world_1);
-    jac_phi_q_v_geometry[20] = t347 * s_j_dot_g_i - omega_j_in_joint_i_1 * t349 - (t350 * r_i[0] + t351 * r_i[1] +
-        t352 * r_i[2] - (t350 * r_j[0] + t351 * r_j[1] + t352 * r_j[2] + omega_i_in_joint_i_1 * t349) + (A_i[3] *
-        v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2]) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
-    jac_phi_q_v_geometry[21] = h_j_in_joint_i_1 * omega_i[2] - t323 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
+    const jg_real t349 = s_j[0] * t344 + s_j[1] * t345 + s_j[2] * t346;
+    const jg_real t350 = omega_i_in_joint_i_1 * (A_i[5] * g_i_world_1 - A_i[4] * g_i_world_2);
+    const jg_real t351 = omega_i_in_joint_i_1 * (A_i[3] * g_i_world_2 - A_i[5] * g_i_world_0);
+    const jg_real t352 = omega_i_in_joint_i_1 * (A_i[4] * g_i_world_0 - A_i[3] * g_i_world_1);
+    jac_phi_q_v_geometry[20] = s_j_dot_g_i * t347 - omega_j_in_joint_i_1 * t349 - (A_i[3] * v_i[0] + A_i[4] * v_i[1]
+        + A_i[5] * v_i[2] + (r_i[0] * t350 + r_i[1] * t351 + r_i[2] * t352 - (r_j[0] * t350 + r_j[1] * t351 + r_j[2]
+        * t352 + omega_i_in_joint_i_1 * t349)) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
+    jac_phi_q_v_geometry[21] = omega_i[2] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t323 - (h_j_in_joint_i_1 *
         t324 - t323 * omega_j_in_joint_i_1);
     const jg_real t353 = g_i_in_j_1 * t322 - t321 * g_i_in_j_2;
     const jg_real t354 = t320 * g_i_in_j_2 - g_i_in_j_0 * t322;
     const jg_real t355 = g_i_in_j_0 * t321 - t320 * g_i_in_j_1;
     const jg_real t356 = omega_j[0] * t353 + omega_j[1] * t354 + omega_j[2] * t355;
     const jg_real t357 = C_j[6] * t353 + C_j[7] * t354 + C_j[8] * t355;
-    jac_phi_q_v_geometry[22] = t323 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t357 + omega_i[2] *
+    jac_phi_q_v_geometry[22] = omega_i_in_joint_i_0 * t323 - (omega_i_in_joint_i_2 * t357 + omega_i[2] *
         h_j_in_joint_i_0) - (t323 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t356 - (omega_j_in_joint_i_2 * t357 +
         t324 * h_j_in_joint_i_0));
-    const jg_real t358 = t353 * s_j[0] + t354 * s_j[1] + t355 * s_j[2];
-    const jg_real t359 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[8] - A_i[7] * g_i_world_2);
-    const jg_real t360 = omega_i_in_joint_i_1 * (A_i[6] * g_i_world_2 - g_i_world_0 * A_i[8]);
-    const jg_real t361 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[7] - A_i[6] * g_i_world_1);
-    jac_phi_q_v_geometry[23] = t356 * s_j_dot_g_i - omega_j_in_joint_i_1 * t358 - (t359 * r_i[0] + t360 * r_i[1] +
-        t361 * r_i[2] - (t359 * r_j[0] + t360 * r_j[1] + t361 * r_j[2] + omega_i_in_joint_i_1 * t358) + (A_i[6] *
-        v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2]) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
-    jac_phi_q_v_geometry[24] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 - (g_i_in_j_0 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_0);
-    jac_phi_q_v_geometry[25] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 - (g_i_in_j_1 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_1);
-    jac_phi_q_v_geometry[26] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 - (g_i_in_j_2 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_2);
-    jac_phi_q_v_geometry[27] = g_i_in_j_0 * omega_i_in_joint_i_2 - h_i_in_j_0 * omega_i_in_joint_i_1 - (g_i_in_j_0 *
+    const jg_real t358 = s_j[0] * t353 + s_j[1] * t354 + s_j[2] * t355;
+    const jg_real t359 = omega_i_in_joint_i_1 * (A_i[8] * g_i_world_1 - A_i[7] * g_i_world_2);
+    const jg_real t360 = omega_i_in_joint_i_1 * (A_i[6] * g_i_world_2 - A_i[8] * g_i_world_0);
+    const jg_real t361 = omega_i_in_joint_i_1 * (A_i[7] * g_i_world_0 - A_i[6] * g_i_world_1);
+    jac_phi_q_v_geometry[23] = s_j_dot_g_i * t356 - omega_j_in_joint_i_1 * t358 - (A_i[6] * v_i[0] + A_i[7] * v_i[1]
+        + A_i[8] * v_i[2] + (r_i[0] * t359 + r_i[1] * t360 + r_i[2] * t361 - (r_j[0] * t359 + r_j[1] * t360 + r_j[2]
+        * t361 + omega_i_in_joint_i_1 * t358)) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
+    jac_phi_q_v_geometry[24] = g_i_in_j_0 * omega_j_in_joint_i_0 - f_i_in_j_0 * omega_j_in_joint_i_1 -
+        (omega_i_in_joint_i_0 * g_i_in_j_0 - omega_i_in_joint_i_1 * f_i_in_j_0);
+    jac_phi_q_v_geometry[25] = g_i_in_j_1 * omega_j_in_joint_i_0 - f_i_in_j_1 * omega_j_in_joint_i_1 -
+        (omega_i_in_joint_i_0 * g_i_in_j_1 - omega_i_in_joint_i_1 * f_i_in_j_1);
+    jac_phi_q_v_geometry[26] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 -
+        (omega_i_in_joint_i_0 * g_i_in_j_2 - omega_i_in_joint_i_1 * f_i_in_j_2);
+    jac_phi_q_v_geometry[27] = omega_i_in_joint_i_2 * g_i_in_j_0 - omega_i_in_joint_i_1 * h_i_in_j_0 - (g_i_in_j_0 *
         omega_j_in_joint_i_2 - h_i_in_j_0 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[28] = h_i_in_j_0 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_0 - (h_i_in_j_0 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_0);
-    jac_phi_q_v_geometry[29] = g_i_in_j_1 * omega_i_in_joint_i_2 - h_i_in_j_1 * omega_i_in_joint_i_1 - (g_i_in_j_1 *
+    jac_phi_q_v_geometry[28] = omega_i_in_joint_i_0 * h_i_in_j_0 - omega_i_in_joint_i_2 * f_i_in_j_0 - (h_i_in_j_0 *
+        omega_j_in_joint_i_0 - f_i_in_j_0 * omega_j_in_joint_i_2);
+    jac_phi_q_v_geometry[29] = omega_i_in_joint_i_2 * g_i_in_j_1 - omega_i_in_joint_i_1 * h_i_in_j_1 - (g_i_in_j_1 *
         omega_j_in_joint_i_2 - h_i_in_j_1 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[30] = h_i_in_j_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_1 - (h_i_in_j_1 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_1);
-    jac_phi_q_v_geometry[31] = g_i_in_j_2 * omega_i_in_joint_i_2 - h_i_in_j_2 * omega_i_in_joint_i_1 - (g_i_in_j_2 *
+    jac_phi_q_v_geometry[30] = omega_i_in_joint_i_0 * h_i_in_j_1 - omega_i_in_joint_i_2 * f_i_in_j_1 - (h_i_in_j_1 *
+        omega_j_in_joint_i_0 - f_i_in_j_1 * omega_j_in_joint_i_2);
+    jac_phi_q_v_geometry[31] = omega_i_in_joint_i_2 * g_i_in_j_2 - omega_i_in_joint_i_1 * h_i_in_j_2 - (g_i_in_j_2 *
         omega_j_in_joint_i_2 - h_i_in_j_2 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[32] = h_i_in_j_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_2 - (h_i_in_j_2 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_2);
+    jac_phi_q_v_geometry[32] = omega_i_in_joint_i_0 * h_i_in_j_2 - omega_i_in_joint_i_2 * f_i_in_j_2 - (h_i_in_j_2 *
+        omega_j_in_joint_i_0 - f_i_in_j_2 * omega_j_in_joint_i_2);
     jac_phi_q_v_velocity[0] = -h_i_world_0;
     jac_phi_q_v_velocity[1] = -h_i_world_1;
     jac_phi_q_v_velocity[2] = -h_i_world_2;
-    jac_phi_q_v_velocity[3] = h_j_in_joint_i_1 * C_i[6] - C_i[3] * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[4] = h_j_in_joint_i_2 * C_i[0] - C_i[6] * h_j_in_joint_i_0;
-    const jg_real t362 = g_i_world_0 * C_i[0] - C_i[3] * f_i_world_0;
-    const jg_real t363 = g_i_world_1 * C_i[0] - C_i[3] * f_i_world_1;
-    const jg_real t364 = g_i_world_2 * C_i[0] - C_i[3] * f_i_world_2;
-    jac_phi_q_v_velocity[5] = t362 * r_i[0] + t363 * r_i[1] + t364 * r_i[2] - (C_i[0] * s_j_dot_g_i - C_i[3] *
-        s_j_dot_f_i + (t362 * r_j[0] + t363 * r_j[1] + t364 * r_j[2]));
-    jac_phi_q_v_velocity[6] = h_j_in_joint_i_1 * C_i[7] - C_i[4] * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[7] = h_j_in_joint_i_2 * C_i[1] - C_i[7] * h_j_in_joint_i_0;
-    const jg_real t365 = g_i_world_0 * C_i[1] - C_i[4] * f_i_world_0;
-    const jg_real t366 = g_i_world_1 * C_i[1] - C_i[4] * f_i_world_1;
-    const jg_real t367 = g_i_world_2 * C_i[1] - C_i[4] * f_i_world_2;
-    jac_phi_q_v_velocity[8] = t365 * r_i[0] + t366 * r_i[1] + t367 * r_i[2] - (C_i[1] * s_j_dot_g_i - C_i[4] *
-        s_j_dot_f_i + (t365 * r_j[0] + t366 * r_j[1] + t367 * r_j[2]));
-    jac_phi_q_v_velocity[9] = h_j_in_joint_i_1 * C_i[8] - C_i[5] * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[10] = h_j_in_joint_i_2 * C_i[2] - C_i[8] * h_j_in_joint_i_0;
-    const jg_real t368 = g_i_world_0 * C_i[2] - C_i[5] * f_i_world_0;
-    const jg_real t369 = g_i_world_1 * C_i[2] - C_i[5] * f_i_world_1;
-    const jg_real t370 = g_i_world_2 * C_i[2] - C_i[5] * f_i_world_2;
-    jac_phi_q_v_velocity[11] = t368 * r_i[0] + t369 * r_i[1] + t370 * r_i[2] - (C_i[2] * s_j_dot_g_i - C_i[5] *
-        s_j_dot_f_i + (t368 * r_j[0] + t369 * r_j[1] + t370 * r_j[2]));
-    jac_phi_q_v_velocity[15] = g_i_in_j_0 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_0;
-    jac_phi_q_v_velocity[16] = h_i_in_j_0 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_0;
+    jac_phi_q_v_velocity[3] = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[4] = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
+    const jg_real t362 = C_i[0] * g_i_world_0 - C_i[3] * f_i_world_0;
+    const jg_real t363 = C_i[0] * g_i_world_1 - C_i[3] * f_i_world_1;
+    const jg_real t364 = C_i[0] * g_i_world_2 - C_i[3] * f_i_world_2;
+    jac_phi_q_v_velocity[5] = r_i[0] * t362 + r_i[1] * t363 + r_i[2] * t364 - (r_j[0] * t362 + r_j[1] * t363 +
+        r_j[2] * t364 + (C_i[0] * s_j_dot_g_i - C_i[3] * s_j_dot_f_i));
+    jac_phi_q_v_velocity[6] = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[7] = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
+    const jg_real t365 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
+    const jg_real t366 = C_i[1] * g_i_world_1 - C_i[4] * f_i_world_1;
+    const jg_real t367 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
+    jac_phi_q_v_velocity[8] = r_i[0] * t365 + r_i[1] * t366 + r_i[2] * t367 - (r_j[0] * t365 + r_j[1] * t366 +
+        r_j[2] * t367 + (C_i[1] * s_j_dot_g_i - C_i[4] * s_j_dot_f_i));
+    jac_phi_q_v_velocity[9] = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[10] = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
+    const jg_real t368 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
+    const jg_real t369 = C_i[2] * g_i_world_1 - C_i[5] * f_i_world_1;
+    const jg_real t370 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
+    jac_phi_q_v_velocity[11] = r_i[0] * t368 + r_i[1] * t369 + r_i[2] * t370 - (r_j[0] * t368 + r_j[1] * t369 +
+        r_j[2] * t370 + (C_i[2] * s_j_dot_g_i - C_i[5] * s_j_dot_f_i));
+    jac_phi_q_v_velocity[15] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[16] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[17] = f_i_in_j_0 * s_j_dot_g_i - g_i_in_j_0 * s_j_dot_f_i;
-    jac_phi_q_v_velocity[18] = g_i_in_j_1 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_1;
-    jac_phi_q_v_velocity[19] = h_i_in_j_1 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_1;
+    jac_phi_q_v_velocity[18] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[19] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[20] = f_i_in_j_1 * s_j_dot_g_i - g_i_in_j_1 * s_j_dot_f_i;
-    jac_phi_q_v_velocity[21] = g_i_in_j_2 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_2;
-    jac_phi_q_v_velocity[22] = h_i_in_j_2 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_2;
+    jac_phi_q_v_velocity[21] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[22] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[23] = f_i_in_j_2 * s_j_dot_g_i - g_i_in_j_2 * s_j_dot_f_i;
 }
 
@@ -842,34 +842,34 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
     jac_phi_q_t_lambda_lambda[19] = h_i_world_1;
     const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
-    const jg_real t4 = A_i[1] * v_0_world_2 - v_0_world_1 * A_i[2];
+    const jg_real t4 = A_i[1] * v_0_world_2 - A_i[2] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[0] = t4;
     jac_phi_q_t_lambda_r_i[0] = -t4;
-    const jg_real t5 = A_i[4] * v_0_world_2 - v_0_world_1 * A_i[5];
+    const jg_real t5 = A_i[4] * v_0_world_2 - A_i[5] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[1] = t5;
     jac_phi_q_t_lambda_r_i[1] = -t5;
-    const jg_real t6 = A_i[7] * v_0_world_2 - v_0_world_1 * A_i[8];
+    const jg_real t6 = A_i[7] * v_0_world_2 - A_i[8] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[2] = t6;
     jac_phi_q_t_lambda_r_i[2] = -t6;
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
     jac_phi_q_t_lambda_lambda[18] = h_i_world_0;
-    const jg_real v_0_world_0 = h_i_world_0 * lambda[2];
-    const jg_real t9 = v_0_world_0 * A_i[2] - A_i[0] * v_0_world_2;
+    const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
+    const jg_real t9 = A_i[2] * v_0_world_0 - A_i[0] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[3] = t9;
     jac_phi_q_t_lambda_r_i[3] = -t9;
-    const jg_real t10 = v_0_world_0 * A_i[5] - A_i[3] * v_0_world_2;
+    const jg_real t10 = A_i[5] * v_0_world_0 - A_i[3] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[4] = t10;
     jac_phi_q_t_lambda_r_i[4] = -t10;
-    const jg_real t11 = v_0_world_0 * A_i[8] - A_i[6] * v_0_world_2;
+    const jg_real t11 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[5] = t11;
     jac_phi_q_t_lambda_r_i[5] = -t11;
-    const jg_real t12 = A_i[0] * v_0_world_1 - v_0_world_0 * A_i[1];
+    const jg_real t12 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[6] = t12;
     jac_phi_q_t_lambda_r_i[6] = -t12;
-    const jg_real t13 = A_i[3] * v_0_world_1 - v_0_world_0 * A_i[4];
+    const jg_real t13 = A_i[3] * v_0_world_1 - A_i[4] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[7] = t13;
     jac_phi_q_t_lambda_r_i[7] = -t13;
-    const jg_real t14 = A_i[6] * v_0_world_1 - v_0_world_0 * A_i[7];
+    const jg_real t14 = A_i[6] * v_0_world_1 - A_i[7] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[8] = t14;
     jac_phi_q_t_lambda_r_i[8] = -t14;
     const jg_real t15 = C_i[6] * lambda[2];
@@ -891,7 +891,7 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real v_1_world_2 = A_i[2] * v_1_in_i_0 + A_i[5] * v_1_in_i_1 + A_i[8] * v_1_in_i_2;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     /* v_2_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j, world axes */
-    const jg_real v_2_world_0 = v_1_world_1 * h_j_world_2 - v_1_world_2 * h_j_world_1;
+    const jg_real v_2_world_0 = h_j_world_2 * v_1_world_1 - h_j_world_1 * v_1_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* v_3_world = lambda_2 s_j, world axes */
@@ -906,13 +906,13 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real v_6_world_1 = r_j[1] - r_i[1];
     const jg_real v_6_world_2 = r_j[2] - r_i[2];
     /* v_7_world = lambda_2 r_j x h_i - lambda_2 r_i x h_i, world axes */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
+    const jg_real v_7_world_0 = v_6_world_1 * v_0_world_2 - v_6_world_2 * v_0_world_1;
     /* v_8_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_j x h_i - lambda_2 s_j x h_i + ... */
     const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
     const jg_real t35 = v_1_in_i_0 * h_j_world_2 + C_i[6] * v_3_world_2;
-    const jg_real t36 = t35 + t15 * v_6_world_2;
-    const jg_real t37 = v_1_in_i_0 * h_j_world_1 + C_i[6] * v_3_world_1;
-    const jg_real t38 = t37 + t15 * v_6_world_1;
+    const jg_real t36 = v_6_world_2 * t15 + t35;
+    const jg_real t37 = C_i[6] * v_3_world_1 + v_1_in_i_0 * h_j_world_1;
+    const jg_real t38 = v_6_world_1 * t15 + t37;
     jac_phi_q_t_lambda_A_i[1] = v_8_world_0 - A_i[1] * t36 + A_i[2] * t38;
     jac_phi_q_t_lambda_A_i[2] = A_i[5] * t38 - A_i[4] * t36;
     jac_phi_q_t_lambda_A_i[3] = A_i[8] * t38 - A_i[7] * t36;
@@ -927,27 +927,27 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
     const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
     const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
+    const jg_real v_7_world_1 = v_6_world_2 * v_0_world_0 - v_0_world_2 * v_6_world_0;
     const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
     const jg_real t49 = v_1_in_i_0 * h_j_world_0 + C_i[6] * v_3_world_0;
-    const jg_real t50 = t49 + t15 * v_6_world_0;
+    const jg_real t50 = t15 * v_6_world_0 + t49;
     jac_phi_q_t_lambda_A_i[9] = A_i[0] * t36 + v_8_world_1 - A_i[2] * t50;
     jac_phi_q_t_lambda_A_i[10] = A_i[3] * t36 - A_i[5] * t50;
     jac_phi_q_t_lambda_A_i[11] = A_i[6] * t36 - A_i[8] * t50;
-    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t49 - t35 * A_j[0];
-    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t49 - t35 * A_j[3];
-    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t49 - t35 * A_j[6];
+    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t49 - A_j[0] * t35;
+    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t49 - A_j[3] * t35;
+    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t49 - A_j[6] * t35;
     const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - v_1_world_1 * h_j_world_0;
     const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
     const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
+    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_6_world_1 * v_0_world_0;
     const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
     jac_phi_q_t_lambda_A_i[17] = A_i[1] * t50 - A_i[0] * t38 + v_8_world_2;
     jac_phi_q_t_lambda_A_i[18] = A_i[4] * t50 - A_i[3] * t38;
     jac_phi_q_t_lambda_A_i[19] = A_i[7] * t50 - A_i[6] * t38;
-    jac_phi_q_t_lambda_A_i[21] = t37 * A_j[0] - A_j[1] * t49;
-    jac_phi_q_t_lambda_A_i[22] = t37 * A_j[3] - A_j[4] * t49;
-    jac_phi_q_t_lambda_A_i[23] = t37 * A_j[6] - A_j[7] * t49;
+    jac_phi_q_t_lambda_A_i[21] = A_j[0] * t37 - A_j[1] * t49;
+    jac_phi_q_t_lambda_A_i[22] = A_j[3] * t37 - A_j[4] * t49;
+    jac_phi_q_t_lambda_A_i[23] = A_j[6] * t37 - A_j[7] * t49;
     const jg_real t56 = C_i[7] * lambda[2];
     jac_phi_q_t_lambda_A_i[28] = t56;
     jac_phi_q_t_lambda_A_i[36] = t56;
@@ -956,10 +956,10 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_i[24] = t57;
     jac_phi_q_t_lambda_A_i[32] = t57;
     jac_phi_q_t_lambda_A_i[40] = t57;
-    const jg_real t58 = v_1_in_i_1 * h_j_world_1 + C_i[7] * v_3_world_1;
-    const jg_real t59 = t58 + t56 * v_6_world_1;
+    const jg_real t58 = C_i[7] * v_3_world_1 + v_1_in_i_1 * h_j_world_1;
+    const jg_real t59 = v_6_world_1 * t56 + t58;
     const jg_real t60 = v_1_in_i_1 * h_j_world_2 + C_i[7] * v_3_world_2;
-    const jg_real t61 = t60 + t56 * v_6_world_2;
+    const jg_real t61 = v_6_world_2 * t56 + t60;
     jac_phi_q_t_lambda_A_i[25] = A_i[2] * t59 - A_i[1] * t61;
     jac_phi_q_t_lambda_A_i[26] = v_8_world_0 - A_i[4] * t61 + A_i[5] * t59;
     jac_phi_q_t_lambda_A_i[27] = A_i[8] * t59 - A_i[7] * t61;
@@ -967,19 +967,19 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_i[30] = A_j[4] * t60 - A_j[5] * t58;
     jac_phi_q_t_lambda_A_i[31] = A_j[7] * t60 - A_j[8] * t58;
     const jg_real t62 = v_1_in_i_1 * h_j_world_0 + C_i[7] * v_3_world_0;
-    const jg_real t63 = t62 + t56 * v_6_world_0;
+    const jg_real t63 = t56 * v_6_world_0 + t62;
     jac_phi_q_t_lambda_A_i[33] = A_i[0] * t61 - A_i[2] * t63;
-    jac_phi_q_t_lambda_A_i[34] = v_8_world_1 + A_i[3] * t61 - A_i[5] * t63;
+    jac_phi_q_t_lambda_A_i[34] = A_i[3] * t61 + v_8_world_1 - A_i[5] * t63;
     jac_phi_q_t_lambda_A_i[35] = A_i[6] * t61 - A_i[8] * t63;
-    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t62 - t60 * A_j[0];
-    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t62 - t60 * A_j[3];
-    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t62 - t60 * A_j[6];
+    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t62 - A_j[0] * t60;
+    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t62 - A_j[3] * t60;
+    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t62 - A_j[6] * t60;
     jac_phi_q_t_lambda_A_i[41] = A_i[1] * t63 - A_i[0] * t59;
     jac_phi_q_t_lambda_A_i[42] = A_i[4] * t63 - A_i[3] * t59 + v_8_world_2;
     jac_phi_q_t_lambda_A_i[43] = A_i[7] * t63 - A_i[6] * t59;
-    jac_phi_q_t_lambda_A_i[45] = t58 * A_j[0] - A_j[1] * t62;
-    jac_phi_q_t_lambda_A_i[46] = t58 * A_j[3] - A_j[4] * t62;
-    jac_phi_q_t_lambda_A_i[47] = t58 * A_j[6] - A_j[7] * t62;
+    jac_phi_q_t_lambda_A_i[45] = A_j[0] * t58 - A_j[1] * t62;
+    jac_phi_q_t_lambda_A_i[46] = A_j[3] * t58 - A_j[4] * t62;
+    jac_phi_q_t_lambda_A_i[47] = A_j[6] * t58 - A_j[7] * t62;
     const jg_real t64 = C_i[8] * lambda[2];
     jac_phi_q_t_lambda_A_i[52] = t64;
     jac_phi_q_t_lambda_A_i[60] = t64;
@@ -988,10 +988,10 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_i[48] = t65;
     jac_phi_q_t_lambda_A_i[56] = t65;
     jac_phi_q_t_lambda_A_i[64] = t65;
-    const jg_real t66 = v_1_in_i_2 * h_j_world_1 + C_i[8] * v_3_world_1;
-    const jg_real t67 = t66 + t64 * v_6_world_1;
+    const jg_real t66 = C_i[8] * v_3_world_1 + v_1_in_i_2 * h_j_world_1;
+    const jg_real t67 = v_6_world_1 * t64 + t66;
     const jg_real t68 = v_1_in_i_2 * h_j_world_2 + C_i[8] * v_3_world_2;
-    const jg_real t69 = t68 + t64 * v_6_world_2;
+    const jg_real t69 = v_6_world_2 * t64 + t68;
     jac_phi_q_t_lambda_A_i[49] = A_i[2] * t67 - A_i[1] * t69;
     jac_phi_q_t_lambda_A_i[50] = A_i[5] * t67 - A_i[4] * t69;
     jac_phi_q_t_lambda_A_i[51] = v_8_world_0 - A_i[7] * t69 + A_i[8] * t67;
@@ -999,85 +999,85 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_i[54] = A_j[4] * t68 - A_j[5] * t66;
     jac_phi_q_t_lambda_A_i[55] = A_j[7] * t68 - A_j[8] * t66;
     const jg_real t70 = v_1_in_i_2 * h_j_world_0 + C_i[8] * v_3_world_0;
-    const jg_real t71 = t70 + t64 * v_6_world_0;
+    const jg_real t71 = t64 * v_6_world_0 + t70;
     jac_phi_q_t_lambda_A_i[57] = A_i[0] * t69 - A_i[2] * t71;
     jac_phi_q_t_lambda_A_i[58] = A_i[3] * t69 - A_i[5] * t71;
-    jac_phi_q_t_lambda_A_i[59] = v_8_world_1 + A_i[6] * t69 - A_i[8] * t71;
-    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t70 - t68 * A_j[0];
-    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t70 - t68 * A_j[3];
-    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t70 - t68 * A_j[6];
+    jac_phi_q_t_lambda_A_i[59] = A_i[6] * t69 + v_8_world_1 - A_i[8] * t71;
+    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t70 - A_j[0] * t68;
+    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t70 - A_j[3] * t68;
+    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t70 - A_j[6] * t68;
     jac_phi_q_t_lambda_A_i[65] = A_i[1] * t71 - A_i[0] * t67;
     jac_phi_q_t_lambda_A_i[66] = A_i[4] * t71 - A_i[3] * t67;
     jac_phi_q_t_lambda_A_i[67] = A_i[7] * t71 - A_i[6] * t67 + v_8_world_2;
-    jac_phi_q_t_lambda_A_i[69] = t66 * A_j[0] - A_j[1] * t70;
-    jac_phi_q_t_lambda_A_i[70] = t66 * A_j[3] - A_j[4] * t70;
-    jac_phi_q_t_lambda_A_i[71] = t66 * A_j[6] - A_j[7] * t70;
+    jac_phi_q_t_lambda_A_i[69] = A_j[0] * t66 - A_j[1] * t70;
+    jac_phi_q_t_lambda_A_i[70] = A_j[3] * t66 - A_j[4] * t70;
+    jac_phi_q_t_lambda_A_i[71] = A_j[6] * t66 - A_j[7] * t70;
     const jg_real t72 = lambda[2] * s_j[0];
-    const jg_real t73 = C_j[6] * v_1_world_2 + h_i_world_2 * t72;
-    const jg_real t74 = v_1_world_1 * C_j[6] + h_i_world_1 * t72;
+    const jg_real t73 = h_i_world_2 * t72 + C_j[6] * v_1_world_2;
+    const jg_real t74 = C_j[6] * v_1_world_1 + h_i_world_1 * t72;
     jac_phi_q_t_lambda_A_j[0] = A_i[1] * t73 - A_i[2] * t74;
     jac_phi_q_t_lambda_A_j[1] = A_i[4] * t73 - A_i[5] * t74;
     jac_phi_q_t_lambda_A_j[2] = A_i[7] * t73 - A_i[8] * t74;
     jac_phi_q_t_lambda_A_j[3] = A_j[2] * t74 - (v_5_world_0 + A_j[1] * t73);
     jac_phi_q_t_lambda_A_j[4] = A_j[5] * t74 - A_j[4] * t73;
     jac_phi_q_t_lambda_A_j[5] = A_j[8] * t74 - A_j[7] * t73;
-    const jg_real t75 = C_j[6] * v_1_world_0 + h_i_world_0 * t72;
+    const jg_real t75 = h_i_world_0 * t72 + C_j[6] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[6] = A_i[2] * t75 - A_i[0] * t73;
     jac_phi_q_t_lambda_A_j[7] = A_i[5] * t75 - A_i[3] * t73;
     jac_phi_q_t_lambda_A_j[8] = A_i[8] * t75 - A_i[6] * t73;
-    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - t73 * A_j[0] + A_j[2] * t75);
-    jac_phi_q_t_lambda_A_j[10] = t73 * A_j[3] - A_j[5] * t75;
-    jac_phi_q_t_lambda_A_j[11] = t73 * A_j[6] - A_j[8] * t75;
+    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - A_j[0] * t73 + A_j[2] * t75);
+    jac_phi_q_t_lambda_A_j[10] = A_j[3] * t73 - A_j[5] * t75;
+    jac_phi_q_t_lambda_A_j[11] = A_j[6] * t73 - A_j[8] * t75;
     jac_phi_q_t_lambda_A_j[12] = A_i[0] * t74 - A_i[1] * t75;
     jac_phi_q_t_lambda_A_j[13] = A_i[3] * t74 - A_i[4] * t75;
     jac_phi_q_t_lambda_A_j[14] = A_i[6] * t74 - A_i[7] * t75;
-    jac_phi_q_t_lambda_A_j[15] = -(t74 * A_j[0] - A_j[1] * t75 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t75 - t74 * A_j[3];
-    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t75 - t74 * A_j[6];
+    jac_phi_q_t_lambda_A_j[15] = -(A_j[0] * t74 - A_j[1] * t75 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t75 - A_j[3] * t74;
+    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t75 - A_j[6] * t74;
     const jg_real t76 = lambda[2] * s_j[1];
-    const jg_real t77 = C_j[7] * v_1_world_2 + h_i_world_2 * t76;
-    const jg_real t78 = v_1_world_1 * C_j[7] + h_i_world_1 * t76;
+    const jg_real t77 = h_i_world_2 * t76 + C_j[7] * v_1_world_2;
+    const jg_real t78 = C_j[7] * v_1_world_1 + h_i_world_1 * t76;
     jac_phi_q_t_lambda_A_j[18] = A_i[1] * t77 - A_i[2] * t78;
     jac_phi_q_t_lambda_A_j[19] = A_i[4] * t77 - A_i[5] * t78;
     jac_phi_q_t_lambda_A_j[20] = A_i[7] * t77 - A_i[8] * t78;
     jac_phi_q_t_lambda_A_j[21] = A_j[2] * t78 - A_j[1] * t77;
     jac_phi_q_t_lambda_A_j[22] = A_j[5] * t78 - (v_5_world_0 + A_j[4] * t77);
     jac_phi_q_t_lambda_A_j[23] = A_j[8] * t78 - A_j[7] * t77;
-    const jg_real t79 = C_j[7] * v_1_world_0 + h_i_world_0 * t76;
+    const jg_real t79 = h_i_world_0 * t76 + C_j[7] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[24] = A_i[2] * t79 - A_i[0] * t77;
     jac_phi_q_t_lambda_A_j[25] = A_i[5] * t79 - A_i[3] * t77;
     jac_phi_q_t_lambda_A_j[26] = A_i[8] * t79 - A_i[6] * t77;
-    jac_phi_q_t_lambda_A_j[27] = t77 * A_j[0] - A_j[2] * t79;
-    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - t77 * A_j[3] + A_j[5] * t79);
-    jac_phi_q_t_lambda_A_j[29] = t77 * A_j[6] - A_j[8] * t79;
+    jac_phi_q_t_lambda_A_j[27] = A_j[0] * t77 - A_j[2] * t79;
+    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - A_j[3] * t77 + A_j[5] * t79);
+    jac_phi_q_t_lambda_A_j[29] = A_j[6] * t77 - A_j[8] * t79;
     jac_phi_q_t_lambda_A_j[30] = A_i[0] * t78 - A_i[1] * t79;
     jac_phi_q_t_lambda_A_j[31] = A_i[3] * t78 - A_i[4] * t79;
     jac_phi_q_t_lambda_A_j[32] = A_i[6] * t78 - A_i[7] * t79;
-    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t79 - t78 * A_j[0];
-    jac_phi_q_t_lambda_A_j[34] = -(t78 * A_j[3] - A_j[4] * t79 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t79 - t78 * A_j[6];
+    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t79 - A_j[0] * t78;
+    jac_phi_q_t_lambda_A_j[34] = -(A_j[3] * t78 - A_j[4] * t79 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t79 - A_j[6] * t78;
     const jg_real t80 = lambda[2] * s_j[2];
-    const jg_real t81 = C_j[8] * v_1_world_2 + h_i_world_2 * t80;
-    const jg_real t82 = v_1_world_1 * C_j[8] + h_i_world_1 * t80;
+    const jg_real t81 = h_i_world_2 * t80 + C_j[8] * v_1_world_2;
+    const jg_real t82 = C_j[8] * v_1_world_1 + h_i_world_1 * t80;
     jac_phi_q_t_lambda_A_j[36] = A_i[1] * t81 - A_i[2] * t82;
     jac_phi_q_t_lambda_A_j[37] = A_i[4] * t81 - A_i[5] * t82;
     jac_phi_q_t_lambda_A_j[38] = A_i[7] * t81 - A_i[8] * t82;
     jac_phi_q_t_lambda_A_j[39] = A_j[2] * t82 - A_j[1] * t81;
     jac_phi_q_t_lambda_A_j[40] = A_j[5] * t82 - A_j[4] * t81;
     jac_phi_q_t_lambda_A_j[41] = A_j[8] * t82 - (v_5_world_0 + A_j[7] * t81);
-    const jg_real t83 = C_j[8] * v_1_world_0 + h_i_world_0 * t80;
+    const jg_real t83 = h_i_world_0 * t80 + C_j[8] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[42] = A_i[2] * t83 - A_i[0] * t81;
     jac_phi_q_t_lambda_A_j[43] = A_i[5] * t83 - A_i[3] * t81;
     jac_phi_q_t_lambda_A_j[44] = A_i[8] * t83 - A_i[6] * t81;
-    jac_phi_q_t_lambda_A_j[45] = t81 * A_j[0] - A_j[2] * t83;
-    jac_phi_q_t_lambda_A_j[46] = t81 * A_j[3] - A_j[5] * t83;
-    jac_phi_q_t_lambda_A_j[47] = -(v_5_world_1 - t81 * A_j[6] + A_j[8] * t83);
+    jac_phi_q_t_lambda_A_j[45] = A_j[0] * t81 - A_j[2] * t83;
+    jac_phi_q_t_lambda_A_j[46] = A_j[3] * t81 - A_j[5] * t83;
+    jac_phi_q_t_lambda_A_j[47] = -(v_5_world_1 - A_j[6] * t81 + A_j[8] * t83);
     jac_phi_q_t_lambda_A_j[48] = A_i[0] * t82 - A_i[1] * t83;
     jac_phi_q_t_lambda_A_j[49] = A_i[3] * t82 - A_i[4] * t83;
     jac_phi_q_t_lambda_A_j[50] = A_i[6] * t82 - A_i[7] * t83;
-    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t83 - t82 * A_j[0];
-    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t83 - t82 * A_j[3];
-    jac_phi_q_t_lambda_A_j[53] = -(t82 * A_j[6] - A_j[7] * t83 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t83 - A_j[0] * t82;
+    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t83 - A_j[3] * t82;
+    jac_phi_q_t_lambda_A_j[53] = -(A_j[6] * t82 - A_j[7] * t83 + v_5_world_2);
     const jg_real t84 = A_i[1] * lambda[0];
     const jg_real t85 = A_i[2] * lambda[0];
     const jg_real t86 = t84 * h_j_world_2 - t85 * h_j_world_1;
@@ -1087,9 +1087,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[0] = A_i[0] * t86 + A_i[1] * t88 + A_i[2] * t89;
     jac_phi_q_t_lambda_geometry[1] = A_i[3] * t86 + A_i[4] * t88 + A_i[5] * t89;
     jac_phi_q_t_lambda_geometry[2] = A_i[6] * t86 + A_i[7] * t88 + A_i[8] * t89;
-    jac_phi_q_t_lambda_geometry[3] = -(t86 * A_j[0] + A_j[1] * t88 + A_j[2] * t89);
-    jac_phi_q_t_lambda_geometry[4] = -(t86 * A_j[3] + A_j[4] * t88 + A_j[5] * t89);
-    jac_phi_q_t_lambda_geometry[5] = -(t86 * A_j[6] + A_j[7] * t88 + A_j[8] * t89);
+    jac_phi_q_t_lambda_geometry[3] = -(A_j[0] * t86 + A_j[1] * t88 + A_j[2] * t89);
+    jac_phi_q_t_lambda_geometry[4] = -(A_j[3] * t86 + A_j[4] * t88 + A_j[5] * t89);
+    jac_phi_q_t_lambda_geometry[5] = -(A_j[6] * t86 + A_j[7] * t88 + A_j[8] * t89);
     const jg_real t90 = A_i[4] * lambda[0];
     const jg_real t91 = A_i[5] * lambda[0];
     const jg_real t92 = t90 * h_j_world_2 - t91 * h_j_world_1;
@@ -1099,9 +1099,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[6] = A_i[0] * t92 + A_i[1] * t94 + A_i[2] * t95;
     jac_phi_q_t_lambda_geometry[7] = A_i[3] * t92 + A_i[4] * t94 + A_i[5] * t95;
     jac_phi_q_t_lambda_geometry[8] = A_i[6] * t92 + A_i[7] * t94 + A_i[8] * t95;
-    jac_phi_q_t_lambda_geometry[9] = -(t92 * A_j[0] + A_j[1] * t94 + A_j[2] * t95);
-    jac_phi_q_t_lambda_geometry[10] = -(t92 * A_j[3] + A_j[4] * t94 + A_j[5] * t95);
-    jac_phi_q_t_lambda_geometry[11] = -(t92 * A_j[6] + A_j[7] * t94 + A_j[8] * t95);
+    jac_phi_q_t_lambda_geometry[9] = -(A_j[0] * t92 + A_j[1] * t94 + A_j[2] * t95);
+    jac_phi_q_t_lambda_geometry[10] = -(A_j[3] * t92 + A_j[4] * t94 + A_j[5] * t95);
+    jac_phi_q_t_lambda_geometry[11] = -(A_j[6] * t92 + A_j[7] * t94 + A_j[8] * t95);
     const jg_real t96 = A_i[7] * lambda[0];
     const jg_real t97 = A_i[8] * lambda[0];
     const jg_real t98 = t96 * h_j_world_2 - t97 * h_j_world_1;
@@ -1111,9 +1111,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[12] = A_i[0] * t98 + A_i[1] * t100 + A_i[2] * t101;
     jac_phi_q_t_lambda_geometry[13] = A_i[3] * t98 + A_i[4] * t100 + A_i[5] * t101;
     jac_phi_q_t_lambda_geometry[14] = A_i[6] * t98 + A_i[7] * t100 + A_i[8] * t101;
-    jac_phi_q_t_lambda_geometry[15] = -(t98 * A_j[0] + A_j[1] * t100 + A_j[2] * t101);
-    jac_phi_q_t_lambda_geometry[16] = -(t98 * A_j[3] + A_j[4] * t100 + A_j[5] * t101);
-    jac_phi_q_t_lambda_geometry[17] = -(t98 * A_j[6] + A_j[7] * t100 + A_j[8] * t101);
+    jac_phi_q_t_lambda_geometry[15] = -(A_j[0] * t98 + A_j[1] * t100 + A_j[2] * t101);
+    jac_phi_q_t_lambda_geometry[16] = -(A_j[3] * t98 + A_j[4] * t100 + A_j[5] * t101);
+    jac_phi_q_t_lambda_geometry[17] = -(A_j[6] * t98 + A_j[7] * t100 + A_j[8] * t101);
     const jg_real t102 = A_i[1] * lambda[1];
     const jg_real t103 = A_i[2] * lambda[1];
     const jg_real t104 = t102 * h_j_world_2 - t103 * h_j_world_1;
@@ -1123,9 +1123,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[18] = A_i[0] * t104 + A_i[1] * t106 + A_i[2] * t107;
     jac_phi_q_t_lambda_geometry[19] = A_i[3] * t104 + A_i[4] * t106 + A_i[5] * t107;
     jac_phi_q_t_lambda_geometry[20] = A_i[6] * t104 + A_i[7] * t106 + A_i[8] * t107;
-    jac_phi_q_t_lambda_geometry[21] = -(t104 * A_j[0] + A_j[1] * t106 + A_j[2] * t107);
-    jac_phi_q_t_lambda_geometry[22] = -(t104 * A_j[3] + A_j[4] * t106 + A_j[5] * t107);
-    jac_phi_q_t_lambda_geometry[23] = -(t104 * A_j[6] + A_j[7] * t106 + A_j[8] * t107);
+    jac_phi_q_t_lambda_geometry[21] = -(A_j[0] * t104 + A_j[1] * t106 + A_j[2] * t107);
+    jac_phi_q_t_lambda_geometry[22] = -(A_j[3] * t104 + A_j[4] * t106 + A_j[5] * t107);
+    jac_phi_q_t_lambda_geometry[23] = -(A_j[6] * t104 + A_j[7] * t106 + A_j[8] * t107);
     const jg_real t108 = A_i[4] * lambda[1];
     const jg_real t109 = A_i[5] * lambda[1];
     const jg_real t110 = t108 * h_j_world_2 - t109 * h_j_world_1;
@@ -1135,9 +1135,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[24] = A_i[0] * t110 + A_i[1] * t112 + A_i[2] * t113;
     jac_phi_q_t_lambda_geometry[25] = A_i[3] * t110 + A_i[4] * t112 + A_i[5] * t113;
     jac_phi_q_t_lambda_geometry[26] = A_i[6] * t110 + A_i[7] * t112 + A_i[8] * t113;
-    jac_phi_q_t_lambda_geometry[27] = -(t110 * A_j[0] + A_j[1] * t112 + A_j[2] * t113);
-    jac_phi_q_t_lambda_geometry[28] = -(t110 * A_j[3] + A_j[4] * t112 + A_j[5] * t113);
-    jac_phi_q_t_lambda_geometry[29] = -(t110 * A_j[6] + A_j[7] * t112 + A_j[8] * t113);
+    jac_phi_q_t_lambda_geometry[27] = -(A_j[0] * t110 + A_j[1] * t112 + A_j[2] * t113);
+    jac_phi_q_t_lambda_geometry[28] = -(A_j[3] * t110 + A_j[4] * t112 + A_j[5] * t113);
+    jac_phi_q_t_lambda_geometry[29] = -(A_j[6] * t110 + A_j[7] * t112 + A_j[8] * t113);
     const jg_real t114 = A_i[7] * lambda[1];
     const jg_real t115 = A_i[8] * lambda[1];
     const jg_real t116 = t114 * h_j_world_2 - t115 * h_j_world_1;
@@ -1147,9 +1147,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[30] = A_i[0] * t116 + A_i[1] * t118 + A_i[2] * t119;
     jac_phi_q_t_lambda_geometry[31] = A_i[3] * t116 + A_i[4] * t118 + A_i[5] * t119;
     jac_phi_q_t_lambda_geometry[32] = A_i[6] * t116 + A_i[7] * t118 + A_i[8] * t119;
-    jac_phi_q_t_lambda_geometry[33] = -(t116 * A_j[0] + A_j[1] * t118 + A_j[2] * t119);
-    jac_phi_q_t_lambda_geometry[34] = -(t116 * A_j[3] + A_j[4] * t118 + A_j[5] * t119);
-    jac_phi_q_t_lambda_geometry[35] = -(t116 * A_j[6] + A_j[7] * t118 + A_j[8] * t119);
+    jac_phi_q_t_lambda_geometry[33] = -(A_j[0] * t116 + A_j[1] * t118 + A_j[2] * t119);
+    jac_phi_q_t_lambda_geometry[34] = -(A_j[3] * t116 + A_j[4] * t118 + A_j[5] * t119);
+    jac_phi_q_t_lambda_geometry[35] = -(A_j[6] * t116 + A_j[7] * t118 + A_j[8] * t119);
     const jg_real t120 = A_i[0] * lambda[2];
     jac_phi_q_t_lambda_geometry[42] = t120;
     jac_phi_q_t_lambda_geometry[36] = -t120;
@@ -1160,17 +1160,17 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[44] = t122;
     jac_phi_q_t_lambda_geometry[38] = -t122;
     const jg_real t123 = A_i[2] * v_3_world_1 - A_i[1] * v_3_world_2;
-    const jg_real t124 = t122 * v_6_world_1 - t121 * v_6_world_2 + t123;
+    const jg_real t124 = v_6_world_1 * t122 - v_6_world_2 * t121 + t123;
     const jg_real t125 = A_i[0] * v_3_world_2 - A_i[2] * v_3_world_0;
-    const jg_real t126 = t120 * v_6_world_2 - t122 * v_6_world_0 + t125;
+    const jg_real t126 = v_6_world_2 * t120 - t122 * v_6_world_0 + t125;
     const jg_real t127 = A_i[1] * v_3_world_0 - A_i[0] * v_3_world_1;
-    const jg_real t128 = t121 * v_6_world_0 - t120 * v_6_world_1 + t127;
+    const jg_real t128 = t121 * v_6_world_0 - v_6_world_1 * t120 + t127;
     jac_phi_q_t_lambda_geometry[39] = -(A_i[0] * t124 + A_i[1] * t126 + A_i[2] * t128);
     jac_phi_q_t_lambda_geometry[40] = -(A_i[3] * t124 + A_i[4] * t126 + A_i[5] * t128);
     jac_phi_q_t_lambda_geometry[41] = -(A_i[6] * t124 + A_i[7] * t126 + A_i[8] * t128);
-    jac_phi_q_t_lambda_geometry[45] = t123 * A_j[0] + A_j[1] * t125 + A_j[2] * t127;
-    jac_phi_q_t_lambda_geometry[46] = t123 * A_j[3] + A_j[4] * t125 + A_j[5] * t127;
-    jac_phi_q_t_lambda_geometry[47] = t123 * A_j[6] + A_j[7] * t125 + A_j[8] * t127;
+    jac_phi_q_t_lambda_geometry[45] = A_j[0] * t123 + A_j[1] * t125 + A_j[2] * t127;
+    jac_phi_q_t_lambda_geometry[46] = A_j[3] * t123 + A_j[4] * t125 + A_j[5] * t127;
+    jac_phi_q_t_lambda_geometry[47] = A_j[6] * t123 + A_j[7] * t125 + A_j[8] * t127;
     const jg_real t129 = A_i[3] * lambda[2];
     jac_phi_q_t_lambda_geometry[54] = t129;
     jac_phi_q_t_lambda_geometry[48] = -t129;
@@ -1181,17 +1181,17 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[56] = t131;
     jac_phi_q_t_lambda_geometry[50] = -t131;
     const jg_real t132 = A_i[5] * v_3_world_1 - A_i[4] * v_3_world_2;
-    const jg_real t133 = t131 * v_6_world_1 - t130 * v_6_world_2 + t132;
+    const jg_real t133 = v_6_world_1 * t131 - v_6_world_2 * t130 + t132;
     const jg_real t134 = A_i[3] * v_3_world_2 - A_i[5] * v_3_world_0;
-    const jg_real t135 = t129 * v_6_world_2 - t131 * v_6_world_0 + t134;
+    const jg_real t135 = v_6_world_2 * t129 - t131 * v_6_world_0 + t134;
     const jg_real t136 = A_i[4] * v_3_world_0 - A_i[3] * v_3_world_1;
-    const jg_real t137 = t130 * v_6_world_0 - t129 * v_6_world_1 + t136;
+    const jg_real t137 = t130 * v_6_world_0 - v_6_world_1 * t129 + t136;
     jac_phi_q_t_lambda_geometry[51] = -(A_i[0] * t133 + A_i[1] * t135 + A_i[2] * t137);
     jac_phi_q_t_lambda_geometry[52] = -(A_i[3] * t133 + A_i[4] * t135 + A_i[5] * t137);
     jac_phi_q_t_lambda_geometry[53] = -(A_i[6] * t133 + A_i[7] * t135 + A_i[8] * t137);
-    jac_phi_q_t_lambda_geometry[57] = t132 * A_j[0] + A_j[1] * t134 + A_j[2] * t136;
-    jac_phi_q_t_lambda_geometry[58] = t132 * A_j[3] + A_j[4] * t134 + A_j[5] * t136;
-    jac_phi_q_t_lambda_geometry[59] = t132 * A_j[6] + A_j[7] * t134 + A_j[8] * t136;
+    jac_phi_q_t_lambda_geometry[57] = A_j[0] * t132 + A_j[1] * t134 + A_j[2] * t136;
+    jac_phi_q_t_lambda_geometry[58] = A_j[3] * t132 + A_j[4] * t134 + A_j[5] * t136;
+    jac_phi_q_t_lambda_geometry[59] = A_j[6] * t132 + A_j[7] * t134 + A_j[8] * t136;
     const jg_real t138 = A_i[6] * lambda[2];
     jac_phi_q_t_lambda_geometry[66] = t138;
     jac_phi_q_t_lambda_geometry[60] = -t138;
@@ -1202,17 +1202,17 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[68] = t140;
     jac_phi_q_t_lambda_geometry[62] = -t140;
     const jg_real t141 = A_i[8] * v_3_world_1 - A_i[7] * v_3_world_2;
-    const jg_real t142 = t140 * v_6_world_1 - t139 * v_6_world_2 + t141;
+    const jg_real t142 = v_6_world_1 * t140 - v_6_world_2 * t139 + t141;
     const jg_real t143 = A_i[6] * v_3_world_2 - A_i[8] * v_3_world_0;
-    const jg_real t144 = t138 * v_6_world_2 - t140 * v_6_world_0 + t143;
+    const jg_real t144 = v_6_world_2 * t138 - t140 * v_6_world_0 + t143;
     const jg_real t145 = A_i[7] * v_3_world_0 - A_i[6] * v_3_world_1;
-    const jg_real t146 = t139 * v_6_world_0 - t138 * v_6_world_1 + t145;
+    const jg_real t146 = t139 * v_6_world_0 - v_6_world_1 * t138 + t145;
     jac_phi_q_t_lambda_geometry[63] = -(A_i[0] * t142 + A_i[1] * t144 + A_i[2] * t146);
     jac_phi_q_t_lambda_geometry[64] = -(A_i[3] * t142 + A_i[4] * t144 + A_i[5] * t146);
     jac_phi_q_t_lambda_geometry[65] = -(A_i[6] * t142 + A_i[7] * t144 + A_i[8] * t146);
-    jac_phi_q_t_lambda_geometry[69] = t141 * A_j[0] + A_j[1] * t143 + A_j[2] * t145;
-    jac_phi_q_t_lambda_geometry[70] = t141 * A_j[3] + A_j[4] * t143 + A_j[5] * t145;
-    jac_phi_q_t_lambda_geometry[71] = t141 * A_j[6] + A_j[7] * t143 + A_j[8] * t145;
+    jac_phi_q_t_lambda_geometry[69] = A_j[0] * t141 + A_j[1] * t143 + A_j[2] * t145;
+    jac_phi_q_t_lambda_geometry[70] = A_j[3] * t141 + A_j[4] * t143 + A_j[5] * t145;
+    jac_phi_q_t_lambda_geometry[71] = A_j[6] * t141 + A_j[7] * t143 + A_j[8] * t145;
     const jg_real t147 = lambda[2] * A_j[1];
     const jg_real t148 = lambda[2] * A_j[2];
     const jg_real t149 = h_i_world_2 * t147 - h_i_world_1 * t148;
@@ -1222,9 +1222,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[72] = -(A_i[0] * t149 + A_i[1] * t151 + A_i[2] * t152);
     jac_phi_q_t_lambda_geometry[73] = -(A_i[3] * t149 + A_i[4] * t151 + A_i[5] * t152);
     jac_phi_q_t_lambda_geometry[74] = -(A_i[6] * t149 + A_i[7] * t151 + A_i[8] * t152);
-    jac_phi_q_t_lambda_geometry[75] = t149 * A_j[0] + A_j[1] * t151 + A_j[2] * t152;
-    jac_phi_q_t_lambda_geometry[76] = t149 * A_j[3] + A_j[4] * t151 + A_j[5] * t152;
-    jac_phi_q_t_lambda_geometry[77] = t149 * A_j[6] + A_j[7] * t151 + A_j[8] * t152;
+    jac_phi_q_t_lambda_geometry[75] = A_j[0] * t149 + A_j[1] * t151 + A_j[2] * t152;
+    jac_phi_q_t_lambda_geometry[76] = A_j[3] * t149 + A_j[4] * t151 + A_j[5] * t152;
+    jac_phi_q_t_lambda_geometry[77] = A_j[6] * t149 + A_j[7] * t151 + A_j[8] * t152;
     const jg_real t153 = lambda[2] * A_j[4];
     const jg_real t154 = lambda[2] * A_j[5];
     const jg_real t155 = h_i_world_2 * t153 - h_i_world_1 * t154;
@@ -1234,9 +1234,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[78] = -(A_i[0] * t155 + A_i[1] * t157 + A_i[2] * t158);
     jac_phi_q_t_lambda_geometry[79] = -(A_i[3] * t155 + A_i[4] * t157 + A_i[5] * t158);
     jac_phi_q_t_lambda_geometry[80] = -(A_i[6] * t155 + A_i[7] * t157 + A_i[8] * t158);
-    jac_phi_q_t_lambda_geometry[81] = t155 * A_j[0] + A_j[1] * t157 + A_j[2] * t158;
-    jac_phi_q_t_lambda_geometry[82] = t155 * A_j[3] + A_j[4] * t157 + A_j[5] * t158;
-    jac_phi_q_t_lambda_geometry[83] = t155 * A_j[6] + A_j[7] * t157 + A_j[8] * t158;
+    jac_phi_q_t_lambda_geometry[81] = A_j[0] * t155 + A_j[1] * t157 + A_j[2] * t158;
+    jac_phi_q_t_lambda_geometry[82] = A_j[3] * t155 + A_j[4] * t157 + A_j[5] * t158;
+    jac_phi_q_t_lambda_geometry[83] = A_j[6] * t155 + A_j[7] * t157 + A_j[8] * t158;
     const jg_real t159 = lambda[2] * A_j[7];
     const jg_real t160 = lambda[2] * A_j[8];
     const jg_real t161 = h_i_world_2 * t159 - h_i_world_1 * t160;
@@ -1246,65 +1246,65 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[84] = -(A_i[0] * t161 + A_i[1] * t163 + A_i[2] * t164);
     jac_phi_q_t_lambda_geometry[85] = -(A_i[3] * t161 + A_i[4] * t163 + A_i[5] * t164);
     jac_phi_q_t_lambda_geometry[86] = -(A_i[6] * t161 + A_i[7] * t163 + A_i[8] * t164);
-    jac_phi_q_t_lambda_geometry[87] = t161 * A_j[0] + A_j[1] * t163 + A_j[2] * t164;
-    jac_phi_q_t_lambda_geometry[88] = t161 * A_j[3] + A_j[4] * t163 + A_j[5] * t164;
-    jac_phi_q_t_lambda_geometry[89] = t161 * A_j[6] + A_j[7] * t163 + A_j[8] * t164;
-    const jg_real t165 = v_1_world_1 * A_j[2] - v_1_world_2 * A_j[1];
-    const jg_real t166 = v_1_world_2 * A_j[0] - A_j[2] * v_1_world_0;
-    const jg_real t167 = A_j[1] * v_1_world_0 - v_1_world_1 * A_j[0];
+    jac_phi_q_t_lambda_geometry[87] = A_j[0] * t161 + A_j[1] * t163 + A_j[2] * t164;
+    jac_phi_q_t_lambda_geometry[88] = A_j[3] * t161 + A_j[4] * t163 + A_j[5] * t164;
+    jac_phi_q_t_lambda_geometry[89] = A_j[6] * t161 + A_j[7] * t163 + A_j[8] * t164;
+    const jg_real t165 = A_j[2] * v_1_world_1 - A_j[1] * v_1_world_2;
+    const jg_real t166 = A_j[0] * v_1_world_2 - A_j[2] * v_1_world_0;
+    const jg_real t167 = A_j[1] * v_1_world_0 - A_j[0] * v_1_world_1;
     jac_phi_q_t_lambda_geometry[90] = A_i[0] * t165 + A_i[1] * t166 + A_i[2] * t167;
     jac_phi_q_t_lambda_geometry[91] = A_i[3] * t165 + A_i[4] * t166 + A_i[5] * t167;
     jac_phi_q_t_lambda_geometry[92] = A_i[6] * t165 + A_i[7] * t166 + A_i[8] * t167;
-    jac_phi_q_t_lambda_geometry[93] = -(t165 * A_j[0] + A_j[1] * t166 + A_j[2] * t167);
-    jac_phi_q_t_lambda_geometry[94] = -(t165 * A_j[3] + A_j[4] * t166 + A_j[5] * t167);
-    jac_phi_q_t_lambda_geometry[95] = -(t165 * A_j[6] + A_j[7] * t166 + A_j[8] * t167);
-    const jg_real t168 = v_1_world_1 * A_j[5] - v_1_world_2 * A_j[4];
-    const jg_real t169 = v_1_world_2 * A_j[3] - A_j[5] * v_1_world_0;
-    const jg_real t170 = A_j[4] * v_1_world_0 - v_1_world_1 * A_j[3];
+    jac_phi_q_t_lambda_geometry[93] = -(A_j[0] * t165 + A_j[1] * t166 + A_j[2] * t167);
+    jac_phi_q_t_lambda_geometry[94] = -(A_j[3] * t165 + A_j[4] * t166 + A_j[5] * t167);
+    jac_phi_q_t_lambda_geometry[95] = -(A_j[6] * t165 + A_j[7] * t166 + A_j[8] * t167);
+    const jg_real t168 = A_j[5] * v_1_world_1 - A_j[4] * v_1_world_2;
+    const jg_real t169 = A_j[3] * v_1_world_2 - A_j[5] * v_1_world_0;
+    const jg_real t170 = A_j[4] * v_1_world_0 - A_j[3] * v_1_world_1;
     jac_phi_q_t_lambda_geometry[96] = A_i[0] * t168 + A_i[1] * t169 + A_i[2] * t170;
     jac_phi_q_t_lambda_geometry[97] = A_i[3] * t168 + A_i[4] * t169 + A_i[5] * t170;
     jac_phi_q_t_lambda_geometry[98] = A_i[6] * t168 + A_i[7] * t169 + A_i[8] * t170;
-    jac_phi_q_t_lambda_geometry[99] = -(t168 * A_j[0] + A_j[1] * t169 + A_j[2] * t170);
-    jac_phi_q_t_lambda_geometry[100] = -(t168 * A_j[3] + A_j[4] * t169 + A_j[5] * t170);
-    jac_phi_q_t_lambda_geometry[101] = -(t168 * A_j[6] + A_j[7] * t169 + A_j[8] * t170);
-    const jg_real t171 = v_1_world_1 * A_j[8] - v_1_world_2 * A_j[7];
-    const jg_real t172 = v_1_world_2 * A_j[6] - A_j[8] * v_1_world_0;
-    const jg_real t173 = A_j[7] * v_1_world_0 - v_1_world_1 * A_j[6];
+    jac_phi_q_t_lambda_geometry[99] = -(A_j[0] * t168 + A_j[1] * t169 + A_j[2] * t170);
+    jac_phi_q_t_lambda_geometry[100] = -(A_j[3] * t168 + A_j[4] * t169 + A_j[5] * t170);
+    jac_phi_q_t_lambda_geometry[101] = -(A_j[6] * t168 + A_j[7] * t169 + A_j[8] * t170);
+    const jg_real t171 = A_j[8] * v_1_world_1 - A_j[7] * v_1_world_2;
+    const jg_real t172 = A_j[6] * v_1_world_2 - A_j[8] * v_1_world_0;
+    const jg_real t173 = A_j[7] * v_1_world_0 - A_j[6] * v_1_world_1;
     jac_phi_q_t_lambda_geometry[102] = A_i[0] * t171 + A_i[1] * t172 + A_i[2] * t173;
     jac_phi_q_t_lambda_geometry[103] = A_i[3] * t171 + A_i[4] * t172 + A_i[5] * t173;
     jac_phi_q_t_lambda_geometry[104] = A_i[6] * t171 + A_i[7] * t172 + A_i[8] * t173;
-    jac_phi_q_t_lambda_geometry[105] = -(t171 * A_j[0] + A_j[1] * t172 + A_j[2] * t173);
-    jac_phi_q_t_lambda_geometry[106] = -(t171 * A_j[3] + A_j[4] * t172 + A_j[5] * t173);
-    jac_phi_q_t_lambda_geometry[107] = -(t171 * A_j[6] + A_j[7] * t172 + A_j[8] * t173);
+    jac_phi_q_t_lambda_geometry[105] = -(A_j[0] * t171 + A_j[1] * t172 + A_j[2] * t173);
+    jac_phi_q_t_lambda_geometry[106] = -(A_j[3] * t171 + A_j[4] * t172 + A_j[5] * t173);
+    jac_phi_q_t_lambda_geometry[107] = -(A_j[6] * t171 + A_j[7] * t172 + A_j[8] * t173);
     const jg_real t174 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real t175 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real t176 = t174 * h_j_world_2 - t175 * h_j_world_1;
+    const jg_real t176 = h_j_world_2 * t174 - h_j_world_1 * t175;
     const jg_real t177 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t178 = t175 * h_j_world_0 - h_j_world_2 * t177;
     const jg_real t179 = h_j_world_1 * t177 - t174 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[0] = A_i[0] * t176 + A_i[1] * t178 + A_i[2] * t179;
     jac_phi_q_t_lambda_lambda[1] = A_i[3] * t176 + A_i[4] * t178 + A_i[5] * t179;
     jac_phi_q_t_lambda_lambda[2] = A_i[6] * t176 + A_i[7] * t178 + A_i[8] * t179;
-    jac_phi_q_t_lambda_lambda[3] = -(t176 * A_j[0] + A_j[1] * t178 + A_j[2] * t179);
-    jac_phi_q_t_lambda_lambda[4] = -(t176 * A_j[3] + A_j[4] * t178 + A_j[5] * t179);
-    jac_phi_q_t_lambda_lambda[5] = -(t176 * A_j[6] + A_j[7] * t178 + A_j[8] * t179);
+    jac_phi_q_t_lambda_lambda[3] = -(A_j[0] * t176 + A_j[1] * t178 + A_j[2] * t179);
+    jac_phi_q_t_lambda_lambda[4] = -(A_j[3] * t176 + A_j[4] * t178 + A_j[5] * t179);
+    jac_phi_q_t_lambda_lambda[5] = -(A_j[6] * t176 + A_j[7] * t178 + A_j[8] * t179);
     const jg_real t180 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t181 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real t182 = t180 * h_j_world_2 - t181 * h_j_world_1;
+    const jg_real t182 = h_j_world_2 * t180 - h_j_world_1 * t181;
     const jg_real t183 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t184 = t181 * h_j_world_0 - h_j_world_2 * t183;
     const jg_real t185 = h_j_world_1 * t183 - t180 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[6] = A_i[0] * t182 + A_i[1] * t184 + A_i[2] * t185;
     jac_phi_q_t_lambda_lambda[7] = A_i[3] * t182 + A_i[4] * t184 + A_i[5] * t185;
     jac_phi_q_t_lambda_lambda[8] = A_i[6] * t182 + A_i[7] * t184 + A_i[8] * t185;
-    jac_phi_q_t_lambda_lambda[9] = -(t182 * A_j[0] + A_j[1] * t184 + A_j[2] * t185);
-    jac_phi_q_t_lambda_lambda[10] = -(t182 * A_j[3] + A_j[4] * t184 + A_j[5] * t185);
-    jac_phi_q_t_lambda_lambda[11] = -(t182 * A_j[6] + A_j[7] * t184 + A_j[8] * t185);
+    jac_phi_q_t_lambda_lambda[9] = -(A_j[0] * t182 + A_j[1] * t184 + A_j[2] * t185);
+    jac_phi_q_t_lambda_lambda[10] = -(A_j[3] * t182 + A_j[4] * t184 + A_j[5] * t185);
+    jac_phi_q_t_lambda_lambda[11] = -(A_j[6] * t182 + A_j[7] * t184 + A_j[8] * t185);
     jac_phi_q_t_lambda_lambda[12] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -h_i_world_2;
     const jg_real t186 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
-    const jg_real t187 = h_i_world_2 * v_6_world_1 - h_i_world_1 * v_6_world_2 + t186;
+    const jg_real t187 = v_6_world_1 * h_i_world_2 - h_i_world_1 * v_6_world_2 + t186;
     const jg_real t188 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
     const jg_real t189 = h_i_world_0 * v_6_world_2 - h_i_world_2 * v_6_world_0 + t188;
     const jg_real t190 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
@@ -1312,9 +1312,9 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t187 + A_i[1] * t189 + A_i[2] * t191);
     jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t187 + A_i[4] * t189 + A_i[5] * t191);
     jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t187 + A_i[7] * t189 + A_i[8] * t191);
-    jac_phi_q_t_lambda_lambda[21] = t186 * A_j[0] + A_j[1] * t188 + A_j[2] * t190;
-    jac_phi_q_t_lambda_lambda[22] = t186 * A_j[3] + A_j[4] * t188 + A_j[5] * t190;
-    jac_phi_q_t_lambda_lambda[23] = t186 * A_j[6] + A_j[7] * t188 + A_j[8] * t190;
+    jac_phi_q_t_lambda_lambda[21] = A_j[0] * t186 + A_j[1] * t188 + A_j[2] * t190;
+    jac_phi_q_t_lambda_lambda[22] = A_j[3] * t186 + A_j[4] * t188 + A_j[5] * t190;
+    jac_phi_q_t_lambda_lambda[23] = A_j[6] * t186 + A_j[7] * t188 + A_j[8] * t190;
 }
 
 JG_EXPORT int jg_planar_conventional_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

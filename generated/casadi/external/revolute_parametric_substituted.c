@@ -59,17 +59,17 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real t5 = A_j[0] * g_star_in_i_0;
     const jg_real t6 = A_j[3] * g_star_in_i_0;
     const jg_real t7 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = t5 * C_j[6] + t6 * C_j[7] + t7 * C_j[8];
+    jac_phi_A_i[1] = C_j[6] * t5 + C_j[7] * t6 + C_j[8] * t7;
     const jg_real t8 = A_j[0] * C_i[6];
     const jg_real t9 = A_j[3] * C_i[6];
     const jg_real t10 = A_j[6] * C_i[6];
-    jac_phi_A_i[2] = t8 * C_j[0] + t9 * C_j[1] + t10 * C_j[2];
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    jac_phi_A_i[2] = C_j[0] * t8 + C_j[1] * t9 + C_j[2] * t10;
+    const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_world = g_star, world axes */
     const jg_real g_star_world_0 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
     const jg_real g_star_world_1 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
@@ -92,9 +92,9 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     jac_phi_geometry[30] = h_star_in_j_0;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     jac_phi_geometry[36] = g_star_in_j_0;
-    jac_phi_A_i[3] = (t6 * h_star_in_j_2 + g_star_in_j_1 * t10 - (t7 * h_star_in_j_1 + g_star_in_j_2 * t9)) * C_j[3]
-        + (t7 * h_star_in_j_0 + g_star_in_j_2 * t8 - (t5 * h_star_in_j_2 + g_star_in_j_0 * t10)) * C_j[4] + (t5 *
-        h_star_in_j_1 + g_star_in_j_0 * t9 - (t6 * h_star_in_j_0 + g_star_in_j_1 * t8)) * C_j[5];
+    jac_phi_A_i[3] = C_j[3] * (h_star_in_j_2 * t6 + t10 * g_star_in_j_1 - (h_star_in_j_1 * t7 + t9 * g_star_in_j_2))
+        + C_j[4] * (h_star_in_j_0 * t7 + t8 * g_star_in_j_2 - (h_star_in_j_2 * t5 + t10 * g_star_in_j_0)) + C_j[5] *
+        (h_star_in_j_1 * t5 + t9 * g_star_in_j_0 - (h_star_in_j_0 * t6 + t8 * g_star_in_j_1));
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
@@ -103,14 +103,15 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     const jg_real t27 = A_j[1] * g_star_in_i_0;
     const jg_real t28 = A_j[4] * g_star_in_i_0;
     const jg_real t29 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = t27 * C_j[6] + t28 * C_j[7] + t29 * C_j[8];
+    jac_phi_A_i[5] = C_j[6] * t27 + C_j[7] * t28 + C_j[8] * t29;
     const jg_real t30 = A_j[1] * C_i[6];
     const jg_real t31 = A_j[4] * C_i[6];
     const jg_real t32 = A_j[7] * C_i[6];
-    jac_phi_A_i[6] = t30 * C_j[0] + t31 * C_j[1] + t32 * C_j[2];
-    jac_phi_A_i[7] = (t28 * h_star_in_j_2 + g_star_in_j_1 * t32 - (t29 * h_star_in_j_1 + g_star_in_j_2 * t31)) *
-        C_j[3] + (t29 * h_star_in_j_0 + g_star_in_j_2 * t30 - (t27 * h_star_in_j_2 + g_star_in_j_0 * t32)) * C_j[4]
-        + (t27 * h_star_in_j_1 + g_star_in_j_0 * t31 - (t28 * h_star_in_j_0 + g_star_in_j_1 * t30)) * C_j[5];
+    jac_phi_A_i[6] = C_j[0] * t30 + C_j[1] * t31 + C_j[2] * t32;
+    jac_phi_A_i[7] = C_j[3] * (h_star_in_j_2 * t28 + t32 * g_star_in_j_1 - (h_star_in_j_1 * t29 + t31 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t29 + t30 * g_star_in_j_2 - (h_star_in_j_2 * t27 + t32 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t27 + t31 * g_star_in_j_0 - (h_star_in_j_0 * t28 + t30 *
+        g_star_in_j_1));
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
@@ -119,155 +120,162 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     const jg_real t35 = A_j[2] * g_star_in_i_0;
     const jg_real t36 = A_j[5] * g_star_in_i_0;
     const jg_real t37 = A_j[8] * g_star_in_i_0;
-    jac_phi_A_i[9] = t35 * C_j[6] + t36 * C_j[7] + t37 * C_j[8];
+    jac_phi_A_i[9] = C_j[6] * t35 + C_j[7] * t36 + C_j[8] * t37;
     const jg_real t38 = A_j[2] * C_i[6];
     const jg_real t39 = A_j[5] * C_i[6];
     const jg_real t40 = A_j[8] * C_i[6];
-    jac_phi_A_i[10] = t38 * C_j[0] + t39 * C_j[1] + t40 * C_j[2];
-    jac_phi_A_i[11] = (t36 * h_star_in_j_2 + g_star_in_j_1 * t40 - (t37 * h_star_in_j_1 + g_star_in_j_2 * t39)) *
-        C_j[3] + (t37 * h_star_in_j_0 + g_star_in_j_2 * t38 - (t35 * h_star_in_j_2 + g_star_in_j_0 * t40)) * C_j[4]
-        + (t35 * h_star_in_j_1 + g_star_in_j_0 * t39 - (t36 * h_star_in_j_0 + g_star_in_j_1 * t38)) * C_j[5];
+    jac_phi_A_i[10] = C_j[0] * t38 + C_j[1] * t39 + C_j[2] * t40;
+    jac_phi_A_i[11] = C_j[3] * (h_star_in_j_2 * t36 + t40 * g_star_in_j_1 - (h_star_in_j_1 * t37 + t39 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t37 + t38 * g_star_in_j_2 - (h_star_in_j_2 * t35 + t40 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t35 + t39 * g_star_in_j_0 - (h_star_in_j_0 * t36 + t38 *
+        g_star_in_j_1));
     const jg_real t41 = A_j[0] * g_star_in_i_1;
     const jg_real t42 = A_j[3] * g_star_in_i_1;
     const jg_real t43 = A_j[6] * g_star_in_i_1;
-    jac_phi_A_i[13] = t41 * C_j[6] + t42 * C_j[7] + t43 * C_j[8];
+    jac_phi_A_i[13] = C_j[6] * t41 + C_j[7] * t42 + C_j[8] * t43;
     const jg_real t44 = A_j[0] * C_i[7];
     const jg_real t45 = A_j[3] * C_i[7];
     const jg_real t46 = A_j[6] * C_i[7];
-    jac_phi_A_i[14] = t44 * C_j[0] + t45 * C_j[1] + t46 * C_j[2];
-    jac_phi_A_i[15] = (t42 * h_star_in_j_2 + g_star_in_j_1 * t46 - (t43 * h_star_in_j_1 + g_star_in_j_2 * t45)) *
-        C_j[3] + (t43 * h_star_in_j_0 + g_star_in_j_2 * t44 - (t41 * h_star_in_j_2 + g_star_in_j_0 * t46)) * C_j[4]
-        + (t41 * h_star_in_j_1 + g_star_in_j_0 * t45 - (t42 * h_star_in_j_0 + g_star_in_j_1 * t44)) * C_j[5];
+    jac_phi_A_i[14] = C_j[0] * t44 + C_j[1] * t45 + C_j[2] * t46;
+    jac_phi_A_i[15] = C_j[3] * (h_star_in_j_2 * t42 + t46 * g_star_in_j_1 - (h_star_in_j_1 * t43 + t45 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t43 + t44 * g_star_in_j_2 - (h_star_in_j_2 * t41 + t46 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t41 + t45 * g_star_in_j_0 - (h_star_in_j_0 * t42 + t44 *
+        g_star_in_j_1));
     const jg_real t47 = A_j[1] * g_star_in_i_1;
     const jg_real t48 = A_j[4] * g_star_in_i_1;
     const jg_real t49 = A_j[7] * g_star_in_i_1;
-    jac_phi_A_i[17] = t47 * C_j[6] + t48 * C_j[7] + t49 * C_j[8];
+    jac_phi_A_i[17] = C_j[6] * t47 + C_j[7] * t48 + C_j[8] * t49;
     const jg_real t50 = A_j[1] * C_i[7];
     const jg_real t51 = A_j[4] * C_i[7];
     const jg_real t52 = A_j[7] * C_i[7];
-    jac_phi_A_i[18] = t50 * C_j[0] + t51 * C_j[1] + t52 * C_j[2];
-    jac_phi_A_i[19] = (t48 * h_star_in_j_2 + g_star_in_j_1 * t52 - (t49 * h_star_in_j_1 + g_star_in_j_2 * t51)) *
-        C_j[3] + (t49 * h_star_in_j_0 + g_star_in_j_2 * t50 - (t47 * h_star_in_j_2 + g_star_in_j_0 * t52)) * C_j[4]
-        + (t47 * h_star_in_j_1 + g_star_in_j_0 * t51 - (t48 * h_star_in_j_0 + g_star_in_j_1 * t50)) * C_j[5];
+    jac_phi_A_i[18] = C_j[0] * t50 + C_j[1] * t51 + C_j[2] * t52;
+    jac_phi_A_i[19] = C_j[3] * (h_star_in_j_2 * t48 + t52 * g_star_in_j_1 - (h_star_in_j_1 * t49 + t51 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t49 + t50 * g_star_in_j_2 - (h_star_in_j_2 * t47 + t52 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t47 + t51 * g_star_in_j_0 - (h_star_in_j_0 * t48 + t50 *
+        g_star_in_j_1));
     const jg_real t53 = A_j[2] * g_star_in_i_1;
     const jg_real t54 = A_j[5] * g_star_in_i_1;
     const jg_real t55 = A_j[8] * g_star_in_i_1;
-    jac_phi_A_i[21] = t53 * C_j[6] + t54 * C_j[7] + t55 * C_j[8];
+    jac_phi_A_i[21] = C_j[6] * t53 + C_j[7] * t54 + C_j[8] * t55;
     const jg_real t56 = A_j[2] * C_i[7];
     const jg_real t57 = A_j[5] * C_i[7];
     const jg_real t58 = A_j[8] * C_i[7];
-    jac_phi_A_i[22] = t56 * C_j[0] + t57 * C_j[1] + t58 * C_j[2];
-    jac_phi_A_i[23] = (t54 * h_star_in_j_2 + g_star_in_j_1 * t58 - (t55 * h_star_in_j_1 + g_star_in_j_2 * t57)) *
-        C_j[3] + (t55 * h_star_in_j_0 + g_star_in_j_2 * t56 - (t53 * h_star_in_j_2 + g_star_in_j_0 * t58)) * C_j[4]
-        + (t53 * h_star_in_j_1 + g_star_in_j_0 * t57 - (t54 * h_star_in_j_0 + g_star_in_j_1 * t56)) * C_j[5];
+    jac_phi_A_i[22] = C_j[0] * t56 + C_j[1] * t57 + C_j[2] * t58;
+    jac_phi_A_i[23] = C_j[3] * (h_star_in_j_2 * t54 + t58 * g_star_in_j_1 - (h_star_in_j_1 * t55 + t57 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t55 + t56 * g_star_in_j_2 - (h_star_in_j_2 * t53 + t58 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t53 + t57 * g_star_in_j_0 - (h_star_in_j_0 * t54 + t56 *
+        g_star_in_j_1));
     const jg_real t59 = A_j[0] * g_star_in_i_2;
     const jg_real t60 = A_j[3] * g_star_in_i_2;
     const jg_real t61 = A_j[6] * g_star_in_i_2;
-    jac_phi_A_i[25] = t59 * C_j[6] + t60 * C_j[7] + t61 * C_j[8];
+    jac_phi_A_i[25] = C_j[6] * t59 + C_j[7] * t60 + C_j[8] * t61;
     const jg_real t62 = A_j[0] * C_i[8];
     const jg_real t63 = A_j[3] * C_i[8];
     const jg_real t64 = A_j[6] * C_i[8];
-    jac_phi_A_i[26] = t62 * C_j[0] + t63 * C_j[1] + t64 * C_j[2];
-    jac_phi_A_i[27] = (t60 * h_star_in_j_2 + g_star_in_j_1 * t64 - (t61 * h_star_in_j_1 + g_star_in_j_2 * t63)) *
-        C_j[3] + (t61 * h_star_in_j_0 + g_star_in_j_2 * t62 - (t59 * h_star_in_j_2 + g_star_in_j_0 * t64)) * C_j[4]
-        + (t59 * h_star_in_j_1 + g_star_in_j_0 * t63 - (t60 * h_star_in_j_0 + g_star_in_j_1 * t62)) * C_j[5];
+    jac_phi_A_i[26] = C_j[0] * t62 + C_j[1] * t63 + C_j[2] * t64;
+    jac_phi_A_i[27] = C_j[3] * (h_star_in_j_2 * t60 + t64 * g_star_in_j_1 - (h_star_in_j_1 * t61 + t63 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t61 + t62 * g_star_in_j_2 - (h_star_in_j_2 * t59 + t64 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t59 + t63 * g_star_in_j_0 - (h_star_in_j_0 * t60 + t62 *
+        g_star_in_j_1));
     const jg_real t65 = A_j[1] * g_star_in_i_2;
     const jg_real t66 = A_j[4] * g_star_in_i_2;
     const jg_real t67 = A_j[7] * g_star_in_i_2;
-    jac_phi_A_i[29] = t65 * C_j[6] + t66 * C_j[7] + t67 * C_j[8];
+    jac_phi_A_i[29] = C_j[6] * t65 + C_j[7] * t66 + C_j[8] * t67;
     const jg_real t68 = A_j[1] * C_i[8];
     const jg_real t69 = A_j[4] * C_i[8];
     const jg_real t70 = A_j[7] * C_i[8];
-    jac_phi_A_i[30] = t68 * C_j[0] + t69 * C_j[1] + t70 * C_j[2];
-    jac_phi_A_i[31] = (t66 * h_star_in_j_2 + g_star_in_j_1 * t70 - (t67 * h_star_in_j_1 + g_star_in_j_2 * t69)) *
-        C_j[3] + (t67 * h_star_in_j_0 + g_star_in_j_2 * t68 - (t65 * h_star_in_j_2 + g_star_in_j_0 * t70)) * C_j[4]
-        + (t65 * h_star_in_j_1 + g_star_in_j_0 * t69 - (t66 * h_star_in_j_0 + g_star_in_j_1 * t68)) * C_j[5];
+    jac_phi_A_i[30] = C_j[0] * t68 + C_j[1] * t69 + C_j[2] * t70;
+    jac_phi_A_i[31] = C_j[3] * (h_star_in_j_2 * t66 + t70 * g_star_in_j_1 - (h_star_in_j_1 * t67 + t69 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t67 + t68 * g_star_in_j_2 - (h_star_in_j_2 * t65 + t70 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t65 + t69 * g_star_in_j_0 - (h_star_in_j_0 * t66 + t68 *
+        g_star_in_j_1));
     const jg_real t71 = A_j[2] * g_star_in_i_2;
     const jg_real t72 = A_j[5] * g_star_in_i_2;
     const jg_real t73 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = t71 * C_j[6] + t72 * C_j[7] + t73 * C_j[8];
+    jac_phi_A_i[33] = C_j[6] * t71 + C_j[7] * t72 + C_j[8] * t73;
     const jg_real t74 = A_j[2] * C_i[8];
     const jg_real t75 = A_j[5] * C_i[8];
     const jg_real t76 = A_j[8] * C_i[8];
-    jac_phi_A_i[34] = t74 * C_j[0] + t75 * C_j[1] + t76 * C_j[2];
-    jac_phi_A_i[35] = (t72 * h_star_in_j_2 + g_star_in_j_1 * t76 - (t73 * h_star_in_j_1 + g_star_in_j_2 * t75)) *
-        C_j[3] + (t73 * h_star_in_j_0 + g_star_in_j_2 * t74 - (t71 * h_star_in_j_2 + g_star_in_j_0 * t76)) * C_j[4]
-        + (t71 * h_star_in_j_1 + g_star_in_j_0 * t75 - (t72 * h_star_in_j_0 + g_star_in_j_1 * t74)) * C_j[5];
+    jac_phi_A_i[34] = C_j[0] * t74 + C_j[1] * t75 + C_j[2] * t76;
+    jac_phi_A_i[35] = C_j[3] * (h_star_in_j_2 * t72 + t76 * g_star_in_j_1 - (h_star_in_j_1 * t73 + t75 *
+        g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t73 + t74 * g_star_in_j_2 - (h_star_in_j_2 * t71 + t76 *
+        g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t71 + t75 * g_star_in_j_0 - (h_star_in_j_0 * t72 + t74 *
+        g_star_in_j_1));
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
-    jac_phi_A_j[3] = g_star_world_0 * C_j[6];
-    jac_phi_A_j[4] = h_star_world_0 * C_j[0];
-    const jg_real t77 = g_star_world_0 * h_star_in_j_2 - g_star_in_j_2 * h_star_world_0;
-    const jg_real t78 = g_star_in_j_1 * h_star_world_0 - g_star_world_0 * h_star_in_j_1;
-    jac_phi_A_j[5] = -(t77 * C_j[4] + t78 * C_j[5]);
+    jac_phi_A_j[3] = C_j[6] * g_star_world_0;
+    jac_phi_A_j[4] = C_j[0] * h_star_world_0;
+    const jg_real t77 = h_star_in_j_1 * g_star_world_0 - h_star_world_0 * g_star_in_j_1;
+    const jg_real t78 = h_star_in_j_2 * g_star_world_0 - h_star_world_0 * g_star_in_j_2;
+    jac_phi_A_j[5] = C_j[5] * t77 - C_j[4] * t78;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    jac_phi_A_j[9] = g_star_world_1 * C_j[6];
-    jac_phi_A_j[10] = h_star_world_1 * C_j[0];
-    const jg_real t79 = g_star_world_1 * h_star_in_j_2 - g_star_in_j_2 * h_star_world_1;
-    const jg_real t80 = g_star_in_j_1 * h_star_world_1 - g_star_world_1 * h_star_in_j_1;
-    jac_phi_A_j[11] = -(t79 * C_j[4] + t80 * C_j[5]);
+    jac_phi_A_j[9] = C_j[6] * g_star_world_1;
+    jac_phi_A_j[10] = C_j[0] * h_star_world_1;
+    const jg_real t79 = h_star_in_j_1 * g_star_world_1 - h_star_world_1 * g_star_in_j_1;
+    const jg_real t80 = h_star_in_j_2 * g_star_world_1 - h_star_world_1 * g_star_in_j_2;
+    jac_phi_A_j[11] = C_j[5] * t79 - C_j[4] * t80;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    jac_phi_A_j[15] = g_star_world_2 * C_j[6];
-    jac_phi_A_j[16] = h_star_world_2 * C_j[0];
-    const jg_real t81 = g_star_world_2 * h_star_in_j_2 - g_star_in_j_2 * h_star_world_2;
-    const jg_real t82 = g_star_in_j_1 * h_star_world_2 - g_star_world_2 * h_star_in_j_1;
-    jac_phi_A_j[17] = -(t81 * C_j[4] + t82 * C_j[5]);
+    jac_phi_A_j[15] = C_j[6] * g_star_world_2;
+    jac_phi_A_j[16] = C_j[0] * h_star_world_2;
+    const jg_real t81 = h_star_in_j_1 * g_star_world_2 - h_star_world_2 * g_star_in_j_1;
+    const jg_real t82 = h_star_in_j_2 * g_star_world_2 - h_star_world_2 * g_star_in_j_2;
+    jac_phi_A_j[17] = C_j[5] * t81 - C_j[4] * t82;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = g_star_world_0 * C_j[7];
-    jac_phi_A_j[22] = h_star_world_0 * C_j[1];
-    const jg_real t83 = g_star_world_0 * h_star_in_j_0 - g_star_in_j_0 * h_star_world_0;
-    jac_phi_A_j[23] = t77 * C_j[3] - t83 * C_j[5];
+    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
+    jac_phi_A_j[22] = C_j[1] * h_star_world_0;
+    const jg_real t83 = h_star_world_0 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_0;
+    jac_phi_A_j[23] = C_j[5] * t83 + C_j[3] * t78;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
-    jac_phi_A_j[27] = g_star_world_1 * C_j[7];
-    jac_phi_A_j[28] = h_star_world_1 * C_j[1];
-    const jg_real t84 = g_star_world_1 * h_star_in_j_0 - g_star_in_j_0 * h_star_world_1;
-    jac_phi_A_j[29] = t79 * C_j[3] - t84 * C_j[5];
+    jac_phi_A_j[27] = C_j[7] * g_star_world_1;
+    jac_phi_A_j[28] = C_j[1] * h_star_world_1;
+    const jg_real t84 = h_star_world_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_1;
+    jac_phi_A_j[29] = C_j[5] * t84 + C_j[3] * t80;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
-    jac_phi_A_j[33] = g_star_world_2 * C_j[7];
-    jac_phi_A_j[34] = h_star_world_2 * C_j[1];
-    const jg_real t85 = g_star_world_2 * h_star_in_j_0 - g_star_in_j_0 * h_star_world_2;
-    jac_phi_A_j[35] = t81 * C_j[3] - t85 * C_j[5];
+    jac_phi_A_j[33] = C_j[7] * g_star_world_2;
+    jac_phi_A_j[34] = C_j[1] * h_star_world_2;
+    const jg_real t85 = h_star_world_2 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_2;
+    jac_phi_A_j[35] = C_j[5] * t85 + C_j[3] * t82;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
-    jac_phi_A_j[39] = g_star_world_0 * C_j[8];
-    jac_phi_A_j[40] = h_star_world_0 * C_j[2];
-    jac_phi_A_j[41] = t78 * C_j[3] + t83 * C_j[4];
+    jac_phi_A_j[39] = C_j[8] * g_star_world_0;
+    jac_phi_A_j[40] = C_j[2] * h_star_world_0;
+    jac_phi_A_j[41] = -(C_j[3] * t77 + C_j[4] * t83);
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
-    jac_phi_A_j[45] = g_star_world_1 * C_j[8];
-    jac_phi_A_j[46] = h_star_world_1 * C_j[2];
-    jac_phi_A_j[47] = t80 * C_j[3] + t84 * C_j[4];
+    jac_phi_A_j[45] = C_j[8] * g_star_world_1;
+    jac_phi_A_j[46] = C_j[2] * h_star_world_1;
+    jac_phi_A_j[47] = -(C_j[3] * t79 + C_j[4] * t84);
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
-    jac_phi_A_j[51] = g_star_world_2 * C_j[8];
-    jac_phi_A_j[52] = h_star_world_2 * C_j[2];
-    jac_phi_A_j[53] = t82 * C_j[3] + t85 * C_j[4];
-    const jg_real t86 = sine_0 * C_i[3] + cosine_0 * C_i[0];
-    const jg_real t87 = sine_0 * C_i[4] + cosine_0 * C_i[1];
-    const jg_real t88 = sine_0 * C_i[5] + cosine_0 * C_i[2];
+    jac_phi_A_j[51] = C_j[8] * g_star_world_2;
+    jac_phi_A_j[52] = C_j[2] * h_star_world_2;
+    jac_phi_A_j[53] = -(C_j[3] * t81 + C_j[4] * t85);
+    const jg_real t86 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t87 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t88 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     const jg_real t89 = A_i[0] * t86 + A_i[3] * t87 + A_i[6] * t88;
     const jg_real t90 = A_i[1] * t86 + A_i[4] * t87 + A_i[7] * t88;
     const jg_real t91 = A_i[2] * t86 + A_i[5] * t87 + A_i[8] * t88;
     const jg_real t92 = A_j[0] * t89 + A_j[1] * t90 + A_j[2] * t91;
     const jg_real t93 = A_j[3] * t89 + A_j[4] * t90 + A_j[5] * t91;
     const jg_real t94 = A_j[6] * t89 + A_j[7] * t90 + A_j[8] * t91;
-    jac_phi_alpha[0] = -(t92 * C_j[6] + t93 * C_j[7] + t94 * C_j[8]);
-    jac_phi_alpha[1] = (t94 * h_star_in_j_1 - t93 * h_star_in_j_2) * C_j[3] + (t92 * h_star_in_j_2 - t94 *
-        h_star_in_j_0) * C_j[4] + (t93 * h_star_in_j_0 - t92 * h_star_in_j_1) * C_j[5];
+    jac_phi_alpha[0] = -(C_j[6] * t92 + C_j[7] * t93 + C_j[8] * t94);
+    jac_phi_alpha[1] = C_j[3] * (h_star_in_j_1 * t94 - h_star_in_j_2 * t93) + C_j[4] * (h_star_in_j_2 * t92 -
+        h_star_in_j_0 * t94) + C_j[5] * (h_star_in_j_0 * t93 - h_star_in_j_1 * t92);
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
@@ -277,87 +285,87 @@ static void jg_revolute_parametric_substituted_phi_jacobian(const jg_real *JG_RE
     const jg_real t98 = A_j[0] * t95 + A_j[1] * t96 + A_j[2] * t97;
     const jg_real t99 = A_j[3] * t95 + A_j[4] * t96 + A_j[5] * t97;
     const jg_real t100 = A_j[6] * t95 + A_j[7] * t96 + A_j[8] * t97;
-    jac_phi_geometry[3] = -(t98 * C_j[6] + t99 * C_j[7] + t100 * C_j[8]);
-    jac_phi_geometry[4] = (t100 * h_star_in_j_1 - t99 * h_star_in_j_2) * C_j[3] + (t98 * h_star_in_j_2 - t100 *
-        h_star_in_j_0) * C_j[4] + (t99 * h_star_in_j_0 - t98 * h_star_in_j_1) * C_j[5];
+    jac_phi_geometry[3] = -(C_j[6] * t98 + C_j[7] * t99 + C_j[8] * t100);
+    jac_phi_geometry[4] = C_j[3] * (h_star_in_j_1 * t100 - h_star_in_j_2 * t99) + C_j[4] * (h_star_in_j_2 * t98 -
+        h_star_in_j_0 * t100) + C_j[5] * (h_star_in_j_0 * t99 - h_star_in_j_1 * t98);
     const jg_real t101 = A_i[3] * sine_0;
     const jg_real t102 = A_i[4] * sine_0;
     const jg_real t103 = A_i[5] * sine_0;
     const jg_real t104 = A_j[0] * t101 + A_j[1] * t102 + A_j[2] * t103;
     const jg_real t105 = A_j[3] * t101 + A_j[4] * t102 + A_j[5] * t103;
     const jg_real t106 = A_j[6] * t101 + A_j[7] * t102 + A_j[8] * t103;
-    jac_phi_geometry[5] = -(t104 * C_j[6] + t105 * C_j[7] + t106 * C_j[8]);
-    jac_phi_geometry[6] = (t106 * h_star_in_j_1 - t105 * h_star_in_j_2) * C_j[3] + (t104 * h_star_in_j_2 - t106 *
-        h_star_in_j_0) * C_j[4] + (t105 * h_star_in_j_0 - t104 * h_star_in_j_1) * C_j[5];
+    jac_phi_geometry[5] = -(C_j[6] * t104 + C_j[7] * t105 + C_j[8] * t106);
+    jac_phi_geometry[6] = C_j[3] * (h_star_in_j_1 * t106 - h_star_in_j_2 * t105) + C_j[4] * (h_star_in_j_2 * t104 -
+        h_star_in_j_0 * t106) + C_j[5] * (h_star_in_j_0 * t105 - h_star_in_j_1 * t104);
     const jg_real t107 = A_i[6] * sine_0;
     const jg_real t108 = A_i[7] * sine_0;
     const jg_real t109 = A_i[8] * sine_0;
     const jg_real t110 = A_j[0] * t107 + A_j[1] * t108 + A_j[2] * t109;
     const jg_real t111 = A_j[3] * t107 + A_j[4] * t108 + A_j[5] * t109;
     const jg_real t112 = A_j[6] * t107 + A_j[7] * t108 + A_j[8] * t109;
-    jac_phi_geometry[7] = -(t110 * C_j[6] + t111 * C_j[7] + t112 * C_j[8]);
-    jac_phi_geometry[8] = (t112 * h_star_in_j_1 - t111 * h_star_in_j_2) * C_j[3] + (t110 * h_star_in_j_2 - t112 *
-        h_star_in_j_0) * C_j[4] + (t111 * h_star_in_j_0 - t110 * h_star_in_j_1) * C_j[5];
+    jac_phi_geometry[7] = -(C_j[6] * t110 + C_j[7] * t111 + C_j[8] * t112);
+    jac_phi_geometry[8] = C_j[3] * (h_star_in_j_1 * t112 - h_star_in_j_2 * t111) + C_j[4] * (h_star_in_j_2 * t110 -
+        h_star_in_j_0 * t112) + C_j[5] * (h_star_in_j_0 * t111 - h_star_in_j_1 * t110);
     const jg_real t113 = A_i[0] * cosine_0;
     const jg_real t114 = A_i[1] * cosine_0;
     const jg_real t115 = A_i[2] * cosine_0;
     const jg_real t116 = A_j[0] * t113 + A_j[1] * t114 + A_j[2] * t115;
     const jg_real t117 = A_j[3] * t113 + A_j[4] * t114 + A_j[5] * t115;
     const jg_real t118 = A_j[6] * t113 + A_j[7] * t114 + A_j[8] * t115;
-    jac_phi_geometry[9] = t116 * C_j[6] + t117 * C_j[7] + t118 * C_j[8];
-    jac_phi_geometry[10] = (t117 * h_star_in_j_2 - t118 * h_star_in_j_1) * C_j[3] + (t118 * h_star_in_j_0 - t116 *
-        h_star_in_j_2) * C_j[4] + (t116 * h_star_in_j_1 - t117 * h_star_in_j_0) * C_j[5];
+    jac_phi_geometry[9] = C_j[6] * t116 + C_j[7] * t117 + C_j[8] * t118;
+    jac_phi_geometry[10] = C_j[3] * (h_star_in_j_2 * t117 - h_star_in_j_1 * t118) + C_j[4] * (h_star_in_j_0 * t118 -
+        h_star_in_j_2 * t116) + C_j[5] * (h_star_in_j_1 * t116 - h_star_in_j_0 * t117);
     const jg_real t119 = A_i[3] * cosine_0;
     const jg_real t120 = A_i[4] * cosine_0;
     const jg_real t121 = A_i[5] * cosine_0;
     const jg_real t122 = A_j[0] * t119 + A_j[1] * t120 + A_j[2] * t121;
     const jg_real t123 = A_j[3] * t119 + A_j[4] * t120 + A_j[5] * t121;
     const jg_real t124 = A_j[6] * t119 + A_j[7] * t120 + A_j[8] * t121;
-    jac_phi_geometry[11] = t122 * C_j[6] + t123 * C_j[7] + t124 * C_j[8];
-    jac_phi_geometry[12] = (t123 * h_star_in_j_2 - t124 * h_star_in_j_1) * C_j[3] + (t124 * h_star_in_j_0 - t122 *
-        h_star_in_j_2) * C_j[4] + (t122 * h_star_in_j_1 - t123 * h_star_in_j_0) * C_j[5];
+    jac_phi_geometry[11] = C_j[6] * t122 + C_j[7] * t123 + C_j[8] * t124;
+    jac_phi_geometry[12] = C_j[3] * (h_star_in_j_2 * t123 - h_star_in_j_1 * t124) + C_j[4] * (h_star_in_j_0 * t124 -
+        h_star_in_j_2 * t122) + C_j[5] * (h_star_in_j_1 * t122 - h_star_in_j_0 * t123);
     const jg_real t125 = A_i[6] * cosine_0;
     const jg_real t126 = A_i[7] * cosine_0;
     const jg_real t127 = A_i[8] * cosine_0;
     const jg_real t128 = A_j[0] * t125 + A_j[1] * t126 + A_j[2] * t127;
     const jg_real t129 = A_j[3] * t125 + A_j[4] * t126 + A_j[5] * t127;
     const jg_real t130 = A_j[6] * t125 + A_j[7] * t126 + A_j[8] * t127;
-    jac_phi_geometry[13] = t128 * C_j[6] + t129 * C_j[7] + t130 * C_j[8];
-    jac_phi_geometry[14] = (t129 * h_star_in_j_2 - t130 * h_star_in_j_1) * C_j[3] + (t130 * h_star_in_j_0 - t128 *
-        h_star_in_j_2) * C_j[4] + (t128 * h_star_in_j_1 - t129 * h_star_in_j_0) * C_j[5];
+    jac_phi_geometry[13] = C_j[6] * t128 + C_j[7] * t129 + C_j[8] * t130;
+    jac_phi_geometry[14] = C_j[3] * (h_star_in_j_2 * t129 - h_star_in_j_1 * t130) + C_j[4] * (h_star_in_j_0 * t130 -
+        h_star_in_j_2 * t128) + C_j[5] * (h_star_in_j_1 * t128 - h_star_in_j_0 * t129);
     const jg_real t131 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[21] = t131;
     const jg_real t132 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_geometry[24] = t132;
     const jg_real t133 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[27] = t133;
-    jac_phi_geometry[15] = t131 * C_j[0] + t132 * C_j[1] + t133 * C_j[2];
-    jac_phi_geometry[16] = (t133 * g_star_in_j_1 - t132 * g_star_in_j_2) * C_j[3] + (t131 * g_star_in_j_2 - t133 *
-        g_star_in_j_0) * C_j[4] + (t132 * g_star_in_j_0 - t131 * g_star_in_j_1) * C_j[5];
+    jac_phi_geometry[15] = C_j[0] * t131 + C_j[1] * t132 + C_j[2] * t133;
+    jac_phi_geometry[16] = C_j[3] * (t133 * g_star_in_j_1 - t132 * g_star_in_j_2) + C_j[4] * (t131 * g_star_in_j_2 -
+        t133 * g_star_in_j_0) + C_j[5] * (t132 * g_star_in_j_0 - t131 * g_star_in_j_1);
     const jg_real t134 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[22] = t134;
     const jg_real t135 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[25] = t135;
     const jg_real t136 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[28] = t136;
-    jac_phi_geometry[17] = t134 * C_j[0] + t135 * C_j[1] + t136 * C_j[2];
-    jac_phi_geometry[18] = (t136 * g_star_in_j_1 - t135 * g_star_in_j_2) * C_j[3] + (t134 * g_star_in_j_2 - t136 *
-        g_star_in_j_0) * C_j[4] + (t135 * g_star_in_j_0 - t134 * g_star_in_j_1) * C_j[5];
+    jac_phi_geometry[17] = C_j[0] * t134 + C_j[1] * t135 + C_j[2] * t136;
+    jac_phi_geometry[18] = C_j[3] * (t136 * g_star_in_j_1 - t135 * g_star_in_j_2) + C_j[4] * (t134 * g_star_in_j_2 -
+        t136 * g_star_in_j_0) + C_j[5] * (t135 * g_star_in_j_0 - t134 * g_star_in_j_1);
     const jg_real t137 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_geometry[23] = t137;
     const jg_real t138 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[26] = t138;
     const jg_real t139 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[29] = t139;
-    jac_phi_geometry[19] = t137 * C_j[0] + t138 * C_j[1] + t139 * C_j[2];
-    jac_phi_geometry[20] = (t139 * g_star_in_j_1 - t138 * g_star_in_j_2) * C_j[3] + (t137 * g_star_in_j_2 - t139 *
-        g_star_in_j_0) * C_j[4] + (t138 * g_star_in_j_0 - t137 * g_star_in_j_1) * C_j[5];
+    jac_phi_geometry[19] = C_j[0] * t137 + C_j[1] * t138 + C_j[2] * t139;
+    jac_phi_geometry[20] = C_j[3] * (t139 * g_star_in_j_1 - t138 * g_star_in_j_2) + C_j[4] * (t137 * g_star_in_j_2 -
+        t139 * g_star_in_j_0) + C_j[5] * (t138 * g_star_in_j_0 - t137 * g_star_in_j_1);
     /* f_star_in_j = f_star, axes of body j */
-    const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - g_star_in_j_2 * h_star_in_j_1;
+    const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     jac_phi_geometry[33] = f_star_in_j_0;
-    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - g_star_in_j_0 * h_star_in_j_2;
+    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     jac_phi_geometry[34] = f_star_in_j_1;
-    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - g_star_in_j_1 * h_star_in_j_0;
+    const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
     jac_phi_geometry[35] = f_star_in_j_2;
 }
 
@@ -373,38 +381,38 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real g_j_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_q_v_velocity[6] = g_j_in_i_0;
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    jac_phi_q_v_velocity[5] = f_j_in_i_0;
     const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
+    jac_phi_q_v_velocity[5] = f_j_in_i_0;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
-    const jg_real s_j_cross_omega_j_in_joint_j_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
-        C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
-    const jg_real s_j_cross_omega_j_in_joint_j_1 = s_j_cross_omega_j_in_j_0 * C_j[3] + s_j_cross_omega_j_in_j_1 *
-        C_j[4] + s_j_cross_omega_j_in_j_2 * C_j[5];
-    jac_phi_q_v_alpha[0] = g_j_in_i_0 * v_j_in_joint_j_0 - f_j_in_i_0 * v_j_in_joint_j_1 -
-        (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_0 - f_j_in_i_0 * s_j_cross_omega_j_in_joint_j_1);
-    const jg_real g_j_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_alpha[0] = v_j_in_joint_j_0 * g_j_in_i_0 - v_j_in_joint_j_1 * f_j_in_i_0 -
+        (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_0 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_0);
+    const jg_real g_j_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_v_velocity[11] = g_j_in_i_1;
-    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real f_j_in_i_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_v_velocity[10] = f_j_in_i_1;
     jac_phi_q_v_alpha[1] = v_j_in_joint_j_0 * g_j_in_i_1 - v_j_in_joint_j_1 * f_j_in_i_1 -
         (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_1 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_1);
-    const jg_real g_j_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real g_j_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_v_velocity[16] = g_j_in_i_2;
-    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real f_j_in_i_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     jac_phi_q_v_velocity[15] = f_j_in_i_2;
     jac_phi_q_v_alpha[2] = v_j_in_joint_j_0 * g_j_in_i_2 - v_j_in_joint_j_1 * f_j_in_i_2 -
         (s_j_cross_omega_j_in_joint_j_0 * g_j_in_i_2 - s_j_cross_omega_j_in_joint_j_1 * f_j_in_i_2);
@@ -415,44 +423,44 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     jac_phi_q_v_geometry[2] = omega_i[2];
     jac_phi_q_v_geometry[29] = omega_i[2];
     /* omega_i_dot_g_j = omega_i . g_j */
-    const jg_real omega_i_dot_g_j = g_j_in_i_0 * omega_i[0] + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
+    const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
     jac_phi_q_v_alpha[3] = omega_i_dot_g_j;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = f_j_in_i_0 * omega_i[0] + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
+    const jg_real omega_i_dot_f_j = omega_i[0] * f_j_in_i_0 + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
     jac_phi_q_v_alpha[4] = -omega_i_dot_f_j;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
-    const jg_real t17 = cosine_0 * v_j_in_joint_j_0 - sine_0 * v_j_in_joint_j_1 - (s_j_cross_omega_j_in_joint_j_0 *
-        cosine_0 - sine_0 * s_j_cross_omega_j_in_joint_j_1);
+    const jg_real t17 = v_j_in_joint_j_0 * cosine_0 - v_j_in_joint_j_1 * sine_0 - (s_j_cross_omega_j_in_joint_j_0 *
+        cosine_0 - s_j_cross_omega_j_in_joint_j_1 * sine_0);
     jac_phi_q_v_geometry[6] = t17;
     jac_phi_q_v_geometry[9] = t17;
     jac_phi_q_v_geometry[12] = t17;
-    const jg_real t18 = cosine_0 * omega_i[0];
+    const jg_real t18 = omega_i[0] * cosine_0;
     jac_phi_q_v_geometry[7] = t18;
     jac_phi_q_v_geometry[17] = t18;
-    const jg_real t19 = sine_0 * omega_i[0];
+    const jg_real t19 = omega_i[0] * sine_0;
     jac_phi_q_v_geometry[16] = t19;
     jac_phi_q_v_geometry[8] = -t19;
-    const jg_real t20 = cosine_0 * omega_i[1];
+    const jg_real t20 = omega_i[1] * cosine_0;
     jac_phi_q_v_geometry[10] = t20;
     jac_phi_q_v_geometry[20] = t20;
-    const jg_real t21 = sine_0 * omega_i[1];
+    const jg_real t21 = omega_i[1] * sine_0;
     jac_phi_q_v_geometry[19] = t21;
     jac_phi_q_v_geometry[11] = -t21;
-    const jg_real t22 = cosine_0 * omega_i[2];
+    const jg_real t22 = omega_i[2] * cosine_0;
     jac_phi_q_v_geometry[13] = t22;
     jac_phi_q_v_geometry[23] = t22;
-    const jg_real t23 = sine_0 * omega_i[2];
+    const jg_real t23 = omega_i[2] * sine_0;
     jac_phi_q_v_geometry[22] = t23;
     jac_phi_q_v_geometry[14] = -t23;
-    const jg_real t24 = sine_0 * v_j_in_joint_j_0 + cosine_0 * v_j_in_joint_j_1 - (s_j_cross_omega_j_in_joint_j_0 *
-        sine_0 + cosine_0 * s_j_cross_omega_j_in_joint_j_1);
+    const jg_real t24 = v_j_in_joint_j_0 * sine_0 + v_j_in_joint_j_1 * cosine_0 - (s_j_cross_omega_j_in_joint_j_0 *
+        sine_0 + s_j_cross_omega_j_in_joint_j_1 * cosine_0);
     jac_phi_q_v_geometry[15] = t24;
     jac_phi_q_v_geometry[18] = t24;
     jac_phi_q_v_geometry[21] = t24;
-    const jg_real s_j_cross_omega_j_in_joint_j_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
-        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
+    const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
+        s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
     const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real t27 = v_j_in_joint_j_2 - s_j_cross_omega_j_in_joint_j_2;
     jac_phi_q_v_geometry[24] = t27;
@@ -462,61 +470,61 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     const jg_real t29 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real t30 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     jac_phi_q_v_velocity[7] = C_i[6];
-    jac_phi_q_v_geometry[30] = -(t28 * f_j_in_i_0 + g_j_in_i_0 * t29 + t30 * C_i[6]);
+    jac_phi_q_v_geometry[30] = -(t28 * f_j_in_i_0 + t29 * g_j_in_i_0 + C_i[6] * t30);
     jac_phi_q_v_velocity[12] = C_i[7];
-    jac_phi_q_v_geometry[31] = -(t28 * f_j_in_i_1 + t29 * g_j_in_i_1 + t30 * C_i[7]);
+    jac_phi_q_v_geometry[31] = -(t28 * f_j_in_i_1 + t29 * g_j_in_i_1 + C_i[7] * t30);
     jac_phi_q_v_velocity[17] = C_i[8];
-    jac_phi_q_v_geometry[32] = -(t28 * f_j_in_i_2 + t29 * g_j_in_i_2 + t30 * C_i[8]);
+    jac_phi_q_v_geometry[32] = -(t28 * f_j_in_i_2 + t29 * g_j_in_i_2 + C_i[8] * t30);
     const jg_real t31 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real t32 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real t33 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    jac_phi_q_v_geometry[33] = -(t31 * f_j_in_i_0 + g_j_in_i_0 * t32 + t33 * C_i[6]);
-    jac_phi_q_v_geometry[34] = -(t31 * f_j_in_i_1 + t32 * g_j_in_i_1 + t33 * C_i[7]);
-    jac_phi_q_v_geometry[35] = -(t31 * f_j_in_i_2 + t32 * g_j_in_i_2 + t33 * C_i[8]);
+    jac_phi_q_v_geometry[33] = -(t31 * f_j_in_i_0 + t32 * g_j_in_i_0 + C_i[6] * t33);
+    jac_phi_q_v_geometry[34] = -(t31 * f_j_in_i_1 + t32 * g_j_in_i_1 + C_i[7] * t33);
+    jac_phi_q_v_geometry[35] = -(t31 * f_j_in_i_2 + t32 * g_j_in_i_2 + C_i[8] * t33);
     const jg_real t34 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real t35 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
     const jg_real t36 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    jac_phi_q_v_geometry[36] = -(t34 * f_j_in_i_0 + g_j_in_i_0 * t35 + t36 * C_i[6]);
-    jac_phi_q_v_geometry[37] = -(t34 * f_j_in_i_1 + t35 * g_j_in_i_1 + t36 * C_i[7]);
-    jac_phi_q_v_geometry[38] = -(t34 * f_j_in_i_2 + t35 * g_j_in_i_2 + t36 * C_i[8]);
-    jac_phi_q_v_geometry[39] = f_j_in_i_0 * v_j[0] - s_j_cross_omega_j_in_j_0 * f_j_in_i_0;
+    jac_phi_q_v_geometry[36] = -(t34 * f_j_in_i_0 + t35 * g_j_in_i_0 + C_i[6] * t36);
+    jac_phi_q_v_geometry[37] = -(t34 * f_j_in_i_1 + t35 * g_j_in_i_1 + C_i[7] * t36);
+    jac_phi_q_v_geometry[38] = -(t34 * f_j_in_i_2 + t35 * g_j_in_i_2 + C_i[8] * t36);
+    jac_phi_q_v_geometry[39] = v_j[0] * f_j_in_i_0 - s_j_cross_omega_j_in_j_0 * f_j_in_i_0;
     jac_phi_q_v_geometry[40] = v_j[0] * f_j_in_i_1 - s_j_cross_omega_j_in_j_0 * f_j_in_i_1;
     jac_phi_q_v_geometry[41] = v_j[0] * f_j_in_i_2 - s_j_cross_omega_j_in_j_0 * f_j_in_i_2;
     const jg_real t37 = -omega_j[0];
     jac_phi_q_v_geometry[42] = t37;
     jac_phi_q_v_geometry[54] = t37;
     jac_phi_q_v_geometry[66] = t37;
-    jac_phi_q_v_geometry[43] = f_j_in_i_0 * v_j[1] - s_j_cross_omega_j_in_j_1 * f_j_in_i_0;
+    jac_phi_q_v_geometry[43] = v_j[1] * f_j_in_i_0 - s_j_cross_omega_j_in_j_1 * f_j_in_i_0;
     jac_phi_q_v_geometry[44] = v_j[1] * f_j_in_i_1 - s_j_cross_omega_j_in_j_1 * f_j_in_i_1;
     jac_phi_q_v_geometry[45] = v_j[1] * f_j_in_i_2 - s_j_cross_omega_j_in_j_1 * f_j_in_i_2;
     const jg_real t38 = -omega_j[1];
     jac_phi_q_v_geometry[46] = t38;
     jac_phi_q_v_geometry[58] = t38;
     jac_phi_q_v_geometry[70] = t38;
-    jac_phi_q_v_geometry[47] = f_j_in_i_0 * v_j[2] - s_j_cross_omega_j_in_j_2 * f_j_in_i_0;
+    jac_phi_q_v_geometry[47] = v_j[2] * f_j_in_i_0 - s_j_cross_omega_j_in_j_2 * f_j_in_i_0;
     jac_phi_q_v_geometry[48] = v_j[2] * f_j_in_i_1 - s_j_cross_omega_j_in_j_2 * f_j_in_i_1;
     jac_phi_q_v_geometry[49] = v_j[2] * f_j_in_i_2 - s_j_cross_omega_j_in_j_2 * f_j_in_i_2;
     const jg_real t39 = -omega_j[2];
     jac_phi_q_v_geometry[50] = t39;
     jac_phi_q_v_geometry[62] = t39;
     jac_phi_q_v_geometry[74] = t39;
-    jac_phi_q_v_geometry[51] = g_j_in_i_0 * v_j[0] - s_j_cross_omega_j_in_j_0 * g_j_in_i_0;
+    jac_phi_q_v_geometry[51] = v_j[0] * g_j_in_i_0 - s_j_cross_omega_j_in_j_0 * g_j_in_i_0;
     jac_phi_q_v_geometry[52] = v_j[0] * g_j_in_i_1 - s_j_cross_omega_j_in_j_0 * g_j_in_i_1;
     jac_phi_q_v_geometry[53] = v_j[0] * g_j_in_i_2 - s_j_cross_omega_j_in_j_0 * g_j_in_i_2;
-    jac_phi_q_v_geometry[55] = g_j_in_i_0 * v_j[1] - s_j_cross_omega_j_in_j_1 * g_j_in_i_0;
+    jac_phi_q_v_geometry[55] = v_j[1] * g_j_in_i_0 - s_j_cross_omega_j_in_j_1 * g_j_in_i_0;
     jac_phi_q_v_geometry[56] = v_j[1] * g_j_in_i_1 - s_j_cross_omega_j_in_j_1 * g_j_in_i_1;
     jac_phi_q_v_geometry[57] = v_j[1] * g_j_in_i_2 - s_j_cross_omega_j_in_j_1 * g_j_in_i_2;
-    jac_phi_q_v_geometry[59] = g_j_in_i_0 * v_j[2] - s_j_cross_omega_j_in_j_2 * g_j_in_i_0;
+    jac_phi_q_v_geometry[59] = v_j[2] * g_j_in_i_0 - s_j_cross_omega_j_in_j_2 * g_j_in_i_0;
     jac_phi_q_v_geometry[60] = v_j[2] * g_j_in_i_1 - s_j_cross_omega_j_in_j_2 * g_j_in_i_1;
     jac_phi_q_v_geometry[61] = v_j[2] * g_j_in_i_2 - s_j_cross_omega_j_in_j_2 * g_j_in_i_2;
-    jac_phi_q_v_geometry[63] = C_i[6] * v_j[0] - s_j_cross_omega_j_in_j_0 * C_i[6];
+    jac_phi_q_v_geometry[63] = C_i[6] * v_j[0] - C_i[6] * s_j_cross_omega_j_in_j_0;
     jac_phi_q_v_geometry[64] = v_j[0] * C_i[7] - s_j_cross_omega_j_in_j_0 * C_i[7];
     jac_phi_q_v_geometry[65] = v_j[0] * C_i[8] - s_j_cross_omega_j_in_j_0 * C_i[8];
-    jac_phi_q_v_geometry[67] = C_i[6] * v_j[1] - s_j_cross_omega_j_in_j_1 * C_i[6];
+    jac_phi_q_v_geometry[67] = C_i[6] * v_j[1] - C_i[6] * s_j_cross_omega_j_in_j_1;
     jac_phi_q_v_geometry[68] = v_j[1] * C_i[7] - s_j_cross_omega_j_in_j_1 * C_i[7];
     jac_phi_q_v_geometry[69] = v_j[1] * C_i[8] - s_j_cross_omega_j_in_j_1 * C_i[8];
-    jac_phi_q_v_geometry[71] = C_i[6] * v_j[2] - s_j_cross_omega_j_in_j_2 * C_i[6];
-    jac_phi_q_v_geometry[72] = v_j[2] * C_i[7] - s_j_cross_omega_j_in_j_2 * C_i[7];
+    jac_phi_q_v_geometry[71] = C_i[6] * v_j[2] - C_i[6] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[72] = v_j[2] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_geometry[73] = v_j[2] * C_i[8] - s_j_cross_omega_j_in_j_2 * C_i[8];
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -527,39 +535,39 @@ static void jg_revolute_parametric_substituted_phi_q_v_jacobian(const jg_real *J
     jac_phi_q_v_velocity[8] = -s_i[2];
     jac_phi_q_v_velocity[9] = s_i[0];
     jac_phi_q_v_velocity[14] = -s_i[0];
-    jac_phi_q_v_velocity[18] = C_j[0] * f_j_in_i_0 + g_j_in_i_0 * C_j[3] + C_j[6] * C_i[6];
+    jac_phi_q_v_velocity[18] = C_j[0] * f_j_in_i_0 + C_j[3] * g_j_in_i_0 + C_j[6] * C_i[6];
     jac_phi_q_v_velocity[19] = C_j[0] * f_j_in_i_1 + C_j[3] * g_j_in_i_1 + C_j[6] * C_i[7];
     jac_phi_q_v_velocity[20] = C_j[0] * f_j_in_i_2 + C_j[3] * g_j_in_i_2 + C_j[6] * C_i[8];
-    jac_phi_q_v_velocity[21] = C_j[1] * f_j_in_i_0 + g_j_in_i_0 * C_j[4] + C_j[7] * C_i[6];
+    jac_phi_q_v_velocity[21] = C_j[1] * f_j_in_i_0 + C_j[4] * g_j_in_i_0 + C_j[7] * C_i[6];
     jac_phi_q_v_velocity[22] = C_j[1] * f_j_in_i_1 + C_j[4] * g_j_in_i_1 + C_j[7] * C_i[7];
     jac_phi_q_v_velocity[23] = C_j[1] * f_j_in_i_2 + C_j[4] * g_j_in_i_2 + C_j[7] * C_i[8];
-    jac_phi_q_v_velocity[24] = C_j[2] * f_j_in_i_0 + g_j_in_i_0 * C_j[5] + C_j[8] * C_i[6];
+    jac_phi_q_v_velocity[24] = C_j[2] * f_j_in_i_0 + C_j[5] * g_j_in_i_0 + C_j[8] * C_i[6];
     jac_phi_q_v_velocity[25] = C_j[2] * f_j_in_i_1 + C_j[5] * g_j_in_i_1 + C_j[8] * C_i[7];
     jac_phi_q_v_velocity[26] = C_j[2] * f_j_in_i_2 + C_j[5] * g_j_in_i_2 + C_j[8] * C_i[8];
     const jg_real t40 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
     const jg_real t41 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
     const jg_real t42 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
-    jac_phi_q_v_velocity[27] = -(t40 * f_j_in_i_0 + g_j_in_i_0 * t41 + t42 * C_i[6]);
-    jac_phi_q_v_velocity[28] = -(t40 * f_j_in_i_1 + t41 * g_j_in_i_1 + t42 * C_i[7]);
-    jac_phi_q_v_velocity[29] = -(t40 * f_j_in_i_2 + t41 * g_j_in_i_2 + t42 * C_i[8]);
+    jac_phi_q_v_velocity[27] = -(t40 * f_j_in_i_0 + t41 * g_j_in_i_0 + C_i[6] * t42);
+    jac_phi_q_v_velocity[28] = -(t40 * f_j_in_i_1 + t41 * g_j_in_i_1 + C_i[7] * t42);
+    jac_phi_q_v_velocity[29] = -(t40 * f_j_in_i_2 + t41 * g_j_in_i_2 + C_i[8] * t42);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
     const jg_real t43 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
     const jg_real t44 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
     const jg_real t45 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
-    jac_phi_q_v_velocity[33] = -(t43 * f_j_in_i_0 + g_j_in_i_0 * t44 + t45 * C_i[6]);
-    jac_phi_q_v_velocity[34] = -(t43 * f_j_in_i_1 + t44 * g_j_in_i_1 + t45 * C_i[7]);
-    jac_phi_q_v_velocity[35] = -(t43 * f_j_in_i_2 + t44 * g_j_in_i_2 + t45 * C_i[8]);
+    jac_phi_q_v_velocity[33] = -(t43 * f_j_in_i_0 + t44 * g_j_in_i_0 + C_i[6] * t45);
+    jac_phi_q_v_velocity[34] = -(t43 * f_j_in_i_1 + t44 * g_j_in_i_1 + C_i[7] * t45);
+    jac_phi_q_v_velocity[35] = -(t43 * f_j_in_i_2 + t44 * g_j_in_i_2 + C_i[8] * t45);
     jac_phi_q_v_velocity[36] = -C_j[1];
     jac_phi_q_v_velocity[37] = -C_j[4];
     jac_phi_q_v_velocity[38] = -C_j[7];
     const jg_real t46 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
     const jg_real t47 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
     const jg_real t48 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
-    jac_phi_q_v_velocity[39] = -(t46 * f_j_in_i_0 + g_j_in_i_0 * t47 + t48 * C_i[6]);
-    jac_phi_q_v_velocity[40] = -(t46 * f_j_in_i_1 + t47 * g_j_in_i_1 + t48 * C_i[7]);
-    jac_phi_q_v_velocity[41] = -(t46 * f_j_in_i_2 + t47 * g_j_in_i_2 + t48 * C_i[8]);
+    jac_phi_q_v_velocity[39] = -(t46 * f_j_in_i_0 + t47 * g_j_in_i_0 + C_i[6] * t48);
+    jac_phi_q_v_velocity[40] = -(t46 * f_j_in_i_1 + t47 * g_j_in_i_1 + C_i[7] * t48);
+    jac_phi_q_v_velocity[41] = -(t46 * f_j_in_i_2 + t47 * g_j_in_i_2 + C_i[8] * t48);
     jac_phi_q_v_velocity[42] = -C_j[2];
     jac_phi_q_v_velocity[43] = -C_j[5];
     jac_phi_q_v_velocity[44] = -C_j[8];
@@ -579,17 +587,17 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* v_0_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
-    const jg_real v_0_in_joint_i_0 = lambda[3] * cosine_0 - sine_0 * lambda[4];
+    const jg_real v_0_in_joint_i_0 = lambda[3] * cosine_0 - lambda[4] * sine_0;
     jac_phi_q_t_lambda_geometry[6] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[13] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[20] = v_0_in_joint_i_0;
-    const jg_real v_0_in_joint_i_1 = lambda[3] * sine_0 + cosine_0 * lambda[4];
+    const jg_real v_0_in_joint_i_1 = lambda[3] * sine_0 + lambda[4] * cosine_0;
     jac_phi_q_t_lambda_geometry[27] = v_0_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[34] = v_0_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[41] = v_0_in_joint_i_1;
-    jac_phi_q_t_lambda_alpha[0] = v_0_in_joint_i_0 * C_i[3] - v_0_in_joint_i_1 * C_i[0];
-    jac_phi_q_t_lambda_alpha[1] = v_0_in_joint_i_0 * C_i[4] - v_0_in_joint_i_1 * C_i[1];
-    jac_phi_q_t_lambda_alpha[2] = v_0_in_joint_i_0 * C_i[5] - v_0_in_joint_i_1 * C_i[2];
+    jac_phi_q_t_lambda_alpha[0] = C_i[3] * v_0_in_joint_i_0 - C_i[0] * v_0_in_joint_i_1;
+    jac_phi_q_t_lambda_alpha[1] = C_i[4] * v_0_in_joint_i_0 - C_i[1] * v_0_in_joint_i_1;
+    jac_phi_q_t_lambda_alpha[2] = C_i[5] * v_0_in_joint_i_0 - C_i[2] * v_0_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[3] = lambda[0];
     jac_phi_q_t_lambda_geometry[4] = lambda[1];
     jac_phi_q_t_lambda_geometry[0] = lambda[2];
@@ -597,88 +605,88 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_i_1 - sine_0 *
-        lambda_0_1_2_in_joint_i_0;
+    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_1 * cosine_0 - lambda_0_1_2_in_joint_i_0 *
+        sine_0;
     jac_phi_q_t_lambda_geometry[87] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[91] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_joint_j_1;
-    const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + sine_0 *
-        lambda_0_1_2_in_joint_i_1;
+    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * cosine_0 + lambda_0_1_2_in_joint_i_1 *
+        sine_0;
     jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
-    const jg_real t8 = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
+    const jg_real t8 = C_j[0] * lambda_0_1_2_in_joint_j_1 - C_j[3] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[3] = t8;
-    const jg_real t9 = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
+    const jg_real t9 = C_j[1] * lambda_0_1_2_in_joint_j_1 - C_j[4] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[4] = t9;
-    const jg_real t10 = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
+    const jg_real t10 = C_j[2] * lambda_0_1_2_in_joint_j_1 - C_j[5] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_alpha[5] = t10;
-    jac_phi_q_t_lambda_alpha[6] = t10 * s_j[1] - t9 * s_j[2];
-    jac_phi_q_t_lambda_alpha[7] = t8 * s_j[2] - t10 * s_j[0];
-    jac_phi_q_t_lambda_alpha[8] = t9 * s_j[0] - t8 * s_j[1];
+    jac_phi_q_t_lambda_alpha[6] = s_j[1] * t10 - s_j[2] * t9;
+    jac_phi_q_t_lambda_alpha[7] = s_j[2] * t8 - s_j[0] * t10;
+    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t9 - s_j[1] * t8;
     jac_phi_q_t_lambda_geometry[1] = -lambda[1];
     jac_phi_q_t_lambda_geometry[2] = -lambda[2];
     jac_phi_q_t_lambda_geometry[5] = -lambda[0];
     const jg_real t11 = lambda[0] * cosine_0;
     const jg_real t12 = lambda[0] * sine_0;
-    const jg_real t13 = t11 * C_j[0] - t12 * C_j[3];
+    const jg_real t13 = C_j[0] * t11 - C_j[3] * t12;
     jac_phi_q_t_lambda_geometry[7] = t13;
-    const jg_real t14 = t11 * C_j[1] - t12 * C_j[4];
+    const jg_real t14 = C_j[1] * t11 - C_j[4] * t12;
     jac_phi_q_t_lambda_geometry[8] = t14;
-    const jg_real t15 = t11 * C_j[2] - t12 * C_j[5];
+    const jg_real t15 = C_j[2] * t11 - C_j[5] * t12;
     jac_phi_q_t_lambda_geometry[9] = t15;
-    jac_phi_q_t_lambda_geometry[10] = t15 * s_j[1] - t14 * s_j[2];
-    jac_phi_q_t_lambda_geometry[11] = t13 * s_j[2] - t15 * s_j[0];
-    jac_phi_q_t_lambda_geometry[12] = t14 * s_j[0] - t13 * s_j[1];
+    jac_phi_q_t_lambda_geometry[10] = s_j[1] * t15 - s_j[2] * t14;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t13 - s_j[0] * t15;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t14 - s_j[1] * t13;
     const jg_real t16 = lambda[1] * cosine_0;
     const jg_real t17 = lambda[1] * sine_0;
-    const jg_real t18 = t16 * C_j[0] - t17 * C_j[3];
+    const jg_real t18 = C_j[0] * t16 - C_j[3] * t17;
     jac_phi_q_t_lambda_geometry[14] = t18;
-    const jg_real t19 = t16 * C_j[1] - t17 * C_j[4];
+    const jg_real t19 = C_j[1] * t16 - C_j[4] * t17;
     jac_phi_q_t_lambda_geometry[15] = t19;
-    const jg_real t20 = t16 * C_j[2] - t17 * C_j[5];
+    const jg_real t20 = C_j[2] * t16 - C_j[5] * t17;
     jac_phi_q_t_lambda_geometry[16] = t20;
-    jac_phi_q_t_lambda_geometry[17] = t20 * s_j[1] - t19 * s_j[2];
-    jac_phi_q_t_lambda_geometry[18] = t18 * s_j[2] - t20 * s_j[0];
-    jac_phi_q_t_lambda_geometry[19] = t19 * s_j[0] - t18 * s_j[1];
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t20 - s_j[2] * t19;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t18 - s_j[0] * t20;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t19 - s_j[1] * t18;
     const jg_real t21 = lambda[2] * cosine_0;
     const jg_real t22 = lambda[2] * sine_0;
-    const jg_real t23 = t21 * C_j[0] - t22 * C_j[3];
+    const jg_real t23 = C_j[0] * t21 - C_j[3] * t22;
     jac_phi_q_t_lambda_geometry[21] = t23;
-    const jg_real t24 = t21 * C_j[1] - t22 * C_j[4];
+    const jg_real t24 = C_j[1] * t21 - C_j[4] * t22;
     jac_phi_q_t_lambda_geometry[22] = t24;
-    const jg_real t25 = t21 * C_j[2] - t22 * C_j[5];
+    const jg_real t25 = C_j[2] * t21 - C_j[5] * t22;
     jac_phi_q_t_lambda_geometry[23] = t25;
-    jac_phi_q_t_lambda_geometry[24] = t25 * s_j[1] - t24 * s_j[2];
-    jac_phi_q_t_lambda_geometry[25] = t23 * s_j[2] - t25 * s_j[0];
-    jac_phi_q_t_lambda_geometry[26] = t24 * s_j[0] - t23 * s_j[1];
-    const jg_real t26 = t12 * C_j[0] + t11 * C_j[3];
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t25 - s_j[2] * t24;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t23 - s_j[0] * t25;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t24 - s_j[1] * t23;
+    const jg_real t26 = C_j[0] * t12 + C_j[3] * t11;
     jac_phi_q_t_lambda_geometry[28] = t26;
-    const jg_real t27 = t12 * C_j[1] + t11 * C_j[4];
+    const jg_real t27 = C_j[1] * t12 + C_j[4] * t11;
     jac_phi_q_t_lambda_geometry[29] = t27;
-    const jg_real t28 = t12 * C_j[2] + t11 * C_j[5];
+    const jg_real t28 = C_j[2] * t12 + C_j[5] * t11;
     jac_phi_q_t_lambda_geometry[30] = t28;
-    jac_phi_q_t_lambda_geometry[31] = t28 * s_j[1] - t27 * s_j[2];
-    jac_phi_q_t_lambda_geometry[32] = t26 * s_j[2] - t28 * s_j[0];
-    jac_phi_q_t_lambda_geometry[33] = t27 * s_j[0] - t26 * s_j[1];
-    const jg_real t29 = t17 * C_j[0] + t16 * C_j[3];
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t28 - s_j[2] * t27;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t26 - s_j[0] * t28;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t27 - s_j[1] * t26;
+    const jg_real t29 = C_j[0] * t17 + C_j[3] * t16;
     jac_phi_q_t_lambda_geometry[35] = t29;
-    const jg_real t30 = t17 * C_j[1] + t16 * C_j[4];
+    const jg_real t30 = C_j[1] * t17 + C_j[4] * t16;
     jac_phi_q_t_lambda_geometry[36] = t30;
-    const jg_real t31 = t17 * C_j[2] + t16 * C_j[5];
+    const jg_real t31 = C_j[2] * t17 + C_j[5] * t16;
     jac_phi_q_t_lambda_geometry[37] = t31;
-    jac_phi_q_t_lambda_geometry[38] = t31 * s_j[1] - t30 * s_j[2];
-    jac_phi_q_t_lambda_geometry[39] = t29 * s_j[2] - t31 * s_j[0];
-    jac_phi_q_t_lambda_geometry[40] = t30 * s_j[0] - t29 * s_j[1];
-    const jg_real t32 = t22 * C_j[0] + t21 * C_j[3];
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t31 - s_j[2] * t30;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t29 - s_j[0] * t31;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t30 - s_j[1] * t29;
+    const jg_real t32 = C_j[0] * t22 + C_j[3] * t21;
     jac_phi_q_t_lambda_geometry[42] = t32;
-    const jg_real t33 = t22 * C_j[1] + t21 * C_j[4];
+    const jg_real t33 = C_j[1] * t22 + C_j[4] * t21;
     jac_phi_q_t_lambda_geometry[43] = t33;
-    const jg_real t34 = t22 * C_j[2] + t21 * C_j[5];
+    const jg_real t34 = C_j[2] * t22 + C_j[5] * t21;
     jac_phi_q_t_lambda_geometry[44] = t34;
-    jac_phi_q_t_lambda_geometry[45] = t34 * s_j[1] - t33 * s_j[2];
-    jac_phi_q_t_lambda_geometry[46] = t32 * s_j[2] - t34 * s_j[0];
-    jac_phi_q_t_lambda_geometry[47] = t33 * s_j[0] - t32 * s_j[1];
+    jac_phi_q_t_lambda_geometry[45] = s_j[1] * t34 - s_j[2] * t33;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t32 - s_j[0] * t34;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t33 - s_j[1] * t32;
     jac_phi_q_t_lambda_geometry[48] = lambda[5];
     jac_phi_q_t_lambda_geometry[55] = lambda[5];
     jac_phi_q_t_lambda_geometry[62] = lambda[5];
@@ -688,27 +696,27 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     jac_phi_q_t_lambda_geometry[50] = t36;
     const jg_real t37 = lambda[0] * C_j[8];
     jac_phi_q_t_lambda_geometry[51] = t37;
-    jac_phi_q_t_lambda_geometry[52] = t37 * s_j[1] - t36 * s_j[2];
-    jac_phi_q_t_lambda_geometry[53] = t35 * s_j[2] - t37 * s_j[0];
-    jac_phi_q_t_lambda_geometry[54] = t36 * s_j[0] - t35 * s_j[1];
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t37 - s_j[2] * t36;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t35 - s_j[0] * t37;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t36 - s_j[1] * t35;
     const jg_real t38 = lambda[1] * C_j[6];
     jac_phi_q_t_lambda_geometry[56] = t38;
     const jg_real t39 = lambda[1] * C_j[7];
     jac_phi_q_t_lambda_geometry[57] = t39;
     const jg_real t40 = lambda[1] * C_j[8];
     jac_phi_q_t_lambda_geometry[58] = t40;
-    jac_phi_q_t_lambda_geometry[59] = t40 * s_j[1] - t39 * s_j[2];
-    jac_phi_q_t_lambda_geometry[60] = t38 * s_j[2] - t40 * s_j[0];
-    jac_phi_q_t_lambda_geometry[61] = t39 * s_j[0] - t38 * s_j[1];
+    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t40 - s_j[2] * t39;
+    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t38 - s_j[0] * t40;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t39 - s_j[1] * t38;
     const jg_real t41 = lambda[2] * C_j[6];
     jac_phi_q_t_lambda_geometry[63] = t41;
     const jg_real t42 = lambda[2] * C_j[7];
     jac_phi_q_t_lambda_geometry[64] = t42;
     const jg_real t43 = lambda[2] * C_j[8];
     jac_phi_q_t_lambda_geometry[65] = t43;
-    jac_phi_q_t_lambda_geometry[66] = t43 * s_j[1] - t42 * s_j[2];
-    jac_phi_q_t_lambda_geometry[67] = t41 * s_j[2] - t43 * s_j[0];
-    jac_phi_q_t_lambda_geometry[68] = t42 * s_j[0] - t41 * s_j[1];
+    jac_phi_q_t_lambda_geometry[66] = s_j[1] * t43 - s_j[2] * t42;
+    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t41 - s_j[0] * t43;
+    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t42 - s_j[1] * t41;
     jac_phi_q_t_lambda_lambda[39] = C_i[6];
     jac_phi_q_t_lambda_lambda[40] = C_i[7];
     jac_phi_q_t_lambda_lambda[41] = C_i[8];
@@ -717,15 +725,15 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_i_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
-        lambda_0_1_2_in_joint_i_2 * C_j[8];
+    const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 + C_j[5] * lambda_0_1_2_in_joint_j_1 +
+        C_j[8] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
-        lambda_0_1_2_in_joint_i_2 * C_j[7];
+    const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 + C_j[4] * lambda_0_1_2_in_joint_j_1 +
+        C_j[7] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
-        lambda_0_1_2_in_joint_i_2 * C_j[6];
+    const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 + C_j[3] * lambda_0_1_2_in_joint_j_1 +
+        C_j[6] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
@@ -733,39 +741,39 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     jac_phi_q_t_lambda_geometry[76] = t48;
     jac_phi_q_t_lambda_geometry[81] = t48;
     jac_phi_q_t_lambda_geometry[86] = t48;
-    const jg_real t49 = lambda_0_1_2_in_joint_j_0 * s_j[2];
+    const jg_real t49 = s_j[2] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[77] = t49;
-    const jg_real t50 = lambda_0_1_2_in_joint_j_0 * s_j[1];
+    const jg_real t50 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[84] = t50;
     jac_phi_q_t_lambda_geometry[78] = -t50;
     jac_phi_q_t_lambda_geometry[80] = -t49;
-    const jg_real t51 = lambda_0_1_2_in_joint_j_0 * s_j[0];
+    const jg_real t51 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[82] = t51;
     jac_phi_q_t_lambda_geometry[85] = -t51;
     const jg_real t52 = -lambda[4];
     jac_phi_q_t_lambda_geometry[88] = t52;
     jac_phi_q_t_lambda_geometry[93] = t52;
     jac_phi_q_t_lambda_geometry[98] = t52;
-    const jg_real t53 = lambda_0_1_2_in_joint_j_1 * s_j[2];
+    const jg_real t53 = s_j[2] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[89] = t53;
-    const jg_real t54 = lambda_0_1_2_in_joint_j_1 * s_j[1];
+    const jg_real t54 = s_j[1] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[96] = t54;
     jac_phi_q_t_lambda_geometry[90] = -t54;
     jac_phi_q_t_lambda_geometry[92] = -t53;
-    const jg_real t55 = lambda_0_1_2_in_joint_j_1 * s_j[0];
+    const jg_real t55 = s_j[0] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[94] = t55;
     jac_phi_q_t_lambda_geometry[97] = -t55;
     const jg_real t56 = -lambda[5];
     jac_phi_q_t_lambda_geometry[100] = t56;
     jac_phi_q_t_lambda_geometry[105] = t56;
     jac_phi_q_t_lambda_geometry[110] = t56;
-    const jg_real t57 = lambda_0_1_2_in_joint_i_2 * s_j[2];
+    const jg_real t57 = s_j[2] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[101] = t57;
-    const jg_real t58 = lambda_0_1_2_in_joint_i_2 * s_j[1];
+    const jg_real t58 = s_j[1] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[108] = t58;
     jac_phi_q_t_lambda_geometry[102] = -t58;
     jac_phi_q_t_lambda_geometry[104] = -t57;
-    const jg_real t59 = lambda_0_1_2_in_joint_i_2 * s_j[0];
+    const jg_real t59 = s_j[0] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[106] = t59;
     jac_phi_q_t_lambda_geometry[109] = -t59;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
@@ -774,48 +782,48 @@ static void jg_revolute_parametric_substituted_phi_q_t_lambda_jacobian(const jg_
     jac_phi_q_t_lambda_lambda[10] = s_i[2];
     jac_phi_q_t_lambda_lambda[1] = -s_i[2];
     jac_phi_q_t_lambda_lambda[2] = s_i[1];
-    const jg_real t60 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real t60 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     jac_phi_q_t_lambda_lambda[27] = t60;
-    const jg_real t61 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t61 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_q_t_lambda_lambda[33] = t61;
-    const jg_real t62 = t60 * C_j[0] + t61 * C_j[3] + C_i[6] * C_j[6];
+    const jg_real t62 = C_j[0] * t60 + C_j[3] * t61 + C_i[6] * C_j[6];
     jac_phi_q_t_lambda_lambda[3] = t62;
-    const jg_real t63 = t60 * C_j[1] + t61 * C_j[4] + C_i[6] * C_j[7];
+    const jg_real t63 = C_j[1] * t60 + C_j[4] * t61 + C_i[6] * C_j[7];
     jac_phi_q_t_lambda_lambda[4] = t63;
-    const jg_real t64 = t60 * C_j[2] + t61 * C_j[5] + C_i[6] * C_j[8];
+    const jg_real t64 = C_j[2] * t60 + C_j[5] * t61 + C_i[6] * C_j[8];
     jac_phi_q_t_lambda_lambda[5] = t64;
-    jac_phi_q_t_lambda_lambda[6] = t64 * s_j[1] - t63 * s_j[2];
-    jac_phi_q_t_lambda_lambda[7] = t62 * s_j[2] - t64 * s_j[0];
-    jac_phi_q_t_lambda_lambda[8] = t63 * s_j[0] - t62 * s_j[1];
+    jac_phi_q_t_lambda_lambda[6] = s_j[1] * t64 - s_j[2] * t63;
+    jac_phi_q_t_lambda_lambda[7] = s_j[2] * t62 - s_j[0] * t64;
+    jac_phi_q_t_lambda_lambda[8] = s_j[0] * t63 - s_j[1] * t62;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
-    const jg_real t65 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real t65 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_t_lambda_lambda[28] = t65;
-    const jg_real t66 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real t66 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_t_lambda_lambda[34] = t66;
-    const jg_real t67 = t65 * C_j[0] + t66 * C_j[3] + C_i[7] * C_j[6];
+    const jg_real t67 = C_j[0] * t65 + C_j[3] * t66 + C_i[7] * C_j[6];
     jac_phi_q_t_lambda_lambda[12] = t67;
-    const jg_real t68 = t65 * C_j[1] + t66 * C_j[4] + C_i[7] * C_j[7];
+    const jg_real t68 = C_j[1] * t65 + C_j[4] * t66 + C_i[7] * C_j[7];
     jac_phi_q_t_lambda_lambda[13] = t68;
-    const jg_real t69 = t65 * C_j[2] + t66 * C_j[5] + C_i[7] * C_j[8];
+    const jg_real t69 = C_j[2] * t65 + C_j[5] * t66 + C_i[7] * C_j[8];
     jac_phi_q_t_lambda_lambda[14] = t69;
-    jac_phi_q_t_lambda_lambda[15] = t69 * s_j[1] - t68 * s_j[2];
-    jac_phi_q_t_lambda_lambda[16] = t67 * s_j[2] - t69 * s_j[0];
-    jac_phi_q_t_lambda_lambda[17] = t68 * s_j[0] - t67 * s_j[1];
+    jac_phi_q_t_lambda_lambda[15] = s_j[1] * t69 - s_j[2] * t68;
+    jac_phi_q_t_lambda_lambda[16] = s_j[2] * t67 - s_j[0] * t69;
+    jac_phi_q_t_lambda_lambda[17] = s_j[0] * t68 - s_j[1] * t67;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
-    const jg_real t70 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real t70 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     jac_phi_q_t_lambda_lambda[29] = t70;
-    const jg_real t71 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t71 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_t_lambda_lambda[35] = t71;
-    const jg_real t72 = t70 * C_j[0] + t71 * C_j[3] + C_i[8] * C_j[6];
+    const jg_real t72 = C_j[0] * t70 + C_j[3] * t71 + C_i[8] * C_j[6];
     jac_phi_q_t_lambda_lambda[21] = t72;
-    const jg_real t73 = t70 * C_j[1] + t71 * C_j[4] + C_i[8] * C_j[7];
+    const jg_real t73 = C_j[1] * t70 + C_j[4] * t71 + C_i[8] * C_j[7];
     jac_phi_q_t_lambda_lambda[22] = t73;
-    const jg_real t74 = t70 * C_j[2] + t71 * C_j[5] + C_i[8] * C_j[8];
+    const jg_real t74 = C_j[2] * t70 + C_j[5] * t71 + C_i[8] * C_j[8];
     jac_phi_q_t_lambda_lambda[23] = t74;
-    jac_phi_q_t_lambda_lambda[24] = t74 * s_j[1] - t73 * s_j[2];
-    jac_phi_q_t_lambda_lambda[25] = t72 * s_j[2] - t74 * s_j[0];
-    jac_phi_q_t_lambda_lambda[26] = t73 * s_j[0] - t72 * s_j[1];
+    jac_phi_q_t_lambda_lambda[24] = s_j[1] * t74 - s_j[2] * t73;
+    jac_phi_q_t_lambda_lambda[25] = s_j[2] * t72 - s_j[0] * t74;
+    jac_phi_q_t_lambda_lambda[26] = s_j[0] * t73 - s_j[1] * t72;
     jac_phi_q_t_lambda_lambda[30] = -C_j[0];
     jac_phi_q_t_lambda_lambda[31] = -C_j[1];
     jac_phi_q_t_lambda_lambda[32] = -C_j[2];

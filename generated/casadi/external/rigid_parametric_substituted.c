@@ -52,7 +52,7 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
@@ -75,57 +75,57 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     jac_phi_geometry[10] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     jac_phi_geometry[4] = g_j_in_i_1;
-    const jg_real t14 = f_j_in_i_1 * g_j_world_0 - f_j_world_0 * g_j_in_i_1;
-    jac_phi_A_i[1] = -(t11 * C_i[4] + t14 * C_i[5]);
-    jac_phi_A_i[2] = f_j_world_0 * C_i[6];
-    jac_phi_A_i[3] = g_j_world_0 * C_i[0];
+    const jg_real t14 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
+    jac_phi_A_i[1] = -(C_i[4] * t11 + C_i[5] * t14);
+    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
+    jac_phi_A_i[3] = C_i[0] * g_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t18 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t19 = f_j_in_i_1 * g_j_world_1 - f_j_world_1 * g_j_in_i_1;
-    jac_phi_A_i[5] = -(t18 * C_i[4] + t19 * C_i[5]);
-    jac_phi_A_i[6] = f_j_world_1 * C_i[6];
-    jac_phi_A_i[7] = g_j_world_1 * C_i[0];
+    const jg_real t19 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_A_i[5] = -(C_i[4] * t18 + C_i[5] * t19);
+    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
+    jac_phi_A_i[7] = C_i[0] * g_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t23 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t24 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
-    jac_phi_A_i[9] = -(t23 * C_i[4] + t24 * C_i[5]);
-    jac_phi_A_i[10] = f_j_world_2 * C_i[6];
-    jac_phi_A_i[11] = g_j_world_2 * C_i[0];
+    const jg_real t24 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
+    jac_phi_A_i[9] = -(C_i[4] * t23 + C_i[5] * t24);
+    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
+    jac_phi_A_i[11] = C_i[0] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     jac_phi_geometry[3] = g_j_in_i_0;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[9] = f_j_in_i_0;
     const jg_real t27 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
-    jac_phi_A_i[13] = t11 * C_i[3] - t27 * C_i[5];
-    jac_phi_A_i[14] = f_j_world_0 * C_i[7];
-    jac_phi_A_i[15] = g_j_world_0 * C_i[1];
+    jac_phi_A_i[13] = C_i[3] * t11 - C_i[5] * t27;
+    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
+    jac_phi_A_i[15] = C_i[1] * g_j_world_0;
     const jg_real t28 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
-    jac_phi_A_i[17] = t18 * C_i[3] - t28 * C_i[5];
-    jac_phi_A_i[18] = f_j_world_1 * C_i[7];
-    jac_phi_A_i[19] = g_j_world_1 * C_i[1];
+    jac_phi_A_i[17] = C_i[3] * t18 - C_i[5] * t28;
+    jac_phi_A_i[18] = C_i[7] * f_j_world_1;
+    jac_phi_A_i[19] = C_i[1] * g_j_world_1;
     const jg_real t29 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
-    jac_phi_A_i[21] = t23 * C_i[3] - t29 * C_i[5];
-    jac_phi_A_i[22] = f_j_world_2 * C_i[7];
-    jac_phi_A_i[23] = g_j_world_2 * C_i[1];
-    jac_phi_A_i[25] = t14 * C_i[3] + t27 * C_i[4];
-    jac_phi_A_i[26] = f_j_world_0 * C_i[8];
-    jac_phi_A_i[27] = g_j_world_0 * C_i[2];
-    jac_phi_A_i[29] = t19 * C_i[3] + t28 * C_i[4];
-    jac_phi_A_i[30] = f_j_world_1 * C_i[8];
-    jac_phi_A_i[31] = g_j_world_1 * C_i[2];
-    jac_phi_A_i[33] = t24 * C_i[3] + t29 * C_i[4];
-    jac_phi_A_i[34] = f_j_world_2 * C_i[8];
-    jac_phi_A_i[35] = g_j_world_2 * C_i[2];
+    jac_phi_A_i[21] = C_i[3] * t23 - C_i[5] * t29;
+    jac_phi_A_i[22] = C_i[7] * f_j_world_2;
+    jac_phi_A_i[23] = C_i[1] * g_j_world_2;
+    jac_phi_A_i[25] = C_i[3] * t14 + C_i[4] * t27;
+    jac_phi_A_i[26] = C_i[8] * f_j_world_0;
+    jac_phi_A_i[27] = C_i[2] * g_j_world_0;
+    jac_phi_A_i[29] = C_i[3] * t19 + C_i[4] * t28;
+    jac_phi_A_i[30] = C_i[8] * f_j_world_1;
+    jac_phi_A_i[31] = C_i[2] * g_j_world_1;
+    jac_phi_A_i[33] = C_i[3] * t24 + C_i[4] * t29;
+    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
+    jac_phi_A_i[35] = C_i[2] * g_j_world_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
@@ -135,11 +135,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t33 = A_i[3] * C_j[3];
     const jg_real t34 = A_i[0] * C_j[3];
     const jg_real t35 = A_i[0] * C_j[0];
-    jac_phi_A_j[3] = (t30 * g_j_in_i_2 + f_j_in_i_1 * t31 - (t32 * g_j_in_i_1 + f_j_in_i_2 * t33)) * C_i[3] + (t32 *
-        g_j_in_i_0 + f_j_in_i_2 * t34 - (g_j_in_i_2 * t35 + t31 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t35 + t33 *
-        f_j_in_i_0 - (t30 * g_j_in_i_0 + f_j_in_i_1 * t34)) * C_i[5];
-    jac_phi_A_j[4] = t35 * C_i[6] + t30 * C_i[7] + t32 * C_i[8];
-    jac_phi_A_j[5] = t34 * C_i[0] + t33 * C_i[1] + t31 * C_i[2];
+    jac_phi_A_j[3] = C_i[3] * (t30 * g_j_in_i_2 + t31 * f_j_in_i_1 - (t32 * g_j_in_i_1 + t33 * f_j_in_i_2)) + C_i[4]
+        * (t32 * g_j_in_i_0 + t34 * f_j_in_i_2 - (t35 * g_j_in_i_2 + t31 * f_j_in_i_0)) + C_i[5] * (t35 * g_j_in_i_1
+        + t33 * f_j_in_i_0 - (t30 * g_j_in_i_0 + t34 * f_j_in_i_1));
+    jac_phi_A_j[4] = C_i[7] * t30 + C_i[6] * t35 + C_i[8] * t32;
+    jac_phi_A_j[5] = C_i[1] * t33 + C_i[0] * t34 + C_i[2] * t31;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
@@ -149,11 +149,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t39 = A_i[4] * C_j[3];
     const jg_real t40 = A_i[1] * C_j[3];
     const jg_real t41 = A_i[1] * C_j[0];
-    jac_phi_A_j[9] = (t36 * g_j_in_i_2 + f_j_in_i_1 * t37 - (t38 * g_j_in_i_1 + f_j_in_i_2 * t39)) * C_i[3] + (t38 *
-        g_j_in_i_0 + f_j_in_i_2 * t40 - (g_j_in_i_2 * t41 + t37 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t41 + t39 *
-        f_j_in_i_0 - (t36 * g_j_in_i_0 + f_j_in_i_1 * t40)) * C_i[5];
-    jac_phi_A_j[10] = t41 * C_i[6] + t36 * C_i[7] + t38 * C_i[8];
-    jac_phi_A_j[11] = t40 * C_i[0] + t39 * C_i[1] + t37 * C_i[2];
+    jac_phi_A_j[9] = C_i[3] * (t36 * g_j_in_i_2 + t37 * f_j_in_i_1 - (t38 * g_j_in_i_1 + t39 * f_j_in_i_2)) + C_i[4]
+        * (t38 * g_j_in_i_0 + t40 * f_j_in_i_2 - (t41 * g_j_in_i_2 + t37 * f_j_in_i_0)) + C_i[5] * (t41 * g_j_in_i_1
+        + t39 * f_j_in_i_0 - (t36 * g_j_in_i_0 + t40 * f_j_in_i_1));
+    jac_phi_A_j[10] = C_i[7] * t36 + C_i[6] * t41 + C_i[8] * t38;
+    jac_phi_A_j[11] = C_i[1] * t39 + C_i[0] * t40 + C_i[2] * t37;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
@@ -163,11 +163,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t45 = A_i[5] * C_j[3];
     const jg_real t46 = A_i[2] * C_j[3];
     const jg_real t47 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t42 * g_j_in_i_2 + f_j_in_i_1 * t43 - (t44 * g_j_in_i_1 + f_j_in_i_2 * t45)) * C_i[3] + (t44
-        * g_j_in_i_0 + f_j_in_i_2 * t46 - (g_j_in_i_2 * t47 + t43 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t47 + t45
-        * f_j_in_i_0 - (t42 * g_j_in_i_0 + f_j_in_i_1 * t46)) * C_i[5];
-    jac_phi_A_j[16] = t47 * C_i[6] + t42 * C_i[7] + t44 * C_i[8];
-    jac_phi_A_j[17] = t46 * C_i[0] + t45 * C_i[1] + t43 * C_i[2];
+    jac_phi_A_j[15] = C_i[3] * (t42 * g_j_in_i_2 + t43 * f_j_in_i_1 - (t44 * g_j_in_i_1 + t45 * f_j_in_i_2)) +
+        C_i[4] * (t44 * g_j_in_i_0 + t46 * f_j_in_i_2 - (t47 * g_j_in_i_2 + t43 * f_j_in_i_0)) + C_i[5] * (t47 *
+        g_j_in_i_1 + t45 * f_j_in_i_0 - (t42 * g_j_in_i_0 + f_j_in_i_1 * t46));
+    jac_phi_A_j[16] = C_i[7] * t42 + C_i[6] * t47 + C_i[8] * t44;
+    jac_phi_A_j[17] = C_i[1] * t45 + C_i[0] * t46 + C_i[2] * t43;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
@@ -177,11 +177,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t51 = A_i[3] * C_j[4];
     const jg_real t52 = A_i[0] * C_j[4];
     const jg_real t53 = A_i[0] * C_j[1];
-    jac_phi_A_j[21] = (t48 * g_j_in_i_2 + f_j_in_i_1 * t49 - (t50 * g_j_in_i_1 + f_j_in_i_2 * t51)) * C_i[3] + (t50
-        * g_j_in_i_0 + f_j_in_i_2 * t52 - (g_j_in_i_2 * t53 + t49 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t53 + t51
-        * f_j_in_i_0 - (t48 * g_j_in_i_0 + f_j_in_i_1 * t52)) * C_i[5];
-    jac_phi_A_j[22] = t53 * C_i[6] + t48 * C_i[7] + t50 * C_i[8];
-    jac_phi_A_j[23] = t52 * C_i[0] + t51 * C_i[1] + t49 * C_i[2];
+    jac_phi_A_j[21] = C_i[3] * (t48 * g_j_in_i_2 + t49 * f_j_in_i_1 - (t50 * g_j_in_i_1 + t51 * f_j_in_i_2)) +
+        C_i[4] * (t50 * g_j_in_i_0 + t52 * f_j_in_i_2 - (t53 * g_j_in_i_2 + t49 * f_j_in_i_0)) + C_i[5] * (t53 *
+        g_j_in_i_1 + t51 * f_j_in_i_0 - (t48 * g_j_in_i_0 + t52 * f_j_in_i_1));
+    jac_phi_A_j[22] = C_i[7] * t48 + C_i[6] * t53 + C_i[8] * t50;
+    jac_phi_A_j[23] = C_i[1] * t51 + C_i[0] * t52 + C_i[2] * t49;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
@@ -191,11 +191,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t57 = A_i[4] * C_j[4];
     const jg_real t58 = A_i[1] * C_j[4];
     const jg_real t59 = A_i[1] * C_j[1];
-    jac_phi_A_j[27] = (t54 * g_j_in_i_2 + f_j_in_i_1 * t55 - (t56 * g_j_in_i_1 + f_j_in_i_2 * t57)) * C_i[3] + (t56
-        * g_j_in_i_0 + f_j_in_i_2 * t58 - (g_j_in_i_2 * t59 + t55 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t59 + t57
-        * f_j_in_i_0 - (t54 * g_j_in_i_0 + f_j_in_i_1 * t58)) * C_i[5];
-    jac_phi_A_j[28] = t59 * C_i[6] + t54 * C_i[7] + t56 * C_i[8];
-    jac_phi_A_j[29] = t58 * C_i[0] + t57 * C_i[1] + t55 * C_i[2];
+    jac_phi_A_j[27] = C_i[3] * (t54 * g_j_in_i_2 + t55 * f_j_in_i_1 - (t56 * g_j_in_i_1 + t57 * f_j_in_i_2)) +
+        C_i[4] * (t56 * g_j_in_i_0 + t58 * f_j_in_i_2 - (t59 * g_j_in_i_2 + t55 * f_j_in_i_0)) + C_i[5] * (t59 *
+        g_j_in_i_1 + t57 * f_j_in_i_0 - (t54 * g_j_in_i_0 + t58 * f_j_in_i_1));
+    jac_phi_A_j[28] = C_i[7] * t54 + C_i[6] * t59 + C_i[8] * t56;
+    jac_phi_A_j[29] = C_i[1] * t57 + C_i[0] * t58 + C_i[2] * t55;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
@@ -205,11 +205,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t63 = A_i[5] * C_j[4];
     const jg_real t64 = A_i[2] * C_j[4];
     const jg_real t65 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t60 * g_j_in_i_2 + f_j_in_i_1 * t61 - (t62 * g_j_in_i_1 + f_j_in_i_2 * t63)) * C_i[3] + (t62
-        * g_j_in_i_0 + f_j_in_i_2 * t64 - (g_j_in_i_2 * t65 + t61 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t65 + t63
-        * f_j_in_i_0 - (t60 * g_j_in_i_0 + f_j_in_i_1 * t64)) * C_i[5];
-    jac_phi_A_j[34] = t65 * C_i[6] + t60 * C_i[7] + t62 * C_i[8];
-    jac_phi_A_j[35] = t64 * C_i[0] + t63 * C_i[1] + t61 * C_i[2];
+    jac_phi_A_j[33] = C_i[3] * (t60 * g_j_in_i_2 + t61 * f_j_in_i_1 - (t62 * g_j_in_i_1 + t63 * f_j_in_i_2)) +
+        C_i[4] * (t62 * g_j_in_i_0 + t64 * f_j_in_i_2 - (t65 * g_j_in_i_2 + t61 * f_j_in_i_0)) + C_i[5] * (t65 *
+        g_j_in_i_1 + t63 * f_j_in_i_0 - (t60 * g_j_in_i_0 + f_j_in_i_1 * t64));
+    jac_phi_A_j[34] = C_i[7] * t60 + C_i[6] * t65 + C_i[8] * t62;
+    jac_phi_A_j[35] = C_i[1] * t63 + C_i[0] * t64 + C_i[2] * t61;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
@@ -219,11 +219,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t69 = A_i[3] * C_j[5];
     const jg_real t70 = A_i[0] * C_j[5];
     const jg_real t71 = A_i[0] * C_j[2];
-    jac_phi_A_j[39] = (t66 * g_j_in_i_2 + f_j_in_i_1 * t67 - (t68 * g_j_in_i_1 + f_j_in_i_2 * t69)) * C_i[3] + (t68
-        * g_j_in_i_0 + f_j_in_i_2 * t70 - (g_j_in_i_2 * t71 + t67 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t71 + t69
-        * f_j_in_i_0 - (t66 * g_j_in_i_0 + f_j_in_i_1 * t70)) * C_i[5];
-    jac_phi_A_j[40] = t71 * C_i[6] + t66 * C_i[7] + t68 * C_i[8];
-    jac_phi_A_j[41] = t70 * C_i[0] + t69 * C_i[1] + t67 * C_i[2];
+    jac_phi_A_j[39] = C_i[3] * (t66 * g_j_in_i_2 + t67 * f_j_in_i_1 - (t68 * g_j_in_i_1 + t69 * f_j_in_i_2)) +
+        C_i[4] * (t68 * g_j_in_i_0 + t70 * f_j_in_i_2 - (t71 * g_j_in_i_2 + t67 * f_j_in_i_0)) + C_i[5] * (t71 *
+        g_j_in_i_1 + t69 * f_j_in_i_0 - (t66 * g_j_in_i_0 + t70 * f_j_in_i_1));
+    jac_phi_A_j[40] = C_i[7] * t66 + C_i[6] * t71 + C_i[8] * t68;
+    jac_phi_A_j[41] = C_i[1] * t69 + C_i[0] * t70 + C_i[2] * t67;
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
@@ -233,11 +233,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t75 = A_i[4] * C_j[5];
     const jg_real t76 = A_i[1] * C_j[5];
     const jg_real t77 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = (t72 * g_j_in_i_2 + f_j_in_i_1 * t73 - (t74 * g_j_in_i_1 + f_j_in_i_2 * t75)) * C_i[3] + (t74
-        * g_j_in_i_0 + f_j_in_i_2 * t76 - (g_j_in_i_2 * t77 + t73 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t77 + t75
-        * f_j_in_i_0 - (t72 * g_j_in_i_0 + f_j_in_i_1 * t76)) * C_i[5];
-    jac_phi_A_j[46] = t77 * C_i[6] + t72 * C_i[7] + t74 * C_i[8];
-    jac_phi_A_j[47] = t76 * C_i[0] + t75 * C_i[1] + t73 * C_i[2];
+    jac_phi_A_j[45] = C_i[3] * (t72 * g_j_in_i_2 + t73 * f_j_in_i_1 - (t74 * g_j_in_i_1 + t75 * f_j_in_i_2)) +
+        C_i[4] * (t74 * g_j_in_i_0 + t76 * f_j_in_i_2 - (t77 * g_j_in_i_2 + t73 * f_j_in_i_0)) + C_i[5] * (t77 *
+        g_j_in_i_1 + t75 * f_j_in_i_0 - (t72 * g_j_in_i_0 + t76 * f_j_in_i_1));
+    jac_phi_A_j[46] = C_i[7] * t72 + C_i[6] * t77 + C_i[8] * t74;
+    jac_phi_A_j[47] = C_i[1] * t75 + C_i[0] * t76 + C_i[2] * t73;
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
@@ -247,11 +247,11 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     const jg_real t81 = A_i[5] * C_j[5];
     const jg_real t82 = A_i[2] * C_j[5];
     const jg_real t83 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t78 * g_j_in_i_2 + f_j_in_i_1 * t79 - (t80 * g_j_in_i_1 + f_j_in_i_2 * t81)) * C_i[3] + (t80
-        * g_j_in_i_0 + f_j_in_i_2 * t82 - (g_j_in_i_2 * t83 + t79 * f_j_in_i_0)) * C_i[4] + (g_j_in_i_1 * t83 + t81
-        * f_j_in_i_0 - (t78 * g_j_in_i_0 + f_j_in_i_1 * t82)) * C_i[5];
-    jac_phi_A_j[52] = t83 * C_i[6] + t78 * C_i[7] + t80 * C_i[8];
-    jac_phi_A_j[53] = t82 * C_i[0] + t81 * C_i[1] + t79 * C_i[2];
+    jac_phi_A_j[51] = C_i[3] * (t78 * g_j_in_i_2 + t79 * f_j_in_i_1 - (t80 * g_j_in_i_1 + t81 * f_j_in_i_2)) +
+        C_i[4] * (t80 * g_j_in_i_0 + t82 * f_j_in_i_2 - (t83 * g_j_in_i_2 + t79 * f_j_in_i_0)) + C_i[5] * (t83 *
+        g_j_in_i_1 + t81 * f_j_in_i_0 - (t78 * g_j_in_i_0 + f_j_in_i_1 * t82));
+    jac_phi_A_j[52] = C_i[7] * t78 + C_i[6] * t83 + C_i[8] * t80;
+    jac_phi_A_j[53] = C_i[1] * t81 + C_i[0] * t82 + C_i[2] * t79;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
@@ -280,24 +280,24 @@ static void jg_rigid_parametric_substituted_phi_jacobian(const jg_real *JG_RESTR
     jac_phi_geometry[19] = t94;
     const jg_real t95 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[20] = t95;
-    jac_phi_geometry[21] = (t88 * g_j_in_i_2 - t89 * g_j_in_i_1) * C_i[3] + (t89 * g_j_in_i_0 - t87 * g_j_in_i_2) *
-        C_i[4] + (t87 * g_j_in_i_1 - t88 * g_j_in_i_0) * C_i[5];
-    jac_phi_geometry[22] = t87 * C_i[6] + t88 * C_i[7] + t89 * C_i[8];
-    jac_phi_geometry[23] = (t91 * g_j_in_i_2 - t92 * g_j_in_i_1) * C_i[3] + (t92 * g_j_in_i_0 - t90 * g_j_in_i_2) *
-        C_i[4] + (t90 * g_j_in_i_1 - t91 * g_j_in_i_0) * C_i[5];
-    jac_phi_geometry[24] = t90 * C_i[6] + t91 * C_i[7] + t92 * C_i[8];
-    jac_phi_geometry[25] = (t94 * g_j_in_i_2 - t95 * g_j_in_i_1) * C_i[3] + (t95 * g_j_in_i_0 - t93 * g_j_in_i_2) *
-        C_i[4] + (t93 * g_j_in_i_1 - t94 * g_j_in_i_0) * C_i[5];
-    jac_phi_geometry[26] = t93 * C_i[6] + t94 * C_i[7] + t95 * C_i[8];
-    jac_phi_geometry[27] = (t89 * f_j_in_i_1 - t88 * f_j_in_i_2) * C_i[3] + (t87 * f_j_in_i_2 - t89 * f_j_in_i_0) *
-        C_i[4] + (t88 * f_j_in_i_0 - t87 * f_j_in_i_1) * C_i[5];
-    jac_phi_geometry[28] = t87 * C_i[0] + t88 * C_i[1] + t89 * C_i[2];
-    jac_phi_geometry[29] = (t92 * f_j_in_i_1 - t91 * f_j_in_i_2) * C_i[3] + (t90 * f_j_in_i_2 - t92 * f_j_in_i_0) *
-        C_i[4] + (t91 * f_j_in_i_0 - t90 * f_j_in_i_1) * C_i[5];
-    jac_phi_geometry[30] = t90 * C_i[0] + t91 * C_i[1] + t92 * C_i[2];
-    jac_phi_geometry[31] = (t95 * f_j_in_i_1 - t94 * f_j_in_i_2) * C_i[3] + (t93 * f_j_in_i_2 - t95 * f_j_in_i_0) *
-        C_i[4] + (t94 * f_j_in_i_0 - t93 * f_j_in_i_1) * C_i[5];
-    jac_phi_geometry[32] = t93 * C_i[0] + t94 * C_i[1] + t95 * C_i[2];
+    jac_phi_geometry[21] = C_i[3] * (t88 * g_j_in_i_2 - t89 * g_j_in_i_1) + C_i[4] * (t89 * g_j_in_i_0 - t87 *
+        g_j_in_i_2) + C_i[5] * (t87 * g_j_in_i_1 - t88 * g_j_in_i_0);
+    jac_phi_geometry[22] = C_i[7] * t88 + C_i[6] * t87 + C_i[8] * t89;
+    jac_phi_geometry[23] = C_i[3] * (t91 * g_j_in_i_2 - t92 * g_j_in_i_1) + C_i[4] * (t92 * g_j_in_i_0 - t90 *
+        g_j_in_i_2) + C_i[5] * (t90 * g_j_in_i_1 - t91 * g_j_in_i_0);
+    jac_phi_geometry[24] = C_i[7] * t91 + C_i[6] * t90 + C_i[8] * t92;
+    jac_phi_geometry[25] = C_i[3] * (t94 * g_j_in_i_2 - t95 * g_j_in_i_1) + C_i[4] * (t95 * g_j_in_i_0 - t93 *
+        g_j_in_i_2) + C_i[5] * (t93 * g_j_in_i_1 - t94 * g_j_in_i_0);
+    jac_phi_geometry[26] = C_i[7] * t94 + C_i[6] * t93 + C_i[8] * t95;
+    jac_phi_geometry[27] = C_i[3] * (f_j_in_i_1 * t89 - t88 * f_j_in_i_2) + C_i[4] * (t87 * f_j_in_i_2 - t89 *
+        f_j_in_i_0) + C_i[5] * (t88 * f_j_in_i_0 - f_j_in_i_1 * t87);
+    jac_phi_geometry[28] = C_i[1] * t88 + C_i[0] * t87 + C_i[2] * t89;
+    jac_phi_geometry[29] = C_i[3] * (f_j_in_i_1 * t92 - t91 * f_j_in_i_2) + C_i[4] * (t90 * f_j_in_i_2 - t92 *
+        f_j_in_i_0) + C_i[5] * (t91 * f_j_in_i_0 - f_j_in_i_1 * t90);
+    jac_phi_geometry[30] = C_i[1] * t91 + C_i[0] * t90 + C_i[2] * t92;
+    jac_phi_geometry[31] = C_i[3] * (f_j_in_i_1 * t95 - t94 * f_j_in_i_2) + C_i[4] * (t93 * f_j_in_i_2 - t95 *
+        f_j_in_i_0) + C_i[5] * (t94 * f_j_in_i_0 - f_j_in_i_1 * t93);
+    jac_phi_geometry[32] = C_i[1] * t94 + C_i[0] * t93 + C_i[2] * t95;
 }
 
 static void jg_rigid_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RESTRICT geometry,
@@ -331,23 +331,23 @@ static void jg_rigid_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_R
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
-    const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
-        C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
+    const jg_real s_j_cross_omega_j_in_joint_i_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real t5 = v_j_in_joint_i_0 - s_j_cross_omega_j_in_joint_i_0;
     jac_phi_q_v_geometry[6] = t5;
     jac_phi_q_v_geometry[8] = t5;
     jac_phi_q_v_geometry[10] = t5;
-    const jg_real s_j_cross_omega_j_in_joint_i_1 = s_j_cross_omega_j_in_j_0 * C_j[3] + s_j_cross_omega_j_in_j_1 *
-        C_j[4] + s_j_cross_omega_j_in_j_2 * C_j[5];
+    const jg_real s_j_cross_omega_j_in_joint_i_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     const jg_real v_j_in_joint_i_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     const jg_real t8 = v_j_in_joint_i_1 - s_j_cross_omega_j_in_joint_i_1;
     jac_phi_q_v_geometry[12] = t8;
     jac_phi_q_v_geometry[14] = t8;
     jac_phi_q_v_geometry[16] = t8;
-    const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
-        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
+    const jg_real s_j_cross_omega_j_in_joint_i_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
+        s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
     const jg_real v_j_in_joint_i_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real t11 = v_j_in_joint_i_2 - s_j_cross_omega_j_in_joint_i_2;
     jac_phi_q_v_geometry[18] = t11;
@@ -359,65 +359,65 @@ static void jg_rigid_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_R
     jac_phi_q_v_velocity[6] = C_i[3];
     const jg_real t14 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     jac_phi_q_v_velocity[7] = C_i[6];
-    jac_phi_q_v_geometry[24] = -(t12 * C_i[0] + t13 * C_i[3] + t14 * C_i[6]);
+    jac_phi_q_v_geometry[24] = -(C_i[0] * t12 + C_i[3] * t13 + C_i[6] * t14);
     jac_phi_q_v_velocity[10] = C_i[1];
     jac_phi_q_v_velocity[11] = C_i[4];
     jac_phi_q_v_velocity[12] = C_i[7];
-    jac_phi_q_v_geometry[25] = -(t12 * C_i[1] + t13 * C_i[4] + t14 * C_i[7]);
+    jac_phi_q_v_geometry[25] = -(C_i[1] * t12 + C_i[4] * t13 + C_i[7] * t14);
     jac_phi_q_v_velocity[15] = C_i[2];
     jac_phi_q_v_velocity[16] = C_i[5];
     jac_phi_q_v_velocity[17] = C_i[8];
-    jac_phi_q_v_geometry[26] = -(t12 * C_i[2] + t13 * C_i[5] + t14 * C_i[8]);
+    jac_phi_q_v_geometry[26] = -(C_i[2] * t12 + C_i[5] * t13 + C_i[8] * t14);
     const jg_real t15 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real t16 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real t17 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    jac_phi_q_v_geometry[27] = -(t15 * C_i[0] + t16 * C_i[3] + t17 * C_i[6]);
-    jac_phi_q_v_geometry[28] = -(t15 * C_i[1] + t16 * C_i[4] + t17 * C_i[7]);
-    jac_phi_q_v_geometry[29] = -(t15 * C_i[2] + t16 * C_i[5] + t17 * C_i[8]);
+    jac_phi_q_v_geometry[27] = -(C_i[0] * t15 + C_i[3] * t16 + C_i[6] * t17);
+    jac_phi_q_v_geometry[28] = -(C_i[1] * t15 + C_i[4] * t16 + C_i[7] * t17);
+    jac_phi_q_v_geometry[29] = -(C_i[2] * t15 + C_i[5] * t16 + C_i[8] * t17);
     const jg_real t18 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real t19 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
     const jg_real t20 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    jac_phi_q_v_geometry[30] = -(t18 * C_i[0] + t19 * C_i[3] + t20 * C_i[6]);
-    jac_phi_q_v_geometry[31] = -(t18 * C_i[1] + t19 * C_i[4] + t20 * C_i[7]);
-    jac_phi_q_v_geometry[32] = -(t18 * C_i[2] + t19 * C_i[5] + t20 * C_i[8]);
-    jac_phi_q_v_geometry[33] = C_i[0] * v_j[0] - s_j_cross_omega_j_in_j_0 * C_i[0];
+    jac_phi_q_v_geometry[30] = -(C_i[0] * t18 + C_i[3] * t19 + C_i[6] * t20);
+    jac_phi_q_v_geometry[31] = -(C_i[1] * t18 + C_i[4] * t19 + C_i[7] * t20);
+    jac_phi_q_v_geometry[32] = -(C_i[2] * t18 + C_i[5] * t19 + C_i[8] * t20);
+    jac_phi_q_v_geometry[33] = C_i[0] * v_j[0] - C_i[0] * s_j_cross_omega_j_in_j_0;
     jac_phi_q_v_geometry[34] = v_j[0] * C_i[1] - s_j_cross_omega_j_in_j_0 * C_i[1];
     jac_phi_q_v_geometry[35] = v_j[0] * C_i[2] - s_j_cross_omega_j_in_j_0 * C_i[2];
     const jg_real t21 = -omega_j[0];
     jac_phi_q_v_geometry[36] = t21;
     jac_phi_q_v_geometry[48] = t21;
     jac_phi_q_v_geometry[60] = t21;
-    jac_phi_q_v_geometry[37] = C_i[0] * v_j[1] - s_j_cross_omega_j_in_j_1 * C_i[0];
-    jac_phi_q_v_geometry[38] = v_j[1] * C_i[1] - s_j_cross_omega_j_in_j_1 * C_i[1];
+    jac_phi_q_v_geometry[37] = C_i[0] * v_j[1] - C_i[0] * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[38] = v_j[1] * C_i[1] - C_i[1] * s_j_cross_omega_j_in_j_1;
     jac_phi_q_v_geometry[39] = v_j[1] * C_i[2] - s_j_cross_omega_j_in_j_1 * C_i[2];
     const jg_real t22 = -omega_j[1];
     jac_phi_q_v_geometry[40] = t22;
     jac_phi_q_v_geometry[52] = t22;
     jac_phi_q_v_geometry[64] = t22;
-    jac_phi_q_v_geometry[41] = C_i[0] * v_j[2] - s_j_cross_omega_j_in_j_2 * C_i[0];
-    jac_phi_q_v_geometry[42] = v_j[2] * C_i[1] - s_j_cross_omega_j_in_j_2 * C_i[1];
+    jac_phi_q_v_geometry[41] = C_i[0] * v_j[2] - C_i[0] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[42] = v_j[2] * C_i[1] - C_i[1] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_geometry[43] = v_j[2] * C_i[2] - s_j_cross_omega_j_in_j_2 * C_i[2];
     const jg_real t23 = -omega_j[2];
     jac_phi_q_v_geometry[44] = t23;
     jac_phi_q_v_geometry[56] = t23;
     jac_phi_q_v_geometry[68] = t23;
-    jac_phi_q_v_geometry[45] = C_i[3] * v_j[0] - s_j_cross_omega_j_in_j_0 * C_i[3];
+    jac_phi_q_v_geometry[45] = C_i[3] * v_j[0] - C_i[3] * s_j_cross_omega_j_in_j_0;
     jac_phi_q_v_geometry[46] = v_j[0] * C_i[4] - s_j_cross_omega_j_in_j_0 * C_i[4];
     jac_phi_q_v_geometry[47] = v_j[0] * C_i[5] - s_j_cross_omega_j_in_j_0 * C_i[5];
-    jac_phi_q_v_geometry[49] = C_i[3] * v_j[1] - s_j_cross_omega_j_in_j_1 * C_i[3];
-    jac_phi_q_v_geometry[50] = v_j[1] * C_i[4] - s_j_cross_omega_j_in_j_1 * C_i[4];
+    jac_phi_q_v_geometry[49] = C_i[3] * v_j[1] - C_i[3] * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[50] = v_j[1] * C_i[4] - C_i[4] * s_j_cross_omega_j_in_j_1;
     jac_phi_q_v_geometry[51] = v_j[1] * C_i[5] - s_j_cross_omega_j_in_j_1 * C_i[5];
-    jac_phi_q_v_geometry[53] = C_i[3] * v_j[2] - s_j_cross_omega_j_in_j_2 * C_i[3];
-    jac_phi_q_v_geometry[54] = v_j[2] * C_i[4] - s_j_cross_omega_j_in_j_2 * C_i[4];
+    jac_phi_q_v_geometry[53] = C_i[3] * v_j[2] - C_i[3] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[54] = v_j[2] * C_i[4] - C_i[4] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_geometry[55] = v_j[2] * C_i[5] - s_j_cross_omega_j_in_j_2 * C_i[5];
-    jac_phi_q_v_geometry[57] = C_i[6] * v_j[0] - s_j_cross_omega_j_in_j_0 * C_i[6];
+    jac_phi_q_v_geometry[57] = C_i[6] * v_j[0] - C_i[6] * s_j_cross_omega_j_in_j_0;
     jac_phi_q_v_geometry[58] = v_j[0] * C_i[7] - s_j_cross_omega_j_in_j_0 * C_i[7];
     jac_phi_q_v_geometry[59] = v_j[0] * C_i[8] - s_j_cross_omega_j_in_j_0 * C_i[8];
-    jac_phi_q_v_geometry[61] = C_i[6] * v_j[1] - s_j_cross_omega_j_in_j_1 * C_i[6];
-    jac_phi_q_v_geometry[62] = v_j[1] * C_i[7] - s_j_cross_omega_j_in_j_1 * C_i[7];
+    jac_phi_q_v_geometry[61] = C_i[6] * v_j[1] - C_i[6] * s_j_cross_omega_j_in_j_1;
+    jac_phi_q_v_geometry[62] = v_j[1] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_1;
     jac_phi_q_v_geometry[63] = v_j[1] * C_i[8] - s_j_cross_omega_j_in_j_1 * C_i[8];
-    jac_phi_q_v_geometry[65] = C_i[6] * v_j[2] - s_j_cross_omega_j_in_j_2 * C_i[6];
-    jac_phi_q_v_geometry[66] = v_j[2] * C_i[7] - s_j_cross_omega_j_in_j_2 * C_i[7];
+    jac_phi_q_v_geometry[65] = C_i[6] * v_j[2] - C_i[6] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_geometry[66] = v_j[2] * C_i[7] - C_i[7] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_geometry[67] = v_j[2] * C_i[8] - s_j_cross_omega_j_in_j_2 * C_i[8];
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -440,27 +440,27 @@ static void jg_rigid_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_R
     const jg_real t24 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
     const jg_real t25 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
     const jg_real t26 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
-    jac_phi_q_v_velocity[27] = -(t24 * C_i[0] + t25 * C_i[3] + t26 * C_i[6]);
-    jac_phi_q_v_velocity[28] = -(t24 * C_i[1] + t25 * C_i[4] + t26 * C_i[7]);
-    jac_phi_q_v_velocity[29] = -(t24 * C_i[2] + t25 * C_i[5] + t26 * C_i[8]);
+    jac_phi_q_v_velocity[27] = -(C_i[0] * t24 + C_i[3] * t25 + C_i[6] * t26);
+    jac_phi_q_v_velocity[28] = -(C_i[1] * t24 + C_i[4] * t25 + C_i[7] * t26);
+    jac_phi_q_v_velocity[29] = -(C_i[2] * t24 + C_i[5] * t25 + C_i[8] * t26);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
     const jg_real t27 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
     const jg_real t28 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
     const jg_real t29 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
-    jac_phi_q_v_velocity[33] = -(t27 * C_i[0] + t28 * C_i[3] + t29 * C_i[6]);
-    jac_phi_q_v_velocity[34] = -(t27 * C_i[1] + t28 * C_i[4] + t29 * C_i[7]);
-    jac_phi_q_v_velocity[35] = -(t27 * C_i[2] + t28 * C_i[5] + t29 * C_i[8]);
+    jac_phi_q_v_velocity[33] = -(C_i[0] * t27 + C_i[3] * t28 + C_i[6] * t29);
+    jac_phi_q_v_velocity[34] = -(C_i[1] * t27 + C_i[4] * t28 + C_i[7] * t29);
+    jac_phi_q_v_velocity[35] = -(C_i[2] * t27 + C_i[5] * t28 + C_i[8] * t29);
     jac_phi_q_v_velocity[36] = -C_j[1];
     jac_phi_q_v_velocity[37] = -C_j[4];
     jac_phi_q_v_velocity[38] = -C_j[7];
     const jg_real t30 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
     const jg_real t31 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
     const jg_real t32 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
-    jac_phi_q_v_velocity[39] = -(t30 * C_i[0] + t31 * C_i[3] + t32 * C_i[6]);
-    jac_phi_q_v_velocity[40] = -(t30 * C_i[1] + t31 * C_i[4] + t32 * C_i[7]);
-    jac_phi_q_v_velocity[41] = -(t30 * C_i[2] + t31 * C_i[5] + t32 * C_i[8]);
+    jac_phi_q_v_velocity[39] = -(C_i[0] * t30 + C_i[3] * t31 + C_i[6] * t32);
+    jac_phi_q_v_velocity[40] = -(C_i[1] * t30 + C_i[4] * t31 + C_i[7] * t32);
+    jac_phi_q_v_velocity[41] = -(C_i[2] * t30 + C_i[5] * t31 + C_i[8] * t32);
     jac_phi_q_v_velocity[42] = -C_j[2];
     jac_phi_q_v_velocity[43] = -C_j[5];
     jac_phi_q_v_velocity[44] = -C_j[8];
@@ -489,27 +489,27 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_geometry[8] = t1;
     const jg_real t2 = lambda[0] * C_j[2];
     jac_phi_q_t_lambda_geometry[9] = t2;
-    jac_phi_q_t_lambda_geometry[10] = t2 * s_j[1] - t1 * s_j[2];
-    jac_phi_q_t_lambda_geometry[11] = t0 * s_j[2] - t2 * s_j[0];
-    jac_phi_q_t_lambda_geometry[12] = t1 * s_j[0] - t0 * s_j[1];
+    jac_phi_q_t_lambda_geometry[10] = s_j[1] * t2 - s_j[2] * t1;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t0 - s_j[0] * t2;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t1 - s_j[1] * t0;
     const jg_real t3 = lambda[1] * C_j[0];
     jac_phi_q_t_lambda_geometry[14] = t3;
     const jg_real t4 = lambda[1] * C_j[1];
     jac_phi_q_t_lambda_geometry[15] = t4;
     const jg_real t5 = lambda[1] * C_j[2];
     jac_phi_q_t_lambda_geometry[16] = t5;
-    jac_phi_q_t_lambda_geometry[17] = t5 * s_j[1] - t4 * s_j[2];
-    jac_phi_q_t_lambda_geometry[18] = t3 * s_j[2] - t5 * s_j[0];
-    jac_phi_q_t_lambda_geometry[19] = t4 * s_j[0] - t3 * s_j[1];
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t5 - s_j[2] * t4;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t3 - s_j[0] * t5;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t4 - s_j[1] * t3;
     const jg_real t6 = lambda[2] * C_j[0];
     jac_phi_q_t_lambda_geometry[21] = t6;
     const jg_real t7 = lambda[2] * C_j[1];
     jac_phi_q_t_lambda_geometry[22] = t7;
     const jg_real t8 = lambda[2] * C_j[2];
     jac_phi_q_t_lambda_geometry[23] = t8;
-    jac_phi_q_t_lambda_geometry[24] = t8 * s_j[1] - t7 * s_j[2];
-    jac_phi_q_t_lambda_geometry[25] = t6 * s_j[2] - t8 * s_j[0];
-    jac_phi_q_t_lambda_geometry[26] = t7 * s_j[0] - t6 * s_j[1];
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t8 - s_j[2] * t7;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t6 - s_j[0] * t8;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t7 - s_j[1] * t6;
     jac_phi_q_t_lambda_geometry[27] = lambda[4];
     jac_phi_q_t_lambda_geometry[34] = lambda[4];
     jac_phi_q_t_lambda_geometry[41] = lambda[4];
@@ -519,27 +519,27 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_geometry[29] = t10;
     const jg_real t11 = lambda[0] * C_j[5];
     jac_phi_q_t_lambda_geometry[30] = t11;
-    jac_phi_q_t_lambda_geometry[31] = t11 * s_j[1] - t10 * s_j[2];
-    jac_phi_q_t_lambda_geometry[32] = t9 * s_j[2] - t11 * s_j[0];
-    jac_phi_q_t_lambda_geometry[33] = t10 * s_j[0] - t9 * s_j[1];
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t11 - s_j[2] * t10;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t9 - s_j[0] * t11;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t10 - s_j[1] * t9;
     const jg_real t12 = lambda[1] * C_j[3];
     jac_phi_q_t_lambda_geometry[35] = t12;
     const jg_real t13 = lambda[1] * C_j[4];
     jac_phi_q_t_lambda_geometry[36] = t13;
     const jg_real t14 = lambda[1] * C_j[5];
     jac_phi_q_t_lambda_geometry[37] = t14;
-    jac_phi_q_t_lambda_geometry[38] = t14 * s_j[1] - t13 * s_j[2];
-    jac_phi_q_t_lambda_geometry[39] = t12 * s_j[2] - t14 * s_j[0];
-    jac_phi_q_t_lambda_geometry[40] = t13 * s_j[0] - t12 * s_j[1];
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t14 - s_j[2] * t13;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t12 - s_j[0] * t14;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t13 - s_j[1] * t12;
     const jg_real t15 = lambda[2] * C_j[3];
     jac_phi_q_t_lambda_geometry[42] = t15;
     const jg_real t16 = lambda[2] * C_j[4];
     jac_phi_q_t_lambda_geometry[43] = t16;
     const jg_real t17 = lambda[2] * C_j[5];
     jac_phi_q_t_lambda_geometry[44] = t17;
-    jac_phi_q_t_lambda_geometry[45] = t17 * s_j[1] - t16 * s_j[2];
-    jac_phi_q_t_lambda_geometry[46] = t15 * s_j[2] - t17 * s_j[0];
-    jac_phi_q_t_lambda_geometry[47] = t16 * s_j[0] - t15 * s_j[1];
+    jac_phi_q_t_lambda_geometry[45] = s_j[1] * t17 - s_j[2] * t16;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t15 - s_j[0] * t17;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t16 - s_j[1] * t15;
     jac_phi_q_t_lambda_geometry[48] = lambda[5];
     jac_phi_q_t_lambda_geometry[55] = lambda[5];
     jac_phi_q_t_lambda_geometry[62] = lambda[5];
@@ -549,27 +549,27 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_geometry[50] = t19;
     const jg_real t20 = lambda[0] * C_j[8];
     jac_phi_q_t_lambda_geometry[51] = t20;
-    jac_phi_q_t_lambda_geometry[52] = t20 * s_j[1] - t19 * s_j[2];
-    jac_phi_q_t_lambda_geometry[53] = t18 * s_j[2] - t20 * s_j[0];
-    jac_phi_q_t_lambda_geometry[54] = t19 * s_j[0] - t18 * s_j[1];
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t20 - s_j[2] * t19;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t18 - s_j[0] * t20;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t19 - s_j[1] * t18;
     const jg_real t21 = lambda[1] * C_j[6];
     jac_phi_q_t_lambda_geometry[56] = t21;
     const jg_real t22 = lambda[1] * C_j[7];
     jac_phi_q_t_lambda_geometry[57] = t22;
     const jg_real t23 = lambda[1] * C_j[8];
     jac_phi_q_t_lambda_geometry[58] = t23;
-    jac_phi_q_t_lambda_geometry[59] = t23 * s_j[1] - t22 * s_j[2];
-    jac_phi_q_t_lambda_geometry[60] = t21 * s_j[2] - t23 * s_j[0];
-    jac_phi_q_t_lambda_geometry[61] = t22 * s_j[0] - t21 * s_j[1];
+    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t23 - s_j[2] * t22;
+    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t21 - s_j[0] * t23;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t22 - s_j[1] * t21;
     const jg_real t24 = lambda[2] * C_j[6];
     jac_phi_q_t_lambda_geometry[63] = t24;
     const jg_real t25 = lambda[2] * C_j[7];
     jac_phi_q_t_lambda_geometry[64] = t25;
     const jg_real t26 = lambda[2] * C_j[8];
     jac_phi_q_t_lambda_geometry[65] = t26;
-    jac_phi_q_t_lambda_geometry[66] = t26 * s_j[1] - t25 * s_j[2];
-    jac_phi_q_t_lambda_geometry[67] = t24 * s_j[2] - t26 * s_j[0];
-    jac_phi_q_t_lambda_geometry[68] = t25 * s_j[0] - t24 * s_j[1];
+    jac_phi_q_t_lambda_geometry[66] = s_j[1] * t26 - s_j[2] * t25;
+    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t24 - s_j[0] * t26;
+    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t25 - s_j[1] * t24;
     jac_phi_q_t_lambda_lambda[27] = C_i[0];
     jac_phi_q_t_lambda_lambda[28] = C_i[1];
     jac_phi_q_t_lambda_lambda[29] = C_i[2];
@@ -593,15 +593,15 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_i_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_i_0 * C_j[2] + lambda_0_1_2_in_joint_i_1 * C_j[5] +
-        lambda_0_1_2_in_joint_i_2 * C_j[8];
+    const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_i_0 + C_j[5] * lambda_0_1_2_in_joint_i_1 +
+        C_j[8] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_i_0 * C_j[1] + lambda_0_1_2_in_joint_i_1 * C_j[4] +
-        lambda_0_1_2_in_joint_i_2 * C_j[7];
+    const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_i_0 + C_j[4] * lambda_0_1_2_in_joint_i_1 +
+        C_j[7] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_i_0 * C_j[0] + lambda_0_1_2_in_joint_i_1 * C_j[3] +
-        lambda_0_1_2_in_joint_i_2 * C_j[6];
+    const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_i_0 + C_j[3] * lambda_0_1_2_in_joint_i_1 +
+        C_j[6] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
@@ -609,39 +609,39 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_geometry[76] = t33;
     jac_phi_q_t_lambda_geometry[81] = t33;
     jac_phi_q_t_lambda_geometry[86] = t33;
-    const jg_real t34 = lambda_0_1_2_in_joint_i_0 * s_j[2];
+    const jg_real t34 = s_j[2] * lambda_0_1_2_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[77] = t34;
-    const jg_real t35 = lambda_0_1_2_in_joint_i_0 * s_j[1];
+    const jg_real t35 = s_j[1] * lambda_0_1_2_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[84] = t35;
     jac_phi_q_t_lambda_geometry[78] = -t35;
     jac_phi_q_t_lambda_geometry[80] = -t34;
-    const jg_real t36 = lambda_0_1_2_in_joint_i_0 * s_j[0];
+    const jg_real t36 = s_j[0] * lambda_0_1_2_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[82] = t36;
     jac_phi_q_t_lambda_geometry[85] = -t36;
     const jg_real t37 = -lambda[4];
     jac_phi_q_t_lambda_geometry[88] = t37;
     jac_phi_q_t_lambda_geometry[93] = t37;
     jac_phi_q_t_lambda_geometry[98] = t37;
-    const jg_real t38 = lambda_0_1_2_in_joint_i_1 * s_j[2];
+    const jg_real t38 = s_j[2] * lambda_0_1_2_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[89] = t38;
-    const jg_real t39 = lambda_0_1_2_in_joint_i_1 * s_j[1];
+    const jg_real t39 = s_j[1] * lambda_0_1_2_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[96] = t39;
     jac_phi_q_t_lambda_geometry[90] = -t39;
     jac_phi_q_t_lambda_geometry[92] = -t38;
-    const jg_real t40 = lambda_0_1_2_in_joint_i_1 * s_j[0];
+    const jg_real t40 = s_j[0] * lambda_0_1_2_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[94] = t40;
     jac_phi_q_t_lambda_geometry[97] = -t40;
     const jg_real t41 = -lambda[5];
     jac_phi_q_t_lambda_geometry[100] = t41;
     jac_phi_q_t_lambda_geometry[105] = t41;
     jac_phi_q_t_lambda_geometry[110] = t41;
-    const jg_real t42 = lambda_0_1_2_in_joint_i_2 * s_j[2];
+    const jg_real t42 = s_j[2] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[101] = t42;
-    const jg_real t43 = lambda_0_1_2_in_joint_i_2 * s_j[1];
+    const jg_real t43 = s_j[1] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[108] = t43;
     jac_phi_q_t_lambda_geometry[102] = -t43;
     jac_phi_q_t_lambda_geometry[104] = -t42;
-    const jg_real t44 = lambda_0_1_2_in_joint_i_2 * s_j[0];
+    const jg_real t44 = s_j[0] * lambda_0_1_2_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[106] = t44;
     jac_phi_q_t_lambda_geometry[109] = -t44;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
@@ -656,9 +656,9 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_lambda[4] = t46;
     const jg_real t47 = C_i[0] * C_j[2] + C_i[3] * C_j[5] + C_i[6] * C_j[8];
     jac_phi_q_t_lambda_lambda[5] = t47;
-    jac_phi_q_t_lambda_lambda[6] = t47 * s_j[1] - t46 * s_j[2];
-    jac_phi_q_t_lambda_lambda[7] = t45 * s_j[2] - t47 * s_j[0];
-    jac_phi_q_t_lambda_lambda[8] = t46 * s_j[0] - t45 * s_j[1];
+    jac_phi_q_t_lambda_lambda[6] = s_j[1] * t47 - s_j[2] * t46;
+    jac_phi_q_t_lambda_lambda[7] = s_j[2] * t45 - s_j[0] * t47;
+    jac_phi_q_t_lambda_lambda[8] = s_j[0] * t46 - s_j[1] * t45;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
     const jg_real t48 = C_i[1] * C_j[0] + C_i[4] * C_j[3] + C_i[7] * C_j[6];
@@ -667,9 +667,9 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_lambda[13] = t49;
     const jg_real t50 = C_i[1] * C_j[2] + C_i[4] * C_j[5] + C_i[7] * C_j[8];
     jac_phi_q_t_lambda_lambda[14] = t50;
-    jac_phi_q_t_lambda_lambda[15] = t50 * s_j[1] - t49 * s_j[2];
-    jac_phi_q_t_lambda_lambda[16] = t48 * s_j[2] - t50 * s_j[0];
-    jac_phi_q_t_lambda_lambda[17] = t49 * s_j[0] - t48 * s_j[1];
+    jac_phi_q_t_lambda_lambda[15] = s_j[1] * t50 - s_j[2] * t49;
+    jac_phi_q_t_lambda_lambda[16] = s_j[2] * t48 - s_j[0] * t50;
+    jac_phi_q_t_lambda_lambda[17] = s_j[0] * t49 - s_j[1] * t48;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
     const jg_real t51 = C_i[2] * C_j[0] + C_i[5] * C_j[3] + C_i[8] * C_j[6];
     jac_phi_q_t_lambda_lambda[21] = t51;
@@ -677,9 +677,9 @@ static void jg_rigid_parametric_substituted_phi_q_t_lambda_jacobian(const jg_rea
     jac_phi_q_t_lambda_lambda[22] = t52;
     const jg_real t53 = C_i[2] * C_j[2] + C_i[5] * C_j[5] + C_i[8] * C_j[8];
     jac_phi_q_t_lambda_lambda[23] = t53;
-    jac_phi_q_t_lambda_lambda[24] = t53 * s_j[1] - t52 * s_j[2];
-    jac_phi_q_t_lambda_lambda[25] = t51 * s_j[2] - t53 * s_j[0];
-    jac_phi_q_t_lambda_lambda[26] = t52 * s_j[0] - t51 * s_j[1];
+    jac_phi_q_t_lambda_lambda[24] = s_j[1] * t53 - s_j[2] * t52;
+    jac_phi_q_t_lambda_lambda[25] = s_j[2] * t51 - s_j[0] * t53;
+    jac_phi_q_t_lambda_lambda[26] = s_j[0] * t52 - s_j[1] * t51;
     jac_phi_q_t_lambda_lambda[30] = -C_j[0];
     jac_phi_q_t_lambda_lambda[31] = -C_j[1];
     jac_phi_q_t_lambda_lambda[32] = -C_j[2];

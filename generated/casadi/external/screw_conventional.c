@@ -67,9 +67,9 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
-    jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
-    jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
+    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[2] = C_i[0] * h_j_world_0;
@@ -85,136 +85,136 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t18 = f_i_dot_f_j * f_i_dot_f_j + g_i_dot_f_j * g_i_dot_f_j;
     const jg_real t19 = f_i_dot_f_j / t18;
     const jg_real t20 = g_i_dot_f_j / t18;
-    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20) * pitch;
+    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
-    jac_phi_A_i[5] = e_ij_world_1 * C_i[0];
-    jac_phi_A_i[6] = e_ij_world_1 * C_i[3];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    jac_phi_A_i[5] = C_i[0] * e_ij_world_1;
+    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[7] = C_i[0] * h_j_world_1;
     jac_phi_A_i[8] = C_i[3] * h_j_world_1;
-    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20) * pitch;
+    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
-    jac_phi_A_i[10] = e_ij_world_2 * C_i[0];
-    jac_phi_A_i[11] = e_ij_world_2 * C_i[3];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[10] = C_i[0] * e_ij_world_2;
+    jac_phi_A_i[11] = C_i[3] * e_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[12] = C_i[0] * h_j_world_2;
     jac_phi_A_i[13] = C_i[3] * h_j_world_2;
-    jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20) * pitch;
-    jac_phi_A_i[15] = e_ij_world_0 * C_i[1];
-    jac_phi_A_i[16] = e_ij_world_0 * C_i[4];
+    jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - pitch * (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20);
+    jac_phi_A_i[15] = C_i[1] * e_ij_world_0;
+    jac_phi_A_i[16] = C_i[4] * e_ij_world_0;
     jac_phi_A_i[17] = C_i[1] * h_j_world_0;
     jac_phi_A_i[18] = C_i[4] * h_j_world_0;
-    jac_phi_A_i[19] = e_ij_world_0 * C_i[7] - (C_i[4] * f_j_world_0 * t19 - C_i[1] * f_j_world_0 * t20) * pitch;
-    jac_phi_A_i[20] = e_ij_world_1 * C_i[1];
-    jac_phi_A_i[21] = e_ij_world_1 * C_i[4];
+    jac_phi_A_i[19] = e_ij_world_0 * C_i[7] - pitch * (C_i[4] * f_j_world_0 * t19 - C_i[1] * f_j_world_0 * t20);
+    jac_phi_A_i[20] = C_i[1] * e_ij_world_1;
+    jac_phi_A_i[21] = C_i[4] * e_ij_world_1;
     jac_phi_A_i[22] = C_i[1] * h_j_world_1;
     jac_phi_A_i[23] = C_i[4] * h_j_world_1;
-    jac_phi_A_i[24] = e_ij_world_1 * C_i[7] - (C_i[4] * f_j_world_1 * t19 - C_i[1] * f_j_world_1 * t20) * pitch;
-    jac_phi_A_i[25] = e_ij_world_2 * C_i[1];
-    jac_phi_A_i[26] = e_ij_world_2 * C_i[4];
+    jac_phi_A_i[24] = e_ij_world_1 * C_i[7] - pitch * (C_i[4] * f_j_world_1 * t19 - C_i[1] * f_j_world_1 * t20);
+    jac_phi_A_i[25] = C_i[1] * e_ij_world_2;
+    jac_phi_A_i[26] = C_i[4] * e_ij_world_2;
     jac_phi_A_i[27] = C_i[1] * h_j_world_2;
     jac_phi_A_i[28] = C_i[4] * h_j_world_2;
-    jac_phi_A_i[29] = e_ij_world_2 * C_i[7] - (C_i[4] * f_j_world_2 * t19 - C_i[1] * f_j_world_2 * t20) * pitch;
-    jac_phi_A_i[30] = e_ij_world_0 * C_i[2];
-    jac_phi_A_i[31] = e_ij_world_0 * C_i[5];
+    jac_phi_A_i[29] = e_ij_world_2 * C_i[7] - pitch * (C_i[4] * f_j_world_2 * t19 - C_i[1] * f_j_world_2 * t20);
+    jac_phi_A_i[30] = C_i[2] * e_ij_world_0;
+    jac_phi_A_i[31] = C_i[5] * e_ij_world_0;
     jac_phi_A_i[32] = C_i[2] * h_j_world_0;
     jac_phi_A_i[33] = C_i[5] * h_j_world_0;
-    jac_phi_A_i[34] = e_ij_world_0 * C_i[8] - (C_i[5] * f_j_world_0 * t19 - C_i[2] * f_j_world_0 * t20) * pitch;
-    jac_phi_A_i[35] = e_ij_world_1 * C_i[2];
-    jac_phi_A_i[36] = e_ij_world_1 * C_i[5];
+    jac_phi_A_i[34] = e_ij_world_0 * C_i[8] - pitch * (C_i[5] * f_j_world_0 * t19 - C_i[2] * f_j_world_0 * t20);
+    jac_phi_A_i[35] = C_i[2] * e_ij_world_1;
+    jac_phi_A_i[36] = C_i[5] * e_ij_world_1;
     jac_phi_A_i[37] = C_i[2] * h_j_world_1;
     jac_phi_A_i[38] = C_i[5] * h_j_world_1;
-    jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20) * pitch;
-    jac_phi_A_i[40] = e_ij_world_2 * C_i[2];
-    jac_phi_A_i[41] = e_ij_world_2 * C_i[5];
+    jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - pitch * (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20);
+    jac_phi_A_i[40] = C_i[2] * e_ij_world_2;
+    jac_phi_A_i[41] = C_i[5] * e_ij_world_2;
     jac_phi_A_i[42] = C_i[2] * h_j_world_2;
     jac_phi_A_i[43] = C_i[5] * h_j_world_2;
-    jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20) * pitch;
+    jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - pitch * (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20);
     const jg_real t29 = s_j[0] * A_i[0];
     const jg_real t30 = s_j[0] * A_i[3];
     const jg_real t31 = s_j[0] * A_i[6];
-    jac_phi_A_j[0] = t29 * C_i[0] + t30 * C_i[1] + t31 * C_i[2];
-    jac_phi_A_j[1] = t29 * C_i[3] + t30 * C_i[4] + t31 * C_i[5];
-    jac_phi_A_j[2] = f_i_world_0 * C_j[6];
-    jac_phi_A_j[3] = g_i_world_0 * C_j[6];
-    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - (g_i_world_0 * C_j[0] * t19 - f_i_world_0 * C_j[0]
-        * t20) * pitch;
+    jac_phi_A_j[0] = C_i[0] * t29 + C_i[1] * t30 + C_i[2] * t31;
+    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
+    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
+    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
+    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (C_j[0] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[0] * t20);
     const jg_real t32 = s_j[0] * A_i[1];
     const jg_real t33 = s_j[0] * A_i[4];
     const jg_real t34 = s_j[0] * A_i[7];
-    jac_phi_A_j[5] = t32 * C_i[0] + t33 * C_i[1] + t34 * C_i[2];
-    jac_phi_A_j[6] = t32 * C_i[3] + t33 * C_i[4] + t34 * C_i[5];
-    jac_phi_A_j[7] = f_i_world_1 * C_j[6];
-    jac_phi_A_j[8] = g_i_world_1 * C_j[6];
-    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - (g_i_world_1 * C_j[0] * t19 - f_i_world_1 * C_j[0]
-        * t20) * pitch;
+    jac_phi_A_j[5] = C_i[0] * t32 + C_i[1] * t33 + C_i[2] * t34;
+    jac_phi_A_j[6] = C_i[3] * t32 + C_i[4] * t33 + C_i[5] * t34;
+    jac_phi_A_j[7] = C_j[6] * f_i_world_1;
+    jac_phi_A_j[8] = C_j[6] * g_i_world_1;
+    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[0] * t20);
     const jg_real t35 = s_j[0] * A_i[2];
     const jg_real t36 = s_j[0] * A_i[5];
     const jg_real t37 = s_j[0] * A_i[8];
-    jac_phi_A_j[10] = t35 * C_i[0] + t36 * C_i[1] + t37 * C_i[2];
-    jac_phi_A_j[11] = t35 * C_i[3] + t36 * C_i[4] + t37 * C_i[5];
-    jac_phi_A_j[12] = f_i_world_2 * C_j[6];
-    jac_phi_A_j[13] = g_i_world_2 * C_j[6];
-    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - (g_i_world_2 * C_j[0] * t19 - f_i_world_2 *
-        C_j[0] * t20) * pitch;
+    jac_phi_A_j[10] = C_i[0] * t35 + C_i[1] * t36 + C_i[2] * t37;
+    jac_phi_A_j[11] = C_i[3] * t35 + C_i[4] * t36 + C_i[5] * t37;
+    jac_phi_A_j[12] = C_j[6] * f_i_world_2;
+    jac_phi_A_j[13] = C_j[6] * g_i_world_2;
+    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - C_j[0] *
+        f_i_world_2 * t20);
     const jg_real t38 = s_j[1] * A_i[0];
     const jg_real t39 = s_j[1] * A_i[3];
     const jg_real t40 = s_j[1] * A_i[6];
-    jac_phi_A_j[15] = t38 * C_i[0] + t39 * C_i[1] + t40 * C_i[2];
-    jac_phi_A_j[16] = t38 * C_i[3] + t39 * C_i[4] + t40 * C_i[5];
-    jac_phi_A_j[17] = f_i_world_0 * C_j[7];
-    jac_phi_A_j[18] = g_i_world_0 * C_j[7];
-    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - (g_i_world_0 * C_j[1] * t19 - f_i_world_0 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[15] = C_i[0] * t38 + C_i[1] * t39 + C_i[2] * t40;
+    jac_phi_A_j[16] = C_i[3] * t38 + C_i[4] * t39 + C_i[5] * t40;
+    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
+    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
+    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (C_j[1] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[1] * t20);
     const jg_real t41 = s_j[1] * A_i[1];
     const jg_real t42 = s_j[1] * A_i[4];
     const jg_real t43 = s_j[1] * A_i[7];
-    jac_phi_A_j[20] = t41 * C_i[0] + t42 * C_i[1] + t43 * C_i[2];
-    jac_phi_A_j[21] = t41 * C_i[3] + t42 * C_i[4] + t43 * C_i[5];
-    jac_phi_A_j[22] = f_i_world_1 * C_j[7];
-    jac_phi_A_j[23] = g_i_world_1 * C_j[7];
-    jac_phi_A_j[24] = t41 * C_i[6] + t42 * C_i[7] + t43 * C_i[8] - (g_i_world_1 * C_j[1] * t19 - f_i_world_1 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[20] = C_i[0] * t41 + C_i[1] * t42 + C_i[2] * t43;
+    jac_phi_A_j[21] = C_i[3] * t41 + C_i[4] * t42 + C_i[5] * t43;
+    jac_phi_A_j[22] = C_j[7] * f_i_world_1;
+    jac_phi_A_j[23] = C_j[7] * g_i_world_1;
+    jac_phi_A_j[24] = t41 * C_i[6] + t42 * C_i[7] + t43 * C_i[8] - pitch * (C_j[1] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[1] * t20);
     const jg_real t44 = s_j[1] * A_i[2];
     const jg_real t45 = s_j[1] * A_i[5];
     const jg_real t46 = s_j[1] * A_i[8];
-    jac_phi_A_j[25] = t44 * C_i[0] + t45 * C_i[1] + t46 * C_i[2];
-    jac_phi_A_j[26] = t44 * C_i[3] + t45 * C_i[4] + t46 * C_i[5];
-    jac_phi_A_j[27] = f_i_world_2 * C_j[7];
-    jac_phi_A_j[28] = g_i_world_2 * C_j[7];
-    jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - (g_i_world_2 * C_j[1] * t19 - f_i_world_2 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[25] = C_i[0] * t44 + C_i[1] * t45 + C_i[2] * t46;
+    jac_phi_A_j[26] = C_i[3] * t44 + C_i[4] * t45 + C_i[5] * t46;
+    jac_phi_A_j[27] = C_j[7] * f_i_world_2;
+    jac_phi_A_j[28] = C_j[7] * g_i_world_2;
+    jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - pitch * (C_j[1] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[1] * t20);
     const jg_real t47 = s_j[2] * A_i[0];
     const jg_real t48 = s_j[2] * A_i[3];
     const jg_real t49 = s_j[2] * A_i[6];
-    jac_phi_A_j[30] = t47 * C_i[0] + t48 * C_i[1] + t49 * C_i[2];
-    jac_phi_A_j[31] = t47 * C_i[3] + t48 * C_i[4] + t49 * C_i[5];
-    jac_phi_A_j[32] = f_i_world_0 * C_j[8];
-    jac_phi_A_j[33] = g_i_world_0 * C_j[8];
-    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - (g_i_world_0 * C_j[2] * t19 - f_i_world_0 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[30] = C_i[0] * t47 + C_i[1] * t48 + C_i[2] * t49;
+    jac_phi_A_j[31] = C_i[3] * t47 + C_i[4] * t48 + C_i[5] * t49;
+    jac_phi_A_j[32] = C_j[8] * f_i_world_0;
+    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
+    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (C_j[2] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[2] * t20);
     const jg_real t50 = s_j[2] * A_i[1];
     const jg_real t51 = s_j[2] * A_i[4];
     const jg_real t52 = s_j[2] * A_i[7];
-    jac_phi_A_j[35] = t50 * C_i[0] + t51 * C_i[1] + t52 * C_i[2];
-    jac_phi_A_j[36] = t50 * C_i[3] + t51 * C_i[4] + t52 * C_i[5];
-    jac_phi_A_j[37] = f_i_world_1 * C_j[8];
-    jac_phi_A_j[38] = g_i_world_1 * C_j[8];
-    jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - (g_i_world_1 * C_j[2] * t19 - f_i_world_1 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[35] = C_i[0] * t50 + C_i[1] * t51 + C_i[2] * t52;
+    jac_phi_A_j[36] = C_i[3] * t50 + C_i[4] * t51 + C_i[5] * t52;
+    jac_phi_A_j[37] = C_j[8] * f_i_world_1;
+    jac_phi_A_j[38] = C_j[8] * g_i_world_1;
+    jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - pitch * (C_j[2] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[2] * t20);
     const jg_real t53 = s_j[2] * A_i[2];
     const jg_real t54 = s_j[2] * A_i[5];
     const jg_real t55 = s_j[2] * A_i[8];
-    jac_phi_A_j[40] = t53 * C_i[0] + t54 * C_i[1] + t55 * C_i[2];
-    jac_phi_A_j[41] = t53 * C_i[3] + t54 * C_i[4] + t55 * C_i[5];
-    jac_phi_A_j[42] = f_i_world_2 * C_j[8];
-    jac_phi_A_j[43] = g_i_world_2 * C_j[8];
-    jac_phi_A_j[44] = t53 * C_i[6] + t54 * C_i[7] + t55 * C_i[8] - (g_i_world_2 * C_j[2] * t19 - f_i_world_2 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[40] = C_i[0] * t53 + C_i[1] * t54 + C_i[2] * t55;
+    jac_phi_A_j[41] = C_i[3] * t53 + C_i[4] * t54 + C_i[5] * t55;
+    jac_phi_A_j[42] = C_j[8] * f_i_world_2;
+    jac_phi_A_j[43] = C_j[8] * g_i_world_2;
+    jac_phi_A_j[44] = t53 * C_i[6] + t54 * C_i[7] + t55 * C_i[8] - pitch * (C_j[2] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[2] * t20);
     jac_phi_geometry[0] = -C_i[0];
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[6];
@@ -225,7 +225,7 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
@@ -236,7 +236,7 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[19] = t58;
     const jg_real t59 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[11] = t59 * t20 * pitch;
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     jac_phi_geometry[12] = d_ij_in_i_1;
     jac_phi_geometry[21] = d_ij_in_i_1;
@@ -246,7 +246,7 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[22] = t62;
     const jg_real t63 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[14] = t63 * t20 * pitch;
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     jac_phi_geometry[15] = d_ij_in_i_2;
     jac_phi_geometry[24] = d_ij_in_i_2;
@@ -262,39 +262,39 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t68 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t69 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t70 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[30] = t68 * C_i[0] + t69 * C_i[1] + t70 * C_i[2];
-    jac_phi_geometry[31] = t68 * C_i[3] + t69 * C_i[4] + t70 * C_i[5];
-    jac_phi_geometry[32] = t68 * C_i[6] + t69 * C_i[7] + t70 * C_i[8];
+    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
+    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
+    jac_phi_geometry[32] = C_i[6] * t68 + C_i[7] * t69 + C_i[8] * t70;
     const jg_real t71 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t72 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t73 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[33] = t71 * C_i[0] + t72 * C_i[1] + t73 * C_i[2];
-    jac_phi_geometry[34] = t71 * C_i[3] + t72 * C_i[4] + t73 * C_i[5];
-    jac_phi_geometry[35] = t71 * C_i[6] + t72 * C_i[7] + t73 * C_i[8];
+    jac_phi_geometry[33] = C_i[0] * t71 + C_i[1] * t72 + C_i[2] * t73;
+    jac_phi_geometry[34] = C_i[3] * t71 + C_i[4] * t72 + C_i[5] * t73;
+    jac_phi_geometry[35] = C_i[6] * t71 + C_i[7] * t72 + C_i[8] * t73;
     const jg_real t74 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t75 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t76 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_geometry[36] = t74 * C_i[0] + t75 * C_i[1] + t76 * C_i[2];
-    jac_phi_geometry[37] = t74 * C_i[3] + t75 * C_i[4] + t76 * C_i[5];
-    jac_phi_geometry[38] = t74 * C_i[6] + t75 * C_i[7] + t76 * C_i[8];
+    jac_phi_geometry[36] = C_i[0] * t74 + C_i[1] * t75 + C_i[2] * t76;
+    jac_phi_geometry[37] = C_i[3] * t74 + C_i[4] * t75 + C_i[5] * t76;
+    jac_phi_geometry[38] = C_i[6] * t74 + C_i[7] * t75 + C_i[8] * t76;
     const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     jac_phi_geometry[43] = t77;
     const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[42] = t78;
-    jac_phi_geometry[39] = -((t77 * t19 - t78 * t20) * pitch);
+    jac_phi_geometry[39] = -(pitch * (t77 * t19 - t78 * t20));
     const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     jac_phi_geometry[45] = t79;
     const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[44] = t80;
-    jac_phi_geometry[40] = -((t79 * t19 - t80 * t20) * pitch);
+    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
     const jg_real t81 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
     jac_phi_geometry[47] = t81;
     const jg_real t82 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[46] = t82;
-    jac_phi_geometry[41] = -((t81 * t19 - t82 * t20) * pitch);
+    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
-    jac_phi_geometry[48] = -(theta + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    jac_phi_geometry[48] = -(theta_0 + theta + revolutions * JG_REAL(6.283185307179586));
     jac_phi_geometry[49] = -pitch;
     jac_phi_geometry[50] = -(JG_REAL(6.283185307179586) * pitch);
 }
@@ -332,7 +332,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[25] = g_i_world_0;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    const jg_real t8 = h_i_world_0 * g_i_dot_omega_i - g_i_world_0 * h_i_dot_omega_i;
+    const jg_real t8 = g_i_dot_omega_i * h_i_world_0 - g_i_world_0 * h_i_dot_omega_i;
     jac_phi_q_v_r_i[0] = t8;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
@@ -344,7 +344,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_r_i[2] = t12;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - g_i_world_2 * f_i_world_0;
     jac_phi_q_v_velocity[29] = h_i_world_1;
-    const jg_real t14 = h_i_world_1 * g_i_dot_omega_i - g_i_world_1 * h_i_dot_omega_i;
+    const jg_real t14 = g_i_dot_omega_i * h_i_world_1 - g_i_world_1 * h_i_dot_omega_i;
     jac_phi_q_v_r_i[3] = t14;
     const jg_real t15 = f_i_world_1 * h_i_dot_omega_i - h_i_world_1 * f_i_dot_omega_i;
     jac_phi_q_v_r_i[4] = t15;
@@ -352,55 +352,56 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_r_i[5] = t16;
     const jg_real h_i_world_2 = g_i_world_1 * f_i_world_0 - f_i_world_1 * g_i_world_0;
     jac_phi_q_v_velocity[32] = h_i_world_2;
-    const jg_real t18 = h_i_world_2 * g_i_dot_omega_i - g_i_world_2 * h_i_dot_omega_i;
+    const jg_real t18 = g_i_dot_omega_i * h_i_world_2 - g_i_world_2 * h_i_dot_omega_i;
     jac_phi_q_v_r_i[6] = t18;
     const jg_real t19 = f_i_world_2 * h_i_dot_omega_i - h_i_world_2 * f_i_dot_omega_i;
     jac_phi_q_v_r_i[7] = t19;
     const jg_real t20 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
     jac_phi_q_v_r_i[8] = t20;
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
-    const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
-    const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     /* s_j_in_joint_i = s_j, axes of joint i */
-    const jg_real s_j_in_joint_i_2 = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
+    const jg_real s_j_in_joint_i_2 = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
     const jg_real t25 = C_i[3] * A_j[0];
     const jg_real t26 = C_i[3] * A_j[3];
     const jg_real t27 = C_i[3] * A_j[6];
-    const jg_real t28 = t25 * omega_j[0] + t26 * omega_j[1] + t27 * omega_j[2];
+    const jg_real t28 = omega_j[0] * t25 + omega_j[1] * t26 + omega_j[2] * t27;
     const jg_real t29 = C_i[0] * g_i_world_2 - C_i[3] * f_i_world_2;
-    const jg_real t30 = f_i_world_1 * C_i[3] - C_i[0] * g_i_world_1;
-    const jg_real t31 = t29 * A_j[1] + t30 * A_j[2];
-    const jg_real t32 = t29 * A_j[4] + t30 * A_j[5];
-    const jg_real t33 = t29 * A_j[7] + t30 * A_j[8];
-    const jg_real t34 = t31 * s_j[0] + t32 * s_j[1] + t33 * s_j[2];
+    const jg_real t30 = C_i[3] * f_i_world_1 - C_i[0] * g_i_world_1;
+    const jg_real t31 = A_j[1] * t29 + A_j[2] * t30;
+    const jg_real t32 = A_j[4] * t29 + A_j[5] * t30;
+    const jg_real t33 = A_j[7] * t29 + A_j[8] * t30;
+    const jg_real t34 = s_j[0] * t31 + s_j[1] * t32 + s_j[2] * t33;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
-    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real g_i_in_j_0 = A_j[1] * g_i_world_1 + A_j[0] * g_i_world_0 + A_j[2] * g_i_world_2;
+    const jg_real g_i_in_j_1 = A_j[4] * g_i_world_1 + A_j[3] * g_i_world_0 + A_j[5] * g_i_world_2;
+    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
     /* omega_j_in_joint_i = omega_j, axes of joint i */
-    const jg_real omega_j_in_joint_i_1 = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 *
-        omega_j[2];
-    const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
-        omega_j[2];
+    const jg_real omega_j_in_joint_i_1 = omega_j[0] * g_i_in_j_0 + omega_j[1] * g_i_in_j_1 + omega_j[2] *
+        g_i_in_j_2;
+    const jg_real omega_j_in_joint_i_2 = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] *
+        h_i_in_j_2;
     const jg_real t40 = s_j[0] * t25 + s_j[1] * t26 + s_j[2] * t27;
-    const jg_real t41 = t31 * omega_j[0] + t32 * omega_j[1] + t33 * omega_j[2];
+    const jg_real t41 = omega_j[0] * t31 + omega_j[1] * t32 + omega_j[2] * t33;
     const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
-    const jg_real t43 = t29 * r_j[1] + t30 * r_j[2];
+    const jg_real t43 = r_j[1] * t29 + r_j[2] * t30;
     const jg_real t44 = C_i[3] * r_j[0];
-    const jg_real t45 = t29 * r_i[1] + t30 * r_i[2];
+    const jg_real t45 = r_i[1] * t29 + r_i[2] * t30;
     const jg_real t46 = C_i[3] * r_i[0];
-    jac_phi_q_v_A_i[0] = s_j_in_joint_i_2 * t28 - t34 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t40 - t41 *
-        s_j_in_joint_i_1) - (g_i_dot_omega_i * t45 + h_i_dot_omega_i * t46 - (t34 * g_i_dot_omega_i + t40 *
-        h_i_dot_omega_i + (g_i_dot_omega_i * t43 + h_i_dot_omega_i * t44)) + C_i[0] * v_i[0] - C_i[0] * v_j[0]);
-    const jg_real t47 = h_i_in_j_2 * t26 - t33 * g_i_in_j_1 - (h_i_in_j_1 * t27 - t32 * g_i_in_j_2);
-    const jg_real t48 = h_i_in_j_0 * t27 - t31 * g_i_in_j_2 - (h_i_in_j_2 * t25 - t33 * g_i_in_j_0);
-    const jg_real t49 = h_i_in_j_1 * t25 - t32 * g_i_in_j_0 - (h_i_in_j_0 * t26 - t31 * g_i_in_j_1);
+    jac_phi_q_v_A_i[0] = t28 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t34 - (t40 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t41) - (h_i_dot_omega_i * t46 + g_i_dot_omega_i * t45 - (h_i_dot_omega_i * t44 +
+        g_i_dot_omega_i * t43 + (h_i_dot_omega_i * t40 + g_i_dot_omega_i * t34)) + C_i[0] * v_i[0] - C_i[0] *
+        v_j[0]);
+    const jg_real t47 = t26 * h_i_in_j_2 - g_i_in_j_1 * t33 - (t27 * h_i_in_j_1 - g_i_in_j_2 * t32);
+    const jg_real t48 = t27 * h_i_in_j_0 - g_i_in_j_2 * t31 - (t25 * h_i_in_j_2 - g_i_in_j_0 * t33);
+    const jg_real t49 = t25 * h_i_in_j_1 - g_i_in_j_0 * t32 - (t26 * h_i_in_j_0 - g_i_in_j_1 * t31);
     const jg_real t50 = s_j[0] * t47 + s_j[1] * t48 + s_j[2] * t49;
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
-    const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
-    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
     const jg_real t55 = omega_j[0] * t47 + omega_j[1] * t48 + omega_j[2] * t49;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
@@ -408,29 +409,29 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t57 = C_i[0] * r_j[0];
     const jg_real t58 = C_i[0] * r_i[0];
     jac_phi_q_v_A_i[1] = omega_j_in_joint_i_2 * t50 - t41 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t55 - t34 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t50 + t34 * f_i_dot_omega_i + (t43 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t57) - (t45 * f_i_dot_omega_i + h_i_dot_omega_i * t58) + C_i[3] * v_i[0] - C_i[3] *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t43 + h_i_dot_omega_i * t57 + (f_i_dot_omega_i * t34 +
+        h_i_dot_omega_i * t50) - (f_i_dot_omega_i * t45 + h_i_dot_omega_i * t58) + C_i[3] * v_i[0] - C_i[3] *
         v_j[0]);
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
-    const jg_real t60 = t31 * C_j[6] + t32 * C_j[7] + t33 * C_j[8];
-    const jg_real t61 = t25 * C_j[6] + t26 * C_j[7] + t27 * C_j[8];
-    const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
+    const jg_real t60 = C_j[6] * t31 + C_j[7] * t32 + C_j[8] * t33;
+    const jg_real t61 = C_j[6] * t25 + C_j[7] * t26 + C_j[8] * t27;
+    const jg_real h_j_in_joint_i_1 = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     jac_phi_q_v_A_i[2] = t28 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t60 - (omega_j_in_joint_i_2 * t61 - t41 *
         h_j_in_joint_i_1) + (g_i_dot_omega_i * t60 + h_i_dot_omega_i * t61);
-    const jg_real t63 = t47 * C_j[6] + t48 * C_j[7] + t49 * C_j[8];
-    const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (t55 * h_j_in_joint_i_2 -
-        omega_j_in_joint_i_0 * t60) - (h_i_dot_omega_i * t63 + f_i_dot_omega_i * t60);
+    const jg_real t63 = C_j[6] * t47 + C_j[7] * t48 + C_j[8] * t49;
+    const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
+    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t55 - t60 *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t60 + h_i_dot_omega_i * t63);
     /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
-    const jg_real t66 = t47 * C_j[0] + t48 * C_j[1] + t49 * C_j[2];
+    const jg_real f_i_dot_f_j = C_j[0] * f_i_in_j_0 + C_j[1] * f_i_in_j_1 + C_j[2] * f_i_in_j_2;
+    const jg_real t66 = C_j[0] * t47 + C_j[1] * t48 + C_j[2] * t49;
     /* g_i_dot_f_j = g_i . f_j */
-    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
-    const jg_real t68 = t25 * C_j[0] + t26 * C_j[1] + t27 * C_j[2];
+    const jg_real g_i_dot_f_j = C_j[0] * g_i_in_j_0 + C_j[1] * g_i_in_j_1 + C_j[2] * g_i_in_j_2;
+    const jg_real t68 = C_j[0] * t25 + C_j[1] * t26 + C_j[2] * t27;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
-    const jg_real t70 = t31 * C_j[0] + t32 * C_j[1] + t33 * C_j[2];
+    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
+    const jg_real t70 = C_j[0] * t31 + C_j[1] * t32 + C_j[2] * t33;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j_in_joint_i_0 * f_i_dot_f_j + omega_j_in_joint_i_1 * g_i_dot_f_j +
         omega_j_in_joint_i_2 * h_i_dot_f_j;
@@ -440,391 +441,400 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t73 = omega_i_dot_f_j - omega_j_dot_f_j;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t75 = spread * pitch;
-    const jg_real t76 = h_i_dot_f_j * t73 - h_i_dot_omega_i + omega_j_in_joint_i_2;
-    const jg_real t77 = spread * spread;
-    const jg_real t78 = h_i_dot_f_j * t70;
+    const jg_real t75 = pitch * spread;
+    const jg_real t76 = spread * spread;
+    const jg_real t77 = h_i_dot_f_j * t70;
+    const jg_real t78 = h_i_dot_f_j * t73 - h_i_dot_omega_i + omega_j_in_joint_i_2;
     jac_phi_q_v_A_i[4] = t40 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t55 - (omega_j_in_joint_i_1 * t50 + t28 *
-        s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t66 + g_i_dot_omega_i * t68 - h_i_dot_omega_i * t70 -
-        (t55 * f_i_dot_f_j + omega_j_in_joint_i_0 * t66 + (t28 * g_i_dot_f_j + omega_j_in_joint_i_1 * t68) - (t41 *
-        h_i_dot_f_j + omega_j_in_joint_i_2 * t70))) - t70 * t73 - t41) * t75 - (t78 + t78) * t77 * pitch * t76 +
-        (t44 * f_i_dot_omega_i - g_i_dot_omega_i * t57) + (t40 * f_i_dot_omega_i - g_i_dot_omega_i * t50) - (t46 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t58) - (t29 * v_i[1] + t30 * v_i[2]) + (t29 * v_j[1] + t30 * v_j[2]));
+        s_j_in_joint_i_0) - (v_j[1] * t29 + v_j[2] * t30 + (f_i_dot_omega_i * t40 - g_i_dot_omega_i * t50 + (t44 *
+        f_i_dot_omega_i - g_i_dot_omega_i * t57 + (t75 * (h_i_dot_f_j * (f_i_dot_omega_i * t66 + g_i_dot_omega_i *
+        t68 - h_i_dot_omega_i * t70 - (t55 * f_i_dot_f_j + omega_j_in_joint_i_0 * t66 + (t28 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t68) - (t41 * h_i_dot_f_j + omega_j_in_joint_i_2 * t70))) - t70 * t73 - t41) - (t77 +
+        t77) * t76 * pitch * t78)) - (t46 * f_i_dot_omega_i - g_i_dot_omega_i * t58) - (v_i[1] * t29 + v_i[2] *
+        t30)));
     const jg_real t79 = C_i[3] * A_j[1];
     const jg_real t80 = C_i[3] * A_j[4];
     const jg_real t81 = C_i[3] * A_j[7];
-    const jg_real t82 = t79 * omega_j[0] + t80 * omega_j[1] + t81 * omega_j[2];
+    const jg_real t82 = omega_j[0] * t79 + omega_j[1] * t80 + omega_j[2] * t81;
     const jg_real t83 = C_i[0] * g_i_world_0 - C_i[3] * f_i_world_0;
-    const jg_real t84 = t29 * A_j[0] - t83 * A_j[2];
-    const jg_real t85 = t29 * A_j[3] - t83 * A_j[5];
-    const jg_real t86 = t29 * A_j[6] - t83 * A_j[8];
-    const jg_real t87 = t84 * s_j[0] + t85 * s_j[1] + t86 * s_j[2];
+    const jg_real t84 = A_j[0] * t29 - A_j[2] * t83;
+    const jg_real t85 = A_j[3] * t29 - A_j[5] * t83;
+    const jg_real t86 = A_j[6] * t29 - A_j[8] * t83;
+    const jg_real t87 = s_j[0] * t84 + s_j[1] * t85 + s_j[2] * t86;
     const jg_real t88 = s_j[0] * t79 + s_j[1] * t80 + s_j[2] * t81;
-    const jg_real t89 = t84 * omega_j[0] + t85 * omega_j[1] + t86 * omega_j[2];
-    const jg_real t90 = t29 * r_j[0] - t83 * r_j[2];
+    const jg_real t89 = omega_j[0] * t84 + omega_j[1] * t85 + omega_j[2] * t86;
+    const jg_real t90 = r_j[0] * t29 - r_j[2] * t83;
     const jg_real t91 = C_i[3] * r_j[1];
-    const jg_real t92 = t29 * r_i[0] - t83 * r_i[2];
+    const jg_real t92 = r_i[0] * t29 - r_i[2] * t83;
     const jg_real t93 = C_i[3] * r_i[1];
-    jac_phi_q_v_A_i[5] = t87 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t82 - (omega_j_in_joint_i_2 * t88 + t89 *
-        s_j_in_joint_i_1) - (t87 * g_i_dot_omega_i - t88 * h_i_dot_omega_i + (g_i_dot_omega_i * t90 -
-        h_i_dot_omega_i * t91) - (g_i_dot_omega_i * t92 - h_i_dot_omega_i * t93) + C_i[0] * v_i[1] - C_i[0] *
+    jac_phi_q_v_A_i[5] = omega_j_in_joint_i_1 * t87 + t82 * s_j_in_joint_i_2 - (t88 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t89) - (g_i_dot_omega_i * t90 - h_i_dot_omega_i * t91 + (g_i_dot_omega_i * t87 -
+        h_i_dot_omega_i * t88) - (g_i_dot_omega_i * t92 - h_i_dot_omega_i * t93) + C_i[0] * v_i[1] - C_i[0] *
         v_j[1]);
-    const jg_real t94 = h_i_in_j_2 * t80 + t86 * g_i_in_j_1 - (h_i_in_j_1 * t81 + t85 * g_i_in_j_2);
-    const jg_real t95 = h_i_in_j_0 * t81 + t84 * g_i_in_j_2 - (h_i_in_j_2 * t79 + t86 * g_i_in_j_0);
-    const jg_real t96 = h_i_in_j_1 * t79 + t85 * g_i_in_j_0 - (h_i_in_j_0 * t80 + t84 * g_i_in_j_1);
+    const jg_real t94 = t80 * h_i_in_j_2 + g_i_in_j_1 * t86 - (t81 * h_i_in_j_1 + g_i_in_j_2 * t85);
+    const jg_real t95 = t81 * h_i_in_j_0 + g_i_in_j_2 * t84 - (t79 * h_i_in_j_2 + g_i_in_j_0 * t86);
+    const jg_real t96 = t79 * h_i_in_j_1 + g_i_in_j_0 * t85 - (t80 * h_i_in_j_0 + g_i_in_j_1 * t84);
     const jg_real t97 = s_j[0] * t94 + s_j[1] * t95 + s_j[2] * t96;
     const jg_real t98 = omega_j[0] * t94 + omega_j[1] * t95 + omega_j[2] * t96;
     const jg_real t99 = C_i[0] * r_j[1];
     const jg_real t100 = C_i[0] * r_i[1];
     jac_phi_q_v_A_i[6] = omega_j_in_joint_i_2 * t97 + t89 * s_j_in_joint_i_0 - (t87 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t98) - (h_i_dot_omega_i * t97 - t87 * f_i_dot_omega_i + (h_i_dot_omega_i * t99 - t90 *
-        f_i_dot_omega_i) - (h_i_dot_omega_i * t100 - t92 * f_i_dot_omega_i) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
-    const jg_real t101 = t84 * C_j[6] + t85 * C_j[7] + t86 * C_j[8];
-    const jg_real t102 = t79 * C_j[6] + t80 * C_j[7] + t81 * C_j[8];
+        s_j_in_joint_i_2 * t98) - (t99 * h_i_dot_omega_i - f_i_dot_omega_i * t90 + (h_i_dot_omega_i * t97 -
+        f_i_dot_omega_i * t87) - (h_i_dot_omega_i * t100 - f_i_dot_omega_i * t92) + C_i[3] * v_i[1] - C_i[3] *
+        v_j[1]);
+    const jg_real t101 = C_j[6] * t84 + C_j[7] * t85 + C_j[8] * t86;
+    const jg_real t102 = C_j[6] * t79 + C_j[7] * t80 + C_j[8] * t81;
     jac_phi_q_v_A_i[7] = t82 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t101 - (t89 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t102) - (g_i_dot_omega_i * t101 - h_i_dot_omega_i * t102);
-    const jg_real t103 = t94 * C_j[6] + t95 * C_j[7] + t96 * C_j[8];
-    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t103 - (t98 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t101) - (h_i_dot_omega_i * t103 - f_i_dot_omega_i * t101);
-    const jg_real t104 = t94 * C_j[0] + t95 * C_j[1] + t96 * C_j[2];
-    const jg_real t105 = t79 * C_j[0] + t80 * C_j[1] + t81 * C_j[2];
-    const jg_real t106 = t84 * C_j[0] + t85 * C_j[1] + t86 * C_j[2];
+    const jg_real t103 = C_j[6] * t94 + C_j[7] * t95 + C_j[8] * t96;
+    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t103 - (h_j_in_joint_i_2 * t98 + t101 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t103 - f_i_dot_omega_i * t101);
+    const jg_real t104 = C_j[0] * t94 + C_j[1] * t95 + C_j[2] * t96;
+    const jg_real t105 = C_j[0] * t79 + C_j[1] * t80 + C_j[2] * t81;
+    const jg_real t106 = C_j[0] * t84 + C_j[1] * t85 + C_j[2] * t86;
     const jg_real t107 = h_i_dot_f_j * t106;
     jac_phi_q_v_A_i[9] = t88 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t98 - (omega_j_in_joint_i_1 * t97 + t82 *
-        s_j_in_joint_i_0) - ((t106 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t104 + g_i_dot_omega_i * t105 +
-        h_i_dot_omega_i * t106 - (t98 * f_i_dot_f_j + omega_j_in_joint_i_0 * t104 + (t82 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t105) + (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t106))) + t89) * t75 + (t107 +
-        t107) * t77 * pitch * t76 + (t91 * f_i_dot_omega_i - g_i_dot_omega_i * t99) + (t88 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t97) - (t93 * f_i_dot_omega_i - g_i_dot_omega_i * t100) + (t29 * v_i[0] - t83 * v_i[2]) -
-        (t29 * v_j[0] - t83 * v_j[2]));
+        s_j_in_joint_i_0) - (v_i[0] * t29 - v_i[2] * t83 + (f_i_dot_omega_i * t88 - g_i_dot_omega_i * t97 + (t91 *
+        f_i_dot_omega_i - t99 * g_i_dot_omega_i + (t75 * (t106 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t104 +
+        g_i_dot_omega_i * t105 + h_i_dot_omega_i * t106 - (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t106 + (t98 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t104 + (t82 * g_i_dot_f_j + omega_j_in_joint_i_1 * t105)))) + t89) +
+        (t107 + t107) * t76 * pitch * t78)) - (t93 * f_i_dot_omega_i - g_i_dot_omega_i * t100)) - (v_j[0] * t29 -
+        v_j[2] * t83));
     const jg_real t108 = C_i[3] * A_j[2];
     const jg_real t109 = C_i[3] * A_j[5];
     const jg_real t110 = C_i[3] * A_j[8];
-    const jg_real t111 = t108 * omega_j[0] + t109 * omega_j[1] + t110 * omega_j[2];
-    const jg_real t112 = t30 * A_j[0] + t83 * A_j[1];
-    const jg_real t113 = t30 * A_j[3] + t83 * A_j[4];
-    const jg_real t114 = t30 * A_j[6] + t83 * A_j[7];
-    const jg_real t115 = t112 * s_j[0] + t113 * s_j[1] + t114 * s_j[2];
+    const jg_real t111 = omega_j[0] * t108 + omega_j[1] * t109 + omega_j[2] * t110;
+    const jg_real t112 = A_j[0] * t30 + A_j[1] * t83;
+    const jg_real t113 = A_j[3] * t30 + A_j[4] * t83;
+    const jg_real t114 = A_j[6] * t30 + A_j[7] * t83;
+    const jg_real t115 = s_j[0] * t112 + s_j[1] * t113 + s_j[2] * t114;
     const jg_real t116 = s_j[0] * t108 + s_j[1] * t109 + s_j[2] * t110;
-    const jg_real t117 = t112 * omega_j[0] + t113 * omega_j[1] + t114 * omega_j[2];
-    const jg_real t118 = t30 * r_j[0] + t83 * r_j[1];
+    const jg_real t117 = omega_j[0] * t112 + omega_j[1] * t113 + omega_j[2] * t114;
+    const jg_real t118 = r_j[0] * t30 + r_j[1] * t83;
     const jg_real t119 = C_i[3] * r_j[2];
-    const jg_real t120 = t30 * r_i[0] + t83 * r_i[1];
+    const jg_real t120 = r_i[0] * t30 + r_i[1] * t83;
     const jg_real t121 = C_i[3] * r_i[2];
-    jac_phi_q_v_A_i[10] = t115 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t111 - (omega_j_in_joint_i_2 * t116 +
-        t117 * s_j_in_joint_i_1) - (t115 * g_i_dot_omega_i - t116 * h_i_dot_omega_i + (g_i_dot_omega_i * t118 -
-        h_i_dot_omega_i * t119) - (g_i_dot_omega_i * t120 - h_i_dot_omega_i * t121) + C_i[0] * v_i[2] - C_i[0] *
+    jac_phi_q_v_A_i[10] = omega_j_in_joint_i_1 * t115 + t111 * s_j_in_joint_i_2 - (t116 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t117) - (g_i_dot_omega_i * t118 - h_i_dot_omega_i * t119 + (g_i_dot_omega_i * t115 -
+        h_i_dot_omega_i * t116) - (g_i_dot_omega_i * t120 - h_i_dot_omega_i * t121) + C_i[0] * v_i[2] - C_i[0] *
         v_j[2]);
-    const jg_real t122 = h_i_in_j_2 * t109 + t114 * g_i_in_j_1 - (h_i_in_j_1 * t110 + t113 * g_i_in_j_2);
-    const jg_real t123 = h_i_in_j_0 * t110 + t112 * g_i_in_j_2 - (h_i_in_j_2 * t108 + t114 * g_i_in_j_0);
-    const jg_real t124 = h_i_in_j_1 * t108 + t113 * g_i_in_j_0 - (h_i_in_j_0 * t109 + t112 * g_i_in_j_1);
+    const jg_real t122 = t109 * h_i_in_j_2 + g_i_in_j_1 * t114 - (t110 * h_i_in_j_1 + g_i_in_j_2 * t113);
+    const jg_real t123 = t110 * h_i_in_j_0 + g_i_in_j_2 * t112 - (t108 * h_i_in_j_2 + g_i_in_j_0 * t114);
+    const jg_real t124 = t108 * h_i_in_j_1 + g_i_in_j_0 * t113 - (t109 * h_i_in_j_0 + g_i_in_j_1 * t112);
     const jg_real t125 = s_j[0] * t122 + s_j[1] * t123 + s_j[2] * t124;
     const jg_real t126 = omega_j[0] * t122 + omega_j[1] * t123 + omega_j[2] * t124;
     const jg_real t127 = C_i[0] * r_j[2];
     const jg_real t128 = C_i[0] * r_i[2];
     jac_phi_q_v_A_i[11] = omega_j_in_joint_i_2 * t125 + t117 * s_j_in_joint_i_0 - (t115 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t126) - (h_i_dot_omega_i * t125 - t115 * f_i_dot_omega_i + (h_i_dot_omega_i * t127 - t118
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t128 - t120 * f_i_dot_omega_i) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
-    const jg_real t129 = t112 * C_j[6] + t113 * C_j[7] + t114 * C_j[8];
-    const jg_real t130 = t108 * C_j[6] + t109 * C_j[7] + t110 * C_j[8];
+        s_j_in_joint_i_2 * t126) - (h_i_dot_omega_i * t127 - f_i_dot_omega_i * t118 + (h_i_dot_omega_i * t125 -
+        f_i_dot_omega_i * t115) - (h_i_dot_omega_i * t128 - f_i_dot_omega_i * t120) + C_i[3] * v_i[2] - C_i[3] *
+        v_j[2]);
+    const jg_real t129 = C_j[6] * t112 + C_j[7] * t113 + C_j[8] * t114;
+    const jg_real t130 = C_j[6] * t108 + C_j[7] * t109 + C_j[8] * t110;
     jac_phi_q_v_A_i[12] = t111 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t129 - (t117 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t130) - (g_i_dot_omega_i * t129 - h_i_dot_omega_i * t130);
-    const jg_real t131 = t122 * C_j[6] + t123 * C_j[7] + t124 * C_j[8];
-    jac_phi_q_v_A_i[13] = t117 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t131 - (t126 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t129) - (h_i_dot_omega_i * t131 - f_i_dot_omega_i * t129);
-    const jg_real t132 = t122 * C_j[0] + t123 * C_j[1] + t124 * C_j[2];
-    const jg_real t133 = t108 * C_j[0] + t109 * C_j[1] + t110 * C_j[2];
-    const jg_real t134 = t112 * C_j[0] + t113 * C_j[1] + t114 * C_j[2];
+    const jg_real t131 = C_j[6] * t122 + C_j[7] * t123 + C_j[8] * t124;
+    jac_phi_q_v_A_i[13] = t117 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t131 - (h_j_in_joint_i_2 * t126 + t129 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t131 - f_i_dot_omega_i * t129);
+    const jg_real t132 = C_j[0] * t122 + C_j[1] * t123 + C_j[2] * t124;
+    const jg_real t133 = C_j[0] * t108 + C_j[1] * t109 + C_j[2] * t110;
+    const jg_real t134 = C_j[0] * t112 + C_j[1] * t113 + C_j[2] * t114;
     const jg_real t135 = h_i_dot_f_j * t134;
     jac_phi_q_v_A_i[14] = t116 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t126 - (omega_j_in_joint_i_1 * t125 +
-        t111 * s_j_in_joint_i_0) - ((t134 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t132 + g_i_dot_omega_i * t133 +
-        h_i_dot_omega_i * t134 - (t126 * f_i_dot_f_j + omega_j_in_joint_i_0 * t132 + (t111 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t133) + (t117 * h_i_dot_f_j + omega_j_in_joint_i_2 * t134))) + t117) * t75 + (t135 +
-        t135) * t77 * pitch * t76 + (t119 * f_i_dot_omega_i - g_i_dot_omega_i * t127) + (t116 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t125) - (t121 * f_i_dot_omega_i - g_i_dot_omega_i * t128) + (t30 * v_i[0] + t83 * v_i[1])
-        - (t30 * v_j[0] + t83 * v_j[1]));
+        t111 * s_j_in_joint_i_0) - (v_i[0] * t30 + v_i[1] * t83 + (f_i_dot_omega_i * t116 - g_i_dot_omega_i * t125 +
+        (t119 * f_i_dot_omega_i - g_i_dot_omega_i * t127 + (t75 * (t134 * t73 + h_i_dot_f_j * (f_i_dot_omega_i *
+        t132 + g_i_dot_omega_i * t133 + h_i_dot_omega_i * t134 - (t117 * h_i_dot_f_j + omega_j_in_joint_i_2 * t134 +
+        (t126 * f_i_dot_f_j + omega_j_in_joint_i_0 * t132 + (t111 * g_i_dot_f_j + omega_j_in_joint_i_1 * t133)))) +
+        t117) + (t135 + t135) * t76 * pitch * t78)) - (t121 * f_i_dot_omega_i - g_i_dot_omega_i * t128)) - (v_j[0] *
+        t30 + v_j[1] * t83));
     const jg_real t136 = C_i[4] * A_j[0];
     const jg_real t137 = C_i[4] * A_j[3];
     const jg_real t138 = C_i[4] * A_j[6];
-    const jg_real t139 = t136 * omega_j[0] + t137 * omega_j[1] + t138 * omega_j[2];
+    const jg_real t139 = omega_j[0] * t136 + omega_j[1] * t137 + omega_j[2] * t138;
     const jg_real t140 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
-    const jg_real t141 = f_i_world_1 * C_i[4] - C_i[1] * g_i_world_1;
-    const jg_real t142 = t140 * A_j[1] + t141 * A_j[2];
-    const jg_real t143 = t140 * A_j[4] + t141 * A_j[5];
-    const jg_real t144 = t140 * A_j[7] + t141 * A_j[8];
-    const jg_real t145 = t142 * s_j[0] + t143 * s_j[1] + t144 * s_j[2];
+    const jg_real t141 = C_i[4] * f_i_world_1 - C_i[1] * g_i_world_1;
+    const jg_real t142 = A_j[1] * t140 + A_j[2] * t141;
+    const jg_real t143 = A_j[4] * t140 + A_j[5] * t141;
+    const jg_real t144 = A_j[7] * t140 + A_j[8] * t141;
+    const jg_real t145 = s_j[0] * t142 + s_j[1] * t143 + s_j[2] * t144;
     const jg_real t146 = s_j[0] * t136 + s_j[1] * t137 + s_j[2] * t138;
-    const jg_real t147 = t142 * omega_j[0] + t143 * omega_j[1] + t144 * omega_j[2];
-    const jg_real t148 = t140 * r_j[1] + t141 * r_j[2];
+    const jg_real t147 = omega_j[0] * t142 + omega_j[1] * t143 + omega_j[2] * t144;
+    const jg_real t148 = r_j[1] * t140 + r_j[2] * t141;
     const jg_real t149 = C_i[4] * r_j[0];
-    const jg_real t150 = t140 * r_i[1] + t141 * r_i[2];
+    const jg_real t150 = r_i[1] * t140 + r_i[2] * t141;
     const jg_real t151 = C_i[4] * r_i[0];
-    jac_phi_q_v_A_i[15] = s_j_in_joint_i_2 * t139 - t145 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t146 -
-        t147 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t150 + h_i_dot_omega_i * t151 - (t145 * g_i_dot_omega_i + t146
-        * h_i_dot_omega_i + (g_i_dot_omega_i * t148 + h_i_dot_omega_i * t149)) + C_i[1] * v_i[0] - C_i[1] * v_j[0]);
-    const jg_real t152 = h_i_in_j_2 * t137 - t144 * g_i_in_j_1 - (h_i_in_j_1 * t138 - t143 * g_i_in_j_2);
-    const jg_real t153 = h_i_in_j_0 * t138 - t142 * g_i_in_j_2 - (h_i_in_j_2 * t136 - t144 * g_i_in_j_0);
-    const jg_real t154 = h_i_in_j_1 * t136 - t143 * g_i_in_j_0 - (h_i_in_j_0 * t137 - t142 * g_i_in_j_1);
+    jac_phi_q_v_A_i[15] = t139 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t145 - (t146 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t147) - (h_i_dot_omega_i * t151 + g_i_dot_omega_i * t150 - (h_i_dot_omega_i * t149 +
+        g_i_dot_omega_i * t148 + (h_i_dot_omega_i * t146 + g_i_dot_omega_i * t145)) + C_i[1] * v_i[0] - C_i[1] *
+        v_j[0]);
+    const jg_real t152 = t137 * h_i_in_j_2 - g_i_in_j_1 * t144 - (t138 * h_i_in_j_1 - g_i_in_j_2 * t143);
+    const jg_real t153 = t138 * h_i_in_j_0 - g_i_in_j_2 * t142 - (t136 * h_i_in_j_2 - g_i_in_j_0 * t144);
+    const jg_real t154 = t136 * h_i_in_j_1 - g_i_in_j_0 * t143 - (t137 * h_i_in_j_0 - g_i_in_j_1 * t142);
     const jg_real t155 = s_j[0] * t152 + s_j[1] * t153 + s_j[2] * t154;
     const jg_real t156 = omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154;
     const jg_real t157 = C_i[1] * r_j[0];
     const jg_real t158 = C_i[1] * r_i[0];
     jac_phi_q_v_A_i[16] = omega_j_in_joint_i_2 * t155 - t147 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t156 - t145 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t155 + t145 * f_i_dot_omega_i + (t148 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t157) - (t150 * f_i_dot_omega_i + h_i_dot_omega_i * t158) + C_i[4] * v_i[0] - C_i[4] *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t148 + h_i_dot_omega_i * t157 + (f_i_dot_omega_i * t145 +
+        h_i_dot_omega_i * t155) - (f_i_dot_omega_i * t150 + h_i_dot_omega_i * t158) + C_i[4] * v_i[0] - C_i[4] *
         v_j[0]);
-    const jg_real t159 = t142 * C_j[6] + t143 * C_j[7] + t144 * C_j[8];
-    const jg_real t160 = t136 * C_j[6] + t137 * C_j[7] + t138 * C_j[8];
+    const jg_real t159 = C_j[6] * t142 + C_j[7] * t143 + C_j[8] * t144;
+    const jg_real t160 = C_j[6] * t136 + C_j[7] * t137 + C_j[8] * t138;
     jac_phi_q_v_A_i[17] = t139 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t159 - (omega_j_in_joint_i_2 * t160 -
         t147 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t159 + h_i_dot_omega_i * t160);
-    const jg_real t161 = t152 * C_j[6] + t153 * C_j[7] + t154 * C_j[8];
-    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t161 - t147 * h_j_in_joint_i_0 - (t156 * h_j_in_joint_i_2 -
-        omega_j_in_joint_i_0 * t159) - (h_i_dot_omega_i * t161 + f_i_dot_omega_i * t159);
-    const jg_real t162 = t152 * C_j[0] + t153 * C_j[1] + t154 * C_j[2];
-    const jg_real t163 = t136 * C_j[0] + t137 * C_j[1] + t138 * C_j[2];
-    const jg_real t164 = t142 * C_j[0] + t143 * C_j[1] + t144 * C_j[2];
+    const jg_real t161 = C_j[6] * t152 + C_j[7] * t153 + C_j[8] * t154;
+    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t161 - t147 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t156 - t159 *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t159 + h_i_dot_omega_i * t161);
+    const jg_real t162 = C_j[0] * t152 + C_j[1] * t153 + C_j[2] * t154;
+    const jg_real t163 = C_j[0] * t136 + C_j[1] * t137 + C_j[2] * t138;
+    const jg_real t164 = C_j[0] * t142 + C_j[1] * t143 + C_j[2] * t144;
     const jg_real t165 = h_i_dot_f_j * t164;
     jac_phi_q_v_A_i[19] = t146 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t156 - (omega_j_in_joint_i_1 * t155 +
-        t139 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t162 + g_i_dot_omega_i * t163 -
-        h_i_dot_omega_i * t164 - (t156 * f_i_dot_f_j + omega_j_in_joint_i_0 * t162 + (t139 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t163) - (t147 * h_i_dot_f_j + omega_j_in_joint_i_2 * t164))) - t164 * t73 - t147) *
-        t75 - (t165 + t165) * t77 * pitch * t76 + (t149 * f_i_dot_omega_i - g_i_dot_omega_i * t157) + (t146 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t155) - (t151 * f_i_dot_omega_i - g_i_dot_omega_i * t158) - (t140 *
-        v_i[1] + t141 * v_i[2]) + (t140 * v_j[1] + t141 * v_j[2]));
+        t139 * s_j_in_joint_i_0) - (v_j[1] * t140 + v_j[2] * t141 + (f_i_dot_omega_i * t146 - g_i_dot_omega_i * t155
+        + (t149 * f_i_dot_omega_i - g_i_dot_omega_i * t157 + (t75 * (h_i_dot_f_j * (f_i_dot_omega_i * t162 +
+        g_i_dot_omega_i * t163 - h_i_dot_omega_i * t164 - (t156 * f_i_dot_f_j + omega_j_in_joint_i_0 * t162 + (t139
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t163) - (t147 * h_i_dot_f_j + omega_j_in_joint_i_2 * t164))) - t164 *
+        t73 - t147) - (t165 + t165) * t76 * pitch * t78)) - (t151 * f_i_dot_omega_i - g_i_dot_omega_i * t158) -
+        (v_i[1] * t140 + v_i[2] * t141)));
     const jg_real t166 = C_i[4] * A_j[1];
     const jg_real t167 = C_i[4] * A_j[4];
     const jg_real t168 = C_i[4] * A_j[7];
-    const jg_real t169 = t166 * omega_j[0] + t167 * omega_j[1] + t168 * omega_j[2];
+    const jg_real t169 = omega_j[0] * t166 + omega_j[1] * t167 + omega_j[2] * t168;
     const jg_real t170 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
-    const jg_real t171 = t140 * A_j[0] - t170 * A_j[2];
-    const jg_real t172 = t140 * A_j[3] - t170 * A_j[5];
-    const jg_real t173 = t140 * A_j[6] - t170 * A_j[8];
-    const jg_real t174 = t171 * s_j[0] + t172 * s_j[1] + t173 * s_j[2];
+    const jg_real t171 = A_j[0] * t140 - A_j[2] * t170;
+    const jg_real t172 = A_j[3] * t140 - A_j[5] * t170;
+    const jg_real t173 = A_j[6] * t140 - A_j[8] * t170;
+    const jg_real t174 = s_j[0] * t171 + s_j[1] * t172 + s_j[2] * t173;
     const jg_real t175 = s_j[0] * t166 + s_j[1] * t167 + s_j[2] * t168;
-    const jg_real t176 = t171 * omega_j[0] + t172 * omega_j[1] + t173 * omega_j[2];
-    const jg_real t177 = t140 * r_j[0] - t170 * r_j[2];
+    const jg_real t176 = omega_j[0] * t171 + omega_j[1] * t172 + omega_j[2] * t173;
+    const jg_real t177 = r_j[0] * t140 - r_j[2] * t170;
     const jg_real t178 = C_i[4] * r_j[1];
-    const jg_real t179 = t140 * r_i[0] - t170 * r_i[2];
+    const jg_real t179 = r_i[0] * t140 - r_i[2] * t170;
     const jg_real t180 = C_i[4] * r_i[1];
-    jac_phi_q_v_A_i[20] = t174 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t169 - (omega_j_in_joint_i_2 * t175 +
-        t176 * s_j_in_joint_i_1) - (t174 * g_i_dot_omega_i - t175 * h_i_dot_omega_i + (g_i_dot_omega_i * t177 -
-        h_i_dot_omega_i * t178) - (g_i_dot_omega_i * t179 - h_i_dot_omega_i * t180) + C_i[1] * v_i[1] - C_i[1] *
+    jac_phi_q_v_A_i[20] = omega_j_in_joint_i_1 * t174 + t169 * s_j_in_joint_i_2 - (t175 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t176) - (g_i_dot_omega_i * t177 - h_i_dot_omega_i * t178 + (g_i_dot_omega_i * t174 -
+        h_i_dot_omega_i * t175) - (g_i_dot_omega_i * t179 - h_i_dot_omega_i * t180) + C_i[1] * v_i[1] - C_i[1] *
         v_j[1]);
-    const jg_real t181 = h_i_in_j_2 * t167 + t173 * g_i_in_j_1 - (h_i_in_j_1 * t168 + t172 * g_i_in_j_2);
-    const jg_real t182 = h_i_in_j_0 * t168 + t171 * g_i_in_j_2 - (h_i_in_j_2 * t166 + t173 * g_i_in_j_0);
-    const jg_real t183 = h_i_in_j_1 * t166 + t172 * g_i_in_j_0 - (h_i_in_j_0 * t167 + t171 * g_i_in_j_1);
+    const jg_real t181 = t167 * h_i_in_j_2 + g_i_in_j_1 * t173 - (t168 * h_i_in_j_1 + g_i_in_j_2 * t172);
+    const jg_real t182 = t168 * h_i_in_j_0 + g_i_in_j_2 * t171 - (t166 * h_i_in_j_2 + g_i_in_j_0 * t173);
+    const jg_real t183 = t166 * h_i_in_j_1 + g_i_in_j_0 * t172 - (t167 * h_i_in_j_0 + g_i_in_j_1 * t171);
     const jg_real t184 = s_j[0] * t181 + s_j[1] * t182 + s_j[2] * t183;
     const jg_real t185 = omega_j[0] * t181 + omega_j[1] * t182 + omega_j[2] * t183;
     const jg_real t186 = C_i[1] * r_j[1];
     const jg_real t187 = C_i[1] * r_i[1];
     jac_phi_q_v_A_i[21] = omega_j_in_joint_i_2 * t184 + t176 * s_j_in_joint_i_0 - (t174 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t185) - (h_i_dot_omega_i * t184 - t174 * f_i_dot_omega_i + (h_i_dot_omega_i * t186 - t177
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t187 - t179 * f_i_dot_omega_i) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
-    const jg_real t188 = t171 * C_j[6] + t172 * C_j[7] + t173 * C_j[8];
-    const jg_real t189 = t166 * C_j[6] + t167 * C_j[7] + t168 * C_j[8];
+        s_j_in_joint_i_2 * t185) - (t186 * h_i_dot_omega_i - f_i_dot_omega_i * t177 + (h_i_dot_omega_i * t184 -
+        f_i_dot_omega_i * t174) - (h_i_dot_omega_i * t187 - f_i_dot_omega_i * t179) + C_i[4] * v_i[1] - C_i[4] *
+        v_j[1]);
+    const jg_real t188 = C_j[6] * t171 + C_j[7] * t172 + C_j[8] * t173;
+    const jg_real t189 = C_j[6] * t166 + C_j[7] * t167 + C_j[8] * t168;
     jac_phi_q_v_A_i[22] = t169 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t188 - (t176 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t189) - (g_i_dot_omega_i * t188 - h_i_dot_omega_i * t189);
-    const jg_real t190 = t181 * C_j[6] + t182 * C_j[7] + t183 * C_j[8];
-    jac_phi_q_v_A_i[23] = t176 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t190 - (t185 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t188) - (h_i_dot_omega_i * t190 - f_i_dot_omega_i * t188);
-    const jg_real t191 = t181 * C_j[0] + t182 * C_j[1] + t183 * C_j[2];
-    const jg_real t192 = t166 * C_j[0] + t167 * C_j[1] + t168 * C_j[2];
-    const jg_real t193 = t171 * C_j[0] + t172 * C_j[1] + t173 * C_j[2];
+    const jg_real t190 = C_j[6] * t181 + C_j[7] * t182 + C_j[8] * t183;
+    jac_phi_q_v_A_i[23] = t176 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t190 - (h_j_in_joint_i_2 * t185 + t188 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t190 - f_i_dot_omega_i * t188);
+    const jg_real t191 = C_j[0] * t181 + C_j[1] * t182 + C_j[2] * t183;
+    const jg_real t192 = C_j[0] * t166 + C_j[1] * t167 + C_j[2] * t168;
+    const jg_real t193 = C_j[0] * t171 + C_j[1] * t172 + C_j[2] * t173;
     const jg_real t194 = h_i_dot_f_j * t193;
     jac_phi_q_v_A_i[24] = t175 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t185 - (omega_j_in_joint_i_1 * t184 +
-        t169 * s_j_in_joint_i_0) - ((t193 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t191 + g_i_dot_omega_i * t192 +
-        h_i_dot_omega_i * t193 - (t185 * f_i_dot_f_j + omega_j_in_joint_i_0 * t191 + (t169 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t192) + (t176 * h_i_dot_f_j + omega_j_in_joint_i_2 * t193))) + t176) * t75 + (t194 +
-        t194) * t77 * pitch * t76 + (t178 * f_i_dot_omega_i - g_i_dot_omega_i * t186) + (t175 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t184) - (t180 * f_i_dot_omega_i - g_i_dot_omega_i * t187) + (t140 * v_i[0] - t170 *
-        v_i[2]) - (t140 * v_j[0] - t170 * v_j[2]));
+        t169 * s_j_in_joint_i_0) - (v_i[0] * t140 - v_i[2] * t170 + (f_i_dot_omega_i * t175 - g_i_dot_omega_i * t184
+        + (t178 * f_i_dot_omega_i - t186 * g_i_dot_omega_i + (t75 * (t193 * t73 + h_i_dot_f_j * (f_i_dot_omega_i *
+        t191 + g_i_dot_omega_i * t192 + h_i_dot_omega_i * t193 - (t176 * h_i_dot_f_j + omega_j_in_joint_i_2 * t193 +
+        (t185 * f_i_dot_f_j + omega_j_in_joint_i_0 * t191 + (t169 * g_i_dot_f_j + omega_j_in_joint_i_1 * t192)))) +
+        t176) + (t194 + t194) * t76 * pitch * t78)) - (t180 * f_i_dot_omega_i - g_i_dot_omega_i * t187)) - (v_j[0] *
+        t140 - v_j[2] * t170));
     const jg_real t195 = C_i[4] * A_j[2];
     const jg_real t196 = C_i[4] * A_j[5];
     const jg_real t197 = C_i[4] * A_j[8];
-    const jg_real t198 = t195 * omega_j[0] + t196 * omega_j[1] + t197 * omega_j[2];
-    const jg_real t199 = t141 * A_j[0] + t170 * A_j[1];
-    const jg_real t200 = t141 * A_j[3] + t170 * A_j[4];
-    const jg_real t201 = t141 * A_j[6] + t170 * A_j[7];
-    const jg_real t202 = t199 * s_j[0] + t200 * s_j[1] + t201 * s_j[2];
+    const jg_real t198 = omega_j[0] * t195 + omega_j[1] * t196 + omega_j[2] * t197;
+    const jg_real t199 = A_j[0] * t141 + A_j[1] * t170;
+    const jg_real t200 = A_j[3] * t141 + A_j[4] * t170;
+    const jg_real t201 = A_j[6] * t141 + A_j[7] * t170;
+    const jg_real t202 = s_j[0] * t199 + s_j[1] * t200 + s_j[2] * t201;
     const jg_real t203 = s_j[0] * t195 + s_j[1] * t196 + s_j[2] * t197;
-    const jg_real t204 = t199 * omega_j[0] + t200 * omega_j[1] + t201 * omega_j[2];
-    const jg_real t205 = t141 * r_j[0] + t170 * r_j[1];
+    const jg_real t204 = omega_j[0] * t199 + omega_j[1] * t200 + omega_j[2] * t201;
+    const jg_real t205 = r_j[0] * t141 + r_j[1] * t170;
     const jg_real t206 = C_i[4] * r_j[2];
-    const jg_real t207 = t141 * r_i[0] + t170 * r_i[1];
+    const jg_real t207 = r_i[0] * t141 + r_i[1] * t170;
     const jg_real t208 = C_i[4] * r_i[2];
-    jac_phi_q_v_A_i[25] = t202 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t198 - (omega_j_in_joint_i_2 * t203 +
-        t204 * s_j_in_joint_i_1) - (t202 * g_i_dot_omega_i - t203 * h_i_dot_omega_i + (g_i_dot_omega_i * t205 -
-        h_i_dot_omega_i * t206) - (g_i_dot_omega_i * t207 - h_i_dot_omega_i * t208) + C_i[1] * v_i[2] - C_i[1] *
+    jac_phi_q_v_A_i[25] = omega_j_in_joint_i_1 * t202 + t198 * s_j_in_joint_i_2 - (t203 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t204) - (g_i_dot_omega_i * t205 - h_i_dot_omega_i * t206 + (g_i_dot_omega_i * t202 -
+        h_i_dot_omega_i * t203) - (g_i_dot_omega_i * t207 - h_i_dot_omega_i * t208) + C_i[1] * v_i[2] - C_i[1] *
         v_j[2]);
-    const jg_real t209 = h_i_in_j_2 * t196 + t201 * g_i_in_j_1 - (h_i_in_j_1 * t197 + t200 * g_i_in_j_2);
-    const jg_real t210 = h_i_in_j_0 * t197 + t199 * g_i_in_j_2 - (h_i_in_j_2 * t195 + t201 * g_i_in_j_0);
-    const jg_real t211 = h_i_in_j_1 * t195 + t200 * g_i_in_j_0 - (h_i_in_j_0 * t196 + t199 * g_i_in_j_1);
+    const jg_real t209 = t196 * h_i_in_j_2 + g_i_in_j_1 * t201 - (t197 * h_i_in_j_1 + g_i_in_j_2 * t200);
+    const jg_real t210 = t197 * h_i_in_j_0 + g_i_in_j_2 * t199 - (t195 * h_i_in_j_2 + g_i_in_j_0 * t201);
+    const jg_real t211 = t195 * h_i_in_j_1 + g_i_in_j_0 * t200 - (t196 * h_i_in_j_0 + g_i_in_j_1 * t199);
     const jg_real t212 = s_j[0] * t209 + s_j[1] * t210 + s_j[2] * t211;
     const jg_real t213 = omega_j[0] * t209 + omega_j[1] * t210 + omega_j[2] * t211;
     const jg_real t214 = C_i[1] * r_j[2];
     const jg_real t215 = C_i[1] * r_i[2];
     jac_phi_q_v_A_i[26] = omega_j_in_joint_i_2 * t212 + t204 * s_j_in_joint_i_0 - (t202 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t213) - (h_i_dot_omega_i * t212 - t202 * f_i_dot_omega_i + (h_i_dot_omega_i * t214 - t205
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t215 - t207 * f_i_dot_omega_i) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
-    const jg_real t216 = t199 * C_j[6] + t200 * C_j[7] + t201 * C_j[8];
-    const jg_real t217 = t195 * C_j[6] + t196 * C_j[7] + t197 * C_j[8];
+        s_j_in_joint_i_2 * t213) - (h_i_dot_omega_i * t214 - f_i_dot_omega_i * t205 + (h_i_dot_omega_i * t212 -
+        f_i_dot_omega_i * t202) - (h_i_dot_omega_i * t215 - f_i_dot_omega_i * t207) + C_i[4] * v_i[2] - C_i[4] *
+        v_j[2]);
+    const jg_real t216 = C_j[6] * t199 + C_j[7] * t200 + C_j[8] * t201;
+    const jg_real t217 = C_j[6] * t195 + C_j[7] * t196 + C_j[8] * t197;
     jac_phi_q_v_A_i[27] = t198 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t216 - (t204 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t217) - (g_i_dot_omega_i * t216 - h_i_dot_omega_i * t217);
-    const jg_real t218 = t209 * C_j[6] + t210 * C_j[7] + t211 * C_j[8];
-    jac_phi_q_v_A_i[28] = t204 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t218 - (t213 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t216) - (h_i_dot_omega_i * t218 - f_i_dot_omega_i * t216);
-    const jg_real t219 = t209 * C_j[0] + t210 * C_j[1] + t211 * C_j[2];
-    const jg_real t220 = t195 * C_j[0] + t196 * C_j[1] + t197 * C_j[2];
-    const jg_real t221 = t199 * C_j[0] + t200 * C_j[1] + t201 * C_j[2];
+    const jg_real t218 = C_j[6] * t209 + C_j[7] * t210 + C_j[8] * t211;
+    jac_phi_q_v_A_i[28] = t204 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t218 - (h_j_in_joint_i_2 * t213 + t216 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t218 - f_i_dot_omega_i * t216);
+    const jg_real t219 = C_j[0] * t209 + C_j[1] * t210 + C_j[2] * t211;
+    const jg_real t220 = C_j[0] * t195 + C_j[1] * t196 + C_j[2] * t197;
+    const jg_real t221 = C_j[0] * t199 + C_j[1] * t200 + C_j[2] * t201;
     const jg_real t222 = h_i_dot_f_j * t221;
     jac_phi_q_v_A_i[29] = t203 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t213 - (omega_j_in_joint_i_1 * t212 +
-        t198 * s_j_in_joint_i_0) - ((t221 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t219 + g_i_dot_omega_i * t220 +
-        h_i_dot_omega_i * t221 - (t213 * f_i_dot_f_j + omega_j_in_joint_i_0 * t219 + (t198 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t220) + (t204 * h_i_dot_f_j + omega_j_in_joint_i_2 * t221))) + t204) * t75 + (t222 +
-        t222) * t77 * pitch * t76 + (t206 * f_i_dot_omega_i - g_i_dot_omega_i * t214) + (t203 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t212) - (t208 * f_i_dot_omega_i - g_i_dot_omega_i * t215) + (t141 * v_i[0] + t170 *
-        v_i[1]) - (t141 * v_j[0] + t170 * v_j[1]));
+        t198 * s_j_in_joint_i_0) - (v_i[0] * t141 + v_i[1] * t170 + (f_i_dot_omega_i * t203 - g_i_dot_omega_i * t212
+        + (t206 * f_i_dot_omega_i - g_i_dot_omega_i * t214 + (t75 * (t221 * t73 + h_i_dot_f_j * (f_i_dot_omega_i *
+        t219 + g_i_dot_omega_i * t220 + h_i_dot_omega_i * t221 - (t204 * h_i_dot_f_j + omega_j_in_joint_i_2 * t221 +
+        (t213 * f_i_dot_f_j + omega_j_in_joint_i_0 * t219 + (t198 * g_i_dot_f_j + omega_j_in_joint_i_1 * t220)))) +
+        t204) + (t222 + t222) * t76 * pitch * t78)) - (t208 * f_i_dot_omega_i - g_i_dot_omega_i * t215)) - (v_j[0] *
+        t141 + v_j[1] * t170));
     const jg_real t223 = C_i[5] * A_j[0];
     const jg_real t224 = C_i[5] * A_j[3];
     const jg_real t225 = C_i[5] * A_j[6];
-    const jg_real t226 = t223 * omega_j[0] + t224 * omega_j[1] + t225 * omega_j[2];
+    const jg_real t226 = omega_j[0] * t223 + omega_j[1] * t224 + omega_j[2] * t225;
     const jg_real t227 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
-    const jg_real t228 = f_i_world_1 * C_i[5] - C_i[2] * g_i_world_1;
-    const jg_real t229 = t227 * A_j[1] + t228 * A_j[2];
-    const jg_real t230 = t227 * A_j[4] + t228 * A_j[5];
-    const jg_real t231 = t227 * A_j[7] + t228 * A_j[8];
-    const jg_real t232 = t229 * s_j[0] + t230 * s_j[1] + t231 * s_j[2];
+    const jg_real t228 = C_i[5] * f_i_world_1 - C_i[2] * g_i_world_1;
+    const jg_real t229 = A_j[1] * t227 + A_j[2] * t228;
+    const jg_real t230 = A_j[4] * t227 + A_j[5] * t228;
+    const jg_real t231 = A_j[7] * t227 + A_j[8] * t228;
+    const jg_real t232 = s_j[0] * t229 + s_j[1] * t230 + s_j[2] * t231;
     const jg_real t233 = s_j[0] * t223 + s_j[1] * t224 + s_j[2] * t225;
-    const jg_real t234 = t229 * omega_j[0] + t230 * omega_j[1] + t231 * omega_j[2];
-    const jg_real t235 = t227 * r_j[1] + t228 * r_j[2];
+    const jg_real t234 = omega_j[0] * t229 + omega_j[1] * t230 + omega_j[2] * t231;
+    const jg_real t235 = r_j[1] * t227 + r_j[2] * t228;
     const jg_real t236 = C_i[5] * r_j[0];
-    const jg_real t237 = t227 * r_i[1] + t228 * r_i[2];
+    const jg_real t237 = r_i[1] * t227 + r_i[2] * t228;
     const jg_real t238 = C_i[5] * r_i[0];
-    jac_phi_q_v_A_i[30] = s_j_in_joint_i_2 * t226 - t232 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t233 -
-        t234 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t237 + h_i_dot_omega_i * t238 - (t232 * g_i_dot_omega_i + t233
-        * h_i_dot_omega_i + (g_i_dot_omega_i * t235 + h_i_dot_omega_i * t236)) + C_i[2] * v_i[0] - C_i[2] * v_j[0]);
-    const jg_real t239 = h_i_in_j_2 * t224 - t231 * g_i_in_j_1 - (h_i_in_j_1 * t225 - t230 * g_i_in_j_2);
-    const jg_real t240 = h_i_in_j_0 * t225 - t229 * g_i_in_j_2 - (h_i_in_j_2 * t223 - t231 * g_i_in_j_0);
-    const jg_real t241 = h_i_in_j_1 * t223 - t230 * g_i_in_j_0 - (h_i_in_j_0 * t224 - t229 * g_i_in_j_1);
+    jac_phi_q_v_A_i[30] = t226 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t232 - (t233 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t234) - (h_i_dot_omega_i * t238 + g_i_dot_omega_i * t237 - (h_i_dot_omega_i * t236 +
+        g_i_dot_omega_i * t235 + (h_i_dot_omega_i * t233 + g_i_dot_omega_i * t232)) + C_i[2] * v_i[0] - C_i[2] *
+        v_j[0]);
+    const jg_real t239 = t224 * h_i_in_j_2 - g_i_in_j_1 * t231 - (t225 * h_i_in_j_1 - g_i_in_j_2 * t230);
+    const jg_real t240 = t225 * h_i_in_j_0 - g_i_in_j_2 * t229 - (t223 * h_i_in_j_2 - g_i_in_j_0 * t231);
+    const jg_real t241 = t223 * h_i_in_j_1 - g_i_in_j_0 * t230 - (t224 * h_i_in_j_0 - g_i_in_j_1 * t229);
     const jg_real t242 = s_j[0] * t239 + s_j[1] * t240 + s_j[2] * t241;
     const jg_real t243 = omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241;
     const jg_real t244 = C_i[2] * r_j[0];
     const jg_real t245 = C_i[2] * r_i[0];
     jac_phi_q_v_A_i[31] = omega_j_in_joint_i_2 * t242 - t234 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t243 - t232 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t242 + t232 * f_i_dot_omega_i + (t235 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t244) - (t237 * f_i_dot_omega_i + h_i_dot_omega_i * t245) + C_i[5] * v_i[0] - C_i[5] *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t235 + h_i_dot_omega_i * t244 + (f_i_dot_omega_i * t232 +
+        h_i_dot_omega_i * t242) - (f_i_dot_omega_i * t237 + h_i_dot_omega_i * t245) + C_i[5] * v_i[0] - C_i[5] *
         v_j[0]);
-    const jg_real t246 = t229 * C_j[6] + t230 * C_j[7] + t231 * C_j[8];
-    const jg_real t247 = t223 * C_j[6] + t224 * C_j[7] + t225 * C_j[8];
+    const jg_real t246 = C_j[6] * t229 + C_j[7] * t230 + C_j[8] * t231;
+    const jg_real t247 = C_j[6] * t223 + C_j[7] * t224 + C_j[8] * t225;
     jac_phi_q_v_A_i[32] = t226 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t246 - (omega_j_in_joint_i_2 * t247 -
         t234 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t246 + h_i_dot_omega_i * t247);
-    const jg_real t248 = t239 * C_j[6] + t240 * C_j[7] + t241 * C_j[8];
-    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t248 - t234 * h_j_in_joint_i_0 - (t243 * h_j_in_joint_i_2 -
-        omega_j_in_joint_i_0 * t246) - (h_i_dot_omega_i * t248 + f_i_dot_omega_i * t246);
-    const jg_real t249 = t239 * C_j[0] + t240 * C_j[1] + t241 * C_j[2];
-    const jg_real t250 = t223 * C_j[0] + t224 * C_j[1] + t225 * C_j[2];
-    const jg_real t251 = t229 * C_j[0] + t230 * C_j[1] + t231 * C_j[2];
+    const jg_real t248 = C_j[6] * t239 + C_j[7] * t240 + C_j[8] * t241;
+    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t248 - t234 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t243 - t246 *
+        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t246 + h_i_dot_omega_i * t248);
+    const jg_real t249 = C_j[0] * t239 + C_j[1] * t240 + C_j[2] * t241;
+    const jg_real t250 = C_j[0] * t223 + C_j[1] * t224 + C_j[2] * t225;
+    const jg_real t251 = C_j[0] * t229 + C_j[1] * t230 + C_j[2] * t231;
     const jg_real t252 = h_i_dot_f_j * t251;
     jac_phi_q_v_A_i[34] = t233 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t243 - (omega_j_in_joint_i_1 * t242 +
-        t226 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t249 + g_i_dot_omega_i * t250 -
-        h_i_dot_omega_i * t251 - (t243 * f_i_dot_f_j + omega_j_in_joint_i_0 * t249 + (t226 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t250) - (t234 * h_i_dot_f_j + omega_j_in_joint_i_2 * t251))) - t251 * t73 - t234) *
-        t75 - (t252 + t252) * t77 * pitch * t76 + (t236 * f_i_dot_omega_i - g_i_dot_omega_i * t244) + (t233 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t242) - (t238 * f_i_dot_omega_i - g_i_dot_omega_i * t245) - (t227 *
-        v_i[1] + t228 * v_i[2]) + (t227 * v_j[1] + t228 * v_j[2]));
+        t226 * s_j_in_joint_i_0) - (v_j[1] * t227 + v_j[2] * t228 + (f_i_dot_omega_i * t233 - g_i_dot_omega_i * t242
+        + (t236 * f_i_dot_omega_i - g_i_dot_omega_i * t244 + (t75 * (h_i_dot_f_j * (f_i_dot_omega_i * t249 +
+        g_i_dot_omega_i * t250 - h_i_dot_omega_i * t251 - (t243 * f_i_dot_f_j + omega_j_in_joint_i_0 * t249 + (t226
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t250) - (t234 * h_i_dot_f_j + omega_j_in_joint_i_2 * t251))) - t251 *
+        t73 - t234) - (t252 + t252) * t76 * pitch * t78)) - (t238 * f_i_dot_omega_i - g_i_dot_omega_i * t245) -
+        (v_i[1] * t227 + v_i[2] * t228)));
     const jg_real t253 = C_i[5] * A_j[1];
     const jg_real t254 = C_i[5] * A_j[4];
     const jg_real t255 = C_i[5] * A_j[7];
-    const jg_real t256 = t253 * omega_j[0] + t254 * omega_j[1] + t255 * omega_j[2];
+    const jg_real t256 = omega_j[0] * t253 + omega_j[1] * t254 + omega_j[2] * t255;
     const jg_real t257 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
-    const jg_real t258 = t227 * A_j[0] - t257 * A_j[2];
-    const jg_real t259 = t227 * A_j[3] - t257 * A_j[5];
-    const jg_real t260 = t227 * A_j[6] - t257 * A_j[8];
-    const jg_real t261 = t258 * s_j[0] + t259 * s_j[1] + t260 * s_j[2];
+    const jg_real t258 = A_j[0] * t227 - A_j[2] * t257;
+    const jg_real t259 = A_j[3] * t227 - A_j[5] * t257;
+    const jg_real t260 = A_j[6] * t227 - A_j[8] * t257;
+    const jg_real t261 = s_j[0] * t258 + s_j[1] * t259 + s_j[2] * t260;
     const jg_real t262 = s_j[0] * t253 + s_j[1] * t254 + s_j[2] * t255;
-    const jg_real t263 = t258 * omega_j[0] + t259 * omega_j[1] + t260 * omega_j[2];
-    const jg_real t264 = t227 * r_j[0] - t257 * r_j[2];
+    const jg_real t263 = omega_j[0] * t258 + omega_j[1] * t259 + omega_j[2] * t260;
+    const jg_real t264 = r_j[0] * t227 - r_j[2] * t257;
     const jg_real t265 = C_i[5] * r_j[1];
-    const jg_real t266 = t227 * r_i[0] - t257 * r_i[2];
+    const jg_real t266 = r_i[0] * t227 - r_i[2] * t257;
     const jg_real t267 = C_i[5] * r_i[1];
-    jac_phi_q_v_A_i[35] = t261 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t256 - (omega_j_in_joint_i_2 * t262 +
-        t263 * s_j_in_joint_i_1) - (t261 * g_i_dot_omega_i - t262 * h_i_dot_omega_i + (g_i_dot_omega_i * t264 -
-        h_i_dot_omega_i * t265) - (g_i_dot_omega_i * t266 - h_i_dot_omega_i * t267) + C_i[2] * v_i[1] - C_i[2] *
+    jac_phi_q_v_A_i[35] = omega_j_in_joint_i_1 * t261 + t256 * s_j_in_joint_i_2 - (t262 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t263) - (g_i_dot_omega_i * t264 - h_i_dot_omega_i * t265 + (g_i_dot_omega_i * t261 -
+        h_i_dot_omega_i * t262) - (g_i_dot_omega_i * t266 - h_i_dot_omega_i * t267) + C_i[2] * v_i[1] - C_i[2] *
         v_j[1]);
-    const jg_real t268 = h_i_in_j_2 * t254 + t260 * g_i_in_j_1 - (h_i_in_j_1 * t255 + t259 * g_i_in_j_2);
-    const jg_real t269 = h_i_in_j_0 * t255 + t258 * g_i_in_j_2 - (h_i_in_j_2 * t253 + t260 * g_i_in_j_0);
-    const jg_real t270 = h_i_in_j_1 * t253 + t259 * g_i_in_j_0 - (h_i_in_j_0 * t254 + t258 * g_i_in_j_1);
+    const jg_real t268 = t254 * h_i_in_j_2 + g_i_in_j_1 * t260 - (t255 * h_i_in_j_1 + g_i_in_j_2 * t259);
+    const jg_real t269 = t255 * h_i_in_j_0 + g_i_in_j_2 * t258 - (t253 * h_i_in_j_2 + g_i_in_j_0 * t260);
+    const jg_real t270 = t253 * h_i_in_j_1 + g_i_in_j_0 * t259 - (t254 * h_i_in_j_0 + g_i_in_j_1 * t258);
     const jg_real t271 = s_j[0] * t268 + s_j[1] * t269 + s_j[2] * t270;
     const jg_real t272 = omega_j[0] * t268 + omega_j[1] * t269 + omega_j[2] * t270;
     const jg_real t273 = C_i[2] * r_j[1];
     const jg_real t274 = C_i[2] * r_i[1];
     jac_phi_q_v_A_i[36] = omega_j_in_joint_i_2 * t271 + t263 * s_j_in_joint_i_0 - (t261 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t272) - (h_i_dot_omega_i * t271 - t261 * f_i_dot_omega_i + (h_i_dot_omega_i * t273 - t264
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t274 - t266 * f_i_dot_omega_i) + C_i[5] * v_i[1] - C_i[5] * v_j[1]);
-    const jg_real t275 = t258 * C_j[6] + t259 * C_j[7] + t260 * C_j[8];
-    const jg_real t276 = t253 * C_j[6] + t254 * C_j[7] + t255 * C_j[8];
+        s_j_in_joint_i_2 * t272) - (t273 * h_i_dot_omega_i - f_i_dot_omega_i * t264 + (h_i_dot_omega_i * t271 -
+        f_i_dot_omega_i * t261) - (h_i_dot_omega_i * t274 - f_i_dot_omega_i * t266) + C_i[5] * v_i[1] - C_i[5] *
+        v_j[1]);
+    const jg_real t275 = C_j[6] * t258 + C_j[7] * t259 + C_j[8] * t260;
+    const jg_real t276 = C_j[6] * t253 + C_j[7] * t254 + C_j[8] * t255;
     jac_phi_q_v_A_i[37] = t256 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t275 - (t263 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t276) - (g_i_dot_omega_i * t275 - h_i_dot_omega_i * t276);
-    const jg_real t277 = t268 * C_j[6] + t269 * C_j[7] + t270 * C_j[8];
-    jac_phi_q_v_A_i[38] = t263 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t277 - (t272 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t275) - (h_i_dot_omega_i * t277 - f_i_dot_omega_i * t275);
-    const jg_real t278 = t268 * C_j[0] + t269 * C_j[1] + t270 * C_j[2];
-    const jg_real t279 = t253 * C_j[0] + t254 * C_j[1] + t255 * C_j[2];
-    const jg_real t280 = t258 * C_j[0] + t259 * C_j[1] + t260 * C_j[2];
+    const jg_real t277 = C_j[6] * t268 + C_j[7] * t269 + C_j[8] * t270;
+    jac_phi_q_v_A_i[38] = t263 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t277 - (h_j_in_joint_i_2 * t272 + t275 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t277 - f_i_dot_omega_i * t275);
+    const jg_real t278 = C_j[0] * t268 + C_j[1] * t269 + C_j[2] * t270;
+    const jg_real t279 = C_j[0] * t253 + C_j[1] * t254 + C_j[2] * t255;
+    const jg_real t280 = C_j[0] * t258 + C_j[1] * t259 + C_j[2] * t260;
     const jg_real t281 = h_i_dot_f_j * t280;
     jac_phi_q_v_A_i[39] = t262 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t272 - (omega_j_in_joint_i_1 * t271 +
-        t256 * s_j_in_joint_i_0) - ((t280 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t278 + g_i_dot_omega_i * t279 +
-        h_i_dot_omega_i * t280 - (t272 * f_i_dot_f_j + omega_j_in_joint_i_0 * t278 + (t256 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t279) + (t263 * h_i_dot_f_j + omega_j_in_joint_i_2 * t280))) + t263) * t75 + (t281 +
-        t281) * t77 * pitch * t76 + (t265 * f_i_dot_omega_i - g_i_dot_omega_i * t273) + (t262 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t271) - (t267 * f_i_dot_omega_i - g_i_dot_omega_i * t274) + (t227 * v_i[0] - t257 *
-        v_i[2]) - (t227 * v_j[0] - t257 * v_j[2]));
+        t256 * s_j_in_joint_i_0) - (v_i[0] * t227 - v_i[2] * t257 + (f_i_dot_omega_i * t262 - g_i_dot_omega_i * t271
+        + (t265 * f_i_dot_omega_i - t273 * g_i_dot_omega_i + (t75 * (t280 * t73 + h_i_dot_f_j * (f_i_dot_omega_i *
+        t278 + g_i_dot_omega_i * t279 + h_i_dot_omega_i * t280 - (t263 * h_i_dot_f_j + omega_j_in_joint_i_2 * t280 +
+        (t272 * f_i_dot_f_j + omega_j_in_joint_i_0 * t278 + (t256 * g_i_dot_f_j + omega_j_in_joint_i_1 * t279)))) +
+        t263) + (t281 + t281) * t76 * pitch * t78)) - (t267 * f_i_dot_omega_i - g_i_dot_omega_i * t274)) - (v_j[0] *
+        t227 - v_j[2] * t257));
     const jg_real t282 = C_i[5] * A_j[2];
     const jg_real t283 = C_i[5] * A_j[5];
     const jg_real t284 = C_i[5] * A_j[8];
-    const jg_real t285 = t282 * omega_j[0] + t283 * omega_j[1] + t284 * omega_j[2];
-    const jg_real t286 = t228 * A_j[0] + t257 * A_j[1];
-    const jg_real t287 = t228 * A_j[3] + t257 * A_j[4];
-    const jg_real t288 = t228 * A_j[6] + t257 * A_j[7];
-    const jg_real t289 = t286 * s_j[0] + t287 * s_j[1] + t288 * s_j[2];
+    const jg_real t285 = omega_j[0] * t282 + omega_j[1] * t283 + omega_j[2] * t284;
+    const jg_real t286 = A_j[0] * t228 + A_j[1] * t257;
+    const jg_real t287 = A_j[3] * t228 + A_j[4] * t257;
+    const jg_real t288 = A_j[6] * t228 + A_j[7] * t257;
+    const jg_real t289 = s_j[0] * t286 + s_j[1] * t287 + s_j[2] * t288;
     const jg_real t290 = s_j[0] * t282 + s_j[1] * t283 + s_j[2] * t284;
-    const jg_real t291 = t286 * omega_j[0] + t287 * omega_j[1] + t288 * omega_j[2];
-    const jg_real t292 = t228 * r_j[0] + t257 * r_j[1];
+    const jg_real t291 = omega_j[0] * t286 + omega_j[1] * t287 + omega_j[2] * t288;
+    const jg_real t292 = r_j[0] * t228 + r_j[1] * t257;
     const jg_real t293 = C_i[5] * r_j[2];
-    const jg_real t294 = t228 * r_i[0] + t257 * r_i[1];
+    const jg_real t294 = r_i[0] * t228 + r_i[1] * t257;
     const jg_real t295 = C_i[5] * r_i[2];
-    jac_phi_q_v_A_i[40] = t289 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t285 - (omega_j_in_joint_i_2 * t290 +
-        t291 * s_j_in_joint_i_1) - (t289 * g_i_dot_omega_i - t290 * h_i_dot_omega_i + (g_i_dot_omega_i * t292 -
-        h_i_dot_omega_i * t293) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295) + C_i[2] * v_i[2] - C_i[2] *
+    jac_phi_q_v_A_i[40] = omega_j_in_joint_i_1 * t289 + t285 * s_j_in_joint_i_2 - (t290 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t291) - (g_i_dot_omega_i * t292 - h_i_dot_omega_i * t293 + (g_i_dot_omega_i * t289 -
+        h_i_dot_omega_i * t290) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295) + C_i[2] * v_i[2] - C_i[2] *
         v_j[2]);
-    const jg_real t296 = h_i_in_j_2 * t283 + t288 * g_i_in_j_1 - (h_i_in_j_1 * t284 + t287 * g_i_in_j_2);
-    const jg_real t297 = h_i_in_j_0 * t284 + t286 * g_i_in_j_2 - (h_i_in_j_2 * t282 + t288 * g_i_in_j_0);
-    const jg_real t298 = h_i_in_j_1 * t282 + t287 * g_i_in_j_0 - (h_i_in_j_0 * t283 + t286 * g_i_in_j_1);
+    const jg_real t296 = t283 * h_i_in_j_2 + g_i_in_j_1 * t288 - (t284 * h_i_in_j_1 + g_i_in_j_2 * t287);
+    const jg_real t297 = t284 * h_i_in_j_0 + g_i_in_j_2 * t286 - (t282 * h_i_in_j_2 + g_i_in_j_0 * t288);
+    const jg_real t298 = t282 * h_i_in_j_1 + g_i_in_j_0 * t287 - (t283 * h_i_in_j_0 + g_i_in_j_1 * t286);
     const jg_real t299 = s_j[0] * t296 + s_j[1] * t297 + s_j[2] * t298;
     const jg_real t300 = omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298;
     const jg_real t301 = C_i[2] * r_j[2];
     const jg_real t302 = C_i[2] * r_i[2];
     jac_phi_q_v_A_i[41] = omega_j_in_joint_i_2 * t299 + t291 * s_j_in_joint_i_0 - (t289 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t300) - (h_i_dot_omega_i * t299 - t289 * f_i_dot_omega_i + (h_i_dot_omega_i * t301 - t292
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t302 - t294 * f_i_dot_omega_i) + C_i[5] * v_i[2] - C_i[5] * v_j[2]);
-    const jg_real t303 = t286 * C_j[6] + t287 * C_j[7] + t288 * C_j[8];
-    const jg_real t304 = t282 * C_j[6] + t283 * C_j[7] + t284 * C_j[8];
+        s_j_in_joint_i_2 * t300) - (h_i_dot_omega_i * t301 - f_i_dot_omega_i * t292 + (h_i_dot_omega_i * t299 -
+        f_i_dot_omega_i * t289) - (h_i_dot_omega_i * t302 - f_i_dot_omega_i * t294) + C_i[5] * v_i[2] - C_i[5] *
+        v_j[2]);
+    const jg_real t303 = C_j[6] * t286 + C_j[7] * t287 + C_j[8] * t288;
+    const jg_real t304 = C_j[6] * t282 + C_j[7] * t283 + C_j[8] * t284;
     jac_phi_q_v_A_i[42] = t285 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t303 - (t291 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t304) - (g_i_dot_omega_i * t303 - h_i_dot_omega_i * t304);
-    const jg_real t305 = t296 * C_j[6] + t297 * C_j[7] + t298 * C_j[8];
-    jac_phi_q_v_A_i[43] = t291 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t305 - (t300 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t303) - (h_i_dot_omega_i * t305 - f_i_dot_omega_i * t303);
-    const jg_real t306 = t296 * C_j[0] + t297 * C_j[1] + t298 * C_j[2];
-    const jg_real t307 = t282 * C_j[0] + t283 * C_j[1] + t284 * C_j[2];
-    const jg_real t308 = t286 * C_j[0] + t287 * C_j[1] + t288 * C_j[2];
+    const jg_real t305 = C_j[6] * t296 + C_j[7] * t297 + C_j[8] * t298;
+    jac_phi_q_v_A_i[43] = t291 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t305 - (h_j_in_joint_i_2 * t300 + t303 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t305 - f_i_dot_omega_i * t303);
+    const jg_real t306 = C_j[0] * t296 + C_j[1] * t297 + C_j[2] * t298;
+    const jg_real t307 = C_j[0] * t282 + C_j[1] * t283 + C_j[2] * t284;
+    const jg_real t308 = C_j[0] * t286 + C_j[1] * t287 + C_j[2] * t288;
     const jg_real t309 = h_i_dot_f_j * t308;
     jac_phi_q_v_A_i[44] = t290 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t300 - (omega_j_in_joint_i_1 * t299 +
-        t285 * s_j_in_joint_i_0) - ((t308 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t306 + g_i_dot_omega_i * t307 +
-        h_i_dot_omega_i * t308 - (t300 * f_i_dot_f_j + omega_j_in_joint_i_0 * t306 + (t285 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t307) + (t291 * h_i_dot_f_j + omega_j_in_joint_i_2 * t308))) + t291) * t75 + (t309 +
-        t309) * t77 * pitch * t76 + (t293 * f_i_dot_omega_i - g_i_dot_omega_i * t301) + (t290 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t299) - (t295 * f_i_dot_omega_i - g_i_dot_omega_i * t302) + (t228 * v_i[0] + t257 *
-        v_i[1]) - (t228 * v_j[0] + t257 * v_j[1]));
+        t285 * s_j_in_joint_i_0) - (v_i[0] * t228 + v_i[1] * t257 + (f_i_dot_omega_i * t290 - g_i_dot_omega_i * t299
+        + (t293 * f_i_dot_omega_i - g_i_dot_omega_i * t301 + (t75 * (t308 * t73 + h_i_dot_f_j * (f_i_dot_omega_i *
+        t306 + g_i_dot_omega_i * t307 + h_i_dot_omega_i * t308 - (t291 * h_i_dot_f_j + omega_j_in_joint_i_2 * t308 +
+        (t300 * f_i_dot_f_j + omega_j_in_joint_i_0 * t306 + (t285 * g_i_dot_f_j + omega_j_in_joint_i_1 * t307)))) +
+        t291) + (t309 + t309) * t76 * pitch * t78)) - (t295 * f_i_dot_omega_i - g_i_dot_omega_i * t302)) - (v_j[0] *
+        t228 + v_j[1] * t257));
     jac_phi_q_v_r_j[0] = -t8;
     jac_phi_q_v_r_j[1] = -t11;
     jac_phi_q_v_r_j[2] = -t12;
@@ -834,597 +844,597 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_r_j[6] = -t18;
     jac_phi_q_v_r_j[7] = -t19;
     jac_phi_q_v_r_j[8] = -t20;
-    const jg_real t310 = g_i_world_0 * omega_j[0];
-    const jg_real t311 = h_i_world_0 * s_j[0];
-    const jg_real t312 = g_i_world_0 * s_j[0];
-    const jg_real t313 = h_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[0] = t311 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t310 - (omega_j_in_joint_i_2 * t312 + t313
-        * s_j_in_joint_i_1) - (t311 * g_i_dot_omega_i - t312 * h_i_dot_omega_i);
+    const jg_real t310 = omega_j[0] * g_i_world_0;
+    const jg_real t311 = s_j[0] * h_i_world_0;
+    const jg_real t312 = s_j[0] * g_i_world_0;
+    const jg_real t313 = omega_j[0] * h_i_world_0;
+    jac_phi_q_v_A_j[0] = t311 * omega_j_in_joint_i_1 + t310 * s_j_in_joint_i_2 - (t312 * omega_j_in_joint_i_2 + t313
+        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t311 - h_i_dot_omega_i * t312);
     const jg_real t314 = g_i_world_0 * h_i_in_j_2 - h_i_world_0 * g_i_in_j_2;
     const jg_real t315 = h_i_world_0 * g_i_in_j_1 - g_i_world_0 * h_i_in_j_1;
     const jg_real t316 = s_j[1] * t314 + s_j[2] * t315;
     const jg_real t317 = omega_j[1] * t314 + omega_j[2] * t315;
     jac_phi_q_v_A_j[1] = t313 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t316 - (t311 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t317) + (h_i_dot_omega_i * t316 + t311 * f_i_dot_omega_i);
-    const jg_real t318 = h_i_world_0 * C_j[6];
-    const jg_real t319 = g_i_world_0 * C_j[6];
+        s_j_in_joint_i_2 * t317) + (f_i_dot_omega_i * t311 + h_i_dot_omega_i * t316);
+    const jg_real t318 = C_j[6] * h_i_world_0;
+    const jg_real t319 = C_j[6] * g_i_world_0;
     jac_phi_q_v_A_j[2] = t310 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t318 - (t313 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t319) - (g_i_dot_omega_i * t318 - h_i_dot_omega_i * t319);
-    const jg_real t320 = t314 * C_j[7] + t315 * C_j[8];
-    jac_phi_q_v_A_j[3] = t313 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t320 - (omega_j_in_joint_i_0 * t318 - t317
-        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t320 + f_i_dot_omega_i * t318);
-    const jg_real t321 = h_i_world_0 * C_j[0];
-    const jg_real t322 = t314 * C_j[1] + t315 * C_j[2];
-    const jg_real t323 = g_i_world_0 * C_j[0];
+    const jg_real t320 = C_j[7] * t314 + C_j[8] * t315;
+    jac_phi_q_v_A_j[3] = t313 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t320 - (t318 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t317) + (f_i_dot_omega_i * t318 + h_i_dot_omega_i * t320);
+    const jg_real t321 = C_j[0] * h_i_world_0;
+    const jg_real t322 = C_j[1] * t314 + C_j[2] * t315;
+    const jg_real t323 = C_j[0] * g_i_world_0;
     const jg_real t324 = t321 * h_i_dot_f_j;
     jac_phi_q_v_A_j[4] = t312 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t317 - (t310 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t316) - ((t321 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t323 - f_i_dot_omega_i * t322
-        + h_i_dot_omega_i * t321 - (t310 * g_i_dot_f_j + omega_j_in_joint_i_1 * t323 - (t317 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t322) + (t313 * h_i_dot_f_j + omega_j_in_joint_i_2 * t321))) + t313) * t75 + (t324 +
-        t324) * t77 * pitch * t76 + (g_i_dot_omega_i * t316 + t312 * f_i_dot_omega_i));
-    const jg_real t325 = g_i_world_1 * omega_j[0];
-    const jg_real t326 = h_i_world_1 * s_j[0];
-    const jg_real t327 = g_i_world_1 * s_j[0];
-    const jg_real t328 = h_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[5] = t326 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t325 - (omega_j_in_joint_i_2 * t327 + t328
-        * s_j_in_joint_i_1) - (t326 * g_i_dot_omega_i - t327 * h_i_dot_omega_i);
+        omega_j_in_joint_i_1 * t316) - (f_i_dot_omega_i * t312 + g_i_dot_omega_i * t316 + (t75 * (t321 * t73 +
+        h_i_dot_f_j * (g_i_dot_omega_i * t323 - f_i_dot_omega_i * t322 + h_i_dot_omega_i * t321 - (t313 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t321 + (t310 * g_i_dot_f_j + omega_j_in_joint_i_1 * t323 - (t317 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t322)))) + t313) + (t324 + t324) * t76 * pitch * t78));
+    const jg_real t325 = omega_j[0] * g_i_world_1;
+    const jg_real t326 = s_j[0] * h_i_world_1;
+    const jg_real t327 = s_j[0] * g_i_world_1;
+    const jg_real t328 = omega_j[0] * h_i_world_1;
+    jac_phi_q_v_A_j[5] = t326 * omega_j_in_joint_i_1 + t325 * s_j_in_joint_i_2 - (t327 * omega_j_in_joint_i_2 + t328
+        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t326 - h_i_dot_omega_i * t327);
     const jg_real t329 = g_i_world_1 * h_i_in_j_2 - h_i_world_1 * g_i_in_j_2;
     const jg_real t330 = h_i_world_1 * g_i_in_j_1 - g_i_world_1 * h_i_in_j_1;
     const jg_real t331 = s_j[1] * t329 + s_j[2] * t330;
     const jg_real t332 = omega_j[1] * t329 + omega_j[2] * t330;
     jac_phi_q_v_A_j[6] = t328 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t331 - (t326 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t332) + (h_i_dot_omega_i * t331 + t326 * f_i_dot_omega_i);
-    const jg_real t333 = h_i_world_1 * C_j[6];
-    const jg_real t334 = g_i_world_1 * C_j[6];
+        s_j_in_joint_i_2 * t332) + (f_i_dot_omega_i * t326 + h_i_dot_omega_i * t331);
+    const jg_real t333 = C_j[6] * h_i_world_1;
+    const jg_real t334 = C_j[6] * g_i_world_1;
     jac_phi_q_v_A_j[7] = t325 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t333 - (t328 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t334) - (g_i_dot_omega_i * t333 - h_i_dot_omega_i * t334);
-    const jg_real t335 = t329 * C_j[7] + t330 * C_j[8];
-    jac_phi_q_v_A_j[8] = t328 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t335 - (omega_j_in_joint_i_0 * t333 - t332
-        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t335 + f_i_dot_omega_i * t333);
-    const jg_real t336 = h_i_world_1 * C_j[0];
-    const jg_real t337 = t329 * C_j[1] + t330 * C_j[2];
-    const jg_real t338 = g_i_world_1 * C_j[0];
+    const jg_real t335 = C_j[7] * t329 + C_j[8] * t330;
+    jac_phi_q_v_A_j[8] = t328 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t335 - (t333 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t332) + (f_i_dot_omega_i * t333 + h_i_dot_omega_i * t335);
+    const jg_real t336 = C_j[0] * h_i_world_1;
+    const jg_real t337 = C_j[1] * t329 + C_j[2] * t330;
+    const jg_real t338 = C_j[0] * g_i_world_1;
     const jg_real t339 = t336 * h_i_dot_f_j;
     jac_phi_q_v_A_j[9] = t327 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t332 - (t325 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t331) - ((t336 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t338 - f_i_dot_omega_i * t337
-        + h_i_dot_omega_i * t336 - (t325 * g_i_dot_f_j + omega_j_in_joint_i_1 * t338 - (t332 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t337) + (t328 * h_i_dot_f_j + omega_j_in_joint_i_2 * t336))) + t328) * t75 + (t339 +
-        t339) * t77 * pitch * t76 + (g_i_dot_omega_i * t331 + t327 * f_i_dot_omega_i));
-    const jg_real t340 = g_i_world_2 * omega_j[0];
-    const jg_real t341 = h_i_world_2 * s_j[0];
-    const jg_real t342 = g_i_world_2 * s_j[0];
-    const jg_real t343 = h_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[10] = t341 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t340 - (omega_j_in_joint_i_2 * t342 +
-        t343 * s_j_in_joint_i_1) - (t341 * g_i_dot_omega_i - t342 * h_i_dot_omega_i);
+        omega_j_in_joint_i_1 * t331) - (f_i_dot_omega_i * t327 + g_i_dot_omega_i * t331 + (t75 * (t336 * t73 +
+        h_i_dot_f_j * (g_i_dot_omega_i * t338 - f_i_dot_omega_i * t337 + h_i_dot_omega_i * t336 - (t328 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t336 + (t325 * g_i_dot_f_j + omega_j_in_joint_i_1 * t338 - (t332 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t337)))) + t328) + (t339 + t339) * t76 * pitch * t78));
+    const jg_real t340 = omega_j[0] * g_i_world_2;
+    const jg_real t341 = s_j[0] * h_i_world_2;
+    const jg_real t342 = s_j[0] * g_i_world_2;
+    const jg_real t343 = omega_j[0] * h_i_world_2;
+    jac_phi_q_v_A_j[10] = t341 * omega_j_in_joint_i_1 + t340 * s_j_in_joint_i_2 - (t342 * omega_j_in_joint_i_2 +
+        t343 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t341 - h_i_dot_omega_i * t342);
     const jg_real t344 = g_i_world_2 * h_i_in_j_2 - h_i_world_2 * g_i_in_j_2;
     const jg_real t345 = h_i_world_2 * g_i_in_j_1 - g_i_world_2 * h_i_in_j_1;
     const jg_real t346 = s_j[1] * t344 + s_j[2] * t345;
     const jg_real t347 = omega_j[1] * t344 + omega_j[2] * t345;
     jac_phi_q_v_A_j[11] = t343 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t346 - (t341 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t347) + (h_i_dot_omega_i * t346 + t341 * f_i_dot_omega_i);
-    const jg_real t348 = h_i_world_2 * C_j[6];
-    const jg_real t349 = g_i_world_2 * C_j[6];
+        s_j_in_joint_i_2 * t347) + (f_i_dot_omega_i * t341 + h_i_dot_omega_i * t346);
+    const jg_real t348 = C_j[6] * h_i_world_2;
+    const jg_real t349 = C_j[6] * g_i_world_2;
     jac_phi_q_v_A_j[12] = t340 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t348 - (t343 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t349) - (g_i_dot_omega_i * t348 - h_i_dot_omega_i * t349);
-    const jg_real t350 = t344 * C_j[7] + t345 * C_j[8];
-    jac_phi_q_v_A_j[13] = t343 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t350 - (omega_j_in_joint_i_0 * t348 -
-        t347 * h_j_in_joint_i_2) + (h_i_dot_omega_i * t350 + f_i_dot_omega_i * t348);
-    const jg_real t351 = h_i_world_2 * C_j[0];
-    const jg_real t352 = t344 * C_j[1] + t345 * C_j[2];
-    const jg_real t353 = g_i_world_2 * C_j[0];
+    const jg_real t350 = C_j[7] * t344 + C_j[8] * t345;
+    jac_phi_q_v_A_j[13] = t343 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t350 - (t348 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t347) + (f_i_dot_omega_i * t348 + h_i_dot_omega_i * t350);
+    const jg_real t351 = C_j[0] * h_i_world_2;
+    const jg_real t352 = C_j[1] * t344 + C_j[2] * t345;
+    const jg_real t353 = C_j[0] * g_i_world_2;
     const jg_real t354 = t351 * h_i_dot_f_j;
     jac_phi_q_v_A_j[14] = t342 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t347 - (t340 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t346) - ((t351 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t353 - f_i_dot_omega_i * t352
-        + h_i_dot_omega_i * t351 - (t340 * g_i_dot_f_j + omega_j_in_joint_i_1 * t353 - (t347 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t352) + (t343 * h_i_dot_f_j + omega_j_in_joint_i_2 * t351))) + t343) * t75 + (t354 +
-        t354) * t77 * pitch * t76 + (g_i_dot_omega_i * t346 + t342 * f_i_dot_omega_i));
-    const jg_real t355 = g_i_world_0 * omega_j[1];
-    const jg_real t356 = h_i_world_0 * s_j[1];
-    const jg_real t357 = g_i_world_0 * s_j[1];
-    const jg_real t358 = h_i_world_0 * omega_j[1];
-    jac_phi_q_v_A_j[15] = t356 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t355 - (omega_j_in_joint_i_2 * t357 +
-        t358 * s_j_in_joint_i_1) - (t356 * g_i_dot_omega_i - t357 * h_i_dot_omega_i);
+        omega_j_in_joint_i_1 * t346) - (f_i_dot_omega_i * t342 + g_i_dot_omega_i * t346 + (t75 * (t351 * t73 +
+        h_i_dot_f_j * (g_i_dot_omega_i * t353 - f_i_dot_omega_i * t352 + h_i_dot_omega_i * t351 - (t343 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t351 + (t340 * g_i_dot_f_j + omega_j_in_joint_i_1 * t353 - (t347 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t352)))) + t343) + (t354 + t354) * t76 * pitch * t78));
+    const jg_real t355 = omega_j[1] * g_i_world_0;
+    const jg_real t356 = s_j[1] * h_i_world_0;
+    const jg_real t357 = s_j[1] * g_i_world_0;
+    const jg_real t358 = omega_j[1] * h_i_world_0;
+    jac_phi_q_v_A_j[15] = t356 * omega_j_in_joint_i_1 + t355 * s_j_in_joint_i_2 - (t357 * omega_j_in_joint_i_2 +
+        t358 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t356 - h_i_dot_omega_i * t357);
     const jg_real t359 = g_i_world_0 * h_i_in_j_0 - h_i_world_0 * g_i_in_j_0;
     const jg_real t360 = s_j[0] * t314 - s_j[2] * t359;
     const jg_real t361 = omega_j[0] * t314 - omega_j[2] * t359;
     jac_phi_q_v_A_j[16] = omega_j_in_joint_i_2 * t360 + t358 * s_j_in_joint_i_0 - (t356 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t361) - (h_i_dot_omega_i * t360 - t356 * f_i_dot_omega_i);
-    const jg_real t362 = h_i_world_0 * C_j[7];
-    const jg_real t363 = g_i_world_0 * C_j[7];
+        s_j_in_joint_i_2 * t361) - (h_i_dot_omega_i * t360 - f_i_dot_omega_i * t356);
+    const jg_real t362 = C_j[7] * h_i_world_0;
+    const jg_real t363 = C_j[7] * g_i_world_0;
     jac_phi_q_v_A_j[17] = t355 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t362 - (t358 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t363) - (g_i_dot_omega_i * t362 - h_i_dot_omega_i * t363);
-    const jg_real t364 = t314 * C_j[6] - t359 * C_j[8];
-    jac_phi_q_v_A_j[18] = t358 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t364 - (t361 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t362) - (h_i_dot_omega_i * t364 - f_i_dot_omega_i * t362);
-    const jg_real t365 = h_i_world_0 * C_j[1];
-    const jg_real t366 = t314 * C_j[0] - t359 * C_j[2];
-    const jg_real t367 = g_i_world_0 * C_j[1];
+    const jg_real t364 = C_j[6] * t314 - C_j[8] * t359;
+    jac_phi_q_v_A_j[18] = t358 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t364 - (h_j_in_joint_i_2 * t361 + t362 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t364 - f_i_dot_omega_i * t362);
+    const jg_real t365 = C_j[1] * h_i_world_0;
+    const jg_real t366 = C_j[0] * t314 - C_j[2] * t359;
+    const jg_real t367 = C_j[1] * g_i_world_0;
     const jg_real t368 = t365 * h_i_dot_f_j;
     jac_phi_q_v_A_j[19] = t357 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t361 - (omega_j_in_joint_i_1 * t360 +
-        t355 * s_j_in_joint_i_0) - ((t365 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t366 + g_i_dot_omega_i * t367 +
-        h_i_dot_omega_i * t365 - (t361 * f_i_dot_f_j + omega_j_in_joint_i_0 * t366 + (t355 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t367) + (t358 * h_i_dot_f_j + omega_j_in_joint_i_2 * t365))) + t358) * t75 + (t368 +
-        t368) * t77 * pitch * t76 + (t357 * f_i_dot_omega_i - g_i_dot_omega_i * t360));
-    const jg_real t369 = g_i_world_1 * omega_j[1];
-    const jg_real t370 = h_i_world_1 * s_j[1];
-    const jg_real t371 = g_i_world_1 * s_j[1];
-    const jg_real t372 = h_i_world_1 * omega_j[1];
-    jac_phi_q_v_A_j[20] = t370 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t369 - (omega_j_in_joint_i_2 * t371 +
-        t372 * s_j_in_joint_i_1) - (t370 * g_i_dot_omega_i - t371 * h_i_dot_omega_i);
+        t355 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t357 - g_i_dot_omega_i * t360 + (t75 * (t365 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t366 + g_i_dot_omega_i * t367 + h_i_dot_omega_i * t365 - (t358 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t365 + (t361 * f_i_dot_f_j + omega_j_in_joint_i_0 * t366 + (t355 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t367)))) + t358) + (t368 + t368) * t76 * pitch * t78));
+    const jg_real t369 = omega_j[1] * g_i_world_1;
+    const jg_real t370 = s_j[1] * h_i_world_1;
+    const jg_real t371 = s_j[1] * g_i_world_1;
+    const jg_real t372 = omega_j[1] * h_i_world_1;
+    jac_phi_q_v_A_j[20] = t370 * omega_j_in_joint_i_1 + t369 * s_j_in_joint_i_2 - (t371 * omega_j_in_joint_i_2 +
+        t372 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t370 - h_i_dot_omega_i * t371);
     const jg_real t373 = g_i_world_1 * h_i_in_j_0 - h_i_world_1 * g_i_in_j_0;
     const jg_real t374 = s_j[0] * t329 - s_j[2] * t373;
     const jg_real t375 = omega_j[0] * t329 - omega_j[2] * t373;
     jac_phi_q_v_A_j[21] = omega_j_in_joint_i_2 * t374 + t372 * s_j_in_joint_i_0 - (t370 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t375) - (h_i_dot_omega_i * t374 - t370 * f_i_dot_omega_i);
-    const jg_real t376 = h_i_world_1 * C_j[7];
-    const jg_real t377 = g_i_world_1 * C_j[7];
+        s_j_in_joint_i_2 * t375) - (h_i_dot_omega_i * t374 - f_i_dot_omega_i * t370);
+    const jg_real t376 = C_j[7] * h_i_world_1;
+    const jg_real t377 = C_j[7] * g_i_world_1;
     jac_phi_q_v_A_j[22] = t369 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t376 - (t372 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t377) - (g_i_dot_omega_i * t376 - h_i_dot_omega_i * t377);
-    const jg_real t378 = t329 * C_j[6] - t373 * C_j[8];
-    jac_phi_q_v_A_j[23] = t372 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t378 - (t375 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t376) - (h_i_dot_omega_i * t378 - f_i_dot_omega_i * t376);
-    const jg_real t379 = h_i_world_1 * C_j[1];
-    const jg_real t380 = t329 * C_j[0] - t373 * C_j[2];
-    const jg_real t381 = g_i_world_1 * C_j[1];
+    const jg_real t378 = C_j[6] * t329 - C_j[8] * t373;
+    jac_phi_q_v_A_j[23] = t372 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t378 - (h_j_in_joint_i_2 * t375 + t376 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t378 - f_i_dot_omega_i * t376);
+    const jg_real t379 = C_j[1] * h_i_world_1;
+    const jg_real t380 = C_j[0] * t329 - C_j[2] * t373;
+    const jg_real t381 = C_j[1] * g_i_world_1;
     const jg_real t382 = t379 * h_i_dot_f_j;
     jac_phi_q_v_A_j[24] = t371 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t375 - (omega_j_in_joint_i_1 * t374 +
-        t369 * s_j_in_joint_i_0) - ((t379 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t380 + g_i_dot_omega_i * t381 +
-        h_i_dot_omega_i * t379 - (t375 * f_i_dot_f_j + omega_j_in_joint_i_0 * t380 + (t369 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t381) + (t372 * h_i_dot_f_j + omega_j_in_joint_i_2 * t379))) + t372) * t75 + (t382 +
-        t382) * t77 * pitch * t76 + (t371 * f_i_dot_omega_i - g_i_dot_omega_i * t374));
-    const jg_real t383 = g_i_world_2 * omega_j[1];
-    const jg_real t384 = h_i_world_2 * s_j[1];
-    const jg_real t385 = g_i_world_2 * s_j[1];
-    const jg_real t386 = h_i_world_2 * omega_j[1];
-    jac_phi_q_v_A_j[25] = t384 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t383 - (omega_j_in_joint_i_2 * t385 +
-        t386 * s_j_in_joint_i_1) - (t384 * g_i_dot_omega_i - t385 * h_i_dot_omega_i);
+        t369 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t371 - g_i_dot_omega_i * t374 + (t75 * (t379 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t380 + g_i_dot_omega_i * t381 + h_i_dot_omega_i * t379 - (t372 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t379 + (t375 * f_i_dot_f_j + omega_j_in_joint_i_0 * t380 + (t369 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t381)))) + t372) + (t382 + t382) * t76 * pitch * t78));
+    const jg_real t383 = omega_j[1] * g_i_world_2;
+    const jg_real t384 = s_j[1] * h_i_world_2;
+    const jg_real t385 = s_j[1] * g_i_world_2;
+    const jg_real t386 = omega_j[1] * h_i_world_2;
+    jac_phi_q_v_A_j[25] = t384 * omega_j_in_joint_i_1 + t383 * s_j_in_joint_i_2 - (t385 * omega_j_in_joint_i_2 +
+        t386 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t384 - h_i_dot_omega_i * t385);
     const jg_real t387 = g_i_world_2 * h_i_in_j_0 - h_i_world_2 * g_i_in_j_0;
     const jg_real t388 = s_j[0] * t344 - s_j[2] * t387;
     const jg_real t389 = omega_j[0] * t344 - omega_j[2] * t387;
     jac_phi_q_v_A_j[26] = omega_j_in_joint_i_2 * t388 + t386 * s_j_in_joint_i_0 - (t384 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t389) - (h_i_dot_omega_i * t388 - t384 * f_i_dot_omega_i);
-    const jg_real t390 = h_i_world_2 * C_j[7];
-    const jg_real t391 = g_i_world_2 * C_j[7];
+        s_j_in_joint_i_2 * t389) - (h_i_dot_omega_i * t388 - f_i_dot_omega_i * t384);
+    const jg_real t390 = C_j[7] * h_i_world_2;
+    const jg_real t391 = C_j[7] * g_i_world_2;
     jac_phi_q_v_A_j[27] = t383 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t390 - (t386 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t391) - (g_i_dot_omega_i * t390 - h_i_dot_omega_i * t391);
-    const jg_real t392 = t344 * C_j[6] - t387 * C_j[8];
-    jac_phi_q_v_A_j[28] = t386 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t392 - (t389 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t390) - (h_i_dot_omega_i * t392 - f_i_dot_omega_i * t390);
-    const jg_real t393 = h_i_world_2 * C_j[1];
-    const jg_real t394 = t344 * C_j[0] - t387 * C_j[2];
-    const jg_real t395 = g_i_world_2 * C_j[1];
+    const jg_real t392 = C_j[6] * t344 - C_j[8] * t387;
+    jac_phi_q_v_A_j[28] = t386 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t392 - (h_j_in_joint_i_2 * t389 + t390 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t392 - f_i_dot_omega_i * t390);
+    const jg_real t393 = C_j[1] * h_i_world_2;
+    const jg_real t394 = C_j[0] * t344 - C_j[2] * t387;
+    const jg_real t395 = C_j[1] * g_i_world_2;
     const jg_real t396 = t393 * h_i_dot_f_j;
     jac_phi_q_v_A_j[29] = t385 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t389 - (omega_j_in_joint_i_1 * t388 +
-        t383 * s_j_in_joint_i_0) - ((t393 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t394 + g_i_dot_omega_i * t395 +
-        h_i_dot_omega_i * t393 - (t389 * f_i_dot_f_j + omega_j_in_joint_i_0 * t394 + (t383 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t395) + (t386 * h_i_dot_f_j + omega_j_in_joint_i_2 * t393))) + t386) * t75 + (t396 +
-        t396) * t77 * pitch * t76 + (t385 * f_i_dot_omega_i - g_i_dot_omega_i * t388));
-    const jg_real t397 = g_i_world_0 * omega_j[2];
-    const jg_real t398 = h_i_world_0 * s_j[2];
-    const jg_real t399 = g_i_world_0 * s_j[2];
-    const jg_real t400 = h_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[30] = t398 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t397 - (omega_j_in_joint_i_2 * t399 +
-        t400 * s_j_in_joint_i_1) - (t398 * g_i_dot_omega_i - t399 * h_i_dot_omega_i);
+        t383 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t385 - g_i_dot_omega_i * t388 + (t75 * (t393 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t394 + g_i_dot_omega_i * t395 + h_i_dot_omega_i * t393 - (t386 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t393 + (t389 * f_i_dot_f_j + omega_j_in_joint_i_0 * t394 + (t383 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t395)))) + t386) + (t396 + t396) * t76 * pitch * t78));
+    const jg_real t397 = omega_j[2] * g_i_world_0;
+    const jg_real t398 = s_j[2] * h_i_world_0;
+    const jg_real t399 = s_j[2] * g_i_world_0;
+    const jg_real t400 = omega_j[2] * h_i_world_0;
+    jac_phi_q_v_A_j[30] = t398 * omega_j_in_joint_i_1 + t397 * s_j_in_joint_i_2 - (t399 * omega_j_in_joint_i_2 +
+        t400 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t398 - h_i_dot_omega_i * t399);
     const jg_real t401 = s_j[0] * t315 + s_j[1] * t359;
     const jg_real t402 = omega_j[0] * t315 + omega_j[1] * t359;
     jac_phi_q_v_A_j[31] = omega_j_in_joint_i_2 * t401 + t400 * s_j_in_joint_i_0 - (t398 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t402) - (h_i_dot_omega_i * t401 - t398 * f_i_dot_omega_i);
-    const jg_real t403 = h_i_world_0 * C_j[8];
-    const jg_real t404 = g_i_world_0 * C_j[8];
+        s_j_in_joint_i_2 * t402) - (h_i_dot_omega_i * t401 - f_i_dot_omega_i * t398);
+    const jg_real t403 = C_j[8] * h_i_world_0;
+    const jg_real t404 = C_j[8] * g_i_world_0;
     jac_phi_q_v_A_j[32] = t397 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t403 - (t400 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t404) - (g_i_dot_omega_i * t403 - h_i_dot_omega_i * t404);
-    const jg_real t405 = t315 * C_j[6] + t359 * C_j[7];
-    jac_phi_q_v_A_j[33] = t400 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t405 - (t402 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t403) - (h_i_dot_omega_i * t405 - f_i_dot_omega_i * t403);
-    const jg_real t406 = h_i_world_0 * C_j[2];
-    const jg_real t407 = t315 * C_j[0] + t359 * C_j[1];
-    const jg_real t408 = g_i_world_0 * C_j[2];
+    const jg_real t405 = C_j[6] * t315 + C_j[7] * t359;
+    jac_phi_q_v_A_j[33] = t400 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t405 - (t402 * h_j_in_joint_i_2 + t403 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t405 - f_i_dot_omega_i * t403);
+    const jg_real t406 = C_j[2] * h_i_world_0;
+    const jg_real t407 = C_j[0] * t315 + C_j[1] * t359;
+    const jg_real t408 = C_j[2] * g_i_world_0;
     const jg_real t409 = t406 * h_i_dot_f_j;
     jac_phi_q_v_A_j[34] = t399 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t402 - (omega_j_in_joint_i_1 * t401 +
-        t397 * s_j_in_joint_i_0) - ((t406 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t407 + g_i_dot_omega_i * t408 +
-        h_i_dot_omega_i * t406 - (t402 * f_i_dot_f_j + omega_j_in_joint_i_0 * t407 + (t397 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t408) + (t400 * h_i_dot_f_j + omega_j_in_joint_i_2 * t406))) + t400) * t75 + (t409 +
-        t409) * t77 * pitch * t76 + (t399 * f_i_dot_omega_i - g_i_dot_omega_i * t401));
-    const jg_real t410 = g_i_world_1 * omega_j[2];
-    const jg_real t411 = h_i_world_1 * s_j[2];
-    const jg_real t412 = g_i_world_1 * s_j[2];
-    const jg_real t413 = h_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[35] = t411 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t410 - (omega_j_in_joint_i_2 * t412 +
-        t413 * s_j_in_joint_i_1) - (t411 * g_i_dot_omega_i - t412 * h_i_dot_omega_i);
+        t397 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t399 - g_i_dot_omega_i * t401 + (t75 * (t406 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t407 + g_i_dot_omega_i * t408 + h_i_dot_omega_i * t406 - (t400 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t406 + (t402 * f_i_dot_f_j + t407 * omega_j_in_joint_i_0 + (t397 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t408)))) + t400) + (t409 + t409) * t76 * pitch * t78));
+    const jg_real t410 = omega_j[2] * g_i_world_1;
+    const jg_real t411 = s_j[2] * h_i_world_1;
+    const jg_real t412 = s_j[2] * g_i_world_1;
+    const jg_real t413 = omega_j[2] * h_i_world_1;
+    jac_phi_q_v_A_j[35] = t411 * omega_j_in_joint_i_1 + t410 * s_j_in_joint_i_2 - (t412 * omega_j_in_joint_i_2 +
+        t413 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t411 - h_i_dot_omega_i * t412);
     const jg_real t414 = s_j[0] * t330 + s_j[1] * t373;
     const jg_real t415 = omega_j[0] * t330 + omega_j[1] * t373;
     jac_phi_q_v_A_j[36] = omega_j_in_joint_i_2 * t414 + t413 * s_j_in_joint_i_0 - (t411 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t415) - (h_i_dot_omega_i * t414 - t411 * f_i_dot_omega_i);
-    const jg_real t416 = h_i_world_1 * C_j[8];
-    const jg_real t417 = g_i_world_1 * C_j[8];
+        s_j_in_joint_i_2 * t415) - (h_i_dot_omega_i * t414 - f_i_dot_omega_i * t411);
+    const jg_real t416 = C_j[8] * h_i_world_1;
+    const jg_real t417 = C_j[8] * g_i_world_1;
     jac_phi_q_v_A_j[37] = t410 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t416 - (t413 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t417) - (g_i_dot_omega_i * t416 - h_i_dot_omega_i * t417);
-    const jg_real t418 = t330 * C_j[6] + t373 * C_j[7];
-    jac_phi_q_v_A_j[38] = t413 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t418 - (t415 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t416) - (h_i_dot_omega_i * t418 - f_i_dot_omega_i * t416);
-    const jg_real t419 = h_i_world_1 * C_j[2];
-    const jg_real t420 = t330 * C_j[0] + t373 * C_j[1];
-    const jg_real t421 = g_i_world_1 * C_j[2];
+    const jg_real t418 = C_j[6] * t330 + C_j[7] * t373;
+    jac_phi_q_v_A_j[38] = t413 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t418 - (t415 * h_j_in_joint_i_2 + t416 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t418 - f_i_dot_omega_i * t416);
+    const jg_real t419 = C_j[2] * h_i_world_1;
+    const jg_real t420 = C_j[0] * t330 + C_j[1] * t373;
+    const jg_real t421 = C_j[2] * g_i_world_1;
     const jg_real t422 = t419 * h_i_dot_f_j;
     jac_phi_q_v_A_j[39] = t412 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t415 - (omega_j_in_joint_i_1 * t414 +
-        t410 * s_j_in_joint_i_0) - ((t419 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t420 + g_i_dot_omega_i * t421 +
-        h_i_dot_omega_i * t419 - (t415 * f_i_dot_f_j + omega_j_in_joint_i_0 * t420 + (t410 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t421) + (t413 * h_i_dot_f_j + omega_j_in_joint_i_2 * t419))) + t413) * t75 + (t422 +
-        t422) * t77 * pitch * t76 + (t412 * f_i_dot_omega_i - g_i_dot_omega_i * t414));
-    const jg_real t423 = g_i_world_2 * omega_j[2];
-    const jg_real t424 = h_i_world_2 * s_j[2];
-    const jg_real t425 = g_i_world_2 * s_j[2];
-    const jg_real t426 = h_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[40] = t424 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t423 - (omega_j_in_joint_i_2 * t425 +
-        t426 * s_j_in_joint_i_1) - (t424 * g_i_dot_omega_i - t425 * h_i_dot_omega_i);
+        t410 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t412 - g_i_dot_omega_i * t414 + (t75 * (t419 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t420 + g_i_dot_omega_i * t421 + h_i_dot_omega_i * t419 - (t413 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t419 + (t415 * f_i_dot_f_j + t420 * omega_j_in_joint_i_0 + (t410 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t421)))) + t413) + (t422 + t422) * t76 * pitch * t78));
+    const jg_real t423 = omega_j[2] * g_i_world_2;
+    const jg_real t424 = s_j[2] * h_i_world_2;
+    const jg_real t425 = s_j[2] * g_i_world_2;
+    const jg_real t426 = omega_j[2] * h_i_world_2;
+    jac_phi_q_v_A_j[40] = t424 * omega_j_in_joint_i_1 + t423 * s_j_in_joint_i_2 - (t425 * omega_j_in_joint_i_2 +
+        t426 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t424 - h_i_dot_omega_i * t425);
     const jg_real t427 = s_j[0] * t345 + s_j[1] * t387;
     const jg_real t428 = omega_j[0] * t345 + omega_j[1] * t387;
     jac_phi_q_v_A_j[41] = omega_j_in_joint_i_2 * t427 + t426 * s_j_in_joint_i_0 - (t424 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t428) - (h_i_dot_omega_i * t427 - t424 * f_i_dot_omega_i);
-    const jg_real t429 = h_i_world_2 * C_j[8];
-    const jg_real t430 = g_i_world_2 * C_j[8];
+        s_j_in_joint_i_2 * t428) - (h_i_dot_omega_i * t427 - f_i_dot_omega_i * t424);
+    const jg_real t429 = C_j[8] * h_i_world_2;
+    const jg_real t430 = C_j[8] * g_i_world_2;
     jac_phi_q_v_A_j[42] = t423 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t429 - (t426 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t430) - (g_i_dot_omega_i * t429 - h_i_dot_omega_i * t430);
-    const jg_real t431 = t345 * C_j[6] + t387 * C_j[7];
-    jac_phi_q_v_A_j[43] = t426 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t431 - (t428 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t429) - (h_i_dot_omega_i * t431 - f_i_dot_omega_i * t429);
-    const jg_real t432 = h_i_world_2 * C_j[2];
-    const jg_real t433 = t345 * C_j[0] + t387 * C_j[1];
-    const jg_real t434 = g_i_world_2 * C_j[2];
+    const jg_real t431 = C_j[6] * t345 + C_j[7] * t387;
+    jac_phi_q_v_A_j[43] = t426 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t431 - (t428 * h_j_in_joint_i_2 + t429 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t431 - f_i_dot_omega_i * t429);
+    const jg_real t432 = C_j[2] * h_i_world_2;
+    const jg_real t433 = C_j[0] * t345 + C_j[1] * t387;
+    const jg_real t434 = C_j[2] * g_i_world_2;
     const jg_real t435 = t432 * h_i_dot_f_j;
     jac_phi_q_v_A_j[44] = t425 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t428 - (omega_j_in_joint_i_1 * t427 +
-        t423 * s_j_in_joint_i_0) - ((t432 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t433 + g_i_dot_omega_i * t434 +
-        h_i_dot_omega_i * t432 - (t428 * f_i_dot_f_j + omega_j_in_joint_i_0 * t433 + (t423 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t434) + (t426 * h_i_dot_f_j + omega_j_in_joint_i_2 * t432))) + t426) * t75 + (t435 +
-        t435) * t77 * pitch * t76 + (t425 * f_i_dot_omega_i - g_i_dot_omega_i * t427));
+        t423 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t425 - g_i_dot_omega_i * t427 + (t75 * (t432 * t73 +
+        h_i_dot_f_j * (f_i_dot_omega_i * t433 + g_i_dot_omega_i * t434 + h_i_dot_omega_i * t432 - (t426 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t432 + (t428 * f_i_dot_f_j + t433 * omega_j_in_joint_i_0 + (t423 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t434)))) + t426) + (t435 + t435) * t76 * pitch * t78));
     const jg_real t436 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
-    const jg_real t437 = A_i[2] * g_i_world_0 - g_i_world_2 * A_i[0];
-    const jg_real t438 = g_i_world_1 * A_i[0] - A_i[1] * g_i_world_0;
-    const jg_real t439 = t436 * A_j[0] + t437 * A_j[1] + t438 * A_j[2];
-    const jg_real t440 = t436 * A_j[3] + t437 * A_j[4] + t438 * A_j[5];
-    const jg_real t441 = t436 * A_j[6] + t437 * A_j[7] + t438 * A_j[8];
-    const jg_real t442 = t439 * s_j[0] + t440 * s_j[1] + t441 * s_j[2];
-    const jg_real t443 = t439 * omega_j[0] + t440 * omega_j[1] + t441 * omega_j[2];
-    const jg_real t444 = t436 * r_j[0] + t437 * r_j[1] + t438 * r_j[2];
-    const jg_real t445 = t436 * r_i[0] + t437 * r_i[1] + t438 * r_i[2];
-    const jg_real t446 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
-    const jg_real t447 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = t442 * omega_j_in_joint_i_1 - t443 * s_j_in_joint_i_1 - (t442 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t444 - g_i_dot_omega_i * t445 + t446 - t447);
-    const jg_real t448 = t441 * g_i_in_j_1 - t440 * g_i_in_j_2;
-    const jg_real t449 = t439 * g_i_in_j_2 - t441 * g_i_in_j_0;
-    const jg_real t450 = t440 * g_i_in_j_0 - t439 * g_i_in_j_1;
+    const jg_real t437 = A_i[2] * g_i_world_0 - A_i[0] * g_i_world_2;
+    const jg_real t438 = A_i[0] * g_i_world_1 - A_i[1] * g_i_world_0;
+    const jg_real t439 = A_j[0] * t436 + A_j[1] * t437 + A_j[2] * t438;
+    const jg_real t440 = A_j[3] * t436 + A_j[4] * t437 + A_j[5] * t438;
+    const jg_real t441 = A_j[6] * t436 + A_j[7] * t437 + A_j[8] * t438;
+    const jg_real t442 = s_j[0] * t439 + s_j[1] * t440 + s_j[2] * t441;
+    const jg_real t443 = omega_j[0] * t439 + omega_j[1] * t440 + omega_j[2] * t441;
+    const jg_real t444 = r_j[0] * t436 + r_j[1] * t437 + r_j[2] * t438;
+    const jg_real t445 = r_i[0] * t436 + r_i[1] * t437 + r_i[2] * t438;
+    const jg_real t446 = A_i[1] * v_i[1] + A_i[0] * v_i[0] + A_i[2] * v_i[2];
+    const jg_real t447 = A_i[1] * v_j[1] + A_i[0] * v_j[0] + A_i[2] * v_j[2];
+    jac_phi_q_v_geometry[0] = omega_j_in_joint_i_1 * t442 - s_j_in_joint_i_1 * t443 - (g_i_dot_omega_i * t444 +
+        g_i_dot_omega_i * t442 - g_i_dot_omega_i * t445 + t446 - t447);
+    const jg_real t448 = g_i_in_j_1 * t441 - g_i_in_j_2 * t440;
+    const jg_real t449 = g_i_in_j_2 * t439 - g_i_in_j_0 * t441;
+    const jg_real t450 = g_i_in_j_0 * t440 - g_i_in_j_1 * t439;
     const jg_real t451 = s_j[0] * t448 + s_j[1] * t449 + s_j[2] * t450;
     const jg_real t452 = omega_j[0] * t448 + omega_j[1] * t449 + omega_j[2] * t450;
-    const jg_real t453 = s_j_in_joint_i_2 * omega_i[0];
+    const jg_real t453 = omega_i[0] * s_j_in_joint_i_2;
     /* r_j_in_joint_i = r_j, axes of joint i */
-    const jg_real r_j_in_joint_i_2 = h_i_world_0 * r_j[0] + h_i_world_1 * r_j[1] + h_i_world_2 * r_j[2];
+    const jg_real r_j_in_joint_i_2 = r_j[0] * h_i_world_0 + r_j[1] * h_i_world_1 + r_j[2] * h_i_world_2;
     const jg_real t455 = omega_i[0] * r_j_in_joint_i_2;
-    const jg_real t456 = A_i[0] * r_j[0] + A_i[1] * r_j[1] + A_i[2] * r_j[2];
+    const jg_real t456 = A_i[1] * r_j[1] + A_i[0] * r_j[0] + A_i[2] * r_j[2];
     const jg_real t457 = h_i_dot_omega_i * t456;
     /* r_i_in_joint_i = r_i, axes of joint i */
-    const jg_real r_i_in_joint_i_2 = h_i_world_0 * r_i[0] + h_i_world_1 * r_i[1] + h_i_world_2 * r_i[2];
+    const jg_real r_i_in_joint_i_2 = r_i[0] * h_i_world_0 + r_i[1] * h_i_world_1 + r_i[2] * h_i_world_2;
     const jg_real t459 = omega_i[0] * r_i_in_joint_i_2;
     const jg_real t460 = A_i[0] * r_i[0] + A_i[1] * r_i[1] + A_i[2] * r_i[2];
     const jg_real t461 = h_i_dot_omega_i * t460;
     jac_phi_q_v_geometry[1] = omega_j_in_joint_i_2 * t451 + t443 * s_j_in_joint_i_0 - (t442 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t452) - (h_i_dot_omega_i * t451 - (t453 + t442 * f_i_dot_omega_i) + (t457 - (t455 + t444
-        * f_i_dot_omega_i)) - (t461 - (t459 + t445 * f_i_dot_omega_i)));
-    const jg_real t462 = t439 * C_j[6] + t440 * C_j[7] + t441 * C_j[8];
+        s_j_in_joint_i_2 * t452) - (t457 - (t455 + f_i_dot_omega_i * t444) + (h_i_dot_omega_i * t451 - (t453 +
+        f_i_dot_omega_i * t442)) - (t461 - (t459 + f_i_dot_omega_i * t445)));
+    const jg_real t462 = C_j[6] * t439 + C_j[7] * t440 + C_j[8] * t441;
     jac_phi_q_v_geometry[2] = omega_j_in_joint_i_1 * t462 - t443 * h_j_in_joint_i_1 - g_i_dot_omega_i * t462;
-    const jg_real t463 = t448 * C_j[6] + t449 * C_j[7] + t450 * C_j[8];
+    const jg_real t463 = C_j[6] * t448 + C_j[7] * t449 + C_j[8] * t450;
     const jg_real t464 = omega_i[0] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[3] = t443 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (t452 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t462) - (h_i_dot_omega_i * t463 - (t464 + f_i_dot_omega_i * t462));
-    const jg_real t465 = t439 * C_j[0] + t440 * C_j[1] + t441 * C_j[2];
-    const jg_real t466 = t448 * C_j[0] + t449 * C_j[1] + t450 * C_j[2];
+    jac_phi_q_v_geometry[3] = t443 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (h_j_in_joint_i_2 * t452 +
+        t462 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t463 - (t464 + f_i_dot_omega_i * t462));
+    const jg_real t465 = C_j[0] * t439 + C_j[1] * t440 + C_j[2] * t441;
+    const jg_real t466 = C_j[0] * t448 + C_j[1] * t449 + C_j[2] * t450;
     const jg_real t467 = h_i_dot_f_j * t465;
-    const jg_real r_j_in_joint_i_1 = g_i_world_0 * r_j[0] + g_i_world_1 * r_j[1] + g_i_world_2 * r_j[2];
+    const jg_real r_j_in_joint_i_1 = r_j[0] * g_i_world_0 + r_j[1] * g_i_world_1 + r_j[2] * g_i_world_2;
     const jg_real t469 = omega_i[0] * r_j_in_joint_i_1;
-    const jg_real t470 = s_j_in_joint_i_1 * omega_i[0];
-    const jg_real r_i_in_joint_i_1 = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
+    const jg_real t470 = omega_i[0] * s_j_in_joint_i_1;
+    const jg_real r_i_in_joint_i_1 = r_i[0] * g_i_world_0 + r_i[1] * g_i_world_1 + r_i[2] * g_i_world_2;
     const jg_real t472 = omega_i[0] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t452 - omega_j_in_joint_i_1 * t451 - ((t465 * t73 + h_i_dot_f_j *
-        (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t452 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t466 + (t443 * h_i_dot_f_j + omega_j_in_joint_i_2 * t465))) + t443) * t75 + (t467 +
-        t467) * t77 * pitch * t76 + (t469 - g_i_dot_omega_i * t456) + (t470 - g_i_dot_omega_i * t451) - (t472 -
-        g_i_dot_omega_i * t460) + (t436 * v_i[0] + t437 * v_i[1] + t438 * v_i[2]) - (t436 * v_j[0] + t437 * v_j[1] +
-        t438 * v_j[2]));
+    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t452 - omega_j_in_joint_i_1 * t451 - (v_i[0] * t436 + v_i[1] * t437
+        + v_i[2] * t438 + (t470 - g_i_dot_omega_i * t451 + (t469 - g_i_dot_omega_i * t456 + (t75 * (t465 * t73 +
+        h_i_dot_f_j * (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t452 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t466 + (t443 * h_i_dot_f_j + omega_j_in_joint_i_2 * t465))) + t443) +
+        (t467 + t467) * t76 * pitch * t78)) - (t472 - g_i_dot_omega_i * t460)) - (v_j[0] * t436 + v_j[1] * t437 +
+        v_j[2] * t438));
     const jg_real t473 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
-    const jg_real t474 = A_i[5] * g_i_world_0 - g_i_world_2 * A_i[3];
-    const jg_real t475 = g_i_world_1 * A_i[3] - A_i[4] * g_i_world_0;
-    const jg_real t476 = t473 * A_j[0] + t474 * A_j[1] + t475 * A_j[2];
-    const jg_real t477 = t473 * A_j[3] + t474 * A_j[4] + t475 * A_j[5];
-    const jg_real t478 = t473 * A_j[6] + t474 * A_j[7] + t475 * A_j[8];
-    const jg_real t479 = t476 * s_j[0] + t477 * s_j[1] + t478 * s_j[2];
-    const jg_real t480 = t476 * omega_j[0] + t477 * omega_j[1] + t478 * omega_j[2];
-    const jg_real t481 = t473 * r_j[0] + t474 * r_j[1] + t475 * r_j[2];
-    const jg_real t482 = t473 * r_i[0] + t474 * r_i[1] + t475 * r_i[2];
-    const jg_real t483 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
-    const jg_real t484 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = t479 * omega_j_in_joint_i_1 - t480 * s_j_in_joint_i_1 - (t479 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t481 - g_i_dot_omega_i * t482 + t483 - t484);
-    const jg_real t485 = t478 * g_i_in_j_1 - t477 * g_i_in_j_2;
-    const jg_real t486 = t476 * g_i_in_j_2 - t478 * g_i_in_j_0;
-    const jg_real t487 = t477 * g_i_in_j_0 - t476 * g_i_in_j_1;
+    const jg_real t474 = A_i[5] * g_i_world_0 - A_i[3] * g_i_world_2;
+    const jg_real t475 = A_i[3] * g_i_world_1 - A_i[4] * g_i_world_0;
+    const jg_real t476 = A_j[0] * t473 + A_j[1] * t474 + A_j[2] * t475;
+    const jg_real t477 = A_j[3] * t473 + A_j[4] * t474 + A_j[5] * t475;
+    const jg_real t478 = A_j[6] * t473 + A_j[7] * t474 + A_j[8] * t475;
+    const jg_real t479 = s_j[0] * t476 + s_j[1] * t477 + s_j[2] * t478;
+    const jg_real t480 = omega_j[0] * t476 + omega_j[1] * t477 + omega_j[2] * t478;
+    const jg_real t481 = r_j[0] * t473 + r_j[1] * t474 + r_j[2] * t475;
+    const jg_real t482 = r_i[0] * t473 + r_i[1] * t474 + r_i[2] * t475;
+    const jg_real t483 = A_i[4] * v_i[1] + A_i[3] * v_i[0] + A_i[5] * v_i[2];
+    const jg_real t484 = A_i[4] * v_j[1] + A_i[3] * v_j[0] + A_i[5] * v_j[2];
+    jac_phi_q_v_geometry[5] = omega_j_in_joint_i_1 * t479 - s_j_in_joint_i_1 * t480 - (g_i_dot_omega_i * t481 +
+        g_i_dot_omega_i * t479 - g_i_dot_omega_i * t482 + t483 - t484);
+    const jg_real t485 = g_i_in_j_1 * t478 - g_i_in_j_2 * t477;
+    const jg_real t486 = g_i_in_j_2 * t476 - g_i_in_j_0 * t478;
+    const jg_real t487 = g_i_in_j_0 * t477 - g_i_in_j_1 * t476;
     const jg_real t488 = s_j[0] * t485 + s_j[1] * t486 + s_j[2] * t487;
     const jg_real t489 = omega_j[0] * t485 + omega_j[1] * t486 + omega_j[2] * t487;
-    const jg_real t490 = s_j_in_joint_i_2 * omega_i[1];
+    const jg_real t490 = omega_i[1] * s_j_in_joint_i_2;
     const jg_real t491 = omega_i[1] * r_j_in_joint_i_2;
-    const jg_real t492 = A_i[3] * r_j[0] + A_i[4] * r_j[1] + A_i[5] * r_j[2];
+    const jg_real t492 = A_i[4] * r_j[1] + A_i[3] * r_j[0] + A_i[5] * r_j[2];
     const jg_real t493 = h_i_dot_omega_i * t492;
     const jg_real t494 = omega_i[1] * r_i_in_joint_i_2;
     const jg_real t495 = A_i[3] * r_i[0] + A_i[4] * r_i[1] + A_i[5] * r_i[2];
     const jg_real t496 = h_i_dot_omega_i * t495;
     jac_phi_q_v_geometry[6] = omega_j_in_joint_i_2 * t488 + t480 * s_j_in_joint_i_0 - (t479 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t489) - (h_i_dot_omega_i * t488 - (t490 + t479 * f_i_dot_omega_i) + (t493 - (t491 + t481
-        * f_i_dot_omega_i)) - (t496 - (t494 + t482 * f_i_dot_omega_i)));
-    const jg_real t497 = t476 * C_j[6] + t477 * C_j[7] + t478 * C_j[8];
+        s_j_in_joint_i_2 * t489) - (t493 - (t491 + f_i_dot_omega_i * t481) + (h_i_dot_omega_i * t488 - (t490 +
+        f_i_dot_omega_i * t479)) - (t496 - (t494 + f_i_dot_omega_i * t482)));
+    const jg_real t497 = C_j[6] * t476 + C_j[7] * t477 + C_j[8] * t478;
     jac_phi_q_v_geometry[7] = omega_j_in_joint_i_1 * t497 - t480 * h_j_in_joint_i_1 - g_i_dot_omega_i * t497;
-    const jg_real t498 = t485 * C_j[6] + t486 * C_j[7] + t487 * C_j[8];
+    const jg_real t498 = C_j[6] * t485 + C_j[7] * t486 + C_j[8] * t487;
     const jg_real t499 = omega_i[1] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[8] = t480 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t498 - (t489 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t497) - (h_i_dot_omega_i * t498 - (t499 + f_i_dot_omega_i * t497));
-    const jg_real t500 = t476 * C_j[0] + t477 * C_j[1] + t478 * C_j[2];
-    const jg_real t501 = t485 * C_j[0] + t486 * C_j[1] + t487 * C_j[2];
+    jac_phi_q_v_geometry[8] = t480 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t498 - (h_j_in_joint_i_2 * t489 +
+        t497 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t498 - (t499 + f_i_dot_omega_i * t497));
+    const jg_real t500 = C_j[0] * t476 + C_j[1] * t477 + C_j[2] * t478;
+    const jg_real t501 = C_j[0] * t485 + C_j[1] * t486 + C_j[2] * t487;
     const jg_real t502 = h_i_dot_f_j * t500;
     const jg_real t503 = omega_i[1] * r_j_in_joint_i_1;
-    const jg_real t504 = s_j_in_joint_i_1 * omega_i[1];
+    const jg_real t504 = omega_i[1] * s_j_in_joint_i_1;
     const jg_real t505 = omega_i[1] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t489 - omega_j_in_joint_i_1 * t488 - ((t500 * t73 + h_i_dot_f_j *
-        (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t501 + h_i_dot_omega_i * t500 - (t489 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t501 + (t480 * h_i_dot_f_j + omega_j_in_joint_i_2 * t500))) + t480) * t75 + (t502 +
-        t502) * t77 * pitch * t76 + (t503 - g_i_dot_omega_i * t492) + (t504 - g_i_dot_omega_i * t488) - (t505 -
-        g_i_dot_omega_i * t495) + (t473 * v_i[0] + t474 * v_i[1] + t475 * v_i[2]) - (t473 * v_j[0] + t474 * v_j[1] +
-        t475 * v_j[2]));
+    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t489 - omega_j_in_joint_i_1 * t488 - (v_i[0] * t473 + v_i[1] * t474
+        + v_i[2] * t475 + (t504 - g_i_dot_omega_i * t488 + (t503 - g_i_dot_omega_i * t492 + (t75 * (t500 * t73 +
+        h_i_dot_f_j * (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t501 + h_i_dot_omega_i * t500 - (t489 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t501 + (t480 * h_i_dot_f_j + omega_j_in_joint_i_2 * t500))) + t480) +
+        (t502 + t502) * t76 * pitch * t78)) - (t505 - g_i_dot_omega_i * t495)) - (v_j[0] * t473 + v_j[1] * t474 +
+        v_j[2] * t475));
     const jg_real t506 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
-    const jg_real t507 = A_i[8] * g_i_world_0 - g_i_world_2 * A_i[6];
-    const jg_real t508 = g_i_world_1 * A_i[6] - A_i[7] * g_i_world_0;
-    const jg_real t509 = t506 * A_j[0] + t507 * A_j[1] + t508 * A_j[2];
-    const jg_real t510 = t506 * A_j[3] + t507 * A_j[4] + t508 * A_j[5];
-    const jg_real t511 = t506 * A_j[6] + t507 * A_j[7] + t508 * A_j[8];
-    const jg_real t512 = t509 * s_j[0] + t510 * s_j[1] + t511 * s_j[2];
-    const jg_real t513 = t509 * omega_j[0] + t510 * omega_j[1] + t511 * omega_j[2];
-    const jg_real t514 = t506 * r_j[0] + t507 * r_j[1] + t508 * r_j[2];
-    const jg_real t515 = t506 * r_i[0] + t507 * r_i[1] + t508 * r_i[2];
-    const jg_real t516 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
-    const jg_real t517 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    jac_phi_q_v_geometry[10] = t512 * omega_j_in_joint_i_1 - t513 * s_j_in_joint_i_1 - (t512 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t514 - g_i_dot_omega_i * t515 + t516 - t517);
-    const jg_real t518 = t511 * g_i_in_j_1 - t510 * g_i_in_j_2;
-    const jg_real t519 = t509 * g_i_in_j_2 - t511 * g_i_in_j_0;
-    const jg_real t520 = t510 * g_i_in_j_0 - t509 * g_i_in_j_1;
+    const jg_real t507 = A_i[8] * g_i_world_0 - A_i[6] * g_i_world_2;
+    const jg_real t508 = A_i[6] * g_i_world_1 - A_i[7] * g_i_world_0;
+    const jg_real t509 = A_j[0] * t506 + A_j[1] * t507 + A_j[2] * t508;
+    const jg_real t510 = A_j[3] * t506 + A_j[4] * t507 + A_j[5] * t508;
+    const jg_real t511 = A_j[6] * t506 + A_j[7] * t507 + A_j[8] * t508;
+    const jg_real t512 = s_j[0] * t509 + s_j[1] * t510 + s_j[2] * t511;
+    const jg_real t513 = omega_j[0] * t509 + omega_j[1] * t510 + omega_j[2] * t511;
+    const jg_real t514 = r_j[0] * t506 + r_j[1] * t507 + r_j[2] * t508;
+    const jg_real t515 = r_i[0] * t506 + r_i[1] * t507 + r_i[2] * t508;
+    const jg_real t516 = A_i[7] * v_i[1] + A_i[6] * v_i[0] + A_i[8] * v_i[2];
+    const jg_real t517 = A_i[7] * v_j[1] + A_i[6] * v_j[0] + A_i[8] * v_j[2];
+    jac_phi_q_v_geometry[10] = omega_j_in_joint_i_1 * t512 - s_j_in_joint_i_1 * t513 - (g_i_dot_omega_i * t514 +
+        g_i_dot_omega_i * t512 - g_i_dot_omega_i * t515 + t516 - t517);
+    const jg_real t518 = g_i_in_j_1 * t511 - g_i_in_j_2 * t510;
+    const jg_real t519 = g_i_in_j_2 * t509 - g_i_in_j_0 * t511;
+    const jg_real t520 = g_i_in_j_0 * t510 - g_i_in_j_1 * t509;
     const jg_real t521 = s_j[0] * t518 + s_j[1] * t519 + s_j[2] * t520;
     const jg_real t522 = omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] * t520;
-    const jg_real t523 = s_j_in_joint_i_2 * omega_i[2];
+    const jg_real t523 = omega_i[2] * s_j_in_joint_i_2;
     const jg_real t524 = omega_i[2] * r_j_in_joint_i_2;
-    const jg_real t525 = A_i[6] * r_j[0] + A_i[7] * r_j[1] + A_i[8] * r_j[2];
+    const jg_real t525 = A_i[7] * r_j[1] + A_i[6] * r_j[0] + A_i[8] * r_j[2];
     const jg_real t526 = h_i_dot_omega_i * t525;
     const jg_real t527 = omega_i[2] * r_i_in_joint_i_2;
     const jg_real t528 = A_i[6] * r_i[0] + A_i[7] * r_i[1] + A_i[8] * r_i[2];
     const jg_real t529 = h_i_dot_omega_i * t528;
     jac_phi_q_v_geometry[11] = omega_j_in_joint_i_2 * t521 + t513 * s_j_in_joint_i_0 - (t512 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t522) - (h_i_dot_omega_i * t521 - (t523 + t512 * f_i_dot_omega_i) + (t526 - (t524 +
-        t514 * f_i_dot_omega_i)) - (t529 - (t527 + t515 * f_i_dot_omega_i)));
-    const jg_real t530 = t509 * C_j[6] + t510 * C_j[7] + t511 * C_j[8];
+        + s_j_in_joint_i_2 * t522) - (t526 - (t524 + f_i_dot_omega_i * t514) + (h_i_dot_omega_i * t521 - (t523 +
+        f_i_dot_omega_i * t512)) - (t529 - (t527 + f_i_dot_omega_i * t515)));
+    const jg_real t530 = C_j[6] * t509 + C_j[7] * t510 + C_j[8] * t511;
     jac_phi_q_v_geometry[12] = omega_j_in_joint_i_1 * t530 - t513 * h_j_in_joint_i_1 - g_i_dot_omega_i * t530;
-    const jg_real t531 = t518 * C_j[6] + t519 * C_j[7] + t520 * C_j[8];
+    const jg_real t531 = C_j[6] * t518 + C_j[7] * t519 + C_j[8] * t520;
     const jg_real t532 = omega_i[2] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[13] = t513 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t531 - (t522 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t530) - (h_i_dot_omega_i * t531 - (t532 + f_i_dot_omega_i * t530));
-    const jg_real t533 = t509 * C_j[0] + t510 * C_j[1] + t511 * C_j[2];
-    const jg_real t534 = t518 * C_j[0] + t519 * C_j[1] + t520 * C_j[2];
+    jac_phi_q_v_geometry[13] = t513 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t531 - (h_j_in_joint_i_2 * t522 +
+        t530 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t531 - (t532 + f_i_dot_omega_i * t530));
+    const jg_real t533 = C_j[0] * t509 + C_j[1] * t510 + C_j[2] * t511;
+    const jg_real t534 = C_j[0] * t518 + C_j[1] * t519 + C_j[2] * t520;
     const jg_real t535 = h_i_dot_f_j * t533;
     const jg_real t536 = omega_i[2] * r_j_in_joint_i_1;
-    const jg_real t537 = s_j_in_joint_i_1 * omega_i[2];
+    const jg_real t537 = omega_i[2] * s_j_in_joint_i_1;
     const jg_real t538 = omega_i[2] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t522 - omega_j_in_joint_i_1 * t521 - ((t533 * t73 + h_i_dot_f_j *
-        (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t534 + h_i_dot_omega_i * t533 - (t522 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t534 + (t513 * h_i_dot_f_j + omega_j_in_joint_i_2 * t533))) + t513) * t75 + (t535 +
-        t535) * t77 * pitch * t76 + (t536 - g_i_dot_omega_i * t525) + (t537 - g_i_dot_omega_i * t521) - (t538 -
-        g_i_dot_omega_i * t528) + (t506 * v_i[0] + t507 * v_i[1] + t508 * v_i[2]) - (t506 * v_j[0] + t507 * v_j[1] +
-        t508 * v_j[2]));
-    const jg_real t539 = A_j[0] * A_i[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t540 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t522 - omega_j_in_joint_i_1 * t521 - (v_i[0] * t506 + v_i[1] *
+        t507 + v_i[2] * t508 + (t537 - g_i_dot_omega_i * t521 + (t536 - g_i_dot_omega_i * t525 + (t75 * (t533 * t73
+        + h_i_dot_f_j * (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t534 + h_i_dot_omega_i * t533 - (t522 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t534 + (t513 * h_i_dot_f_j + omega_j_in_joint_i_2 * t533))) + t513) +
+        (t535 + t535) * t76 * pitch * t78)) - (t538 - g_i_dot_omega_i * t528)) - (v_j[0] * t506 + v_j[1] * t507 +
+        v_j[2] * t508));
+    const jg_real t539 = A_i[1] * A_j[1] + A_j[0] * A_i[0] + A_i[2] * A_j[2];
+    const jg_real t540 = A_i[1] * A_j[4] + A_i[0] * A_j[3] + A_i[2] * A_j[5];
     const jg_real t541 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t542 = t539 * omega_j[0] + t540 * omega_j[1] + t541 * omega_j[2];
-    const jg_real t543 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
-    const jg_real t544 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
-    const jg_real t545 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
-    const jg_real t546 = t543 * A_j[0] + t544 * A_j[1] + t545 * A_j[2];
-    const jg_real t547 = t543 * A_j[3] + t544 * A_j[4] + t545 * A_j[5];
-    const jg_real t548 = t543 * A_j[6] + t544 * A_j[7] + t545 * A_j[8];
-    const jg_real t549 = t546 * s_j[0] + t547 * s_j[1] + t548 * s_j[2];
+    const jg_real t542 = omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] * t541;
+    const jg_real t543 = A_i[2] * f_i_world_1 - A_i[1] * f_i_world_2;
+    const jg_real t544 = A_i[0] * f_i_world_2 - A_i[2] * f_i_world_0;
+    const jg_real t545 = A_i[1] * f_i_world_0 - A_i[0] * f_i_world_1;
+    const jg_real t546 = A_j[0] * t543 + A_j[1] * t544 + A_j[2] * t545;
+    const jg_real t547 = A_j[3] * t543 + A_j[4] * t544 + A_j[5] * t545;
+    const jg_real t548 = A_j[6] * t543 + A_j[7] * t544 + A_j[8] * t545;
+    const jg_real t549 = s_j[0] * t546 + s_j[1] * t547 + s_j[2] * t548;
     const jg_real t550 = s_j[0] * t539 + s_j[1] * t540 + s_j[2] * t541;
-    const jg_real t551 = t546 * omega_j[0] + t547 * omega_j[1] + t548 * omega_j[2];
-    const jg_real t552 = t543 * r_j[0] + t544 * r_j[1] + t545 * r_j[2];
-    const jg_real t553 = t543 * r_i[0] + t544 * r_i[1] + t545 * r_i[2];
-    jac_phi_q_v_geometry[15] = t549 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t542 - (omega_j_in_joint_i_2 * t550
-        + t551 * s_j_in_joint_i_1) - (t453 + t549 * g_i_dot_omega_i - t550 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t552 + t455 - t457) - (t459 + g_i_dot_omega_i * t553 - t461));
-    const jg_real t554 = h_i_in_j_2 * t540 + t548 * g_i_in_j_1 - (h_i_in_j_1 * t541 + t547 * g_i_in_j_2);
-    const jg_real t555 = h_i_in_j_0 * t541 + t546 * g_i_in_j_2 - (h_i_in_j_2 * t539 + t548 * g_i_in_j_0);
-    const jg_real t556 = h_i_in_j_1 * t539 + t547 * g_i_in_j_0 - (h_i_in_j_0 * t540 + t546 * g_i_in_j_1);
+    const jg_real t551 = omega_j[0] * t546 + omega_j[1] * t547 + omega_j[2] * t548;
+    const jg_real t552 = r_j[0] * t543 + r_j[1] * t544 + r_j[2] * t545;
+    const jg_real t553 = r_i[0] * t543 + r_i[1] * t544 + r_i[2] * t545;
+    jac_phi_q_v_geometry[15] = omega_j_in_joint_i_1 * t549 + t542 * s_j_in_joint_i_2 - (t550 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t551) - (g_i_dot_omega_i * t552 + t455 - t457 + (t453 + g_i_dot_omega_i * t549 -
+        h_i_dot_omega_i * t550) - (t459 + g_i_dot_omega_i * t553 - t461));
+    const jg_real t554 = t540 * h_i_in_j_2 + g_i_in_j_1 * t548 - (t541 * h_i_in_j_1 + g_i_in_j_2 * t547);
+    const jg_real t555 = t541 * h_i_in_j_0 + g_i_in_j_2 * t546 - (t539 * h_i_in_j_2 + g_i_in_j_0 * t548);
+    const jg_real t556 = t539 * h_i_in_j_1 + g_i_in_j_0 * t547 - (t540 * h_i_in_j_0 + g_i_in_j_1 * t546);
     const jg_real t557 = s_j[0] * t554 + s_j[1] * t555 + s_j[2] * t556;
     const jg_real t558 = omega_j[0] * t554 + omega_j[1] * t555 + omega_j[2] * t556;
     jac_phi_q_v_geometry[16] = omega_j_in_joint_i_2 * t557 + t551 * s_j_in_joint_i_0 - (t549 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t558) - (h_i_dot_omega_i * t557 - t549 * f_i_dot_omega_i - t552 * f_i_dot_omega_i +
-        t553 * f_i_dot_omega_i + t446 - t447);
-    const jg_real t559 = t546 * C_j[6] + t547 * C_j[7] + t548 * C_j[8];
-    const jg_real t560 = t539 * C_j[6] + t540 * C_j[7] + t541 * C_j[8];
+        + s_j_in_joint_i_2 * t558) - (h_i_dot_omega_i * t557 - f_i_dot_omega_i * t549 - f_i_dot_omega_i * t552 +
+        f_i_dot_omega_i * t553 + t446 - t447);
+    const jg_real t559 = C_j[6] * t546 + C_j[7] * t547 + C_j[8] * t548;
+    const jg_real t560 = C_j[6] * t539 + C_j[7] * t540 + C_j[8] * t541;
     jac_phi_q_v_geometry[17] = t542 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t559 - (t551 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t560) - (t464 + g_i_dot_omega_i * t559 - h_i_dot_omega_i * t560);
-    const jg_real t561 = t554 * C_j[6] + t555 * C_j[7] + t556 * C_j[8];
-    jac_phi_q_v_geometry[18] = t551 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t561 - (t558 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t559) - (h_i_dot_omega_i * t561 - f_i_dot_omega_i * t559);
-    const jg_real t562 = t554 * C_j[0] + t555 * C_j[1] + t556 * C_j[2];
-    const jg_real t563 = t539 * C_j[0] + t540 * C_j[1] + t541 * C_j[2];
-    const jg_real t564 = t546 * C_j[0] + t547 * C_j[1] + t548 * C_j[2];
+    const jg_real t561 = C_j[6] * t554 + C_j[7] * t555 + C_j[8] * t556;
+    jac_phi_q_v_geometry[18] = t551 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t561 - (h_j_in_joint_i_2 * t558 +
+        t559 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t561 - f_i_dot_omega_i * t559);
+    const jg_real t562 = C_j[0] * t554 + C_j[1] * t555 + C_j[2] * t556;
+    const jg_real t563 = C_j[0] * t539 + C_j[1] * t540 + C_j[2] * t541;
+    const jg_real t564 = C_j[0] * t546 + C_j[1] * t547 + C_j[2] * t548;
     const jg_real t565 = h_i_dot_f_j * t564;
-    const jg_real r_j_in_joint_i_0 = f_i_world_0 * r_j[0] + f_i_world_1 * r_j[1] + f_i_world_2 * r_j[2];
+    const jg_real r_j_in_joint_i_0 = r_j[1] * f_i_world_1 + r_j[0] * f_i_world_0 + r_j[2] * f_i_world_2;
     const jg_real t567 = omega_i[0] * r_j_in_joint_i_0;
     const jg_real t568 = omega_i[0] * s_j_in_joint_i_0;
-    const jg_real r_i_in_joint_i_0 = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    const jg_real r_i_in_joint_i_0 = r_i[0] * f_i_world_0 + r_i[1] * f_i_world_1 + r_i[2] * f_i_world_2;
     const jg_real t570 = omega_i[0] * r_i_in_joint_i_0;
     jac_phi_q_v_geometry[19] = t550 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t558 - (omega_j_in_joint_i_1 * t557
-        + t542 * s_j_in_joint_i_0) - ((t564 * t73 + h_i_dot_f_j * (omega_i[0] * g_i_dot_f_j + g_i_dot_omega_i * t563
-        + f_i_dot_omega_i * t562 + h_i_dot_omega_i * t564 - (t558 * f_i_dot_f_j + omega_j_in_joint_i_0 * t562 +
-        (t542 * g_i_dot_f_j + omega_j_in_joint_i_1 * t563) + (t551 * h_i_dot_f_j + omega_j_in_joint_i_2 * t564))) +
-        t551) * t75 + (t565 + t565) * t77 * pitch * t76 + (t456 * f_i_dot_omega_i - t567) + (t550 * f_i_dot_omega_i
-        - (t568 + g_i_dot_omega_i * t557)) - (t460 * f_i_dot_omega_i - t570) + (t543 * v_i[0] + t544 * v_i[1] + t545
-        * v_i[2]) - (t543 * v_j[0] + t544 * v_j[1] + t545 * v_j[2]));
-    const jg_real t571 = A_j[0] * A_i[3] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t572 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+        + t542 * s_j_in_joint_i_0) - (v_i[0] * t543 + v_i[1] * t544 + v_i[2] * t545 + (f_i_dot_omega_i * t550 -
+        (t568 + g_i_dot_omega_i * t557) + (f_i_dot_omega_i * t456 - t567 + (t75 * (t564 * t73 + h_i_dot_f_j *
+        (omega_i[0] * g_i_dot_f_j + g_i_dot_omega_i * t563 + f_i_dot_omega_i * t562 + h_i_dot_omega_i * t564 - (t551
+        * h_i_dot_f_j + omega_j_in_joint_i_2 * t564 + (t558 * f_i_dot_f_j + omega_j_in_joint_i_0 * t562 + (t542 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t563)))) + t551) + (t565 + t565) * t76 * pitch * t78)) -
+        (f_i_dot_omega_i * t460 - t570)) - (v_j[0] * t543 + v_j[1] * t544 + v_j[2] * t545));
+    const jg_real t571 = A_i[4] * A_j[1] + A_j[0] * A_i[3] + A_i[5] * A_j[2];
+    const jg_real t572 = A_i[4] * A_j[4] + A_i[3] * A_j[3] + A_i[5] * A_j[5];
     const jg_real t573 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t574 = t571 * omega_j[0] + t572 * omega_j[1] + t573 * omega_j[2];
-    const jg_real t575 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
-    const jg_real t576 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
-    const jg_real t577 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
-    const jg_real t578 = t575 * A_j[0] + t576 * A_j[1] + t577 * A_j[2];
-    const jg_real t579 = t575 * A_j[3] + t576 * A_j[4] + t577 * A_j[5];
-    const jg_real t580 = t575 * A_j[6] + t576 * A_j[7] + t577 * A_j[8];
-    const jg_real t581 = t578 * s_j[0] + t579 * s_j[1] + t580 * s_j[2];
+    const jg_real t574 = omega_j[0] * t571 + omega_j[1] * t572 + omega_j[2] * t573;
+    const jg_real t575 = A_i[5] * f_i_world_1 - A_i[4] * f_i_world_2;
+    const jg_real t576 = A_i[3] * f_i_world_2 - A_i[5] * f_i_world_0;
+    const jg_real t577 = A_i[4] * f_i_world_0 - A_i[3] * f_i_world_1;
+    const jg_real t578 = A_j[0] * t575 + A_j[1] * t576 + A_j[2] * t577;
+    const jg_real t579 = A_j[3] * t575 + A_j[4] * t576 + A_j[5] * t577;
+    const jg_real t580 = A_j[6] * t575 + A_j[7] * t576 + A_j[8] * t577;
+    const jg_real t581 = s_j[0] * t578 + s_j[1] * t579 + s_j[2] * t580;
     const jg_real t582 = s_j[0] * t571 + s_j[1] * t572 + s_j[2] * t573;
-    const jg_real t583 = t578 * omega_j[0] + t579 * omega_j[1] + t580 * omega_j[2];
-    const jg_real t584 = t575 * r_j[0] + t576 * r_j[1] + t577 * r_j[2];
-    const jg_real t585 = t575 * r_i[0] + t576 * r_i[1] + t577 * r_i[2];
-    jac_phi_q_v_geometry[20] = t581 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t574 - (omega_j_in_joint_i_2 * t582
-        + t583 * s_j_in_joint_i_1) - (t490 + t581 * g_i_dot_omega_i - t582 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t584 + t491 - t493) - (t494 + g_i_dot_omega_i * t585 - t496));
-    const jg_real t586 = h_i_in_j_2 * t572 + t580 * g_i_in_j_1 - (h_i_in_j_1 * t573 + t579 * g_i_in_j_2);
-    const jg_real t587 = h_i_in_j_0 * t573 + t578 * g_i_in_j_2 - (h_i_in_j_2 * t571 + t580 * g_i_in_j_0);
-    const jg_real t588 = h_i_in_j_1 * t571 + t579 * g_i_in_j_0 - (h_i_in_j_0 * t572 + t578 * g_i_in_j_1);
+    const jg_real t583 = omega_j[0] * t578 + omega_j[1] * t579 + omega_j[2] * t580;
+    const jg_real t584 = r_j[0] * t575 + r_j[1] * t576 + r_j[2] * t577;
+    const jg_real t585 = r_i[0] * t575 + r_i[1] * t576 + r_i[2] * t577;
+    jac_phi_q_v_geometry[20] = omega_j_in_joint_i_1 * t581 + t574 * s_j_in_joint_i_2 - (t582 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t583) - (g_i_dot_omega_i * t584 + t491 - t493 + (t490 + g_i_dot_omega_i * t581 -
+        h_i_dot_omega_i * t582) - (t494 + g_i_dot_omega_i * t585 - t496));
+    const jg_real t586 = t572 * h_i_in_j_2 + g_i_in_j_1 * t580 - (t573 * h_i_in_j_1 + g_i_in_j_2 * t579);
+    const jg_real t587 = t573 * h_i_in_j_0 + g_i_in_j_2 * t578 - (t571 * h_i_in_j_2 + g_i_in_j_0 * t580);
+    const jg_real t588 = t571 * h_i_in_j_1 + g_i_in_j_0 * t579 - (t572 * h_i_in_j_0 + g_i_in_j_1 * t578);
     const jg_real t589 = s_j[0] * t586 + s_j[1] * t587 + s_j[2] * t588;
     const jg_real t590 = omega_j[0] * t586 + omega_j[1] * t587 + omega_j[2] * t588;
     jac_phi_q_v_geometry[21] = omega_j_in_joint_i_2 * t589 + t583 * s_j_in_joint_i_0 - (t581 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t590) - (h_i_dot_omega_i * t589 - t581 * f_i_dot_omega_i - t584 * f_i_dot_omega_i +
-        t585 * f_i_dot_omega_i + t483 - t484);
-    const jg_real t591 = t578 * C_j[6] + t579 * C_j[7] + t580 * C_j[8];
-    const jg_real t592 = t571 * C_j[6] + t572 * C_j[7] + t573 * C_j[8];
+        + s_j_in_joint_i_2 * t590) - (h_i_dot_omega_i * t589 - f_i_dot_omega_i * t581 - f_i_dot_omega_i * t584 +
+        f_i_dot_omega_i * t585 + t483 - t484);
+    const jg_real t591 = C_j[6] * t578 + C_j[7] * t579 + C_j[8] * t580;
+    const jg_real t592 = C_j[6] * t571 + C_j[7] * t572 + C_j[8] * t573;
     jac_phi_q_v_geometry[22] = t574 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t591 - (t583 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t592) - (t499 + g_i_dot_omega_i * t591 - h_i_dot_omega_i * t592);
-    const jg_real t593 = t586 * C_j[6] + t587 * C_j[7] + t588 * C_j[8];
-    jac_phi_q_v_geometry[23] = t583 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t593 - (t590 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t591) - (h_i_dot_omega_i * t593 - f_i_dot_omega_i * t591);
-    const jg_real t594 = t586 * C_j[0] + t587 * C_j[1] + t588 * C_j[2];
-    const jg_real t595 = t571 * C_j[0] + t572 * C_j[1] + t573 * C_j[2];
-    const jg_real t596 = t578 * C_j[0] + t579 * C_j[1] + t580 * C_j[2];
+    const jg_real t593 = C_j[6] * t586 + C_j[7] * t587 + C_j[8] * t588;
+    jac_phi_q_v_geometry[23] = t583 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t593 - (h_j_in_joint_i_2 * t590 +
+        t591 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t593 - f_i_dot_omega_i * t591);
+    const jg_real t594 = C_j[0] * t586 + C_j[1] * t587 + C_j[2] * t588;
+    const jg_real t595 = C_j[0] * t571 + C_j[1] * t572 + C_j[2] * t573;
+    const jg_real t596 = C_j[0] * t578 + C_j[1] * t579 + C_j[2] * t580;
     const jg_real t597 = h_i_dot_f_j * t596;
     const jg_real t598 = omega_i[1] * r_j_in_joint_i_0;
     const jg_real t599 = omega_i[1] * s_j_in_joint_i_0;
     const jg_real t600 = omega_i[1] * r_i_in_joint_i_0;
     jac_phi_q_v_geometry[24] = t582 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t590 - (omega_j_in_joint_i_1 * t589
-        + t574 * s_j_in_joint_i_0) - ((t596 * t73 + h_i_dot_f_j * (omega_i[1] * g_i_dot_f_j + g_i_dot_omega_i * t595
-        + f_i_dot_omega_i * t594 + h_i_dot_omega_i * t596 - (t590 * f_i_dot_f_j + omega_j_in_joint_i_0 * t594 +
-        (t574 * g_i_dot_f_j + omega_j_in_joint_i_1 * t595) + (t583 * h_i_dot_f_j + omega_j_in_joint_i_2 * t596))) +
-        t583) * t75 + (t597 + t597) * t77 * pitch * t76 + (t492 * f_i_dot_omega_i - t598) + (t582 * f_i_dot_omega_i
-        - (t599 + g_i_dot_omega_i * t589)) - (t495 * f_i_dot_omega_i - t600) + (t575 * v_i[0] + t576 * v_i[1] + t577
-        * v_i[2]) - (t575 * v_j[0] + t576 * v_j[1] + t577 * v_j[2]));
-    const jg_real t601 = A_j[0] * A_i[6] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t602 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+        + t574 * s_j_in_joint_i_0) - (v_i[0] * t575 + v_i[1] * t576 + v_i[2] * t577 + (f_i_dot_omega_i * t582 -
+        (t599 + g_i_dot_omega_i * t589) + (f_i_dot_omega_i * t492 - t598 + (t75 * (t596 * t73 + h_i_dot_f_j *
+        (omega_i[1] * g_i_dot_f_j + g_i_dot_omega_i * t595 + f_i_dot_omega_i * t594 + h_i_dot_omega_i * t596 - (t583
+        * h_i_dot_f_j + omega_j_in_joint_i_2 * t596 + (t590 * f_i_dot_f_j + omega_j_in_joint_i_0 * t594 + (t574 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t595)))) + t583) + (t597 + t597) * t76 * pitch * t78)) -
+        (f_i_dot_omega_i * t495 - t600)) - (v_j[0] * t575 + v_j[1] * t576 + v_j[2] * t577));
+    const jg_real t601 = A_i[7] * A_j[1] + A_j[0] * A_i[6] + A_i[8] * A_j[2];
+    const jg_real t602 = A_i[7] * A_j[4] + A_i[6] * A_j[3] + A_i[8] * A_j[5];
     const jg_real t603 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t604 = t601 * omega_j[0] + t602 * omega_j[1] + t603 * omega_j[2];
-    const jg_real t605 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
-    const jg_real t606 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
-    const jg_real t607 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
-    const jg_real t608 = t605 * A_j[0] + t606 * A_j[1] + t607 * A_j[2];
-    const jg_real t609 = t605 * A_j[3] + t606 * A_j[4] + t607 * A_j[5];
-    const jg_real t610 = t605 * A_j[6] + t606 * A_j[7] + t607 * A_j[8];
-    const jg_real t611 = t608 * s_j[0] + t609 * s_j[1] + t610 * s_j[2];
+    const jg_real t604 = omega_j[0] * t601 + omega_j[1] * t602 + omega_j[2] * t603;
+    const jg_real t605 = A_i[8] * f_i_world_1 - A_i[7] * f_i_world_2;
+    const jg_real t606 = A_i[6] * f_i_world_2 - A_i[8] * f_i_world_0;
+    const jg_real t607 = A_i[7] * f_i_world_0 - A_i[6] * f_i_world_1;
+    const jg_real t608 = A_j[0] * t605 + A_j[1] * t606 + A_j[2] * t607;
+    const jg_real t609 = A_j[3] * t605 + A_j[4] * t606 + A_j[5] * t607;
+    const jg_real t610 = A_j[6] * t605 + A_j[7] * t606 + A_j[8] * t607;
+    const jg_real t611 = s_j[0] * t608 + s_j[1] * t609 + s_j[2] * t610;
     const jg_real t612 = s_j[0] * t601 + s_j[1] * t602 + s_j[2] * t603;
-    const jg_real t613 = t608 * omega_j[0] + t609 * omega_j[1] + t610 * omega_j[2];
-    const jg_real t614 = t605 * r_j[0] + t606 * r_j[1] + t607 * r_j[2];
-    const jg_real t615 = t605 * r_i[0] + t606 * r_i[1] + t607 * r_i[2];
-    jac_phi_q_v_geometry[25] = t611 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t604 - (omega_j_in_joint_i_2 * t612
-        + t613 * s_j_in_joint_i_1) - (t523 + t611 * g_i_dot_omega_i - t612 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t614 + t524 - t526) - (t527 + g_i_dot_omega_i * t615 - t529));
-    const jg_real t616 = h_i_in_j_2 * t602 + t610 * g_i_in_j_1 - (h_i_in_j_1 * t603 + t609 * g_i_in_j_2);
-    const jg_real t617 = h_i_in_j_0 * t603 + t608 * g_i_in_j_2 - (h_i_in_j_2 * t601 + t610 * g_i_in_j_0);
-    const jg_real t618 = h_i_in_j_1 * t601 + t609 * g_i_in_j_0 - (h_i_in_j_0 * t602 + t608 * g_i_in_j_1);
+    const jg_real t613 = omega_j[0] * t608 + omega_j[1] * t609 + omega_j[2] * t610;
+    const jg_real t614 = r_j[0] * t605 + r_j[1] * t606 + r_j[2] * t607;
+    const jg_real t615 = r_i[0] * t605 + r_i[1] * t606 + r_i[2] * t607;
+    jac_phi_q_v_geometry[25] = omega_j_in_joint_i_1 * t611 + t604 * s_j_in_joint_i_2 - (t612 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t613) - (g_i_dot_omega_i * t614 + t524 - t526 + (t523 + g_i_dot_omega_i * t611 -
+        h_i_dot_omega_i * t612) - (t527 + g_i_dot_omega_i * t615 - t529));
+    const jg_real t616 = t602 * h_i_in_j_2 + g_i_in_j_1 * t610 - (t603 * h_i_in_j_1 + g_i_in_j_2 * t609);
+    const jg_real t617 = t603 * h_i_in_j_0 + g_i_in_j_2 * t608 - (t601 * h_i_in_j_2 + g_i_in_j_0 * t610);
+    const jg_real t618 = t601 * h_i_in_j_1 + g_i_in_j_0 * t609 - (t602 * h_i_in_j_0 + g_i_in_j_1 * t608);
     const jg_real t619 = s_j[0] * t616 + s_j[1] * t617 + s_j[2] * t618;
     const jg_real t620 = omega_j[0] * t616 + omega_j[1] * t617 + omega_j[2] * t618;
     jac_phi_q_v_geometry[26] = omega_j_in_joint_i_2 * t619 + t613 * s_j_in_joint_i_0 - (t611 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t620) - (h_i_dot_omega_i * t619 - t611 * f_i_dot_omega_i - t614 * f_i_dot_omega_i +
-        t615 * f_i_dot_omega_i + t516 - t517);
-    const jg_real t621 = t608 * C_j[6] + t609 * C_j[7] + t610 * C_j[8];
-    const jg_real t622 = t601 * C_j[6] + t602 * C_j[7] + t603 * C_j[8];
+        + s_j_in_joint_i_2 * t620) - (h_i_dot_omega_i * t619 - f_i_dot_omega_i * t611 - f_i_dot_omega_i * t614 +
+        f_i_dot_omega_i * t615 + t516 - t517);
+    const jg_real t621 = C_j[6] * t608 + C_j[7] * t609 + C_j[8] * t610;
+    const jg_real t622 = C_j[6] * t601 + C_j[7] * t602 + C_j[8] * t603;
     jac_phi_q_v_geometry[27] = t604 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t621 - (t613 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t622) - (t532 + g_i_dot_omega_i * t621 - h_i_dot_omega_i * t622);
-    const jg_real t623 = t616 * C_j[6] + t617 * C_j[7] + t618 * C_j[8];
-    jac_phi_q_v_geometry[28] = t613 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t623 - (t620 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t621) - (h_i_dot_omega_i * t623 - f_i_dot_omega_i * t621);
-    const jg_real t624 = t616 * C_j[0] + t617 * C_j[1] + t618 * C_j[2];
-    const jg_real t625 = t601 * C_j[0] + t602 * C_j[1] + t603 * C_j[2];
-    const jg_real t626 = t608 * C_j[0] + t609 * C_j[1] + t610 * C_j[2];
+    const jg_real t623 = C_j[6] * t616 + C_j[7] * t617 + C_j[8] * t618;
+    jac_phi_q_v_geometry[28] = t613 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t623 - (h_j_in_joint_i_2 * t620 +
+        t621 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t623 - f_i_dot_omega_i * t621);
+    const jg_real t624 = C_j[0] * t616 + C_j[1] * t617 + C_j[2] * t618;
+    const jg_real t625 = C_j[0] * t601 + C_j[1] * t602 + C_j[2] * t603;
+    const jg_real t626 = C_j[0] * t608 + C_j[1] * t609 + C_j[2] * t610;
     const jg_real t627 = h_i_dot_f_j * t626;
     const jg_real t628 = omega_i[2] * r_j_in_joint_i_0;
     const jg_real t629 = omega_i[2] * s_j_in_joint_i_0;
     const jg_real t630 = omega_i[2] * r_i_in_joint_i_0;
     jac_phi_q_v_geometry[29] = t612 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t620 - (omega_j_in_joint_i_1 * t619
-        + t604 * s_j_in_joint_i_0) - ((t626 * t73 + h_i_dot_f_j * (omega_i[2] * g_i_dot_f_j + g_i_dot_omega_i * t625
-        + f_i_dot_omega_i * t624 + h_i_dot_omega_i * t626 - (t620 * f_i_dot_f_j + omega_j_in_joint_i_0 * t624 +
-        (t604 * g_i_dot_f_j + omega_j_in_joint_i_1 * t625) + (t613 * h_i_dot_f_j + omega_j_in_joint_i_2 * t626))) +
-        t613) * t75 + (t627 + t627) * t77 * pitch * t76 + (t525 * f_i_dot_omega_i - t628) + (t612 * f_i_dot_omega_i
-        - (t629 + g_i_dot_omega_i * t619)) - (t528 * f_i_dot_omega_i - t630) + (t605 * v_i[0] + t606 * v_i[1] + t607
-        * v_i[2]) - (t605 * v_j[0] + t606 * v_j[1] + t607 * v_j[2]));
-    jac_phi_q_v_geometry[30] = t470 + t469 - t472;
-    jac_phi_q_v_geometry[31] = t570 - (t568 + t567);
+        + t604 * s_j_in_joint_i_0) - (v_i[0] * t605 + v_i[1] * t606 + v_i[2] * t607 + (f_i_dot_omega_i * t612 -
+        (t629 + g_i_dot_omega_i * t619) + (f_i_dot_omega_i * t525 - t628 + (t75 * (t626 * t73 + h_i_dot_f_j *
+        (omega_i[2] * g_i_dot_f_j + g_i_dot_omega_i * t625 + f_i_dot_omega_i * t624 + h_i_dot_omega_i * t626 - (t613
+        * h_i_dot_f_j + omega_j_in_joint_i_2 * t626 + (t620 * f_i_dot_f_j + omega_j_in_joint_i_0 * t624 + (t604 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t625)))) + t613) + (t627 + t627) * t76 * pitch * t78)) -
+        (f_i_dot_omega_i * t528 - t630)) - (v_j[0] * t605 + v_j[1] * t606 + v_j[2] * t607));
+    jac_phi_q_v_geometry[30] = t469 + t470 - t472;
+    jac_phi_q_v_geometry[31] = t570 - (t567 + t568);
     jac_phi_q_v_geometry[32] = omega_i[0] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[33] = -(omega_i[0] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[34] = -((omega_i[0] * h_i_dot_f_j * h_i_dot_f_j - omega_i[0]) * t75);
-    jac_phi_q_v_geometry[35] = t504 + t503 - t505;
-    jac_phi_q_v_geometry[36] = t600 - (t599 + t598);
+    jac_phi_q_v_geometry[35] = t503 + t504 - t505;
+    jac_phi_q_v_geometry[36] = t600 - (t598 + t599);
     jac_phi_q_v_geometry[37] = omega_i[1] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[38] = -(omega_i[1] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[39] = -((omega_i[1] * h_i_dot_f_j * h_i_dot_f_j - omega_i[1]) * t75);
-    jac_phi_q_v_geometry[40] = t537 + t536 - t538;
-    jac_phi_q_v_geometry[41] = t630 - (t629 + t628);
+    jac_phi_q_v_geometry[40] = t536 + t537 - t538;
+    jac_phi_q_v_geometry[41] = t630 - (t628 + t629);
     jac_phi_q_v_geometry[42] = omega_i[2] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[43] = -(omega_i[2] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[44] = -((omega_i[2] * h_i_dot_f_j * h_i_dot_f_j - omega_i[2]) * t75);
-    const jg_real t631 = h_i_in_j_0 * omega_j_in_joint_i_1 - g_i_in_j_0 * omega_j_in_joint_i_2 - (h_i_in_j_0 *
-        g_i_dot_omega_i - g_i_in_j_0 * h_i_dot_omega_i);
+    const jg_real t631 = h_i_in_j_0 * omega_j_in_joint_i_1 - g_i_in_j_0 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
+        h_i_in_j_0 - h_i_dot_omega_i * g_i_in_j_0);
     jac_phi_q_v_geometry[45] = t631;
     jac_phi_q_v_geometry[57] = t631;
-    const jg_real t632 = omega_j_in_joint_i_2 * f_i_in_j_0 - h_i_in_j_0 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_0 - h_i_in_j_0 * f_i_dot_omega_i);
+    const jg_real t632 = f_i_in_j_0 * omega_j_in_joint_i_2 - h_i_in_j_0 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+        f_i_in_j_0 - f_i_dot_omega_i * h_i_in_j_0);
     jac_phi_q_v_geometry[46] = t632;
     jac_phi_q_v_geometry[58] = t632;
-    jac_phi_q_v_geometry[47] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 - (g_i_in_j_0 *
-        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_0);
-    const jg_real t633 = h_i_in_j_1 * omega_j_in_joint_i_1 - g_i_in_j_1 * omega_j_in_joint_i_2 - (h_i_in_j_1 *
-        g_i_dot_omega_i - g_i_in_j_1 * h_i_dot_omega_i);
+    jac_phi_q_v_geometry[47] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 -
+        (f_i_dot_omega_i * g_i_in_j_0 - g_i_dot_omega_i * f_i_in_j_0);
+    const jg_real t633 = h_i_in_j_1 * omega_j_in_joint_i_1 - g_i_in_j_1 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
+        h_i_in_j_1 - h_i_dot_omega_i * g_i_in_j_1);
     jac_phi_q_v_geometry[48] = t633;
     jac_phi_q_v_geometry[59] = t633;
-    const jg_real t634 = omega_j_in_joint_i_2 * f_i_in_j_1 - h_i_in_j_1 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_1 - h_i_in_j_1 * f_i_dot_omega_i);
+    const jg_real t634 = f_i_in_j_1 * omega_j_in_joint_i_2 - h_i_in_j_1 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+        f_i_in_j_1 - f_i_dot_omega_i * h_i_in_j_1);
     jac_phi_q_v_geometry[49] = t634;
     jac_phi_q_v_geometry[60] = t634;
-    jac_phi_q_v_geometry[50] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 - (g_i_in_j_1 *
-        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_1);
-    const jg_real t635 = h_i_in_j_2 * omega_j_in_joint_i_1 - g_i_in_j_2 * omega_j_in_joint_i_2 - (h_i_in_j_2 *
-        g_i_dot_omega_i - g_i_in_j_2 * h_i_dot_omega_i);
+    jac_phi_q_v_geometry[50] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 -
+        (f_i_dot_omega_i * g_i_in_j_1 - g_i_dot_omega_i * f_i_in_j_1);
+    const jg_real t635 = h_i_in_j_2 * omega_j_in_joint_i_1 - g_i_in_j_2 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
+        h_i_in_j_2 - h_i_dot_omega_i * g_i_in_j_2);
     jac_phi_q_v_geometry[51] = t635;
     jac_phi_q_v_geometry[61] = t635;
-    const jg_real t636 = omega_j_in_joint_i_2 * f_i_in_j_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_2 - h_i_in_j_2 * f_i_dot_omega_i);
+    const jg_real t636 = f_i_in_j_2 * omega_j_in_joint_i_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+        f_i_in_j_2 - f_i_dot_omega_i * h_i_in_j_2);
     jac_phi_q_v_geometry[52] = t636;
     jac_phi_q_v_geometry[62] = t636;
-    jac_phi_q_v_geometry[53] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 - (g_i_in_j_2 *
-        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_2);
+    jac_phi_q_v_geometry[53] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 -
+        (f_i_dot_omega_i * g_i_in_j_2 - g_i_dot_omega_i * f_i_in_j_2);
     const jg_real t637 = h_i_in_j_0 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[54] = -((h_i_in_j_0 * t73 + h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_omega_i + g_i_in_j_0 *
-        g_i_dot_omega_i + h_i_in_j_0 * h_i_dot_omega_i - (f_i_in_j_0 * omega_j_in_joint_i_0 + g_i_in_j_0 *
-        omega_j_in_joint_i_1 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t637 + t637) * t77 * pitch * t76);
+    jac_phi_q_v_geometry[54] = -((h_i_in_j_0 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * f_i_in_j_0 + g_i_dot_omega_i *
+        g_i_in_j_0 + h_i_dot_omega_i * h_i_in_j_0 - (f_i_in_j_0 * omega_j_in_joint_i_0 + g_i_in_j_0 *
+        omega_j_in_joint_i_1 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t637 + t637) * t76 * pitch * t78);
     const jg_real t638 = h_i_in_j_1 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[55] = -((h_i_in_j_1 * t73 + h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_omega_i + g_i_in_j_1 *
-        g_i_dot_omega_i + h_i_in_j_1 * h_i_dot_omega_i - (f_i_in_j_1 * omega_j_in_joint_i_0 + g_i_in_j_1 *
-        omega_j_in_joint_i_1 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t638 + t638) * t77 * pitch * t76);
+    jac_phi_q_v_geometry[55] = -((h_i_in_j_1 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * f_i_in_j_1 + g_i_dot_omega_i *
+        g_i_in_j_1 + h_i_dot_omega_i * h_i_in_j_1 - (f_i_in_j_1 * omega_j_in_joint_i_0 + g_i_in_j_1 *
+        omega_j_in_joint_i_1 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t638 + t638) * t76 * pitch * t78);
     const jg_real t639 = h_i_in_j_2 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[56] = -((h_i_in_j_2 * t73 + h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_omega_i + g_i_in_j_2 *
-        g_i_dot_omega_i + h_i_in_j_2 * h_i_dot_omega_i - (f_i_in_j_2 * omega_j_in_joint_i_0 + g_i_in_j_2 *
-        omega_j_in_joint_i_1 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t639 + t639) * t77 * pitch * t76);
-    jac_phi_q_v_geometry[63] = -(t76 * spread);
+    jac_phi_q_v_geometry[56] = -((h_i_in_j_2 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * f_i_in_j_2 + g_i_dot_omega_i *
+        g_i_in_j_2 + h_i_dot_omega_i * h_i_in_j_2 - (f_i_in_j_2 * omega_j_in_joint_i_0 + g_i_in_j_2 *
+        omega_j_in_joint_i_1 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t639 + t639) * t76 * pitch * t78);
+    jac_phi_q_v_geometry[63] = -(spread * t78);
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
     jac_phi_q_v_velocity[2] = -h_i_world_0;
@@ -1434,51 +1444,51 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[6] = -f_i_world_2;
     jac_phi_q_v_velocity[7] = -g_i_world_2;
     jac_phi_q_v_velocity[8] = -h_i_world_2;
-    jac_phi_q_v_velocity[9] = C_i[3] * r_i_in_joint_i_2 - C_i[6] * r_i_in_joint_i_1 - (C_i[3] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[6] + (C_i[3] * r_j_in_joint_i_2 - C_i[6] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[10] = C_i[6] * r_i_in_joint_i_0 - C_i[0] * r_i_in_joint_i_2 - (C_i[6] * s_j_in_joint_i_0 -
-        C_i[0] * s_j_in_joint_i_2 + (C_i[6] * r_j_in_joint_i_0 - C_i[0] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[9] = C_i[3] * r_i_in_joint_i_2 - C_i[6] * r_i_in_joint_i_1 - (C_i[3] * r_j_in_joint_i_2 -
+        C_i[6] * r_j_in_joint_i_1 + (C_i[3] * s_j_in_joint_i_2 - C_i[6] * s_j_in_joint_i_1));
+    jac_phi_q_v_velocity[10] = C_i[6] * r_i_in_joint_i_0 - C_i[0] * r_i_in_joint_i_2 - (C_i[6] * r_j_in_joint_i_0 -
+        C_i[0] * r_j_in_joint_i_2 + (C_i[6] * s_j_in_joint_i_0 - C_i[0] * s_j_in_joint_i_2));
     jac_phi_q_v_velocity[11] = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[12] = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[13] = C_i[0] * r_i_in_joint_i_1 - C_i[3] * r_i_in_joint_i_0 - (C_i[0] * r_j_in_joint_i_1 -
-        C_i[3] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[0] * f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] *
-        h_i_dot_f_j) - C_i[6]) * t75 + (C_i[0] * s_j_in_joint_i_1 - C_i[3] * s_j_in_joint_i_0));
-    jac_phi_q_v_velocity[14] = C_i[4] * r_i_in_joint_i_2 - C_i[7] * r_i_in_joint_i_1 - (C_i[4] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[7] + (C_i[4] * r_j_in_joint_i_2 - C_i[7] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[15] = C_i[7] * r_i_in_joint_i_0 - C_i[1] * r_i_in_joint_i_2 - (C_i[7] * s_j_in_joint_i_0 -
-        C_i[1] * s_j_in_joint_i_2 + (C_i[7] * r_j_in_joint_i_0 - C_i[1] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[13] = C_i[0] * r_i_in_joint_i_1 - C_i[3] * r_i_in_joint_i_0 - (C_i[0] * s_j_in_joint_i_1 -
+        C_i[3] * s_j_in_joint_i_0 + (C_i[0] * r_j_in_joint_i_1 - C_i[3] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[0]
+        * f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] * h_i_dot_f_j) - C_i[6]) * t75));
+    jac_phi_q_v_velocity[14] = C_i[4] * r_i_in_joint_i_2 - C_i[7] * r_i_in_joint_i_1 - (C_i[4] * r_j_in_joint_i_2 -
+        C_i[7] * r_j_in_joint_i_1 + (C_i[4] * s_j_in_joint_i_2 - C_i[7] * s_j_in_joint_i_1));
+    jac_phi_q_v_velocity[15] = C_i[7] * r_i_in_joint_i_0 - C_i[1] * r_i_in_joint_i_2 - (C_i[7] * r_j_in_joint_i_0 -
+        C_i[1] * r_j_in_joint_i_2 + (C_i[7] * s_j_in_joint_i_0 - C_i[1] * s_j_in_joint_i_2));
     jac_phi_q_v_velocity[16] = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[17] = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[18] = C_i[1] * r_i_in_joint_i_1 - C_i[4] * r_i_in_joint_i_0 - (C_i[1] * r_j_in_joint_i_1 -
-        C_i[4] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[1] * f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] *
-        h_i_dot_f_j) - C_i[7]) * t75 + (C_i[1] * s_j_in_joint_i_1 - C_i[4] * s_j_in_joint_i_0));
-    jac_phi_q_v_velocity[19] = C_i[5] * r_i_in_joint_i_2 - C_i[8] * r_i_in_joint_i_1 - (C_i[5] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[8] + (C_i[5] * r_j_in_joint_i_2 - C_i[8] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[20] = C_i[8] * r_i_in_joint_i_0 - C_i[2] * r_i_in_joint_i_2 - (C_i[8] * s_j_in_joint_i_0 -
-        C_i[2] * s_j_in_joint_i_2 + (C_i[8] * r_j_in_joint_i_0 - C_i[2] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[18] = C_i[1] * r_i_in_joint_i_1 - C_i[4] * r_i_in_joint_i_0 - (C_i[1] * s_j_in_joint_i_1 -
+        C_i[4] * s_j_in_joint_i_0 + (C_i[1] * r_j_in_joint_i_1 - C_i[4] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[1]
+        * f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] * h_i_dot_f_j) - C_i[7]) * t75));
+    jac_phi_q_v_velocity[19] = C_i[5] * r_i_in_joint_i_2 - C_i[8] * r_i_in_joint_i_1 - (C_i[5] * r_j_in_joint_i_2 -
+        C_i[8] * r_j_in_joint_i_1 + (C_i[5] * s_j_in_joint_i_2 - C_i[8] * s_j_in_joint_i_1));
+    jac_phi_q_v_velocity[20] = C_i[8] * r_i_in_joint_i_0 - C_i[2] * r_i_in_joint_i_2 - (C_i[8] * r_j_in_joint_i_0 -
+        C_i[2] * r_j_in_joint_i_2 + (C_i[8] * s_j_in_joint_i_0 - C_i[2] * s_j_in_joint_i_2));
     jac_phi_q_v_velocity[21] = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[22] = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[23] = C_i[2] * r_i_in_joint_i_1 - C_i[5] * r_i_in_joint_i_0 - (C_i[2] * r_j_in_joint_i_1 -
-        C_i[5] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[2] * f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] *
-        h_i_dot_f_j) - C_i[8]) * t75 + (C_i[2] * s_j_in_joint_i_1 - C_i[5] * s_j_in_joint_i_0));
-    jac_phi_q_v_velocity[33] = s_j_in_joint_i_2 * g_i_in_j_0 - h_i_in_j_0 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[34] = h_i_in_j_0 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_0;
+    jac_phi_q_v_velocity[23] = C_i[2] * r_i_in_joint_i_1 - C_i[5] * r_i_in_joint_i_0 - (C_i[2] * s_j_in_joint_i_1 -
+        C_i[5] * s_j_in_joint_i_0 + (C_i[2] * r_j_in_joint_i_1 - C_i[5] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[2]
+        * f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] * h_i_dot_f_j) - C_i[8]) * t75));
+    jac_phi_q_v_velocity[33] = g_i_in_j_0 * s_j_in_joint_i_2 - h_i_in_j_0 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[34] = h_i_in_j_0 * s_j_in_joint_i_0 - f_i_in_j_0 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * f_i_in_j_0 - g_i_in_j_0 * s_j_in_joint_i_0 - (h_i_in_j_0 -
-        h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_f_j + g_i_in_j_0 * g_i_dot_f_j + t637)) * t75;
-    jac_phi_q_v_velocity[38] = s_j_in_joint_i_2 * g_i_in_j_1 - h_i_in_j_1 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[39] = h_i_in_j_1 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_1;
+    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * f_i_in_j_0 - g_i_in_j_0 * s_j_in_joint_i_0 - t75 * (h_i_in_j_0 -
+        h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_f_j + g_i_in_j_0 * g_i_dot_f_j + t637));
+    jac_phi_q_v_velocity[38] = g_i_in_j_1 * s_j_in_joint_i_2 - h_i_in_j_1 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[39] = h_i_in_j_1 * s_j_in_joint_i_0 - f_i_in_j_1 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[42] = s_j_in_joint_i_1 * f_i_in_j_1 - g_i_in_j_1 * s_j_in_joint_i_0 - (h_i_in_j_1 -
-        h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_f_j + g_i_in_j_1 * g_i_dot_f_j + t638)) * t75;
-    jac_phi_q_v_velocity[43] = s_j_in_joint_i_2 * g_i_in_j_2 - h_i_in_j_2 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[44] = h_i_in_j_2 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_2;
+    jac_phi_q_v_velocity[42] = s_j_in_joint_i_1 * f_i_in_j_1 - g_i_in_j_1 * s_j_in_joint_i_0 - t75 * (h_i_in_j_1 -
+        h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_f_j + g_i_in_j_1 * g_i_dot_f_j + t638));
+    jac_phi_q_v_velocity[43] = g_i_in_j_2 * s_j_in_joint_i_2 - h_i_in_j_2 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[44] = h_i_in_j_2 * s_j_in_joint_i_0 - f_i_in_j_2 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[47] = s_j_in_joint_i_1 * f_i_in_j_2 - g_i_in_j_2 * s_j_in_joint_i_0 - (h_i_in_j_2 -
-        h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_f_j + g_i_in_j_2 * g_i_dot_f_j + t639)) * t75;
+    jac_phi_q_v_velocity[47] = s_j_in_joint_i_1 * f_i_in_j_2 - g_i_in_j_2 * s_j_in_joint_i_0 - t75 * (h_i_in_j_2 -
+        h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_f_j + g_i_in_j_2 * g_i_dot_f_j + t639));
 }
 
 static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -1510,10 +1520,10 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
-    const jg_real v_0_world_2 = lambda[1] * g_i_world_2 + f_i_world_2 * lambda[0] + h_i_world_2 * lambda[4];
+    const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
     const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - f_i_world_2 * h_i_world_0;
     jac_phi_q_t_lambda_lambda[19] = g_i_world_1;
-    const jg_real v_0_world_1 = lambda[1] * g_i_world_1 + f_i_world_1 * lambda[0] + h_i_world_1 * lambda[4];
+    const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
     const jg_real t10 = A_i[1] * v_0_world_2 - A_i[2] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[0] = t10;
     jac_phi_q_t_lambda_r_i[0] = -t10;
@@ -1525,7 +1535,7 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_r_i[2] = -t12;
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
     jac_phi_q_t_lambda_lambda[18] = g_i_world_0;
-    const jg_real v_0_world_0 = g_i_world_0 * lambda[1] + f_i_world_0 * lambda[0] + h_i_world_0 * lambda[4];
+    const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
     const jg_real t15 = A_i[2] * v_0_world_0 - A_i[0] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[3] = t15;
     jac_phi_q_t_lambda_r_i[3] = -t15;
@@ -1552,64 +1562,64 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[0] = t22;
     jac_phi_q_t_lambda_A_i[13] = t22;
     jac_phi_q_t_lambda_A_i[26] = t22;
-    const jg_real t23 = f_i_world_2 * C_i[6] - C_i[0] * h_i_world_2;
-    const jg_real t24 = t23 * lambda[1];
+    const jg_real t23 = C_i[6] * f_i_world_2 - C_i[0] * h_i_world_2;
+    const jg_real t24 = lambda[1] * t23;
     jac_phi_q_t_lambda_A_i[1] = t24;
     jac_phi_q_t_lambda_A_i[18] = t24;
     const jg_real t25 = C_i[0] * h_i_world_1 - C_i[6] * f_i_world_1;
-    const jg_real t26 = t25 * lambda[1];
+    const jg_real t26 = lambda[1] * t25;
     jac_phi_q_t_lambda_A_i[2] = t26;
     jac_phi_q_t_lambda_A_i[30] = t26;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_0 = g_i_world_0 * lambda[3] + f_i_world_0 * lambda[2];
-    const jg_real v_2_world_1 = g_i_world_1 * lambda[3] + f_i_world_1 * lambda[2];
-    const jg_real v_2_world_2 = g_i_world_2 * lambda[3] + f_i_world_2 * lambda[2];
+    const jg_real v_2_world_0 = lambda[2] * f_i_world_0 + lambda[3] * g_i_world_0;
+    const jg_real v_2_world_1 = lambda[2] * f_i_world_1 + lambda[3] * g_i_world_1;
+    const jg_real v_2_world_2 = lambda[2] * f_i_world_2 + lambda[3] * g_i_world_2;
     /* v_2_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_2_in_j_1 = v_2_world_0 * A_j[3] + v_2_world_1 * A_j[4] + v_2_world_2 * A_j[5];
+    const jg_real v_2_in_j_1 = A_j[3] * v_2_world_0 + A_j[4] * v_2_world_1 + A_j[5] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[109] = v_2_in_j_1;
-    const jg_real v_2_in_j_2 = v_2_world_0 * A_j[6] + v_2_world_1 * A_j[7] + v_2_world_2 * A_j[8];
+    const jg_real v_2_in_j_2 = A_j[6] * v_2_world_0 + A_j[7] * v_2_world_1 + A_j[8] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[113] = v_2_in_j_2;
     /* v_3_in_j = lambda_2 f_i x h_j + lambda_3 g_i x h_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_2_in_j_1 * C_j[8] - v_2_in_j_2 * C_j[7];
+    const jg_real v_3_in_j_0 = C_j[8] * v_2_in_j_1 - C_j[7] * v_2_in_j_2;
     /* v_0_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
+    const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[80] = v_0_in_j_2;
-    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
+    const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[76] = v_0_in_j_1;
     /* v_1_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, axes of body j */
-    const jg_real v_1_in_j_0 = v_0_in_j_2 * s_j[1] - v_0_in_j_1 * s_j[2];
+    const jg_real v_1_in_j_0 = s_j[1] * v_0_in_j_2 - s_j[2] * v_0_in_j_1;
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
-    const jg_real t37 = h_i_in_j_0 * C_j[0];
-    const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
-    const jg_real t39 = h_i_in_j_1 * C_j[1];
-    const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
-    const jg_real t41 = h_i_in_j_2 * C_j[2];
+    const jg_real h_i_in_j_0 = A_j[1] * h_i_world_1 + A_j[0] * h_i_world_0 + A_j[2] * h_i_world_2;
+    const jg_real t37 = C_j[0] * h_i_in_j_0;
+    const jg_real h_i_in_j_1 = A_j[4] * h_i_world_1 + A_j[3] * h_i_world_0 + A_j[5] * h_i_world_2;
+    const jg_real t39 = C_j[1] * h_i_in_j_1;
+    const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
+    const jg_real t41 = C_j[2] * h_i_in_j_2;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = t37 + t39 + t41;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real t44 = lambda[4] * spread;
-    const jg_real t45 = t44 * pitch;
+    const jg_real t45 = pitch * t44;
     /* across_in_j = across, axes of body j */
     const jg_real across_in_j_0 = h_i_in_j_0 - C_j[0] * h_i_dot_f_j;
     /* v_4_in_j = lambda_4 spread pitch across, axes of body j */
-    const jg_real v_4_in_j_0 = t45 * across_in_j_0;
+    const jg_real v_4_in_j_0 = across_in_j_0 * t45;
     /* v_5_in_j = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ... */
     const jg_real v_5_in_j_0 = v_3_in_j_0 - v_1_in_j_0 + v_4_in_j_0;
-    const jg_real v_2_in_j_0 = v_2_world_0 * A_j[0] + v_2_world_1 * A_j[1] + v_2_world_2 * A_j[2];
+    const jg_real v_2_in_j_0 = A_j[0] * v_2_world_0 + A_j[1] * v_2_world_1 + A_j[2] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[119] = v_2_in_j_0;
-    const jg_real v_3_in_j_1 = v_2_in_j_2 * C_j[6] - C_j[8] * v_2_in_j_0;
-    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
+    const jg_real v_3_in_j_1 = C_j[6] * v_2_in_j_2 - C_j[8] * v_2_in_j_0;
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[86] = v_0_in_j_0;
-    const jg_real v_1_in_j_1 = s_j[2] * v_0_in_j_0 - v_0_in_j_2 * s_j[0];
+    const jg_real v_1_in_j_1 = s_j[2] * v_0_in_j_0 - s_j[0] * v_0_in_j_2;
     const jg_real across_in_j_1 = h_i_in_j_1 - C_j[1] * h_i_dot_f_j;
-    const jg_real v_4_in_j_1 = t45 * across_in_j_1;
+    const jg_real v_4_in_j_1 = across_in_j_1 * t45;
     const jg_real v_5_in_j_1 = v_3_in_j_1 - v_1_in_j_1 + v_4_in_j_1;
-    const jg_real v_3_in_j_2 = C_j[7] * v_2_in_j_0 - v_2_in_j_1 * C_j[6];
-    const jg_real v_1_in_j_2 = v_0_in_j_1 * s_j[0] - s_j[1] * v_0_in_j_0;
+    const jg_real v_3_in_j_2 = C_j[7] * v_2_in_j_0 - C_j[6] * v_2_in_j_1;
+    const jg_real v_1_in_j_2 = s_j[0] * v_0_in_j_1 - s_j[1] * v_0_in_j_0;
     const jg_real across_in_j_2 = h_i_in_j_2 - C_j[2] * h_i_dot_f_j;
-    const jg_real v_4_in_j_2 = t45 * across_in_j_2;
+    const jg_real v_4_in_j_2 = across_in_j_2 * t45;
     const jg_real v_5_in_j_2 = v_3_in_j_2 - v_1_in_j_2 + v_4_in_j_2;
     /* v_5_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
         */
@@ -1618,40 +1628,40 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real v_6_world_1 = r_j[1] - r_i[1];
     const jg_real v_6_world_2 = r_j[2] - r_i[2];
     /* v_7_world = lambda_0 r_j x f_i + lambda_1 r_j x g_i + lambda_4 r_j x h_i - lambda_0 r_i x f_i - ... */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
+    const jg_real v_7_world_0 = v_6_world_1 * v_0_world_2 - v_6_world_2 * v_0_world_1;
     /* v_8_world = lambda_4 spread pitch across - lambda_0 r_j x f_i - lambda_1 r_j x g_i - lambda_4 r_j x h_i ...
         */
     const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    const jg_real t66 = t23 * lambda[3];
+    const jg_real t66 = lambda[3] * t23;
     const jg_real t67 = C_i[0] * lambda[2];
-    const jg_real t68 = t25 * lambda[3];
-    const jg_real t69 = t67 * A_j[3] - t66 * A_j[4] - t68 * A_j[5];
-    const jg_real t70 = t67 * A_j[6] - t66 * A_j[7] - t68 * A_j[8];
-    const jg_real t71 = t21 * A_j[6] - t24 * A_j[7] - t26 * A_j[8];
-    const jg_real t72 = t21 * A_j[3] - t24 * A_j[4] - t26 * A_j[5];
+    const jg_real t68 = lambda[3] * t25;
+    const jg_real t69 = A_j[3] * t67 - A_j[4] * t66 - A_j[5] * t68;
+    const jg_real t70 = A_j[6] * t67 - A_j[7] * t66 - A_j[8] * t68;
+    const jg_real t71 = A_j[6] * t21 - A_j[7] * t24 - A_j[8] * t26;
+    const jg_real t72 = A_j[3] * t21 - A_j[4] * t24 - A_j[5] * t26;
     const jg_real t73 = spread * spread;
     const jg_real t74 = C_i[6] * A_j[0];
     const jg_real t75 = C_i[6] * A_j[3];
     const jg_real t76 = C_i[6] * A_j[6];
-    const jg_real t77 = t74 * C_j[0] + t75 * C_j[1] + t76 * C_j[2];
+    const jg_real t77 = C_j[0] * t74 + C_j[1] * t75 + C_j[2] * t76;
     const jg_real t78 = h_i_dot_f_j * t77;
     const jg_real t79 = (t78 + t78) * t73 * lambda[4] * pitch;
-    const jg_real t80 = t69 * C_j[8] - t70 * C_j[7] - (t71 * s_j[1] - t72 * s_j[2]) + (t79 * across_in_j_0 + t45 *
-        (t74 - C_j[0] * t77));
-    const jg_real t81 = t67 * A_j[0] - t66 * A_j[1] - t68 * A_j[2];
-    const jg_real t82 = t21 * A_j[0] - t24 * A_j[1] - t26 * A_j[2];
-    const jg_real t83 = t70 * C_j[6] - C_j[8] * t81 - (s_j[2] * t82 - t71 * s_j[0]) + (t79 * across_in_j_1 + t45 *
-        (t75 - C_j[1] * t77));
-    const jg_real t84 = C_j[7] * t81 - t69 * C_j[6] - (t72 * s_j[0] - s_j[1] * t82) + (t79 * across_in_j_2 + t45 *
-        (t76 - C_j[2] * t77));
-    const jg_real t85 = t24 * v_6_world_2;
-    const jg_real t86 = t26 * v_6_world_1;
+    const jg_real t80 = C_j[8] * t69 - C_j[7] * t70 - (s_j[1] * t71 - s_j[2] * t72) + (across_in_j_0 * t79 + (t74 -
+        C_j[0] * t77) * t45);
+    const jg_real t81 = A_j[0] * t67 - A_j[1] * t66 - A_j[2] * t68;
+    const jg_real t82 = A_j[0] * t21 - A_j[1] * t24 - A_j[2] * t26;
+    const jg_real t83 = C_j[6] * t70 - C_j[8] * t81 - (s_j[2] * t82 - s_j[0] * t71) + (across_in_j_1 * t79 + (t75 -
+        C_j[1] * t77) * t45);
+    const jg_real t84 = C_j[7] * t81 - C_j[6] * t69 - (s_j[0] * t72 - s_j[1] * t82) + (across_in_j_2 * t79 + (t76 -
+        C_j[2] * t77) * t45);
+    const jg_real t85 = v_6_world_2 * t24;
+    const jg_real t86 = v_6_world_1 * t26;
     const jg_real t87 = A_j[0] * t80 + A_j[3] * t83 + A_j[6] * t84 - (t85 - t86);
     const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t89 = t21 * v_6_world_2;
-    const jg_real t90 = A_j[1] * t80 + A_j[4] * t83 + A_j[7] * t84 - (t89 + t26 * v_6_world_0);
-    const jg_real t91 = t21 * v_6_world_1;
-    const jg_real t92 = A_j[2] * t80 + A_j[5] * t83 + A_j[8] * t84 + (t91 + t24 * v_6_world_0);
+    const jg_real t89 = v_6_world_2 * t21;
+    const jg_real t90 = A_j[1] * t80 + A_j[4] * t83 + A_j[7] * t84 - (t89 + v_6_world_0 * t26);
+    const jg_real t91 = v_6_world_1 * t21;
+    const jg_real t92 = t91 + v_6_world_0 * t24 + (A_j[2] * t80 + A_j[5] * t83 + A_j[8] * t84);
     jac_phi_q_t_lambda_A_i[3] = v_8_world_0 + A_i[0] * t87 + A_i[1] * t90 + A_i[2] * t92;
     jac_phi_q_t_lambda_A_i[4] = A_i[3] * t87 + A_i[4] * t90 + A_i[5] * t92;
     jac_phi_q_t_lambda_A_i[5] = A_i[6] * t87 + A_i[7] * t90 + A_i[8] * t92;
@@ -1669,32 +1679,32 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[14] = t96;
     jac_phi_q_t_lambda_A_i[31] = t96;
     const jg_real v_5_world_1 = A_j[1] * v_5_in_j_0 + A_j[4] * v_5_in_j_1 + A_j[7] * v_5_in_j_2;
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
+    const jg_real v_7_world_1 = v_6_world_2 * v_0_world_0 - v_6_world_0 * v_0_world_2;
     const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    const jg_real t100 = t95 * lambda[3];
-    const jg_real t101 = t66 * A_j[3] + t67 * A_j[4] - t100 * A_j[5];
-    const jg_real t102 = t66 * A_j[6] + t67 * A_j[7] - t100 * A_j[8];
-    const jg_real t103 = t24 * A_j[6] + t21 * A_j[7] - t96 * A_j[8];
-    const jg_real t104 = t24 * A_j[3] + t21 * A_j[4] - t96 * A_j[5];
+    const jg_real t100 = lambda[3] * t95;
+    const jg_real t101 = A_j[3] * t66 + A_j[4] * t67 - A_j[5] * t100;
+    const jg_real t102 = A_j[6] * t66 + A_j[7] * t67 - A_j[8] * t100;
+    const jg_real t103 = A_j[6] * t24 + A_j[7] * t21 - A_j[8] * t96;
+    const jg_real t104 = A_j[3] * t24 + A_j[4] * t21 - A_j[5] * t96;
     const jg_real t105 = C_i[6] * A_j[1];
     const jg_real t106 = C_i[6] * A_j[4];
     const jg_real t107 = C_i[6] * A_j[7];
-    const jg_real t108 = t105 * C_j[0] + t106 * C_j[1] + t107 * C_j[2];
+    const jg_real t108 = C_j[0] * t105 + C_j[1] * t106 + C_j[2] * t107;
     const jg_real t109 = h_i_dot_f_j * t108;
     const jg_real t110 = (t109 + t109) * t73 * lambda[4] * pitch;
-    const jg_real t111 = t101 * C_j[8] - t102 * C_j[7] - (t103 * s_j[1] - t104 * s_j[2]) + (t110 * across_in_j_0 +
-        t45 * (t105 - C_j[0] * t108));
-    const jg_real t112 = t66 * A_j[0] + t67 * A_j[1] - t100 * A_j[2];
-    const jg_real t113 = t24 * A_j[0] + t21 * A_j[1] - t96 * A_j[2];
-    const jg_real t114 = t102 * C_j[6] - C_j[8] * t112 - (s_j[2] * t113 - t103 * s_j[0]) + (t110 * across_in_j_1 +
-        t45 * (t106 - C_j[1] * t108));
-    const jg_real t115 = C_j[7] * t112 - t101 * C_j[6] - (t104 * s_j[0] - s_j[1] * t113) + (t110 * across_in_j_2 +
-        t45 * (t107 - C_j[2] * t108));
-    const jg_real t116 = t96 * v_6_world_0;
+    const jg_real t111 = C_j[8] * t101 - C_j[7] * t102 - (s_j[1] * t103 - s_j[2] * t104) + (across_in_j_0 * t110 +
+        (t105 - C_j[0] * t108) * t45);
+    const jg_real t112 = A_j[0] * t66 + A_j[1] * t67 - A_j[2] * t100;
+    const jg_real t113 = A_j[0] * t24 + A_j[1] * t21 - A_j[2] * t96;
+    const jg_real t114 = C_j[6] * t102 - C_j[8] * t112 - (s_j[2] * t113 - s_j[0] * t103) + (across_in_j_1 * t110 +
+        (t106 - C_j[1] * t108) * t45);
+    const jg_real t115 = C_j[7] * t112 - C_j[6] * t101 - (s_j[0] * t104 - s_j[1] * t113) + (across_in_j_2 * t110 +
+        (t107 - C_j[2] * t108) * t45);
+    const jg_real t116 = v_6_world_0 * t96;
     const jg_real t117 = A_j[1] * t111 + A_j[4] * t114 + A_j[7] * t115 - (t85 + t116);
-    const jg_real t118 = A_j[0] * t111 + A_j[3] * t114 + A_j[6] * t115 + (t96 * v_6_world_1 + t89);
-    const jg_real t119 = t21 * v_6_world_0;
-    const jg_real t120 = A_j[2] * t111 + A_j[5] * t114 + A_j[8] * t115 - (t119 - t24 * v_6_world_1);
+    const jg_real t118 = t89 + v_6_world_1 * t96 + (A_j[0] * t111 + A_j[3] * t114 + A_j[6] * t115);
+    const jg_real t119 = v_6_world_0 * t21;
+    const jg_real t120 = A_j[2] * t111 + A_j[5] * t114 + A_j[8] * t115 - (t119 - v_6_world_1 * t24);
     jac_phi_q_t_lambda_A_i[15] = v_8_world_1 + A_i[1] * t117 + A_i[0] * t118 + A_i[2] * t120;
     jac_phi_q_t_lambda_A_i[16] = A_i[3] * t118 + A_i[4] * t117 + A_i[5] * t120;
     jac_phi_q_t_lambda_A_i[17] = A_i[6] * t118 + A_i[7] * t117 + A_i[8] * t120;
@@ -1704,36 +1714,36 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[21] = -t111;
     jac_phi_q_t_lambda_A_i[22] = -t114;
     jac_phi_q_t_lambda_A_i[23] = -t115;
-    const jg_real t122 = t68 * A_j[3] + t100 * A_j[4] + t67 * A_j[5];
-    const jg_real t123 = t68 * A_j[6] + t100 * A_j[7] + t67 * A_j[8];
-    const jg_real t124 = t26 * A_j[6] + t96 * A_j[7] + t21 * A_j[8];
-    const jg_real t125 = t26 * A_j[3] + t96 * A_j[4] + t21 * A_j[5];
-    const jg_real t126 = C_i[6] * A_j[2];
-    const jg_real t127 = C_i[6] * A_j[5];
-    const jg_real t128 = C_i[6] * A_j[8];
-    const jg_real t129 = t126 * C_j[0] + t127 * C_j[1] + t128 * C_j[2];
-    const jg_real t130 = h_i_dot_f_j * t129;
-    const jg_real t131 = (t130 + t130) * t73 * lambda[4] * pitch;
-    const jg_real t132 = t122 * C_j[8] - t123 * C_j[7] - (t124 * s_j[1] - t125 * s_j[2]) + (t131 * across_in_j_0 +
-        t45 * (t126 - C_j[0] * t129));
-    const jg_real t133 = t68 * A_j[0] + t100 * A_j[1] + t67 * A_j[2];
-    const jg_real t134 = t26 * A_j[0] + t96 * A_j[1] + t21 * A_j[2];
-    const jg_real t135 = t123 * C_j[6] - C_j[8] * t133 - (s_j[2] * t134 - t124 * s_j[0]) + (t131 * across_in_j_1 +
-        t45 * (t127 - C_j[1] * t129));
-    const jg_real t136 = C_j[7] * t133 - t122 * C_j[6] - (t125 * s_j[0] - s_j[1] * t134) + (t131 * across_in_j_2 +
-        t45 * (t128 - C_j[2] * t129));
-    const jg_real t137 = A_j[0] * t132 + A_j[3] * t135 + A_j[6] * t136 - (t91 - t96 * v_6_world_2);
-    const jg_real t138 = A_j[1] * t132 + A_j[4] * t135 + A_j[7] * t136 - (t26 * v_6_world_2 - t119);
     const jg_real v_5_world_2 = A_j[2] * v_5_in_j_0 + A_j[5] * v_5_in_j_1 + A_j[8] * v_5_in_j_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
+    const jg_real v_7_world_2 = v_6_world_0 * v_0_world_1 - v_6_world_1 * v_0_world_0;
     const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    const jg_real t142 = A_j[2] * t132 + A_j[5] * t135 + A_j[8] * t136 - (t116 - t86);
-    jac_phi_q_t_lambda_A_i[27] = A_i[0] * t137 + A_i[1] * t138 + (v_8_world_2 + A_i[2] * t142);
-    jac_phi_q_t_lambda_A_i[28] = A_i[3] * t137 + A_i[4] * t138 + A_i[5] * t142;
-    jac_phi_q_t_lambda_A_i[29] = A_i[6] * t137 + A_i[7] * t138 + A_i[8] * t142;
-    jac_phi_q_t_lambda_A_i[33] = -t132;
-    jac_phi_q_t_lambda_A_i[34] = -t135;
-    jac_phi_q_t_lambda_A_i[35] = -t136;
+    const jg_real t125 = A_j[3] * t68 + A_j[4] * t100 + A_j[5] * t67;
+    const jg_real t126 = A_j[6] * t68 + A_j[7] * t100 + A_j[8] * t67;
+    const jg_real t127 = A_j[6] * t26 + A_j[7] * t96 + A_j[8] * t21;
+    const jg_real t128 = A_j[3] * t26 + A_j[4] * t96 + A_j[5] * t21;
+    const jg_real t129 = C_i[6] * A_j[2];
+    const jg_real t130 = C_i[6] * A_j[5];
+    const jg_real t131 = C_i[6] * A_j[8];
+    const jg_real t132 = C_j[0] * t129 + C_j[1] * t130 + C_j[2] * t131;
+    const jg_real t133 = h_i_dot_f_j * t132;
+    const jg_real t134 = (t133 + t133) * t73 * lambda[4] * pitch;
+    const jg_real t135 = C_j[8] * t125 - C_j[7] * t126 - (s_j[1] * t127 - s_j[2] * t128) + (across_in_j_0 * t134 +
+        (t129 - C_j[0] * t132) * t45);
+    const jg_real t136 = A_j[0] * t68 + A_j[1] * t100 + A_j[2] * t67;
+    const jg_real t137 = A_j[0] * t26 + A_j[1] * t96 + A_j[2] * t21;
+    const jg_real t138 = C_j[6] * t126 - C_j[8] * t136 - (s_j[2] * t137 - s_j[0] * t127) + (across_in_j_1 * t134 +
+        (t130 - C_j[1] * t132) * t45);
+    const jg_real t139 = C_j[7] * t136 - C_j[6] * t125 - (s_j[0] * t128 - s_j[1] * t137) + (across_in_j_2 * t134 +
+        (t131 - C_j[2] * t132) * t45);
+    const jg_real t140 = A_j[2] * t135 + A_j[5] * t138 + A_j[8] * t139 - (t116 - t86);
+    const jg_real t141 = A_j[0] * t135 + A_j[3] * t138 + A_j[6] * t139 - (t91 - v_6_world_2 * t96);
+    const jg_real t142 = A_j[1] * t135 + A_j[4] * t138 + A_j[7] * t139 - (v_6_world_2 * t26 - t119);
+    jac_phi_q_t_lambda_A_i[27] = v_8_world_2 + A_i[2] * t140 + (A_i[0] * t141 + A_i[1] * t142);
+    jac_phi_q_t_lambda_A_i[28] = A_i[3] * t141 + A_i[4] * t142 + A_i[5] * t140;
+    jac_phi_q_t_lambda_A_i[29] = A_i[6] * t141 + A_i[7] * t142 + A_i[8] * t140;
+    jac_phi_q_t_lambda_A_i[33] = -t135;
+    jac_phi_q_t_lambda_A_i[34] = -t138;
+    jac_phi_q_t_lambda_A_i[35] = -t139;
     const jg_real t143 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
     jac_phi_q_t_lambda_A_i[42] = t143;
     jac_phi_q_t_lambda_A_i[55] = t143;
@@ -1742,42 +1752,42 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[36] = t144;
     jac_phi_q_t_lambda_A_i[49] = t144;
     jac_phi_q_t_lambda_A_i[62] = t144;
-    const jg_real t145 = f_i_world_2 * C_i[7] - C_i[1] * h_i_world_2;
-    const jg_real t146 = t145 * lambda[1];
+    const jg_real t145 = C_i[7] * f_i_world_2 - C_i[1] * h_i_world_2;
+    const jg_real t146 = lambda[1] * t145;
     jac_phi_q_t_lambda_A_i[37] = t146;
     jac_phi_q_t_lambda_A_i[54] = t146;
     const jg_real t147 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
-    const jg_real t148 = t147 * lambda[1];
+    const jg_real t148 = lambda[1] * t147;
     jac_phi_q_t_lambda_A_i[38] = t148;
     jac_phi_q_t_lambda_A_i[66] = t148;
-    const jg_real t149 = t145 * lambda[3];
+    const jg_real t149 = lambda[3] * t145;
     const jg_real t150 = C_i[1] * lambda[2];
-    const jg_real t151 = t147 * lambda[3];
-    const jg_real t152 = t150 * A_j[3] - t149 * A_j[4] - t151 * A_j[5];
-    const jg_real t153 = t150 * A_j[6] - t149 * A_j[7] - t151 * A_j[8];
-    const jg_real t154 = t143 * A_j[6] - t146 * A_j[7] - t148 * A_j[8];
-    const jg_real t155 = t143 * A_j[3] - t146 * A_j[4] - t148 * A_j[5];
+    const jg_real t151 = lambda[3] * t147;
+    const jg_real t152 = A_j[3] * t150 - A_j[4] * t149 - A_j[5] * t151;
+    const jg_real t153 = A_j[6] * t150 - A_j[7] * t149 - A_j[8] * t151;
+    const jg_real t154 = A_j[6] * t143 - A_j[7] * t146 - A_j[8] * t148;
+    const jg_real t155 = A_j[3] * t143 - A_j[4] * t146 - A_j[5] * t148;
     const jg_real t156 = C_i[7] * A_j[0];
     const jg_real t157 = C_i[7] * A_j[3];
     const jg_real t158 = C_i[7] * A_j[6];
-    const jg_real t159 = t156 * C_j[0] + t157 * C_j[1] + t158 * C_j[2];
+    const jg_real t159 = C_j[0] * t156 + C_j[1] * t157 + C_j[2] * t158;
     const jg_real t160 = h_i_dot_f_j * t159;
     const jg_real t161 = (t160 + t160) * t73 * lambda[4] * pitch;
-    const jg_real t162 = t152 * C_j[8] - t153 * C_j[7] - (t154 * s_j[1] - t155 * s_j[2]) + (t161 * across_in_j_0 +
-        t45 * (t156 - C_j[0] * t159));
-    const jg_real t163 = t150 * A_j[0] - t149 * A_j[1] - t151 * A_j[2];
-    const jg_real t164 = t143 * A_j[0] - t146 * A_j[1] - t148 * A_j[2];
-    const jg_real t165 = t153 * C_j[6] - C_j[8] * t163 - (s_j[2] * t164 - t154 * s_j[0]) + (t161 * across_in_j_1 +
-        t45 * (t157 - C_j[1] * t159));
-    const jg_real t166 = C_j[7] * t163 - t152 * C_j[6] - (t155 * s_j[0] - s_j[1] * t164) + (t161 * across_in_j_2 +
-        t45 * (t158 - C_j[2] * t159));
-    const jg_real t167 = t146 * v_6_world_2;
-    const jg_real t168 = t148 * v_6_world_1;
+    const jg_real t162 = C_j[8] * t152 - C_j[7] * t153 - (s_j[1] * t154 - s_j[2] * t155) + (across_in_j_0 * t161 +
+        (t156 - C_j[0] * t159) * t45);
+    const jg_real t163 = A_j[0] * t150 - A_j[1] * t149 - A_j[2] * t151;
+    const jg_real t164 = A_j[0] * t143 - A_j[1] * t146 - A_j[2] * t148;
+    const jg_real t165 = C_j[6] * t153 - C_j[8] * t163 - (s_j[2] * t164 - s_j[0] * t154) + (across_in_j_1 * t161 +
+        (t157 - C_j[1] * t159) * t45);
+    const jg_real t166 = C_j[7] * t163 - C_j[6] * t152 - (s_j[0] * t155 - s_j[1] * t164) + (across_in_j_2 * t161 +
+        (t158 - C_j[2] * t159) * t45);
+    const jg_real t167 = v_6_world_2 * t146;
+    const jg_real t168 = v_6_world_1 * t148;
     const jg_real t169 = A_j[0] * t162 + A_j[3] * t165 + A_j[6] * t166 - (t167 - t168);
-    const jg_real t170 = t143 * v_6_world_2;
-    const jg_real t171 = A_j[1] * t162 + A_j[4] * t165 + A_j[7] * t166 - (t170 + t148 * v_6_world_0);
-    const jg_real t172 = t143 * v_6_world_1;
-    const jg_real t173 = A_j[2] * t162 + A_j[5] * t165 + A_j[8] * t166 + (t172 + t146 * v_6_world_0);
+    const jg_real t170 = v_6_world_2 * t143;
+    const jg_real t171 = A_j[1] * t162 + A_j[4] * t165 + A_j[7] * t166 - (t170 + v_6_world_0 * t148);
+    const jg_real t172 = v_6_world_1 * t143;
+    const jg_real t173 = t172 + v_6_world_0 * t146 + (A_j[2] * t162 + A_j[5] * t165 + A_j[8] * t166);
     jac_phi_q_t_lambda_A_i[39] = A_i[0] * t169 + A_i[1] * t171 + A_i[2] * t173;
     jac_phi_q_t_lambda_A_i[40] = v_8_world_0 + A_i[3] * t169 + A_i[4] * t171 + A_i[5] * t173;
     jac_phi_q_t_lambda_A_i[41] = A_i[6] * t169 + A_i[7] * t171 + A_i[8] * t173;
@@ -1794,30 +1804,30 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t177 = lambda[1] * t176;
     jac_phi_q_t_lambda_A_i[50] = t177;
     jac_phi_q_t_lambda_A_i[67] = t177;
-    const jg_real t178 = t176 * lambda[3];
-    const jg_real t179 = t149 * A_j[3] + t150 * A_j[4] - t178 * A_j[5];
-    const jg_real t180 = t149 * A_j[6] + t150 * A_j[7] - t178 * A_j[8];
-    const jg_real t181 = t146 * A_j[6] + t143 * A_j[7] - t177 * A_j[8];
-    const jg_real t182 = t146 * A_j[3] + t143 * A_j[4] - t177 * A_j[5];
+    const jg_real t178 = lambda[3] * t176;
+    const jg_real t179 = A_j[3] * t149 + A_j[4] * t150 - A_j[5] * t178;
+    const jg_real t180 = A_j[6] * t149 + A_j[7] * t150 - A_j[8] * t178;
+    const jg_real t181 = A_j[6] * t146 + A_j[7] * t143 - A_j[8] * t177;
+    const jg_real t182 = A_j[3] * t146 + A_j[4] * t143 - A_j[5] * t177;
     const jg_real t183 = C_i[7] * A_j[1];
     const jg_real t184 = C_i[7] * A_j[4];
     const jg_real t185 = C_i[7] * A_j[7];
-    const jg_real t186 = t183 * C_j[0] + t184 * C_j[1] + t185 * C_j[2];
+    const jg_real t186 = C_j[0] * t183 + C_j[1] * t184 + C_j[2] * t185;
     const jg_real t187 = h_i_dot_f_j * t186;
     const jg_real t188 = (t187 + t187) * t73 * lambda[4] * pitch;
-    const jg_real t189 = t179 * C_j[8] - t180 * C_j[7] - (t181 * s_j[1] - t182 * s_j[2]) + (t188 * across_in_j_0 +
-        t45 * (t183 - C_j[0] * t186));
-    const jg_real t190 = t149 * A_j[0] + t150 * A_j[1] - t178 * A_j[2];
-    const jg_real t191 = t146 * A_j[0] + t143 * A_j[1] - t177 * A_j[2];
-    const jg_real t192 = t180 * C_j[6] - C_j[8] * t190 - (s_j[2] * t191 - t181 * s_j[0]) + (t188 * across_in_j_1 +
-        t45 * (t184 - C_j[1] * t186));
-    const jg_real t193 = C_j[7] * t190 - t179 * C_j[6] - (t182 * s_j[0] - s_j[1] * t191) + (t188 * across_in_j_2 +
-        t45 * (t185 - C_j[2] * t186));
-    const jg_real t194 = A_j[0] * t189 + A_j[3] * t192 + A_j[6] * t193 + (t177 * v_6_world_1 + t170);
-    const jg_real t195 = t177 * v_6_world_0;
+    const jg_real t189 = C_j[8] * t179 - C_j[7] * t180 - (s_j[1] * t181 - s_j[2] * t182) + (across_in_j_0 * t188 +
+        (t183 - C_j[0] * t186) * t45);
+    const jg_real t190 = A_j[0] * t149 + A_j[1] * t150 - A_j[2] * t178;
+    const jg_real t191 = A_j[0] * t146 + A_j[1] * t143 - A_j[2] * t177;
+    const jg_real t192 = C_j[6] * t180 - C_j[8] * t190 - (s_j[2] * t191 - s_j[0] * t181) + (across_in_j_1 * t188 +
+        (t184 - C_j[1] * t186) * t45);
+    const jg_real t193 = C_j[7] * t190 - C_j[6] * t179 - (s_j[0] * t182 - s_j[1] * t191) + (across_in_j_2 * t188 +
+        (t185 - C_j[2] * t186) * t45);
+    const jg_real t194 = t170 + v_6_world_1 * t177 + (A_j[0] * t189 + A_j[3] * t192 + A_j[6] * t193);
+    const jg_real t195 = v_6_world_0 * t177;
     const jg_real t196 = A_j[1] * t189 + A_j[4] * t192 + A_j[7] * t193 - (t167 + t195);
-    const jg_real t197 = t143 * v_6_world_0;
-    const jg_real t198 = A_j[2] * t189 + A_j[5] * t192 + A_j[8] * t193 - (t197 - t146 * v_6_world_1);
+    const jg_real t197 = v_6_world_0 * t143;
+    const jg_real t198 = A_j[2] * t189 + A_j[5] * t192 + A_j[8] * t193 - (t197 - v_6_world_1 * t146);
     jac_phi_q_t_lambda_A_i[51] = A_i[0] * t194 + A_i[1] * t196 + A_i[2] * t198;
     jac_phi_q_t_lambda_A_i[52] = v_8_world_1 + A_i[4] * t196 + A_i[3] * t194 + A_i[5] * t198;
     jac_phi_q_t_lambda_A_i[53] = A_i[6] * t194 + A_i[7] * t196 + A_i[8] * t198;
@@ -1827,29 +1837,29 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[57] = -t189;
     jac_phi_q_t_lambda_A_i[58] = -t192;
     jac_phi_q_t_lambda_A_i[59] = -t193;
-    const jg_real t200 = t151 * A_j[3] + t178 * A_j[4] + t150 * A_j[5];
-    const jg_real t201 = t151 * A_j[6] + t178 * A_j[7] + t150 * A_j[8];
-    const jg_real t202 = t148 * A_j[6] + t177 * A_j[7] + t143 * A_j[8];
-    const jg_real t203 = t148 * A_j[3] + t177 * A_j[4] + t143 * A_j[5];
+    const jg_real t200 = A_j[3] * t151 + A_j[4] * t178 + A_j[5] * t150;
+    const jg_real t201 = A_j[6] * t151 + A_j[7] * t178 + A_j[8] * t150;
+    const jg_real t202 = A_j[6] * t148 + A_j[7] * t177 + A_j[8] * t143;
+    const jg_real t203 = A_j[3] * t148 + A_j[4] * t177 + A_j[5] * t143;
     const jg_real t204 = C_i[7] * A_j[2];
     const jg_real t205 = C_i[7] * A_j[5];
     const jg_real t206 = C_i[7] * A_j[8];
-    const jg_real t207 = t204 * C_j[0] + t205 * C_j[1] + t206 * C_j[2];
+    const jg_real t207 = C_j[0] * t204 + C_j[1] * t205 + C_j[2] * t206;
     const jg_real t208 = h_i_dot_f_j * t207;
     const jg_real t209 = (t208 + t208) * t73 * lambda[4] * pitch;
-    const jg_real t210 = t200 * C_j[8] - t201 * C_j[7] - (t202 * s_j[1] - t203 * s_j[2]) + (t209 * across_in_j_0 +
-        t45 * (t204 - C_j[0] * t207));
-    const jg_real t211 = t151 * A_j[0] + t178 * A_j[1] + t150 * A_j[2];
-    const jg_real t212 = t148 * A_j[0] + t177 * A_j[1] + t143 * A_j[2];
-    const jg_real t213 = t201 * C_j[6] - C_j[8] * t211 - (s_j[2] * t212 - t202 * s_j[0]) + (t209 * across_in_j_1 +
-        t45 * (t205 - C_j[1] * t207));
-    const jg_real t214 = C_j[7] * t211 - t200 * C_j[6] - (t203 * s_j[0] - s_j[1] * t212) + (t209 * across_in_j_2 +
-        t45 * (t206 - C_j[2] * t207));
-    const jg_real t215 = A_j[0] * t210 + A_j[3] * t213 + A_j[6] * t214 - (t172 - t177 * v_6_world_2);
-    const jg_real t216 = A_j[1] * t210 + A_j[4] * t213 + A_j[7] * t214 - (t148 * v_6_world_2 - t197);
+    const jg_real t210 = C_j[8] * t200 - C_j[7] * t201 - (s_j[1] * t202 - s_j[2] * t203) + (across_in_j_0 * t209 +
+        (t204 - C_j[0] * t207) * t45);
+    const jg_real t211 = A_j[0] * t151 + A_j[1] * t178 + A_j[2] * t150;
+    const jg_real t212 = A_j[0] * t148 + A_j[1] * t177 + A_j[2] * t143;
+    const jg_real t213 = C_j[6] * t201 - C_j[8] * t211 - (s_j[2] * t212 - s_j[0] * t202) + (across_in_j_1 * t209 +
+        (t205 - C_j[1] * t207) * t45);
+    const jg_real t214 = C_j[7] * t211 - C_j[6] * t200 - (s_j[0] * t203 - s_j[1] * t212) + (across_in_j_2 * t209 +
+        (t206 - C_j[2] * t207) * t45);
+    const jg_real t215 = A_j[0] * t210 + A_j[3] * t213 + A_j[6] * t214 - (t172 - v_6_world_2 * t177);
+    const jg_real t216 = A_j[1] * t210 + A_j[4] * t213 + A_j[7] * t214 - (v_6_world_2 * t148 - t197);
     const jg_real t217 = A_j[2] * t210 + A_j[5] * t213 + A_j[8] * t214 - (t195 - t168);
     jac_phi_q_t_lambda_A_i[63] = A_i[0] * t215 + A_i[1] * t216 + A_i[2] * t217;
-    jac_phi_q_t_lambda_A_i[64] = A_i[3] * t215 + A_i[4] * t216 + (v_8_world_2 + A_i[5] * t217);
+    jac_phi_q_t_lambda_A_i[64] = v_8_world_2 + A_i[5] * t217 + (A_i[3] * t215 + A_i[4] * t216);
     jac_phi_q_t_lambda_A_i[65] = A_i[6] * t215 + A_i[7] * t216 + A_i[8] * t217;
     jac_phi_q_t_lambda_A_i[69] = -t210;
     jac_phi_q_t_lambda_A_i[70] = -t213;
@@ -1862,42 +1872,42 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[72] = t219;
     jac_phi_q_t_lambda_A_i[85] = t219;
     jac_phi_q_t_lambda_A_i[98] = t219;
-    const jg_real t220 = f_i_world_2 * C_i[8] - C_i[2] * h_i_world_2;
-    const jg_real t221 = t220 * lambda[1];
+    const jg_real t220 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
+    const jg_real t221 = lambda[1] * t220;
     jac_phi_q_t_lambda_A_i[73] = t221;
     jac_phi_q_t_lambda_A_i[90] = t221;
     const jg_real t222 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
-    const jg_real t223 = t222 * lambda[1];
+    const jg_real t223 = lambda[1] * t222;
     jac_phi_q_t_lambda_A_i[74] = t223;
     jac_phi_q_t_lambda_A_i[102] = t223;
-    const jg_real t224 = t220 * lambda[3];
+    const jg_real t224 = lambda[3] * t220;
     const jg_real t225 = C_i[2] * lambda[2];
-    const jg_real t226 = t222 * lambda[3];
-    const jg_real t227 = t225 * A_j[3] - t224 * A_j[4] - t226 * A_j[5];
-    const jg_real t228 = t225 * A_j[6] - t224 * A_j[7] - t226 * A_j[8];
-    const jg_real t229 = t218 * A_j[6] - t221 * A_j[7] - t223 * A_j[8];
-    const jg_real t230 = t218 * A_j[3] - t221 * A_j[4] - t223 * A_j[5];
+    const jg_real t226 = lambda[3] * t222;
+    const jg_real t227 = A_j[3] * t225 - A_j[4] * t224 - A_j[5] * t226;
+    const jg_real t228 = A_j[6] * t225 - A_j[7] * t224 - A_j[8] * t226;
+    const jg_real t229 = A_j[6] * t218 - A_j[7] * t221 - A_j[8] * t223;
+    const jg_real t230 = A_j[3] * t218 - A_j[4] * t221 - A_j[5] * t223;
     const jg_real t231 = C_i[8] * A_j[0];
     const jg_real t232 = C_i[8] * A_j[3];
     const jg_real t233 = C_i[8] * A_j[6];
-    const jg_real t234 = t231 * C_j[0] + t232 * C_j[1] + t233 * C_j[2];
+    const jg_real t234 = C_j[0] * t231 + C_j[1] * t232 + C_j[2] * t233;
     const jg_real t235 = h_i_dot_f_j * t234;
     const jg_real t236 = (t235 + t235) * t73 * lambda[4] * pitch;
-    const jg_real t237 = t227 * C_j[8] - t228 * C_j[7] - (t229 * s_j[1] - t230 * s_j[2]) + (t236 * across_in_j_0 +
-        t45 * (t231 - C_j[0] * t234));
-    const jg_real t238 = t225 * A_j[0] - t224 * A_j[1] - t226 * A_j[2];
-    const jg_real t239 = t218 * A_j[0] - t221 * A_j[1] - t223 * A_j[2];
-    const jg_real t240 = t228 * C_j[6] - C_j[8] * t238 - (s_j[2] * t239 - t229 * s_j[0]) + (t236 * across_in_j_1 +
-        t45 * (t232 - C_j[1] * t234));
-    const jg_real t241 = C_j[7] * t238 - t227 * C_j[6] - (t230 * s_j[0] - s_j[1] * t239) + (t236 * across_in_j_2 +
-        t45 * (t233 - C_j[2] * t234));
-    const jg_real t242 = t221 * v_6_world_2;
-    const jg_real t243 = t223 * v_6_world_1;
+    const jg_real t237 = C_j[8] * t227 - C_j[7] * t228 - (s_j[1] * t229 - s_j[2] * t230) + (across_in_j_0 * t236 +
+        (t231 - C_j[0] * t234) * t45);
+    const jg_real t238 = A_j[0] * t225 - A_j[1] * t224 - A_j[2] * t226;
+    const jg_real t239 = A_j[0] * t218 - A_j[1] * t221 - A_j[2] * t223;
+    const jg_real t240 = C_j[6] * t228 - C_j[8] * t238 - (s_j[2] * t239 - s_j[0] * t229) + (across_in_j_1 * t236 +
+        (t232 - C_j[1] * t234) * t45);
+    const jg_real t241 = C_j[7] * t238 - C_j[6] * t227 - (s_j[0] * t230 - s_j[1] * t239) + (across_in_j_2 * t236 +
+        (t233 - C_j[2] * t234) * t45);
+    const jg_real t242 = v_6_world_2 * t221;
+    const jg_real t243 = v_6_world_1 * t223;
     const jg_real t244 = A_j[0] * t237 + A_j[3] * t240 + A_j[6] * t241 - (t242 - t243);
-    const jg_real t245 = t218 * v_6_world_2;
-    const jg_real t246 = A_j[1] * t237 + A_j[4] * t240 + A_j[7] * t241 - (t245 + t223 * v_6_world_0);
-    const jg_real t247 = t218 * v_6_world_1;
-    const jg_real t248 = A_j[2] * t237 + A_j[5] * t240 + A_j[8] * t241 + (t247 + t221 * v_6_world_0);
+    const jg_real t245 = v_6_world_2 * t218;
+    const jg_real t246 = A_j[1] * t237 + A_j[4] * t240 + A_j[7] * t241 - (t245 + v_6_world_0 * t223);
+    const jg_real t247 = v_6_world_1 * t218;
+    const jg_real t248 = t247 + v_6_world_0 * t221 + (A_j[2] * t237 + A_j[5] * t240 + A_j[8] * t241);
     jac_phi_q_t_lambda_A_i[75] = A_i[0] * t244 + A_i[1] * t246 + A_i[2] * t248;
     jac_phi_q_t_lambda_A_i[76] = A_i[3] * t244 + A_i[4] * t246 + A_i[5] * t248;
     jac_phi_q_t_lambda_A_i[77] = v_8_world_0 + A_i[6] * t244 + A_i[7] * t246 + A_i[8] * t248;
@@ -1914,30 +1924,30 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t252 = lambda[1] * t251;
     jac_phi_q_t_lambda_A_i[86] = t252;
     jac_phi_q_t_lambda_A_i[103] = t252;
-    const jg_real t253 = t251 * lambda[3];
-    const jg_real t254 = t224 * A_j[3] + t225 * A_j[4] - t253 * A_j[5];
-    const jg_real t255 = t224 * A_j[6] + t225 * A_j[7] - t253 * A_j[8];
-    const jg_real t256 = t221 * A_j[6] + t218 * A_j[7] - t252 * A_j[8];
-    const jg_real t257 = t221 * A_j[3] + t218 * A_j[4] - t252 * A_j[5];
+    const jg_real t253 = lambda[3] * t251;
+    const jg_real t254 = A_j[3] * t224 + A_j[4] * t225 - A_j[5] * t253;
+    const jg_real t255 = A_j[6] * t224 + A_j[7] * t225 - A_j[8] * t253;
+    const jg_real t256 = A_j[6] * t221 + A_j[7] * t218 - A_j[8] * t252;
+    const jg_real t257 = A_j[3] * t221 + A_j[4] * t218 - A_j[5] * t252;
     const jg_real t258 = C_i[8] * A_j[1];
     const jg_real t259 = C_i[8] * A_j[4];
     const jg_real t260 = C_i[8] * A_j[7];
-    const jg_real t261 = t258 * C_j[0] + t259 * C_j[1] + t260 * C_j[2];
+    const jg_real t261 = C_j[0] * t258 + C_j[1] * t259 + C_j[2] * t260;
     const jg_real t262 = h_i_dot_f_j * t261;
     const jg_real t263 = (t262 + t262) * t73 * lambda[4] * pitch;
-    const jg_real t264 = t254 * C_j[8] - t255 * C_j[7] - (t256 * s_j[1] - t257 * s_j[2]) + (t263 * across_in_j_0 +
-        t45 * (t258 - C_j[0] * t261));
-    const jg_real t265 = t224 * A_j[0] + t225 * A_j[1] - t253 * A_j[2];
-    const jg_real t266 = t221 * A_j[0] + t218 * A_j[1] - t252 * A_j[2];
-    const jg_real t267 = t255 * C_j[6] - C_j[8] * t265 - (s_j[2] * t266 - t256 * s_j[0]) + (t263 * across_in_j_1 +
-        t45 * (t259 - C_j[1] * t261));
-    const jg_real t268 = C_j[7] * t265 - t254 * C_j[6] - (t257 * s_j[0] - s_j[1] * t266) + (t263 * across_in_j_2 +
-        t45 * (t260 - C_j[2] * t261));
-    const jg_real t269 = A_j[0] * t264 + A_j[3] * t267 + A_j[6] * t268 + (t252 * v_6_world_1 + t245);
-    const jg_real t270 = t252 * v_6_world_0;
+    const jg_real t264 = C_j[8] * t254 - C_j[7] * t255 - (s_j[1] * t256 - s_j[2] * t257) + (across_in_j_0 * t263 +
+        (t258 - C_j[0] * t261) * t45);
+    const jg_real t265 = A_j[0] * t224 + A_j[1] * t225 - A_j[2] * t253;
+    const jg_real t266 = A_j[0] * t221 + A_j[1] * t218 - A_j[2] * t252;
+    const jg_real t267 = C_j[6] * t255 - C_j[8] * t265 - (s_j[2] * t266 - s_j[0] * t256) + (across_in_j_1 * t263 +
+        (t259 - C_j[1] * t261) * t45);
+    const jg_real t268 = C_j[7] * t265 - C_j[6] * t254 - (s_j[0] * t257 - s_j[1] * t266) + (across_in_j_2 * t263 +
+        (t260 - C_j[2] * t261) * t45);
+    const jg_real t269 = t245 + v_6_world_1 * t252 + (A_j[0] * t264 + A_j[3] * t267 + A_j[6] * t268);
+    const jg_real t270 = v_6_world_0 * t252;
     const jg_real t271 = A_j[1] * t264 + A_j[4] * t267 + A_j[7] * t268 - (t242 + t270);
-    const jg_real t272 = t218 * v_6_world_0;
-    const jg_real t273 = A_j[2] * t264 + A_j[5] * t267 + A_j[8] * t268 - (t272 - t221 * v_6_world_1);
+    const jg_real t272 = v_6_world_0 * t218;
+    const jg_real t273 = A_j[2] * t264 + A_j[5] * t267 + A_j[8] * t268 - (t272 - v_6_world_1 * t221);
     jac_phi_q_t_lambda_A_i[87] = A_i[0] * t269 + A_i[1] * t271 + A_i[2] * t273;
     jac_phi_q_t_lambda_A_i[88] = A_i[3] * t269 + A_i[4] * t271 + A_i[5] * t273;
     jac_phi_q_t_lambda_A_i[89] = v_8_world_1 + A_i[7] * t271 + A_i[6] * t269 + A_i[8] * t273;
@@ -1947,41 +1957,41 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_i[93] = -t264;
     jac_phi_q_t_lambda_A_i[94] = -t267;
     jac_phi_q_t_lambda_A_i[95] = -t268;
-    const jg_real t275 = t226 * A_j[3] + t253 * A_j[4] + t225 * A_j[5];
-    const jg_real t276 = t226 * A_j[6] + t253 * A_j[7] + t225 * A_j[8];
-    const jg_real t277 = t223 * A_j[6] + t252 * A_j[7] + t218 * A_j[8];
-    const jg_real t278 = t223 * A_j[3] + t252 * A_j[4] + t218 * A_j[5];
+    const jg_real t275 = A_j[3] * t226 + A_j[4] * t253 + A_j[5] * t225;
+    const jg_real t276 = A_j[6] * t226 + A_j[7] * t253 + A_j[8] * t225;
+    const jg_real t277 = A_j[6] * t223 + A_j[7] * t252 + A_j[8] * t218;
+    const jg_real t278 = A_j[3] * t223 + A_j[4] * t252 + A_j[5] * t218;
     const jg_real t279 = C_i[8] * A_j[2];
     const jg_real t280 = C_i[8] * A_j[5];
     const jg_real t281 = C_i[8] * A_j[8];
-    const jg_real t282 = t279 * C_j[0] + t280 * C_j[1] + t281 * C_j[2];
+    const jg_real t282 = C_j[0] * t279 + C_j[1] * t280 + C_j[2] * t281;
     const jg_real t283 = h_i_dot_f_j * t282;
     const jg_real t284 = (t283 + t283) * t73 * lambda[4] * pitch;
-    const jg_real t285 = t275 * C_j[8] - t276 * C_j[7] - (t277 * s_j[1] - t278 * s_j[2]) + (t284 * across_in_j_0 +
-        t45 * (t279 - C_j[0] * t282));
-    const jg_real t286 = t226 * A_j[0] + t253 * A_j[1] + t225 * A_j[2];
-    const jg_real t287 = t223 * A_j[0] + t252 * A_j[1] + t218 * A_j[2];
-    const jg_real t288 = t276 * C_j[6] - C_j[8] * t286 - (s_j[2] * t287 - t277 * s_j[0]) + (t284 * across_in_j_1 +
-        t45 * (t280 - C_j[1] * t282));
-    const jg_real t289 = C_j[7] * t286 - t275 * C_j[6] - (t278 * s_j[0] - s_j[1] * t287) + (t284 * across_in_j_2 +
-        t45 * (t281 - C_j[2] * t282));
-    const jg_real t290 = A_j[0] * t285 + A_j[3] * t288 + A_j[6] * t289 - (t247 - t252 * v_6_world_2);
-    const jg_real t291 = A_j[1] * t285 + A_j[4] * t288 + A_j[7] * t289 - (t223 * v_6_world_2 - t272);
+    const jg_real t285 = C_j[8] * t275 - C_j[7] * t276 - (s_j[1] * t277 - s_j[2] * t278) + (across_in_j_0 * t284 +
+        (t279 - C_j[0] * t282) * t45);
+    const jg_real t286 = A_j[0] * t226 + A_j[1] * t253 + A_j[2] * t225;
+    const jg_real t287 = A_j[0] * t223 + A_j[1] * t252 + A_j[2] * t218;
+    const jg_real t288 = C_j[6] * t276 - C_j[8] * t286 - (s_j[2] * t287 - s_j[0] * t277) + (across_in_j_1 * t284 +
+        (t280 - C_j[1] * t282) * t45);
+    const jg_real t289 = C_j[7] * t286 - C_j[6] * t275 - (s_j[0] * t278 - s_j[1] * t287) + (across_in_j_2 * t284 +
+        (t281 - C_j[2] * t282) * t45);
+    const jg_real t290 = A_j[0] * t285 + A_j[3] * t288 + A_j[6] * t289 - (t247 - v_6_world_2 * t252);
+    const jg_real t291 = A_j[1] * t285 + A_j[4] * t288 + A_j[7] * t289 - (v_6_world_2 * t223 - t272);
     const jg_real t292 = A_j[2] * t285 + A_j[5] * t288 + A_j[8] * t289 - (t270 - t243);
     jac_phi_q_t_lambda_A_i[99] = A_i[0] * t290 + A_i[1] * t291 + A_i[2] * t292;
     jac_phi_q_t_lambda_A_i[100] = A_i[3] * t290 + A_i[4] * t291 + A_i[5] * t292;
-    jac_phi_q_t_lambda_A_i[101] = A_i[6] * t290 + A_i[7] * t291 + (v_8_world_2 + A_i[8] * t292);
+    jac_phi_q_t_lambda_A_i[101] = v_8_world_2 + A_i[8] * t292 + (A_i[6] * t290 + A_i[7] * t291);
     jac_phi_q_t_lambda_A_i[105] = -t285;
     jac_phi_q_t_lambda_A_i[106] = -t288;
     jac_phi_q_t_lambda_A_i[107] = -t289;
-    const jg_real t293 = h_i_world_0 * C_j[0];
+    const jg_real t293 = C_j[0] * h_i_world_0;
     const jg_real t294 = t293 * h_i_dot_f_j;
     const jg_real t295 = (t294 + t294) * t73 * lambda[4] * pitch;
-    const jg_real t296 = t295 * across_in_j_0 + t45 * (h_i_world_0 - C_j[0] * t293);
-    const jg_real t297 = v_2_world_0 * C_j[8] + v_0_world_0 * s_j[2];
-    const jg_real t298 = t295 * across_in_j_1 - t293 * C_j[1] * t45 - t297;
-    const jg_real t299 = v_2_world_0 * C_j[7] + v_0_world_0 * s_j[1];
-    const jg_real t300 = t295 * across_in_j_2 - t293 * C_j[2] * t45 + t299;
+    const jg_real t296 = across_in_j_0 * t295 + (h_i_world_0 - C_j[0] * t293) * t45;
+    const jg_real t297 = C_j[8] * v_2_world_0 + s_j[2] * v_0_world_0;
+    const jg_real t298 = across_in_j_1 * t295 - C_j[1] * t293 * t45 - t297;
+    const jg_real t299 = C_j[7] * v_2_world_0 + s_j[1] * v_0_world_0;
+    const jg_real t300 = across_in_j_2 * t295 - C_j[2] * t293 * t45 + t299;
     const jg_real t301 = v_5_in_j_0 + A_j[0] * t296 + A_j[3] * t298 + A_j[6] * t300;
     const jg_real t302 = A_j[1] * t296 + A_j[4] * t298 + A_j[7] * t300;
     const jg_real t303 = A_j[2] * t296 + A_j[5] * t298 + A_j[8] * t300;
@@ -1991,14 +2001,14 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[3] = -t296;
     jac_phi_q_t_lambda_A_j[4] = -t298;
     jac_phi_q_t_lambda_A_j[5] = -t300;
-    const jg_real t304 = h_i_world_1 * C_j[0];
+    const jg_real t304 = C_j[0] * h_i_world_1;
     const jg_real t305 = t304 * h_i_dot_f_j;
     const jg_real t306 = (t305 + t305) * t73 * lambda[4] * pitch;
-    const jg_real t307 = t306 * across_in_j_0 + t45 * (h_i_world_1 - C_j[0] * t304);
-    const jg_real t308 = v_2_world_1 * C_j[8] + v_0_world_1 * s_j[2];
-    const jg_real t309 = t306 * across_in_j_1 - t304 * C_j[1] * t45 - t308;
-    const jg_real t310 = v_2_world_1 * C_j[7] + v_0_world_1 * s_j[1];
-    const jg_real t311 = t306 * across_in_j_2 - t304 * C_j[2] * t45 + t310;
+    const jg_real t307 = across_in_j_0 * t306 + (h_i_world_1 - C_j[0] * t304) * t45;
+    const jg_real t308 = C_j[8] * v_2_world_1 + s_j[2] * v_0_world_1;
+    const jg_real t309 = across_in_j_1 * t306 - C_j[1] * t304 * t45 - t308;
+    const jg_real t310 = C_j[7] * v_2_world_1 + s_j[1] * v_0_world_1;
+    const jg_real t311 = across_in_j_2 * t306 - C_j[2] * t304 * t45 + t310;
     const jg_real t312 = A_j[0] * t307 + A_j[3] * t309 + A_j[6] * t311;
     const jg_real t313 = v_5_in_j_0 + A_j[1] * t307 + A_j[4] * t309 + A_j[7] * t311;
     const jg_real t314 = A_j[2] * t307 + A_j[5] * t309 + A_j[8] * t311;
@@ -2008,14 +2018,14 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[9] = -t307;
     jac_phi_q_t_lambda_A_j[10] = -t309;
     jac_phi_q_t_lambda_A_j[11] = -t311;
-    const jg_real t315 = h_i_world_2 * C_j[0];
+    const jg_real t315 = C_j[0] * h_i_world_2;
     const jg_real t316 = t315 * h_i_dot_f_j;
     const jg_real t317 = (t316 + t316) * t73 * lambda[4] * pitch;
-    const jg_real t318 = t317 * across_in_j_0 + t45 * (h_i_world_2 - C_j[0] * t315);
-    const jg_real t319 = v_2_world_2 * C_j[8] + v_0_world_2 * s_j[2];
-    const jg_real t320 = t317 * across_in_j_1 - t315 * C_j[1] * t45 - t319;
-    const jg_real t321 = v_2_world_2 * C_j[7] + v_0_world_2 * s_j[1];
-    const jg_real t322 = t317 * across_in_j_2 - t315 * C_j[2] * t45 + t321;
+    const jg_real t318 = across_in_j_0 * t317 + (h_i_world_2 - C_j[0] * t315) * t45;
+    const jg_real t319 = C_j[8] * v_2_world_2 + s_j[2] * v_0_world_2;
+    const jg_real t320 = across_in_j_1 * t317 - C_j[1] * t315 * t45 - t319;
+    const jg_real t321 = C_j[7] * v_2_world_2 + s_j[1] * v_0_world_2;
+    const jg_real t322 = across_in_j_2 * t317 - C_j[2] * t315 * t45 + t321;
     const jg_real t323 = A_j[0] * t318 + A_j[3] * t320 + A_j[6] * t322;
     const jg_real t324 = A_j[1] * t318 + A_j[4] * t320 + A_j[7] * t322;
     const jg_real t325 = v_5_in_j_0 + A_j[2] * t318 + A_j[5] * t320 + A_j[8] * t322;
@@ -2025,13 +2035,13 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[15] = -t318;
     jac_phi_q_t_lambda_A_j[16] = -t320;
     jac_phi_q_t_lambda_A_j[17] = -t322;
-    const jg_real t326 = h_i_world_0 * C_j[1];
+    const jg_real t326 = C_j[1] * h_i_world_0;
     const jg_real t327 = t326 * h_i_dot_f_j;
     const jg_real t328 = (t327 + t327) * t73 * lambda[4] * pitch;
-    const jg_real t329 = t328 * across_in_j_1 + t45 * (h_i_world_0 - C_j[1] * t326);
-    const jg_real t330 = t328 * across_in_j_0 - C_j[0] * t326 * t45 + t297;
-    const jg_real t331 = v_2_world_0 * C_j[6] + v_0_world_0 * s_j[0];
-    const jg_real t332 = t328 * across_in_j_2 - t326 * C_j[2] * t45 - t331;
+    const jg_real t329 = across_in_j_1 * t328 + (h_i_world_0 - C_j[1] * t326) * t45;
+    const jg_real t330 = across_in_j_0 * t328 - C_j[0] * t326 * t45 + t297;
+    const jg_real t331 = C_j[6] * v_2_world_0 + s_j[0] * v_0_world_0;
+    const jg_real t332 = across_in_j_2 * t328 - C_j[2] * t326 * t45 - t331;
     const jg_real t333 = v_5_in_j_1 + A_j[3] * t329 + A_j[0] * t330 + A_j[6] * t332;
     const jg_real t334 = A_j[1] * t330 + A_j[4] * t329 + A_j[7] * t332;
     const jg_real t335 = A_j[2] * t330 + A_j[5] * t329 + A_j[8] * t332;
@@ -2041,13 +2051,13 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[21] = -t330;
     jac_phi_q_t_lambda_A_j[22] = -t329;
     jac_phi_q_t_lambda_A_j[23] = -t332;
-    const jg_real t336 = h_i_world_1 * C_j[1];
+    const jg_real t336 = C_j[1] * h_i_world_1;
     const jg_real t337 = t336 * h_i_dot_f_j;
     const jg_real t338 = (t337 + t337) * t73 * lambda[4] * pitch;
-    const jg_real t339 = t338 * across_in_j_0 - C_j[0] * t336 * t45 + t308;
-    const jg_real t340 = t338 * across_in_j_1 + t45 * (h_i_world_1 - C_j[1] * t336);
-    const jg_real t341 = v_2_world_1 * C_j[6] + v_0_world_1 * s_j[0];
-    const jg_real t342 = t338 * across_in_j_2 - t336 * C_j[2] * t45 - t341;
+    const jg_real t339 = across_in_j_0 * t338 - C_j[0] * t336 * t45 + t308;
+    const jg_real t340 = across_in_j_1 * t338 + (h_i_world_1 - C_j[1] * t336) * t45;
+    const jg_real t341 = C_j[6] * v_2_world_1 + s_j[0] * v_0_world_1;
+    const jg_real t342 = across_in_j_2 * t338 - C_j[2] * t336 * t45 - t341;
     const jg_real t343 = A_j[0] * t339 + A_j[3] * t340 + A_j[6] * t342;
     const jg_real t344 = v_5_in_j_1 + A_j[4] * t340 + A_j[1] * t339 + A_j[7] * t342;
     const jg_real t345 = A_j[2] * t339 + A_j[5] * t340 + A_j[8] * t342;
@@ -2057,13 +2067,13 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[27] = -t339;
     jac_phi_q_t_lambda_A_j[28] = -t340;
     jac_phi_q_t_lambda_A_j[29] = -t342;
-    const jg_real t346 = h_i_world_2 * C_j[1];
+    const jg_real t346 = C_j[1] * h_i_world_2;
     const jg_real t347 = t346 * h_i_dot_f_j;
     const jg_real t348 = (t347 + t347) * t73 * lambda[4] * pitch;
-    const jg_real t349 = t348 * across_in_j_0 - C_j[0] * t346 * t45 + t319;
-    const jg_real t350 = t348 * across_in_j_1 + t45 * (h_i_world_2 - C_j[1] * t346);
-    const jg_real t351 = v_2_world_2 * C_j[6] + v_0_world_2 * s_j[0];
-    const jg_real t352 = t348 * across_in_j_2 - t346 * C_j[2] * t45 - t351;
+    const jg_real t349 = across_in_j_0 * t348 - C_j[0] * t346 * t45 + t319;
+    const jg_real t350 = across_in_j_1 * t348 + (h_i_world_2 - C_j[1] * t346) * t45;
+    const jg_real t351 = C_j[6] * v_2_world_2 + s_j[0] * v_0_world_2;
+    const jg_real t352 = across_in_j_2 * t348 - C_j[2] * t346 * t45 - t351;
     const jg_real t353 = A_j[0] * t349 + A_j[3] * t350 + A_j[6] * t352;
     const jg_real t354 = A_j[1] * t349 + A_j[4] * t350 + A_j[7] * t352;
     const jg_real t355 = v_5_in_j_1 + A_j[5] * t350 + A_j[2] * t349 + A_j[8] * t352;
@@ -2073,78 +2083,78 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_A_j[33] = -t349;
     jac_phi_q_t_lambda_A_j[34] = -t350;
     jac_phi_q_t_lambda_A_j[35] = -t352;
-    const jg_real t356 = h_i_world_0 * C_j[2];
+    const jg_real t356 = C_j[2] * h_i_world_0;
     const jg_real t357 = t356 * h_i_dot_f_j;
     const jg_real t358 = (t357 + t357) * t73 * lambda[4] * pitch;
-    const jg_real t359 = t358 * across_in_j_0 - C_j[0] * t356 * t45 - t299;
-    const jg_real t360 = t358 * across_in_j_1 - C_j[1] * t356 * t45 + t331;
-    const jg_real t361 = t358 * across_in_j_2 + t45 * (h_i_world_0 - C_j[2] * t356);
-    const jg_real t362 = A_j[0] * t359 + A_j[3] * t360 + (v_5_in_j_2 + A_j[6] * t361);
-    const jg_real t363 = A_j[1] * t359 + A_j[4] * t360 + A_j[7] * t361;
-    const jg_real t364 = A_j[2] * t359 + A_j[5] * t360 + A_j[8] * t361;
+    const jg_real t359 = across_in_j_2 * t358 + (h_i_world_0 - C_j[2] * t356) * t45;
+    const jg_real t360 = across_in_j_0 * t358 - C_j[0] * t356 * t45 - t299;
+    const jg_real t361 = across_in_j_1 * t358 - C_j[1] * t356 * t45 + t331;
+    const jg_real t362 = v_5_in_j_2 + A_j[6] * t359 + (A_j[0] * t360 + A_j[3] * t361);
+    const jg_real t363 = A_j[1] * t360 + A_j[4] * t361 + A_j[7] * t359;
+    const jg_real t364 = A_j[2] * t360 + A_j[5] * t361 + A_j[8] * t359;
     jac_phi_q_t_lambda_A_j[36] = A_i[0] * t362 + A_i[1] * t363 + A_i[2] * t364;
     jac_phi_q_t_lambda_A_j[37] = A_i[3] * t362 + A_i[4] * t363 + A_i[5] * t364;
     jac_phi_q_t_lambda_A_j[38] = A_i[6] * t362 + A_i[7] * t363 + A_i[8] * t364;
-    jac_phi_q_t_lambda_A_j[39] = -t359;
-    jac_phi_q_t_lambda_A_j[40] = -t360;
-    jac_phi_q_t_lambda_A_j[41] = -t361;
-    const jg_real t365 = h_i_world_1 * C_j[2];
+    jac_phi_q_t_lambda_A_j[39] = -t360;
+    jac_phi_q_t_lambda_A_j[40] = -t361;
+    jac_phi_q_t_lambda_A_j[41] = -t359;
+    const jg_real t365 = C_j[2] * h_i_world_1;
     const jg_real t366 = t365 * h_i_dot_f_j;
     const jg_real t367 = (t366 + t366) * t73 * lambda[4] * pitch;
-    const jg_real t368 = t367 * across_in_j_0 - C_j[0] * t365 * t45 - t310;
-    const jg_real t369 = t367 * across_in_j_1 - C_j[1] * t365 * t45 + t341;
-    const jg_real t370 = t367 * across_in_j_2 + t45 * (h_i_world_1 - C_j[2] * t365);
-    const jg_real t371 = A_j[1] * t368 + A_j[4] * t369 + (v_5_in_j_2 + A_j[7] * t370);
-    const jg_real t372 = A_j[0] * t368 + A_j[3] * t369 + A_j[6] * t370;
-    const jg_real t373 = A_j[2] * t368 + A_j[5] * t369 + A_j[8] * t370;
+    const jg_real t368 = across_in_j_2 * t367 + (h_i_world_1 - C_j[2] * t365) * t45;
+    const jg_real t369 = across_in_j_0 * t367 - C_j[0] * t365 * t45 - t310;
+    const jg_real t370 = across_in_j_1 * t367 - C_j[1] * t365 * t45 + t341;
+    const jg_real t371 = v_5_in_j_2 + A_j[7] * t368 + (A_j[1] * t369 + A_j[4] * t370);
+    const jg_real t372 = A_j[0] * t369 + A_j[3] * t370 + A_j[6] * t368;
+    const jg_real t373 = A_j[2] * t369 + A_j[5] * t370 + A_j[8] * t368;
     jac_phi_q_t_lambda_A_j[42] = A_i[0] * t372 + A_i[1] * t371 + A_i[2] * t373;
     jac_phi_q_t_lambda_A_j[43] = A_i[3] * t372 + A_i[4] * t371 + A_i[5] * t373;
     jac_phi_q_t_lambda_A_j[44] = A_i[6] * t372 + A_i[7] * t371 + A_i[8] * t373;
-    jac_phi_q_t_lambda_A_j[45] = -t368;
-    jac_phi_q_t_lambda_A_j[46] = -t369;
-    jac_phi_q_t_lambda_A_j[47] = -t370;
-    const jg_real t374 = h_i_world_2 * C_j[2];
+    jac_phi_q_t_lambda_A_j[45] = -t369;
+    jac_phi_q_t_lambda_A_j[46] = -t370;
+    jac_phi_q_t_lambda_A_j[47] = -t368;
+    const jg_real t374 = C_j[2] * h_i_world_2;
     const jg_real t375 = t374 * h_i_dot_f_j;
     const jg_real t376 = (t375 + t375) * t73 * lambda[4] * pitch;
-    const jg_real t377 = t376 * across_in_j_0 - C_j[0] * t374 * t45 - t321;
-    const jg_real t378 = t376 * across_in_j_1 - C_j[1] * t374 * t45 + t351;
-    const jg_real t379 = t376 * across_in_j_2 + t45 * (h_i_world_2 - C_j[2] * t374);
-    const jg_real t380 = A_j[0] * t377 + A_j[3] * t378 + A_j[6] * t379;
-    const jg_real t381 = A_j[1] * t377 + A_j[4] * t378 + A_j[7] * t379;
-    const jg_real t382 = A_j[2] * t377 + A_j[5] * t378 + (v_5_in_j_2 + A_j[8] * t379);
-    jac_phi_q_t_lambda_A_j[48] = A_i[0] * t380 + A_i[1] * t381 + A_i[2] * t382;
-    jac_phi_q_t_lambda_A_j[49] = A_i[3] * t380 + A_i[4] * t381 + A_i[5] * t382;
-    jac_phi_q_t_lambda_A_j[50] = A_i[6] * t380 + A_i[7] * t381 + A_i[8] * t382;
-    jac_phi_q_t_lambda_A_j[51] = -t377;
-    jac_phi_q_t_lambda_A_j[52] = -t378;
-    jac_phi_q_t_lambda_A_j[53] = -t379;
+    const jg_real t377 = across_in_j_2 * t376 + (h_i_world_2 - C_j[2] * t374) * t45;
+    const jg_real t378 = across_in_j_0 * t376 - C_j[0] * t374 * t45 - t321;
+    const jg_real t379 = across_in_j_1 * t376 - C_j[1] * t374 * t45 + t351;
+    const jg_real t380 = v_5_in_j_2 + A_j[8] * t377 + (A_j[2] * t378 + A_j[5] * t379);
+    const jg_real t381 = A_j[0] * t378 + A_j[3] * t379 + A_j[6] * t377;
+    const jg_real t382 = A_j[1] * t378 + A_j[4] * t379 + A_j[7] * t377;
+    jac_phi_q_t_lambda_A_j[48] = A_i[0] * t381 + A_i[1] * t382 + A_i[2] * t380;
+    jac_phi_q_t_lambda_A_j[49] = A_i[3] * t381 + A_i[4] * t382 + A_i[5] * t380;
+    jac_phi_q_t_lambda_A_j[50] = A_i[6] * t381 + A_i[7] * t382 + A_i[8] * t380;
+    jac_phi_q_t_lambda_A_j[51] = -t378;
+    jac_phi_q_t_lambda_A_j[52] = -t379;
+    jac_phi_q_t_lambda_A_j[53] = -t377;
     const jg_real t383 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
-    const jg_real t384 = t383 * lambda[1] + A_i[0] * lambda[0];
+    const jg_real t384 = A_i[0] * lambda[0] + lambda[1] * t383;
     jac_phi_q_t_lambda_geometry[6] = t384;
     jac_phi_q_t_lambda_geometry[0] = -t384;
-    const jg_real t385 = h_i_world_2 * A_i[0] - A_i[2] * h_i_world_0;
-    const jg_real t386 = lambda[1] * t385 + A_i[1] * lambda[0];
+    const jg_real t385 = A_i[0] * h_i_world_2 - A_i[2] * h_i_world_0;
+    const jg_real t386 = A_i[1] * lambda[0] + lambda[1] * t385;
     jac_phi_q_t_lambda_geometry[7] = t386;
     jac_phi_q_t_lambda_geometry[1] = -t386;
-    const jg_real t387 = A_i[1] * h_i_world_0 - h_i_world_1 * A_i[0];
-    const jg_real t388 = lambda[1] * t387 + A_i[2] * lambda[0];
+    const jg_real t387 = A_i[1] * h_i_world_0 - A_i[0] * h_i_world_1;
+    const jg_real t388 = A_i[2] * lambda[0] + lambda[1] * t387;
     jac_phi_q_t_lambda_geometry[8] = t388;
     jac_phi_q_t_lambda_geometry[2] = -t388;
-    const jg_real t389 = t383 * lambda[3] + A_i[0] * lambda[2];
-    const jg_real t390 = t385 * lambda[3] + A_i[1] * lambda[2];
-    const jg_real t391 = t387 * lambda[3] + A_i[2] * lambda[2];
-    const jg_real t392 = t389 * A_j[3] + t390 * A_j[4] + t391 * A_j[5];
-    const jg_real t393 = t389 * A_j[6] + t390 * A_j[7] + t391 * A_j[8];
-    const jg_real t394 = t384 * A_j[6] + t386 * A_j[7] + t388 * A_j[8];
-    const jg_real t395 = t384 * A_j[3] + t386 * A_j[4] + t388 * A_j[5];
-    const jg_real t396 = t392 * C_j[8] - t393 * C_j[7] - (t394 * s_j[1] - t395 * s_j[2]);
-    const jg_real t397 = t389 * A_j[0] + t390 * A_j[1] + t391 * A_j[2];
-    const jg_real t398 = t384 * A_j[0] + t386 * A_j[1] + t388 * A_j[2];
-    const jg_real t399 = t393 * C_j[6] - C_j[8] * t397 - (s_j[2] * t398 - t394 * s_j[0]);
-    const jg_real t400 = C_j[7] * t397 - t392 * C_j[6] - (t395 * s_j[0] - s_j[1] * t398);
-    const jg_real t401 = t396 * A_j[0] + A_j[3] * t399 + A_j[6] * t400 - (t388 * v_6_world_1 - t386 * v_6_world_2);
-    const jg_real t402 = t396 * A_j[1] + A_j[4] * t399 + A_j[7] * t400 - (t384 * v_6_world_2 - t388 * v_6_world_0);
-    const jg_real t403 = t396 * A_j[2] + A_j[5] * t399 + A_j[8] * t400 - (t386 * v_6_world_0 - t384 * v_6_world_1);
+    const jg_real t389 = A_i[0] * lambda[2] + lambda[3] * t383;
+    const jg_real t390 = A_i[1] * lambda[2] + lambda[3] * t385;
+    const jg_real t391 = A_i[2] * lambda[2] + lambda[3] * t387;
+    const jg_real t392 = A_j[3] * t389 + A_j[4] * t390 + A_j[5] * t391;
+    const jg_real t393 = A_j[6] * t389 + A_j[7] * t390 + A_j[8] * t391;
+    const jg_real t394 = A_j[6] * t384 + A_j[7] * t386 + A_j[8] * t388;
+    const jg_real t395 = A_j[3] * t384 + A_j[4] * t386 + A_j[5] * t388;
+    const jg_real t396 = C_j[8] * t392 - C_j[7] * t393 - (s_j[1] * t394 - s_j[2] * t395);
+    const jg_real t397 = A_j[0] * t389 + A_j[1] * t390 + A_j[2] * t391;
+    const jg_real t398 = A_j[0] * t384 + A_j[1] * t386 + A_j[2] * t388;
+    const jg_real t399 = C_j[6] * t393 - C_j[8] * t397 - (s_j[2] * t398 - s_j[0] * t394);
+    const jg_real t400 = C_j[7] * t397 - C_j[6] * t392 - (s_j[0] * t395 - s_j[1] * t398);
+    const jg_real t401 = A_j[0] * t396 + A_j[3] * t399 + A_j[6] * t400 - (v_6_world_1 * t388 - v_6_world_2 * t386);
+    const jg_real t402 = A_j[1] * t396 + A_j[4] * t399 + A_j[7] * t400 - (v_6_world_2 * t384 - v_6_world_0 * t388);
+    const jg_real t403 = A_j[2] * t396 + A_j[5] * t399 + A_j[8] * t400 - (v_6_world_0 * t386 - v_6_world_1 * t384);
     jac_phi_q_t_lambda_geometry[3] = A_i[0] * t401 + A_i[1] * t402 + A_i[2] * t403;
     jac_phi_q_t_lambda_geometry[4] = A_i[3] * t401 + A_i[4] * t402 + A_i[5] * t403;
     jac_phi_q_t_lambda_geometry[5] = A_i[6] * t401 + A_i[7] * t402 + A_i[8] * t403;
@@ -2152,32 +2162,32 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[10] = -t399;
     jac_phi_q_t_lambda_geometry[11] = -t400;
     const jg_real t404 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
-    const jg_real t405 = t404 * lambda[1] + A_i[3] * lambda[0];
+    const jg_real t405 = A_i[3] * lambda[0] + lambda[1] * t404;
     jac_phi_q_t_lambda_geometry[18] = t405;
     jac_phi_q_t_lambda_geometry[12] = -t405;
-    const jg_real t406 = h_i_world_2 * A_i[3] - A_i[5] * h_i_world_0;
-    const jg_real t407 = lambda[1] * t406 + A_i[4] * lambda[0];
+    const jg_real t406 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
+    const jg_real t407 = A_i[4] * lambda[0] + lambda[1] * t406;
     jac_phi_q_t_lambda_geometry[19] = t407;
     jac_phi_q_t_lambda_geometry[13] = -t407;
-    const jg_real t408 = A_i[4] * h_i_world_0 - h_i_world_1 * A_i[3];
-    const jg_real t409 = lambda[1] * t408 + A_i[5] * lambda[0];
+    const jg_real t408 = A_i[4] * h_i_world_0 - A_i[3] * h_i_world_1;
+    const jg_real t409 = A_i[5] * lambda[0] + lambda[1] * t408;
     jac_phi_q_t_lambda_geometry[20] = t409;
     jac_phi_q_t_lambda_geometry[14] = -t409;
-    const jg_real t410 = t404 * lambda[3] + A_i[3] * lambda[2];
-    const jg_real t411 = t406 * lambda[3] + A_i[4] * lambda[2];
-    const jg_real t412 = t408 * lambda[3] + A_i[5] * lambda[2];
-    const jg_real t413 = t410 * A_j[3] + t411 * A_j[4] + t412 * A_j[5];
-    const jg_real t414 = t410 * A_j[6] + t411 * A_j[7] + t412 * A_j[8];
-    const jg_real t415 = t405 * A_j[6] + t407 * A_j[7] + t409 * A_j[8];
-    const jg_real t416 = t405 * A_j[3] + t407 * A_j[4] + t409 * A_j[5];
-    const jg_real t417 = t413 * C_j[8] - t414 * C_j[7] - (t415 * s_j[1] - t416 * s_j[2]);
-    const jg_real t418 = t410 * A_j[0] + t411 * A_j[1] + t412 * A_j[2];
-    const jg_real t419 = t405 * A_j[0] + t407 * A_j[1] + t409 * A_j[2];
-    const jg_real t420 = t414 * C_j[6] - C_j[8] * t418 - (s_j[2] * t419 - t415 * s_j[0]);
-    const jg_real t421 = C_j[7] * t418 - t413 * C_j[6] - (t416 * s_j[0] - s_j[1] * t419);
-    const jg_real t422 = t417 * A_j[0] + A_j[3] * t420 + A_j[6] * t421 - (t409 * v_6_world_1 - t407 * v_6_world_2);
-    const jg_real t423 = t417 * A_j[1] + A_j[4] * t420 + A_j[7] * t421 - (t405 * v_6_world_2 - t409 * v_6_world_0);
-    const jg_real t424 = t417 * A_j[2] + A_j[5] * t420 + A_j[8] * t421 - (t407 * v_6_world_0 - t405 * v_6_world_1);
+    const jg_real t410 = A_i[3] * lambda[2] + lambda[3] * t404;
+    const jg_real t411 = A_i[4] * lambda[2] + lambda[3] * t406;
+    const jg_real t412 = A_i[5] * lambda[2] + lambda[3] * t408;
+    const jg_real t413 = A_j[3] * t410 + A_j[4] * t411 + A_j[5] * t412;
+    const jg_real t414 = A_j[6] * t410 + A_j[7] * t411 + A_j[8] * t412;
+    const jg_real t415 = A_j[6] * t405 + A_j[7] * t407 + A_j[8] * t409;
+    const jg_real t416 = A_j[3] * t405 + A_j[4] * t407 + A_j[5] * t409;
+    const jg_real t417 = C_j[8] * t413 - C_j[7] * t414 - (s_j[1] * t415 - s_j[2] * t416);
+    const jg_real t418 = A_j[0] * t410 + A_j[1] * t411 + A_j[2] * t412;
+    const jg_real t419 = A_j[0] * t405 + A_j[1] * t407 + A_j[2] * t409;
+    const jg_real t420 = C_j[6] * t414 - C_j[8] * t418 - (s_j[2] * t419 - s_j[0] * t415);
+    const jg_real t421 = C_j[7] * t418 - C_j[6] * t413 - (s_j[0] * t416 - s_j[1] * t419);
+    const jg_real t422 = A_j[0] * t417 + A_j[3] * t420 + A_j[6] * t421 - (v_6_world_1 * t409 - v_6_world_2 * t407);
+    const jg_real t423 = A_j[1] * t417 + A_j[4] * t420 + A_j[7] * t421 - (v_6_world_2 * t405 - v_6_world_0 * t409);
+    const jg_real t424 = A_j[2] * t417 + A_j[5] * t420 + A_j[8] * t421 - (v_6_world_0 * t407 - v_6_world_1 * t405);
     jac_phi_q_t_lambda_geometry[15] = A_i[0] * t422 + A_i[1] * t423 + A_i[2] * t424;
     jac_phi_q_t_lambda_geometry[16] = A_i[3] * t422 + A_i[4] * t423 + A_i[5] * t424;
     jac_phi_q_t_lambda_geometry[17] = A_i[6] * t422 + A_i[7] * t423 + A_i[8] * t424;
@@ -2185,158 +2195,158 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[22] = -t420;
     jac_phi_q_t_lambda_geometry[23] = -t421;
     const jg_real t425 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
-    const jg_real t426 = t425 * lambda[1] + A_i[6] * lambda[0];
+    const jg_real t426 = A_i[6] * lambda[0] + lambda[1] * t425;
     jac_phi_q_t_lambda_geometry[30] = t426;
     jac_phi_q_t_lambda_geometry[24] = -t426;
-    const jg_real t427 = h_i_world_2 * A_i[6] - A_i[8] * h_i_world_0;
-    const jg_real t428 = lambda[1] * t427 + A_i[7] * lambda[0];
+    const jg_real t427 = A_i[6] * h_i_world_2 - A_i[8] * h_i_world_0;
+    const jg_real t428 = A_i[7] * lambda[0] + lambda[1] * t427;
     jac_phi_q_t_lambda_geometry[31] = t428;
     jac_phi_q_t_lambda_geometry[25] = -t428;
-    const jg_real t429 = A_i[7] * h_i_world_0 - h_i_world_1 * A_i[6];
-    const jg_real t430 = lambda[1] * t429 + A_i[8] * lambda[0];
+    const jg_real t429 = A_i[7] * h_i_world_0 - A_i[6] * h_i_world_1;
+    const jg_real t430 = A_i[8] * lambda[0] + lambda[1] * t429;
     jac_phi_q_t_lambda_geometry[32] = t430;
     jac_phi_q_t_lambda_geometry[26] = -t430;
-    const jg_real t431 = t425 * lambda[3] + A_i[6] * lambda[2];
-    const jg_real t432 = t427 * lambda[3] + A_i[7] * lambda[2];
-    const jg_real t433 = t429 * lambda[3] + A_i[8] * lambda[2];
-    const jg_real t434 = t431 * A_j[3] + t432 * A_j[4] + t433 * A_j[5];
-    const jg_real t435 = t431 * A_j[6] + t432 * A_j[7] + t433 * A_j[8];
-    const jg_real t436 = t426 * A_j[6] + t428 * A_j[7] + t430 * A_j[8];
-    const jg_real t437 = t426 * A_j[3] + t428 * A_j[4] + t430 * A_j[5];
-    const jg_real t438 = t434 * C_j[8] - t435 * C_j[7] - (t436 * s_j[1] - t437 * s_j[2]);
-    const jg_real t439 = t431 * A_j[0] + t432 * A_j[1] + t433 * A_j[2];
-    const jg_real t440 = t426 * A_j[0] + t428 * A_j[1] + t430 * A_j[2];
-    const jg_real t441 = t435 * C_j[6] - C_j[8] * t439 - (s_j[2] * t440 - t436 * s_j[0]);
-    const jg_real t442 = C_j[7] * t439 - t434 * C_j[6] - (t437 * s_j[0] - s_j[1] * t440);
-    const jg_real t443 = t438 * A_j[0] + A_j[3] * t441 + A_j[6] * t442 - (t430 * v_6_world_1 - t428 * v_6_world_2);
-    const jg_real t444 = t438 * A_j[1] + A_j[4] * t441 + A_j[7] * t442 - (t426 * v_6_world_2 - t430 * v_6_world_0);
-    const jg_real t445 = t438 * A_j[2] + A_j[5] * t441 + A_j[8] * t442 - (t428 * v_6_world_0 - t426 * v_6_world_1);
+    const jg_real t431 = A_i[6] * lambda[2] + lambda[3] * t425;
+    const jg_real t432 = A_i[7] * lambda[2] + lambda[3] * t427;
+    const jg_real t433 = A_i[8] * lambda[2] + lambda[3] * t429;
+    const jg_real t434 = A_j[3] * t431 + A_j[4] * t432 + A_j[5] * t433;
+    const jg_real t435 = A_j[6] * t431 + A_j[7] * t432 + A_j[8] * t433;
+    const jg_real t436 = A_j[6] * t426 + A_j[7] * t428 + A_j[8] * t430;
+    const jg_real t437 = A_j[3] * t426 + A_j[4] * t428 + A_j[5] * t430;
+    const jg_real t438 = C_j[8] * t434 - C_j[7] * t435 - (s_j[1] * t436 - s_j[2] * t437);
+    const jg_real t439 = A_j[0] * t431 + A_j[1] * t432 + A_j[2] * t433;
+    const jg_real t440 = A_j[0] * t426 + A_j[1] * t428 + A_j[2] * t430;
+    const jg_real t441 = C_j[6] * t435 - C_j[8] * t439 - (s_j[2] * t440 - s_j[0] * t436);
+    const jg_real t442 = C_j[7] * t439 - C_j[6] * t434 - (s_j[0] * t437 - s_j[1] * t440);
+    const jg_real t443 = A_j[0] * t438 + A_j[3] * t441 + A_j[6] * t442 - (v_6_world_1 * t430 - v_6_world_2 * t428);
+    const jg_real t444 = A_j[1] * t438 + A_j[4] * t441 + A_j[7] * t442 - (v_6_world_2 * t426 - v_6_world_0 * t430);
+    const jg_real t445 = A_j[2] * t438 + A_j[5] * t441 + A_j[8] * t442 - (v_6_world_0 * t428 - v_6_world_1 * t426);
     jac_phi_q_t_lambda_geometry[27] = A_i[0] * t443 + A_i[1] * t444 + A_i[2] * t445;
     jac_phi_q_t_lambda_geometry[28] = A_i[3] * t443 + A_i[4] * t444 + A_i[5] * t445;
     jac_phi_q_t_lambda_geometry[29] = A_i[6] * t443 + A_i[7] * t444 + A_i[8] * t445;
     jac_phi_q_t_lambda_geometry[33] = -t438;
     jac_phi_q_t_lambda_geometry[34] = -t441;
     jac_phi_q_t_lambda_geometry[35] = -t442;
-    const jg_real t446 = f_i_world_2 * A_i[1] - A_i[2] * f_i_world_1;
-    const jg_real t447 = t446 * lambda[1] + A_i[0] * lambda[4];
+    const jg_real t446 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
+    const jg_real t447 = A_i[0] * lambda[4] + lambda[1] * t446;
     jac_phi_q_t_lambda_geometry[42] = t447;
     jac_phi_q_t_lambda_geometry[36] = -t447;
-    const jg_real t448 = A_i[2] * f_i_world_0 - f_i_world_2 * A_i[0];
-    const jg_real t449 = lambda[1] * t448 + A_i[1] * lambda[4];
+    const jg_real t448 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
+    const jg_real t449 = A_i[1] * lambda[4] + lambda[1] * t448;
     jac_phi_q_t_lambda_geometry[43] = t449;
     jac_phi_q_t_lambda_geometry[37] = -t449;
-    const jg_real t450 = f_i_world_1 * A_i[0] - A_i[1] * f_i_world_0;
-    const jg_real t451 = lambda[1] * t450 + A_i[2] * lambda[4];
+    const jg_real t450 = A_i[0] * f_i_world_1 - A_i[1] * f_i_world_0;
+    const jg_real t451 = A_i[2] * lambda[4] + lambda[1] * t450;
     jac_phi_q_t_lambda_geometry[44] = t451;
     jac_phi_q_t_lambda_geometry[38] = -t451;
-    const jg_real t452 = t446 * lambda[3];
-    const jg_real t453 = t448 * lambda[3];
-    const jg_real t454 = t450 * lambda[3];
-    const jg_real t455 = t452 * A_j[3] + t453 * A_j[4] + t454 * A_j[5];
-    const jg_real t456 = t452 * A_j[6] + t453 * A_j[7] + t454 * A_j[8];
-    const jg_real t457 = t447 * A_j[6] + t449 * A_j[7] + t451 * A_j[8];
-    const jg_real t458 = t447 * A_j[3] + t449 * A_j[4] + t451 * A_j[5];
-    const jg_real t459 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t460 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real t452 = lambda[3] * t446;
+    const jg_real t453 = lambda[3] * t448;
+    const jg_real t454 = lambda[3] * t450;
+    const jg_real t455 = A_j[3] * t452 + A_j[4] * t453 + A_j[5] * t454;
+    const jg_real t456 = A_j[6] * t452 + A_j[7] * t453 + A_j[8] * t454;
+    const jg_real t457 = A_j[6] * t447 + A_j[7] * t449 + A_j[8] * t451;
+    const jg_real t458 = A_j[3] * t447 + A_j[4] * t449 + A_j[5] * t451;
+    const jg_real t459 = A_i[1] * A_j[1] + A_i[0] * A_j[0] + A_i[2] * A_j[2];
+    const jg_real t460 = A_i[1] * A_j[4] + A_i[0] * A_j[3] + A_i[2] * A_j[5];
     const jg_real t461 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t462 = t459 * C_j[0] + t460 * C_j[1] + t461 * C_j[2];
+    const jg_real t462 = C_j[0] * t459 + C_j[1] * t460 + C_j[2] * t461;
     const jg_real t463 = h_i_dot_f_j * t462;
     const jg_real t464 = (t463 + t463) * t73 * lambda[4] * pitch;
-    const jg_real t465 = t455 * C_j[8] - t456 * C_j[7] - (t457 * s_j[1] - t458 * s_j[2]) + (t464 * across_in_j_0 +
-        t45 * (t459 - C_j[0] * t462));
-    const jg_real t466 = t452 * A_j[0] + t453 * A_j[1] + t454 * A_j[2];
-    const jg_real t467 = t447 * A_j[0] + t449 * A_j[1] + t451 * A_j[2];
-    const jg_real t468 = t456 * C_j[6] - C_j[8] * t466 - (s_j[2] * t467 - t457 * s_j[0]) + (t464 * across_in_j_1 +
-        t45 * (t460 - C_j[1] * t462));
-    const jg_real t469 = C_j[7] * t466 - t455 * C_j[6] - (t458 * s_j[0] - s_j[1] * t467) + (t464 * across_in_j_2 +
-        t45 * (t461 - C_j[2] * t462));
-    const jg_real t470 = A_j[0] * t465 + A_j[3] * t468 + A_j[6] * t469 - (t451 * v_6_world_1 - t449 * v_6_world_2);
-    const jg_real t471 = A_j[1] * t465 + A_j[4] * t468 + A_j[7] * t469 - (t447 * v_6_world_2 - t451 * v_6_world_0);
-    const jg_real t472 = A_j[2] * t465 + A_j[5] * t468 + A_j[8] * t469 - (t449 * v_6_world_0 - t447 * v_6_world_1);
+    const jg_real t465 = C_j[8] * t455 - C_j[7] * t456 - (s_j[1] * t457 - s_j[2] * t458) + (across_in_j_0 * t464 +
+        (t459 - C_j[0] * t462) * t45);
+    const jg_real t466 = A_j[0] * t452 + A_j[1] * t453 + A_j[2] * t454;
+    const jg_real t467 = A_j[0] * t447 + A_j[1] * t449 + A_j[2] * t451;
+    const jg_real t468 = C_j[6] * t456 - C_j[8] * t466 - (s_j[2] * t467 - s_j[0] * t457) + (across_in_j_1 * t464 +
+        (t460 - C_j[1] * t462) * t45);
+    const jg_real t469 = C_j[7] * t466 - C_j[6] * t455 - (s_j[0] * t458 - s_j[1] * t467) + (across_in_j_2 * t464 +
+        (t461 - C_j[2] * t462) * t45);
+    const jg_real t470 = A_j[0] * t465 + A_j[3] * t468 + A_j[6] * t469 - (v_6_world_1 * t451 - v_6_world_2 * t449);
+    const jg_real t471 = A_j[1] * t465 + A_j[4] * t468 + A_j[7] * t469 - (v_6_world_2 * t447 - v_6_world_0 * t451);
+    const jg_real t472 = A_j[2] * t465 + A_j[5] * t468 + A_j[8] * t469 - (v_6_world_0 * t449 - v_6_world_1 * t447);
     jac_phi_q_t_lambda_geometry[39] = A_i[0] * t470 + A_i[1] * t471 + A_i[2] * t472;
     jac_phi_q_t_lambda_geometry[40] = A_i[3] * t470 + A_i[4] * t471 + A_i[5] * t472;
     jac_phi_q_t_lambda_geometry[41] = A_i[6] * t470 + A_i[7] * t471 + A_i[8] * t472;
     jac_phi_q_t_lambda_geometry[45] = -t465;
     jac_phi_q_t_lambda_geometry[46] = -t468;
     jac_phi_q_t_lambda_geometry[47] = -t469;
-    const jg_real t473 = f_i_world_2 * A_i[4] - A_i[5] * f_i_world_1;
-    const jg_real t474 = t473 * lambda[1] + A_i[3] * lambda[4];
+    const jg_real t473 = A_i[4] * f_i_world_2 - A_i[5] * f_i_world_1;
+    const jg_real t474 = A_i[3] * lambda[4] + lambda[1] * t473;
     jac_phi_q_t_lambda_geometry[54] = t474;
     jac_phi_q_t_lambda_geometry[48] = -t474;
-    const jg_real t475 = A_i[5] * f_i_world_0 - f_i_world_2 * A_i[3];
-    const jg_real t476 = lambda[1] * t475 + A_i[4] * lambda[4];
+    const jg_real t475 = A_i[5] * f_i_world_0 - A_i[3] * f_i_world_2;
+    const jg_real t476 = A_i[4] * lambda[4] + lambda[1] * t475;
     jac_phi_q_t_lambda_geometry[55] = t476;
     jac_phi_q_t_lambda_geometry[49] = -t476;
-    const jg_real t477 = f_i_world_1 * A_i[3] - A_i[4] * f_i_world_0;
-    const jg_real t478 = lambda[1] * t477 + A_i[5] * lambda[4];
+    const jg_real t477 = A_i[3] * f_i_world_1 - A_i[4] * f_i_world_0;
+    const jg_real t478 = A_i[5] * lambda[4] + lambda[1] * t477;
     jac_phi_q_t_lambda_geometry[56] = t478;
     jac_phi_q_t_lambda_geometry[50] = -t478;
-    const jg_real t479 = t473 * lambda[3];
-    const jg_real t480 = t475 * lambda[3];
-    const jg_real t481 = t477 * lambda[3];
-    const jg_real t482 = t479 * A_j[3] + t480 * A_j[4] + t481 * A_j[5];
-    const jg_real t483 = t479 * A_j[6] + t480 * A_j[7] + t481 * A_j[8];
-    const jg_real t484 = t474 * A_j[6] + t476 * A_j[7] + t478 * A_j[8];
-    const jg_real t485 = t474 * A_j[3] + t476 * A_j[4] + t478 * A_j[5];
-    const jg_real t486 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t487 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real t479 = lambda[3] * t473;
+    const jg_real t480 = lambda[3] * t475;
+    const jg_real t481 = lambda[3] * t477;
+    const jg_real t482 = A_j[3] * t479 + A_j[4] * t480 + A_j[5] * t481;
+    const jg_real t483 = A_j[6] * t479 + A_j[7] * t480 + A_j[8] * t481;
+    const jg_real t484 = A_j[6] * t474 + A_j[7] * t476 + A_j[8] * t478;
+    const jg_real t485 = A_j[3] * t474 + A_j[4] * t476 + A_j[5] * t478;
+    const jg_real t486 = A_i[4] * A_j[1] + A_i[3] * A_j[0] + A_i[5] * A_j[2];
+    const jg_real t487 = A_i[4] * A_j[4] + A_i[3] * A_j[3] + A_i[5] * A_j[5];
     const jg_real t488 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t489 = t486 * C_j[0] + t487 * C_j[1] + t488 * C_j[2];
+    const jg_real t489 = C_j[0] * t486 + C_j[1] * t487 + C_j[2] * t488;
     const jg_real t490 = h_i_dot_f_j * t489;
     const jg_real t491 = (t490 + t490) * t73 * lambda[4] * pitch;
-    const jg_real t492 = t482 * C_j[8] - t483 * C_j[7] - (t484 * s_j[1] - t485 * s_j[2]) + (t491 * across_in_j_0 +
-        t45 * (t486 - C_j[0] * t489));
-    const jg_real t493 = t479 * A_j[0] + t480 * A_j[1] + t481 * A_j[2];
-    const jg_real t494 = t474 * A_j[0] + t476 * A_j[1] + t478 * A_j[2];
-    const jg_real t495 = t483 * C_j[6] - C_j[8] * t493 - (s_j[2] * t494 - t484 * s_j[0]) + (t491 * across_in_j_1 +
-        t45 * (t487 - C_j[1] * t489));
-    const jg_real t496 = C_j[7] * t493 - t482 * C_j[6] - (t485 * s_j[0] - s_j[1] * t494) + (t491 * across_in_j_2 +
-        t45 * (t488 - C_j[2] * t489));
-    const jg_real t497 = A_j[0] * t492 + A_j[3] * t495 + A_j[6] * t496 - (t478 * v_6_world_1 - t476 * v_6_world_2);
-    const jg_real t498 = A_j[1] * t492 + A_j[4] * t495 + A_j[7] * t496 - (t474 * v_6_world_2 - t478 * v_6_world_0);
-    const jg_real t499 = A_j[2] * t492 + A_j[5] * t495 + A_j[8] * t496 - (t476 * v_6_world_0 - t474 * v_6_world_1);
+    const jg_real t492 = C_j[8] * t482 - C_j[7] * t483 - (s_j[1] * t484 - s_j[2] * t485) + (across_in_j_0 * t491 +
+        (t486 - C_j[0] * t489) * t45);
+    const jg_real t493 = A_j[0] * t479 + A_j[1] * t480 + A_j[2] * t481;
+    const jg_real t494 = A_j[0] * t474 + A_j[1] * t476 + A_j[2] * t478;
+    const jg_real t495 = C_j[6] * t483 - C_j[8] * t493 - (s_j[2] * t494 - s_j[0] * t484) + (across_in_j_1 * t491 +
+        (t487 - C_j[1] * t489) * t45);
+    const jg_real t496 = C_j[7] * t493 - C_j[6] * t482 - (s_j[0] * t485 - s_j[1] * t494) + (across_in_j_2 * t491 +
+        (t488 - C_j[2] * t489) * t45);
+    const jg_real t497 = A_j[0] * t492 + A_j[3] * t495 + A_j[6] * t496 - (v_6_world_1 * t478 - v_6_world_2 * t476);
+    const jg_real t498 = A_j[1] * t492 + A_j[4] * t495 + A_j[7] * t496 - (v_6_world_2 * t474 - v_6_world_0 * t478);
+    const jg_real t499 = A_j[2] * t492 + A_j[5] * t495 + A_j[8] * t496 - (v_6_world_0 * t476 - v_6_world_1 * t474);
     jac_phi_q_t_lambda_geometry[51] = A_i[0] * t497 + A_i[1] * t498 + A_i[2] * t499;
     jac_phi_q_t_lambda_geometry[52] = A_i[3] * t497 + A_i[4] * t498 + A_i[5] * t499;
     jac_phi_q_t_lambda_geometry[53] = A_i[6] * t497 + A_i[7] * t498 + A_i[8] * t499;
     jac_phi_q_t_lambda_geometry[57] = -t492;
     jac_phi_q_t_lambda_geometry[58] = -t495;
     jac_phi_q_t_lambda_geometry[59] = -t496;
-    const jg_real t500 = f_i_world_2 * A_i[7] - A_i[8] * f_i_world_1;
-    const jg_real t501 = t500 * lambda[1] + A_i[6] * lambda[4];
+    const jg_real t500 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
+    const jg_real t501 = A_i[6] * lambda[4] + lambda[1] * t500;
     jac_phi_q_t_lambda_geometry[66] = t501;
     jac_phi_q_t_lambda_geometry[60] = -t501;
-    const jg_real t502 = A_i[8] * f_i_world_0 - f_i_world_2 * A_i[6];
-    const jg_real t503 = lambda[1] * t502 + A_i[7] * lambda[4];
+    const jg_real t502 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
+    const jg_real t503 = A_i[7] * lambda[4] + lambda[1] * t502;
     jac_phi_q_t_lambda_geometry[67] = t503;
     jac_phi_q_t_lambda_geometry[61] = -t503;
-    const jg_real t504 = f_i_world_1 * A_i[6] - A_i[7] * f_i_world_0;
-    const jg_real t505 = lambda[1] * t504 + A_i[8] * lambda[4];
+    const jg_real t504 = A_i[6] * f_i_world_1 - A_i[7] * f_i_world_0;
+    const jg_real t505 = A_i[8] * lambda[4] + lambda[1] * t504;
     jac_phi_q_t_lambda_geometry[68] = t505;
     jac_phi_q_t_lambda_geometry[62] = -t505;
-    const jg_real t506 = t500 * lambda[3];
-    const jg_real t507 = t502 * lambda[3];
-    const jg_real t508 = t504 * lambda[3];
-    const jg_real t509 = t506 * A_j[3] + t507 * A_j[4] + t508 * A_j[5];
-    const jg_real t510 = t506 * A_j[6] + t507 * A_j[7] + t508 * A_j[8];
-    const jg_real t511 = t501 * A_j[6] + t503 * A_j[7] + t505 * A_j[8];
-    const jg_real t512 = t501 * A_j[3] + t503 * A_j[4] + t505 * A_j[5];
-    const jg_real t513 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t514 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real t506 = lambda[3] * t500;
+    const jg_real t507 = lambda[3] * t502;
+    const jg_real t508 = lambda[3] * t504;
+    const jg_real t509 = A_j[3] * t506 + A_j[4] * t507 + A_j[5] * t508;
+    const jg_real t510 = A_j[6] * t506 + A_j[7] * t507 + A_j[8] * t508;
+    const jg_real t511 = A_j[6] * t501 + A_j[7] * t503 + A_j[8] * t505;
+    const jg_real t512 = A_j[3] * t501 + A_j[4] * t503 + A_j[5] * t505;
+    const jg_real t513 = A_i[7] * A_j[1] + A_i[6] * A_j[0] + A_i[8] * A_j[2];
+    const jg_real t514 = A_i[7] * A_j[4] + A_i[6] * A_j[3] + A_i[8] * A_j[5];
     const jg_real t515 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t516 = t513 * C_j[0] + t514 * C_j[1] + t515 * C_j[2];
+    const jg_real t516 = C_j[0] * t513 + C_j[1] * t514 + C_j[2] * t515;
     const jg_real t517 = h_i_dot_f_j * t516;
     const jg_real t518 = (t517 + t517) * t73 * lambda[4] * pitch;
-    const jg_real t519 = t509 * C_j[8] - t510 * C_j[7] - (t511 * s_j[1] - t512 * s_j[2]) + (t518 * across_in_j_0 +
-        t45 * (t513 - C_j[0] * t516));
-    const jg_real t520 = t506 * A_j[0] + t507 * A_j[1] + t508 * A_j[2];
-    const jg_real t521 = t501 * A_j[0] + t503 * A_j[1] + t505 * A_j[2];
-    const jg_real t522 = t510 * C_j[6] - C_j[8] * t520 - (s_j[2] * t521 - t511 * s_j[0]) + (t518 * across_in_j_1 +
-        t45 * (t514 - C_j[1] * t516));
-    const jg_real t523 = C_j[7] * t520 - t509 * C_j[6] - (t512 * s_j[0] - s_j[1] * t521) + (t518 * across_in_j_2 +
-        t45 * (t515 - C_j[2] * t516));
-    const jg_real t524 = A_j[0] * t519 + A_j[3] * t522 + A_j[6] * t523 - (t505 * v_6_world_1 - t503 * v_6_world_2);
-    const jg_real t525 = A_j[1] * t519 + A_j[4] * t522 + A_j[7] * t523 - (t501 * v_6_world_2 - t505 * v_6_world_0);
-    const jg_real t526 = A_j[2] * t519 + A_j[5] * t522 + A_j[8] * t523 - (t503 * v_6_world_0 - t501 * v_6_world_1);
+    const jg_real t519 = C_j[8] * t509 - C_j[7] * t510 - (s_j[1] * t511 - s_j[2] * t512) + (across_in_j_0 * t518 +
+        (t513 - C_j[0] * t516) * t45);
+    const jg_real t520 = A_j[0] * t506 + A_j[1] * t507 + A_j[2] * t508;
+    const jg_real t521 = A_j[0] * t501 + A_j[1] * t503 + A_j[2] * t505;
+    const jg_real t522 = C_j[6] * t510 - C_j[8] * t520 - (s_j[2] * t521 - s_j[0] * t511) + (across_in_j_1 * t518 +
+        (t514 - C_j[1] * t516) * t45);
+    const jg_real t523 = C_j[7] * t520 - C_j[6] * t509 - (s_j[0] * t512 - s_j[1] * t521) + (across_in_j_2 * t518 +
+        (t515 - C_j[2] * t516) * t45);
+    const jg_real t524 = A_j[0] * t519 + A_j[3] * t522 + A_j[6] * t523 - (v_6_world_1 * t505 - v_6_world_2 * t503);
+    const jg_real t525 = A_j[1] * t519 + A_j[4] * t522 + A_j[7] * t523 - (v_6_world_2 * t501 - v_6_world_0 * t505);
+    const jg_real t526 = A_j[2] * t519 + A_j[5] * t522 + A_j[8] * t523 - (v_6_world_0 * t503 - v_6_world_1 * t501);
     jac_phi_q_t_lambda_geometry[63] = A_i[0] * t524 + A_i[1] * t525 + A_i[2] * t526;
     jac_phi_q_t_lambda_geometry[64] = A_i[3] * t524 + A_i[4] * t525 + A_i[5] * t526;
     jac_phi_q_t_lambda_geometry[65] = A_i[6] * t524 + A_i[7] * t525 + A_i[8] * t526;
@@ -2350,25 +2360,25 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[73] = A_i[3] * t527 + A_i[4] * t528 + A_i[5] * t529;
     jac_phi_q_t_lambda_geometry[74] = A_i[6] * t527 + A_i[7] * t528 + A_i[8] * t529;
     jac_phi_q_t_lambda_geometry[75] = -v_0_in_j_2;
-    const jg_real t530 = A_j[6] * v_0_in_j_0 - v_0_in_j_2 * A_j[0];
-    const jg_real t531 = A_j[7] * v_0_in_j_0 - v_0_in_j_2 * A_j[1];
-    const jg_real t532 = A_j[8] * v_0_in_j_0 - v_0_in_j_2 * A_j[2];
+    const jg_real t530 = A_j[6] * v_0_in_j_0 - A_j[0] * v_0_in_j_2;
+    const jg_real t531 = A_j[7] * v_0_in_j_0 - A_j[1] * v_0_in_j_2;
+    const jg_real t532 = A_j[8] * v_0_in_j_0 - A_j[2] * v_0_in_j_2;
     jac_phi_q_t_lambda_geometry[77] = A_i[0] * t530 + A_i[1] * t531 + A_i[2] * t532;
     jac_phi_q_t_lambda_geometry[78] = A_i[3] * t530 + A_i[4] * t531 + A_i[5] * t532;
     jac_phi_q_t_lambda_geometry[79] = A_i[6] * t530 + A_i[7] * t531 + A_i[8] * t532;
     jac_phi_q_t_lambda_geometry[81] = -v_0_in_j_0;
-    const jg_real t533 = v_0_in_j_1 * A_j[0] - A_j[3] * v_0_in_j_0;
-    const jg_real t534 = v_0_in_j_1 * A_j[1] - A_j[4] * v_0_in_j_0;
-    const jg_real t535 = v_0_in_j_1 * A_j[2] - A_j[5] * v_0_in_j_0;
+    const jg_real t533 = A_j[0] * v_0_in_j_1 - A_j[3] * v_0_in_j_0;
+    const jg_real t534 = A_j[1] * v_0_in_j_1 - A_j[4] * v_0_in_j_0;
+    const jg_real t535 = A_j[2] * v_0_in_j_1 - A_j[5] * v_0_in_j_0;
     jac_phi_q_t_lambda_geometry[82] = A_i[0] * t533 + A_i[1] * t534 + A_i[2] * t535;
     jac_phi_q_t_lambda_geometry[83] = A_i[3] * t533 + A_i[4] * t534 + A_i[5] * t535;
     jac_phi_q_t_lambda_geometry[84] = A_i[6] * t533 + A_i[7] * t534 + A_i[8] * t535;
     jac_phi_q_t_lambda_geometry[85] = -v_0_in_j_1;
     const jg_real t536 = h_i_in_j_0 * h_i_dot_f_j;
     const jg_real t537 = (t536 + t536) * t73 * lambda[4] * pitch;
-    const jg_real t538 = t537 * across_in_j_0 - t45 * (t37 + h_i_dot_f_j);
-    const jg_real t539 = t537 * across_in_j_1 - h_i_in_j_0 * C_j[1] * t45;
-    const jg_real t540 = t537 * across_in_j_2 - h_i_in_j_0 * C_j[2] * t45;
+    const jg_real t538 = across_in_j_0 * t537 - (t37 + h_i_dot_f_j) * t45;
+    const jg_real t539 = across_in_j_1 * t537 - C_j[1] * h_i_in_j_0 * t45;
+    const jg_real t540 = across_in_j_2 * t537 - C_j[2] * h_i_in_j_0 * t45;
     const jg_real t541 = A_j[0] * t538 + A_j[3] * t539 + A_j[6] * t540;
     const jg_real t542 = A_j[1] * t538 + A_j[4] * t539 + A_j[7] * t540;
     const jg_real t543 = A_j[2] * t538 + A_j[5] * t539 + A_j[8] * t540;
@@ -2380,9 +2390,9 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[92] = -t540;
     const jg_real t544 = h_i_in_j_1 * h_i_dot_f_j;
     const jg_real t545 = (t544 + t544) * t73 * lambda[4] * pitch;
-    const jg_real t546 = t545 * across_in_j_0 - h_i_in_j_1 * C_j[0] * t45;
-    const jg_real t547 = t545 * across_in_j_1 - t45 * (t39 + h_i_dot_f_j);
-    const jg_real t548 = t545 * across_in_j_2 - h_i_in_j_1 * C_j[2] * t45;
+    const jg_real t546 = across_in_j_0 * t545 - C_j[0] * h_i_in_j_1 * t45;
+    const jg_real t547 = across_in_j_1 * t545 - (t39 + h_i_dot_f_j) * t45;
+    const jg_real t548 = across_in_j_2 * t545 - C_j[2] * h_i_in_j_1 * t45;
     const jg_real t549 = A_j[0] * t546 + A_j[3] * t547 + A_j[6] * t548;
     const jg_real t550 = A_j[1] * t546 + A_j[4] * t547 + A_j[7] * t548;
     const jg_real t551 = A_j[2] * t546 + A_j[5] * t547 + A_j[8] * t548;
@@ -2394,9 +2404,9 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[98] = -t548;
     const jg_real t552 = h_i_in_j_2 * h_i_dot_f_j;
     const jg_real t553 = (t552 + t552) * t73 * lambda[4] * pitch;
-    const jg_real t554 = t553 * across_in_j_0 - h_i_in_j_2 * C_j[0] * t45;
-    const jg_real t555 = t553 * across_in_j_1 - h_i_in_j_2 * C_j[1] * t45;
-    const jg_real t556 = t553 * across_in_j_2 - t45 * (t41 + h_i_dot_f_j);
+    const jg_real t554 = across_in_j_0 * t553 - C_j[0] * h_i_in_j_2 * t45;
+    const jg_real t555 = across_in_j_1 * t553 - C_j[1] * h_i_in_j_2 * t45;
+    const jg_real t556 = across_in_j_2 * t553 - (t41 + h_i_dot_f_j) * t45;
     const jg_real t557 = A_j[0] * t554 + A_j[3] * t555 + A_j[6] * t556;
     const jg_real t558 = A_j[1] * t554 + A_j[4] * t555 + A_j[7] * t556;
     const jg_real t559 = A_j[2] * t554 + A_j[5] * t555 + A_j[8] * t556;
@@ -2406,30 +2416,30 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_geometry[102] = -t554;
     jac_phi_q_t_lambda_geometry[103] = -t555;
     jac_phi_q_t_lambda_geometry[104] = -t556;
-    const jg_real t560 = A_j[3] * v_2_in_j_2 - v_2_in_j_1 * A_j[6];
-    const jg_real t561 = A_j[4] * v_2_in_j_2 - v_2_in_j_1 * A_j[7];
-    const jg_real t562 = A_j[5] * v_2_in_j_2 - v_2_in_j_1 * A_j[8];
+    const jg_real t560 = A_j[3] * v_2_in_j_2 - A_j[6] * v_2_in_j_1;
+    const jg_real t561 = A_j[4] * v_2_in_j_2 - A_j[7] * v_2_in_j_1;
+    const jg_real t562 = A_j[5] * v_2_in_j_2 - A_j[8] * v_2_in_j_1;
     jac_phi_q_t_lambda_geometry[105] = A_i[0] * t560 + A_i[1] * t561 + A_i[2] * t562;
     jac_phi_q_t_lambda_geometry[106] = A_i[3] * t560 + A_i[4] * t561 + A_i[5] * t562;
     jac_phi_q_t_lambda_geometry[107] = A_i[6] * t560 + A_i[7] * t561 + A_i[8] * t562;
     jac_phi_q_t_lambda_geometry[108] = -v_2_in_j_2;
-    const jg_real t563 = A_j[6] * v_2_in_j_0 - v_2_in_j_2 * A_j[0];
-    const jg_real t564 = A_j[7] * v_2_in_j_0 - v_2_in_j_2 * A_j[1];
-    const jg_real t565 = A_j[8] * v_2_in_j_0 - v_2_in_j_2 * A_j[2];
+    const jg_real t563 = A_j[6] * v_2_in_j_0 - A_j[0] * v_2_in_j_2;
+    const jg_real t564 = A_j[7] * v_2_in_j_0 - A_j[1] * v_2_in_j_2;
+    const jg_real t565 = A_j[8] * v_2_in_j_0 - A_j[2] * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[110] = A_i[0] * t563 + A_i[1] * t564 + A_i[2] * t565;
     jac_phi_q_t_lambda_geometry[111] = A_i[3] * t563 + A_i[4] * t564 + A_i[5] * t565;
     jac_phi_q_t_lambda_geometry[112] = A_i[6] * t563 + A_i[7] * t564 + A_i[8] * t565;
     jac_phi_q_t_lambda_geometry[114] = -v_2_in_j_0;
-    const jg_real t566 = v_2_in_j_1 * A_j[0] - A_j[3] * v_2_in_j_0;
-    const jg_real t567 = v_2_in_j_1 * A_j[1] - A_j[4] * v_2_in_j_0;
-    const jg_real t568 = v_2_in_j_1 * A_j[2] - A_j[5] * v_2_in_j_0;
+    const jg_real t566 = A_j[0] * v_2_in_j_1 - A_j[3] * v_2_in_j_0;
+    const jg_real t567 = A_j[1] * v_2_in_j_1 - A_j[4] * v_2_in_j_0;
+    const jg_real t568 = A_j[2] * v_2_in_j_1 - A_j[5] * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[115] = A_i[0] * t566 + A_i[1] * t567 + A_i[2] * t568;
     jac_phi_q_t_lambda_geometry[116] = A_i[3] * t566 + A_i[4] * t567 + A_i[5] * t568;
     jac_phi_q_t_lambda_geometry[117] = A_i[6] * t566 + A_i[7] * t567 + A_i[8] * t568;
     jac_phi_q_t_lambda_geometry[118] = -v_2_in_j_1;
-    const jg_real t569 = t44 * across_in_j_0;
-    const jg_real t570 = t44 * across_in_j_1;
-    const jg_real t571 = t44 * across_in_j_2;
+    const jg_real t569 = across_in_j_0 * t44;
+    const jg_real t570 = across_in_j_1 * t44;
+    const jg_real t571 = across_in_j_2 * t44;
     const jg_real t572 = A_j[0] * t569 + A_j[3] * t570 + A_j[6] * t571;
     const jg_real t573 = A_j[1] * t569 + A_j[4] * t570 + A_j[7] * t571;
     const jg_real t574 = A_j[2] * t569 + A_j[5] * t570 + A_j[8] * t571;
@@ -2442,63 +2452,63 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_lambda[0] = -f_i_world_0;
     jac_phi_q_t_lambda_lambda[1] = -f_i_world_1;
     jac_phi_q_t_lambda_lambda[2] = -f_i_world_2;
-    const jg_real t575 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    const jg_real t576 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
-    const jg_real t577 = t575 * s_j[1] - t576 * s_j[2];
+    const jg_real t575 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
+    const jg_real t576 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
+    const jg_real t577 = s_j[1] * t575 - s_j[2] * t576;
     jac_phi_q_t_lambda_lambda[9] = t577;
-    const jg_real t578 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    const jg_real t579 = s_j[2] * t578 - t575 * s_j[0];
+    const jg_real t578 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t579 = s_j[2] * t578 - s_j[0] * t575;
     jac_phi_q_t_lambda_lambda[10] = t579;
-    const jg_real t580 = t576 * s_j[0] - s_j[1] * t578;
+    const jg_real t580 = s_j[0] * t576 - s_j[1] * t578;
     jac_phi_q_t_lambda_lambda[11] = t580;
-    const jg_real t581 = t577 * A_j[0] + A_j[3] * t579 + A_j[6] * t580 + (f_i_world_2 * v_6_world_1 - f_i_world_1 *
-        v_6_world_2);
-    const jg_real t582 = t577 * A_j[1] + A_j[4] * t579 + A_j[7] * t580 + (f_i_world_0 * v_6_world_2 - f_i_world_2 *
-        v_6_world_0);
-    const jg_real t583 = t577 * A_j[2] + A_j[5] * t579 + A_j[8] * t580 + (f_i_world_1 * v_6_world_0 - f_i_world_0 *
-        v_6_world_1);
+    const jg_real t581 = v_6_world_1 * f_i_world_2 - v_6_world_2 * f_i_world_1 + (A_j[0] * t577 + A_j[3] * t579 +
+        A_j[6] * t580);
+    const jg_real t582 = v_6_world_2 * f_i_world_0 - v_6_world_0 * f_i_world_2 + (A_j[1] * t577 + A_j[4] * t579 +
+        A_j[7] * t580);
+    const jg_real t583 = v_6_world_0 * f_i_world_1 - v_6_world_1 * f_i_world_0 + (A_j[2] * t577 + A_j[5] * t579 +
+        A_j[8] * t580);
     jac_phi_q_t_lambda_lambda[3] = -(A_i[0] * t581 + A_i[1] * t582 + A_i[2] * t583);
     jac_phi_q_t_lambda_lambda[4] = -(A_i[3] * t581 + A_i[4] * t582 + A_i[5] * t583);
     jac_phi_q_t_lambda_lambda[5] = -(A_i[6] * t581 + A_i[7] * t582 + A_i[8] * t583);
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
-    const jg_real t584 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
-    const jg_real t585 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
-    const jg_real t586 = t584 * s_j[1] - t585 * s_j[2];
+    const jg_real t584 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
+    const jg_real t585 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real t586 = s_j[1] * t584 - s_j[2] * t585;
     jac_phi_q_t_lambda_lambda[21] = t586;
-    const jg_real t587 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    const jg_real t588 = s_j[2] * t587 - t584 * s_j[0];
+    const jg_real t587 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    const jg_real t588 = s_j[2] * t587 - s_j[0] * t584;
     jac_phi_q_t_lambda_lambda[22] = t588;
-    const jg_real t589 = t585 * s_j[0] - s_j[1] * t587;
+    const jg_real t589 = s_j[0] * t585 - s_j[1] * t587;
     jac_phi_q_t_lambda_lambda[23] = t589;
-    const jg_real t590 = t586 * A_j[0] + A_j[3] * t588 + A_j[6] * t589 + (g_i_world_2 * v_6_world_1 - g_i_world_1 *
-        v_6_world_2);
-    const jg_real t591 = t586 * A_j[1] + A_j[4] * t588 + A_j[7] * t589 + (g_i_world_0 * v_6_world_2 - g_i_world_2 *
-        v_6_world_0);
-    const jg_real t592 = t586 * A_j[2] + A_j[5] * t588 + A_j[8] * t589 + (g_i_world_1 * v_6_world_0 - g_i_world_0 *
-        v_6_world_1);
+    const jg_real t590 = v_6_world_1 * g_i_world_2 - v_6_world_2 * g_i_world_1 + (A_j[0] * t586 + A_j[3] * t588 +
+        A_j[6] * t589);
+    const jg_real t591 = v_6_world_2 * g_i_world_0 - v_6_world_0 * g_i_world_2 + (A_j[1] * t586 + A_j[4] * t588 +
+        A_j[7] * t589);
+    const jg_real t592 = v_6_world_0 * g_i_world_1 - v_6_world_1 * g_i_world_0 + (A_j[2] * t586 + A_j[5] * t588 +
+        A_j[8] * t589);
     jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t590 + A_i[1] * t591 + A_i[2] * t592);
     jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t590 + A_i[4] * t591 + A_i[5] * t592);
     jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t590 + A_i[7] * t591 + A_i[8] * t592);
-    const jg_real t593 = t576 * C_j[8] - t575 * C_j[7];
-    const jg_real t594 = t575 * C_j[6] - C_j[8] * t578;
-    const jg_real t595 = C_j[7] * t578 - t576 * C_j[6];
-    const jg_real t596 = t593 * A_j[0] + A_j[3] * t594 + A_j[6] * t595;
-    const jg_real t597 = t593 * A_j[1] + A_j[4] * t594 + A_j[7] * t595;
-    const jg_real t598 = t593 * A_j[2] + A_j[5] * t594 + A_j[8] * t595;
+    const jg_real t593 = C_j[8] * t576 - C_j[7] * t575;
+    const jg_real t594 = C_j[6] * t575 - C_j[8] * t578;
+    const jg_real t595 = C_j[7] * t578 - C_j[6] * t576;
+    const jg_real t596 = A_j[0] * t593 + A_j[3] * t594 + A_j[6] * t595;
+    const jg_real t597 = A_j[1] * t593 + A_j[4] * t594 + A_j[7] * t595;
+    const jg_real t598 = A_j[2] * t593 + A_j[5] * t594 + A_j[8] * t595;
     jac_phi_q_t_lambda_lambda[24] = A_i[0] * t596 + A_i[1] * t597 + A_i[2] * t598;
     jac_phi_q_t_lambda_lambda[25] = A_i[3] * t596 + A_i[4] * t597 + A_i[5] * t598;
     jac_phi_q_t_lambda_lambda[26] = A_i[6] * t596 + A_i[7] * t597 + A_i[8] * t598;
     jac_phi_q_t_lambda_lambda[27] = -t593;
     jac_phi_q_t_lambda_lambda[28] = -t594;
     jac_phi_q_t_lambda_lambda[29] = -t595;
-    const jg_real t599 = t585 * C_j[8] - t584 * C_j[7];
-    const jg_real t600 = t584 * C_j[6] - C_j[8] * t587;
-    const jg_real t601 = C_j[7] * t587 - t585 * C_j[6];
-    const jg_real t602 = t599 * A_j[0] + A_j[3] * t600 + A_j[6] * t601;
-    const jg_real t603 = t599 * A_j[1] + A_j[4] * t600 + A_j[7] * t601;
-    const jg_real t604 = t599 * A_j[2] + A_j[5] * t600 + A_j[8] * t601;
+    const jg_real t599 = C_j[8] * t585 - C_j[7] * t584;
+    const jg_real t600 = C_j[6] * t584 - C_j[8] * t587;
+    const jg_real t601 = C_j[7] * t587 - C_j[6] * t585;
+    const jg_real t602 = A_j[0] * t599 + A_j[3] * t600 + A_j[6] * t601;
+    const jg_real t603 = A_j[1] * t599 + A_j[4] * t600 + A_j[7] * t601;
+    const jg_real t604 = A_j[2] * t599 + A_j[5] * t600 + A_j[8] * t601;
     jac_phi_q_t_lambda_lambda[30] = A_i[0] * t602 + A_i[1] * t603 + A_i[2] * t604;
     jac_phi_q_t_lambda_lambda[31] = A_i[3] * t602 + A_i[4] * t603 + A_i[5] * t604;
     jac_phi_q_t_lambda_lambda[32] = A_i[6] * t602 + A_i[7] * t603 + A_i[8] * t604;
@@ -2508,16 +2518,16 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
-    const jg_real t605 = spread * pitch;
-    const jg_real t606 = t605 * across_in_j_0 - (h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2]);
-    const jg_real t607 = t605 * across_in_j_1 - (s_j[2] * h_i_in_j_0 - h_i_in_j_2 * s_j[0]);
-    const jg_real t608 = t605 * across_in_j_2 - (h_i_in_j_1 * s_j[0] - s_j[1] * h_i_in_j_0);
-    const jg_real t609 = A_j[0] * t606 + A_j[3] * t607 + A_j[6] * t608 - (h_i_world_2 * v_6_world_1 - h_i_world_1 *
-        v_6_world_2);
-    const jg_real t610 = A_j[1] * t606 + A_j[4] * t607 + A_j[7] * t608 - (h_i_world_0 * v_6_world_2 - h_i_world_2 *
-        v_6_world_0);
-    const jg_real t611 = A_j[2] * t606 + A_j[5] * t607 + A_j[8] * t608 - (h_i_world_1 * v_6_world_0 - h_i_world_0 *
-        v_6_world_1);
+    const jg_real t605 = pitch * spread;
+    const jg_real t606 = across_in_j_0 * t605 - (s_j[1] * h_i_in_j_2 - s_j[2] * h_i_in_j_1);
+    const jg_real t607 = across_in_j_1 * t605 - (s_j[2] * h_i_in_j_0 - s_j[0] * h_i_in_j_2);
+    const jg_real t608 = across_in_j_2 * t605 - (s_j[0] * h_i_in_j_1 - s_j[1] * h_i_in_j_0);
+    const jg_real t609 = A_j[0] * t606 + A_j[3] * t607 + A_j[6] * t608 - (v_6_world_1 * h_i_world_2 - v_6_world_2 *
+        h_i_world_1);
+    const jg_real t610 = A_j[1] * t606 + A_j[4] * t607 + A_j[7] * t608 - (v_6_world_2 * h_i_world_0 - v_6_world_0 *
+        h_i_world_2);
+    const jg_real t611 = A_j[2] * t606 + A_j[5] * t607 + A_j[8] * t608 - (v_6_world_0 * h_i_world_1 - v_6_world_1 *
+        h_i_world_0);
     jac_phi_q_t_lambda_lambda[39] = A_i[0] * t609 + A_i[1] * t610 + A_i[2] * t611;
     jac_phi_q_t_lambda_lambda[40] = A_i[3] * t609 + A_i[4] * t610 + A_i[5] * t611;
     jac_phi_q_t_lambda_lambda[41] = A_i[6] * t609 + A_i[7] * t610 + A_i[8] * t611;

@@ -67,9 +67,9 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
-    jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
-    jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
+    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[2] = C_i[0] * h_j_world_0;
@@ -85,136 +85,136 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t18 = f_i_dot_f_j * f_i_dot_f_j + g_i_dot_f_j * g_i_dot_f_j;
     const jg_real t19 = f_i_dot_f_j / t18;
     const jg_real t20 = g_i_dot_f_j / t18;
-    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20) * pitch;
+    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
-    jac_phi_A_i[5] = e_ij_world_1 * C_i[0];
-    jac_phi_A_i[6] = e_ij_world_1 * C_i[3];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    jac_phi_A_i[5] = C_i[0] * e_ij_world_1;
+    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[7] = C_i[0] * h_j_world_1;
     jac_phi_A_i[8] = C_i[3] * h_j_world_1;
-    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20) * pitch;
+    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
-    jac_phi_A_i[10] = e_ij_world_2 * C_i[0];
-    jac_phi_A_i[11] = e_ij_world_2 * C_i[3];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[10] = C_i[0] * e_ij_world_2;
+    jac_phi_A_i[11] = C_i[3] * e_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[12] = C_i[0] * h_j_world_2;
     jac_phi_A_i[13] = C_i[3] * h_j_world_2;
-    jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20) * pitch;
-    jac_phi_A_i[15] = e_ij_world_0 * C_i[1];
-    jac_phi_A_i[16] = e_ij_world_0 * C_i[4];
+    jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - pitch * (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20);
+    jac_phi_A_i[15] = C_i[1] * e_ij_world_0;
+    jac_phi_A_i[16] = C_i[4] * e_ij_world_0;
     jac_phi_A_i[17] = C_i[1] * h_j_world_0;
     jac_phi_A_i[18] = C_i[4] * h_j_world_0;
-    jac_phi_A_i[19] = e_ij_world_0 * C_i[7] - (C_i[4] * f_j_world_0 * t19 - C_i[1] * f_j_world_0 * t20) * pitch;
-    jac_phi_A_i[20] = e_ij_world_1 * C_i[1];
-    jac_phi_A_i[21] = e_ij_world_1 * C_i[4];
+    jac_phi_A_i[19] = e_ij_world_0 * C_i[7] - pitch * (C_i[4] * f_j_world_0 * t19 - C_i[1] * f_j_world_0 * t20);
+    jac_phi_A_i[20] = C_i[1] * e_ij_world_1;
+    jac_phi_A_i[21] = C_i[4] * e_ij_world_1;
     jac_phi_A_i[22] = C_i[1] * h_j_world_1;
     jac_phi_A_i[23] = C_i[4] * h_j_world_1;
-    jac_phi_A_i[24] = e_ij_world_1 * C_i[7] - (C_i[4] * f_j_world_1 * t19 - C_i[1] * f_j_world_1 * t20) * pitch;
-    jac_phi_A_i[25] = e_ij_world_2 * C_i[1];
-    jac_phi_A_i[26] = e_ij_world_2 * C_i[4];
+    jac_phi_A_i[24] = e_ij_world_1 * C_i[7] - pitch * (C_i[4] * f_j_world_1 * t19 - C_i[1] * f_j_world_1 * t20);
+    jac_phi_A_i[25] = C_i[1] * e_ij_world_2;
+    jac_phi_A_i[26] = C_i[4] * e_ij_world_2;
     jac_phi_A_i[27] = C_i[1] * h_j_world_2;
     jac_phi_A_i[28] = C_i[4] * h_j_world_2;
-    jac_phi_A_i[29] = e_ij_world_2 * C_i[7] - (C_i[4] * f_j_world_2 * t19 - C_i[1] * f_j_world_2 * t20) * pitch;
-    jac_phi_A_i[30] = e_ij_world_0 * C_i[2];
-    jac_phi_A_i[31] = e_ij_world_0 * C_i[5];
+    jac_phi_A_i[29] = e_ij_world_2 * C_i[7] - pitch * (C_i[4] * f_j_world_2 * t19 - C_i[1] * f_j_world_2 * t20);
+    jac_phi_A_i[30] = C_i[2] * e_ij_world_0;
+    jac_phi_A_i[31] = C_i[5] * e_ij_world_0;
     jac_phi_A_i[32] = C_i[2] * h_j_world_0;
     jac_phi_A_i[33] = C_i[5] * h_j_world_0;
-    jac_phi_A_i[34] = e_ij_world_0 * C_i[8] - (C_i[5] * f_j_world_0 * t19 - C_i[2] * f_j_world_0 * t20) * pitch;
-    jac_phi_A_i[35] = e_ij_world_1 * C_i[2];
-    jac_phi_A_i[36] = e_ij_world_1 * C_i[5];
+    jac_phi_A_i[34] = e_ij_world_0 * C_i[8] - pitch * (C_i[5] * f_j_world_0 * t19 - C_i[2] * f_j_world_0 * t20);
+    jac_phi_A_i[35] = C_i[2] * e_ij_world_1;
+    jac_phi_A_i[36] = C_i[5] * e_ij_world_1;
     jac_phi_A_i[37] = C_i[2] * h_j_world_1;
     jac_phi_A_i[38] = C_i[5] * h_j_world_1;
-    jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20) * pitch;
-    jac_phi_A_i[40] = e_ij_world_2 * C_i[2];
-    jac_phi_A_i[41] = e_ij_world_2 * C_i[5];
+    jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - pitch * (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20);
+    jac_phi_A_i[40] = C_i[2] * e_ij_world_2;
+    jac_phi_A_i[41] = C_i[5] * e_ij_world_2;
     jac_phi_A_i[42] = C_i[2] * h_j_world_2;
     jac_phi_A_i[43] = C_i[5] * h_j_world_2;
-    jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20) * pitch;
+    jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - pitch * (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20);
     const jg_real t29 = s_j[0] * A_i[0];
     const jg_real t30 = s_j[0] * A_i[3];
     const jg_real t31 = s_j[0] * A_i[6];
-    jac_phi_A_j[0] = t29 * C_i[0] + t30 * C_i[1] + t31 * C_i[2];
-    jac_phi_A_j[1] = t29 * C_i[3] + t30 * C_i[4] + t31 * C_i[5];
-    jac_phi_A_j[2] = f_i_world_0 * C_j[6];
-    jac_phi_A_j[3] = g_i_world_0 * C_j[6];
-    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - (g_i_world_0 * C_j[0] * t19 - f_i_world_0 * C_j[0]
-        * t20) * pitch;
+    jac_phi_A_j[0] = C_i[0] * t29 + C_i[1] * t30 + C_i[2] * t31;
+    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
+    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
+    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
+    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (C_j[0] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[0] * t20);
     const jg_real t32 = s_j[0] * A_i[1];
     const jg_real t33 = s_j[0] * A_i[4];
     const jg_real t34 = s_j[0] * A_i[7];
-    jac_phi_A_j[5] = t32 * C_i[0] + t33 * C_i[1] + t34 * C_i[2];
-    jac_phi_A_j[6] = t32 * C_i[3] + t33 * C_i[4] + t34 * C_i[5];
-    jac_phi_A_j[7] = f_i_world_1 * C_j[6];
-    jac_phi_A_j[8] = g_i_world_1 * C_j[6];
-    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - (g_i_world_1 * C_j[0] * t19 - f_i_world_1 * C_j[0]
-        * t20) * pitch;
+    jac_phi_A_j[5] = C_i[0] * t32 + C_i[1] * t33 + C_i[2] * t34;
+    jac_phi_A_j[6] = C_i[3] * t32 + C_i[4] * t33 + C_i[5] * t34;
+    jac_phi_A_j[7] = C_j[6] * f_i_world_1;
+    jac_phi_A_j[8] = C_j[6] * g_i_world_1;
+    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[0] * t20);
     const jg_real t35 = s_j[0] * A_i[2];
     const jg_real t36 = s_j[0] * A_i[5];
     const jg_real t37 = s_j[0] * A_i[8];
-    jac_phi_A_j[10] = t35 * C_i[0] + t36 * C_i[1] + t37 * C_i[2];
-    jac_phi_A_j[11] = t35 * C_i[3] + t36 * C_i[4] + t37 * C_i[5];
-    jac_phi_A_j[12] = f_i_world_2 * C_j[6];
-    jac_phi_A_j[13] = g_i_world_2 * C_j[6];
-    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - (g_i_world_2 * C_j[0] * t19 - f_i_world_2 *
-        C_j[0] * t20) * pitch;
+    jac_phi_A_j[10] = C_i[0] * t35 + C_i[1] * t36 + C_i[2] * t37;
+    jac_phi_A_j[11] = C_i[3] * t35 + C_i[4] * t36 + C_i[5] * t37;
+    jac_phi_A_j[12] = C_j[6] * f_i_world_2;
+    jac_phi_A_j[13] = C_j[6] * g_i_world_2;
+    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - C_j[0] *
+        f_i_world_2 * t20);
     const jg_real t38 = s_j[1] * A_i[0];
     const jg_real t39 = s_j[1] * A_i[3];
     const jg_real t40 = s_j[1] * A_i[6];
-    jac_phi_A_j[15] = t38 * C_i[0] + t39 * C_i[1] + t40 * C_i[2];
-    jac_phi_A_j[16] = t38 * C_i[3] + t39 * C_i[4] + t40 * C_i[5];
-    jac_phi_A_j[17] = f_i_world_0 * C_j[7];
-    jac_phi_A_j[18] = g_i_world_0 * C_j[7];
-    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - (g_i_world_0 * C_j[1] * t19 - f_i_world_0 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[15] = C_i[0] * t38 + C_i[1] * t39 + C_i[2] * t40;
+    jac_phi_A_j[16] = C_i[3] * t38 + C_i[4] * t39 + C_i[5] * t40;
+    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
+    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
+    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (C_j[1] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[1] * t20);
     const jg_real t41 = s_j[1] * A_i[1];
     const jg_real t42 = s_j[1] * A_i[4];
     const jg_real t43 = s_j[1] * A_i[7];
-    jac_phi_A_j[20] = t41 * C_i[0] + t42 * C_i[1] + t43 * C_i[2];
-    jac_phi_A_j[21] = t41 * C_i[3] + t42 * C_i[4] + t43 * C_i[5];
-    jac_phi_A_j[22] = f_i_world_1 * C_j[7];
-    jac_phi_A_j[23] = g_i_world_1 * C_j[7];
-    jac_phi_A_j[24] = t41 * C_i[6] + t42 * C_i[7] + t43 * C_i[8] - (g_i_world_1 * C_j[1] * t19 - f_i_world_1 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[20] = C_i[0] * t41 + C_i[1] * t42 + C_i[2] * t43;
+    jac_phi_A_j[21] = C_i[3] * t41 + C_i[4] * t42 + C_i[5] * t43;
+    jac_phi_A_j[22] = C_j[7] * f_i_world_1;
+    jac_phi_A_j[23] = C_j[7] * g_i_world_1;
+    jac_phi_A_j[24] = t41 * C_i[6] + t42 * C_i[7] + t43 * C_i[8] - pitch * (C_j[1] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[1] * t20);
     const jg_real t44 = s_j[1] * A_i[2];
     const jg_real t45 = s_j[1] * A_i[5];
     const jg_real t46 = s_j[1] * A_i[8];
-    jac_phi_A_j[25] = t44 * C_i[0] + t45 * C_i[1] + t46 * C_i[2];
-    jac_phi_A_j[26] = t44 * C_i[3] + t45 * C_i[4] + t46 * C_i[5];
-    jac_phi_A_j[27] = f_i_world_2 * C_j[7];
-    jac_phi_A_j[28] = g_i_world_2 * C_j[7];
-    jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - (g_i_world_2 * C_j[1] * t19 - f_i_world_2 *
-        C_j[1] * t20) * pitch;
+    jac_phi_A_j[25] = C_i[0] * t44 + C_i[1] * t45 + C_i[2] * t46;
+    jac_phi_A_j[26] = C_i[3] * t44 + C_i[4] * t45 + C_i[5] * t46;
+    jac_phi_A_j[27] = C_j[7] * f_i_world_2;
+    jac_phi_A_j[28] = C_j[7] * g_i_world_2;
+    jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - pitch * (C_j[1] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[1] * t20);
     const jg_real t47 = s_j[2] * A_i[0];
     const jg_real t48 = s_j[2] * A_i[3];
     const jg_real t49 = s_j[2] * A_i[6];
-    jac_phi_A_j[30] = t47 * C_i[0] + t48 * C_i[1] + t49 * C_i[2];
-    jac_phi_A_j[31] = t47 * C_i[3] + t48 * C_i[4] + t49 * C_i[5];
-    jac_phi_A_j[32] = f_i_world_0 * C_j[8];
-    jac_phi_A_j[33] = g_i_world_0 * C_j[8];
-    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - (g_i_world_0 * C_j[2] * t19 - f_i_world_0 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[30] = C_i[0] * t47 + C_i[1] * t48 + C_i[2] * t49;
+    jac_phi_A_j[31] = C_i[3] * t47 + C_i[4] * t48 + C_i[5] * t49;
+    jac_phi_A_j[32] = C_j[8] * f_i_world_0;
+    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
+    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (C_j[2] * g_i_world_0 * t19 - f_i_world_0
+        * C_j[2] * t20);
     const jg_real t50 = s_j[2] * A_i[1];
     const jg_real t51 = s_j[2] * A_i[4];
     const jg_real t52 = s_j[2] * A_i[7];
-    jac_phi_A_j[35] = t50 * C_i[0] + t51 * C_i[1] + t52 * C_i[2];
-    jac_phi_A_j[36] = t50 * C_i[3] + t51 * C_i[4] + t52 * C_i[5];
-    jac_phi_A_j[37] = f_i_world_1 * C_j[8];
-    jac_phi_A_j[38] = g_i_world_1 * C_j[8];
-    jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - (g_i_world_1 * C_j[2] * t19 - f_i_world_1 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[35] = C_i[0] * t50 + C_i[1] * t51 + C_i[2] * t52;
+    jac_phi_A_j[36] = C_i[3] * t50 + C_i[4] * t51 + C_i[5] * t52;
+    jac_phi_A_j[37] = C_j[8] * f_i_world_1;
+    jac_phi_A_j[38] = C_j[8] * g_i_world_1;
+    jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - pitch * (C_j[2] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[2] * t20);
     const jg_real t53 = s_j[2] * A_i[2];
     const jg_real t54 = s_j[2] * A_i[5];
     const jg_real t55 = s_j[2] * A_i[8];
-    jac_phi_A_j[40] = t53 * C_i[0] + t54 * C_i[1] + t55 * C_i[2];
-    jac_phi_A_j[41] = t53 * C_i[3] + t54 * C_i[4] + t55 * C_i[5];
-    jac_phi_A_j[42] = f_i_world_2 * C_j[8];
-    jac_phi_A_j[43] = g_i_world_2 * C_j[8];
-    jac_phi_A_j[44] = t53 * C_i[6] + t54 * C_i[7] + t55 * C_i[8] - (g_i_world_2 * C_j[2] * t19 - f_i_world_2 *
-        C_j[2] * t20) * pitch;
+    jac_phi_A_j[40] = C_i[0] * t53 + C_i[1] * t54 + C_i[2] * t55;
+    jac_phi_A_j[41] = C_i[3] * t53 + C_i[4] * t54 + C_i[5] * t55;
+    jac_phi_A_j[42] = C_j[8] * f_i_world_2;
+    jac_phi_A_j[43] = C_j[8] * g_i_world_2;
+    jac_phi_A_j[44] = t53 * C_i[6] + t54 * C_i[7] + t55 * C_i[8] - pitch * (C_j[2] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[2] * t20);
     jac_phi_geometry[0] = -C_i[0];
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[6];
@@ -225,7 +225,7 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
@@ -236,7 +236,7 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[19] = t58;
     const jg_real t59 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[11] = t59 * t20 * pitch;
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     jac_phi_geometry[12] = d_ij_in_i_1;
     jac_phi_geometry[21] = d_ij_in_i_1;
@@ -246,7 +246,7 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[22] = t62;
     const jg_real t63 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[14] = t63 * t20 * pitch;
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     jac_phi_geometry[15] = d_ij_in_i_2;
     jac_phi_geometry[24] = d_ij_in_i_2;
@@ -262,39 +262,39 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t68 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t69 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t70 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[30] = t68 * C_i[0] + t69 * C_i[1] + t70 * C_i[2];
-    jac_phi_geometry[31] = t68 * C_i[3] + t69 * C_i[4] + t70 * C_i[5];
-    jac_phi_geometry[32] = t68 * C_i[6] + t69 * C_i[7] + t70 * C_i[8];
+    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
+    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
+    jac_phi_geometry[32] = C_i[6] * t68 + C_i[7] * t69 + C_i[8] * t70;
     const jg_real t71 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t72 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t73 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[33] = t71 * C_i[0] + t72 * C_i[1] + t73 * C_i[2];
-    jac_phi_geometry[34] = t71 * C_i[3] + t72 * C_i[4] + t73 * C_i[5];
-    jac_phi_geometry[35] = t71 * C_i[6] + t72 * C_i[7] + t73 * C_i[8];
+    jac_phi_geometry[33] = C_i[0] * t71 + C_i[1] * t72 + C_i[2] * t73;
+    jac_phi_geometry[34] = C_i[3] * t71 + C_i[4] * t72 + C_i[5] * t73;
+    jac_phi_geometry[35] = C_i[6] * t71 + C_i[7] * t72 + C_i[8] * t73;
     const jg_real t74 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t75 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t76 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_geometry[36] = t74 * C_i[0] + t75 * C_i[1] + t76 * C_i[2];
-    jac_phi_geometry[37] = t74 * C_i[3] + t75 * C_i[4] + t76 * C_i[5];
-    jac_phi_geometry[38] = t74 * C_i[6] + t75 * C_i[7] + t76 * C_i[8];
+    jac_phi_geometry[36] = C_i[0] * t74 + C_i[1] * t75 + C_i[2] * t76;
+    jac_phi_geometry[37] = C_i[3] * t74 + C_i[4] * t75 + C_i[5] * t76;
+    jac_phi_geometry[38] = C_i[6] * t74 + C_i[7] * t75 + C_i[8] * t76;
     const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     jac_phi_geometry[43] = t77;
     const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[42] = t78;
-    jac_phi_geometry[39] = -((t77 * t19 - t78 * t20) * pitch);
+    jac_phi_geometry[39] = -(pitch * (t77 * t19 - t78 * t20));
     const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     jac_phi_geometry[45] = t79;
     const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[44] = t80;
-    jac_phi_geometry[40] = -((t79 * t19 - t80 * t20) * pitch);
+    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
     const jg_real t81 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
     jac_phi_geometry[47] = t81;
     const jg_real t82 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[46] = t82;
-    jac_phi_geometry[41] = -((t81 * t19 - t82 * t20) * pitch);
+    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
-    jac_phi_geometry[48] = -(theta + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    jac_phi_geometry[48] = -(theta_0 + theta + revolutions * JG_REAL(6.283185307179586));
     jac_phi_geometry[49] = -pitch;
     jac_phi_geometry[50] = -(JG_REAL(6.283185307179586) * pitch);
 }
@@ -333,19 +333,19 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real A_joint_i_world_1 = A_joint_i_world_6 * A_joint_i_world_5 - A_joint_i_world_3 * A_joint_i_world_8;
     jac_phi_q_v_velocity[25] = A_joint_i_world_1;
     /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = A_joint_i_world_1 * omega_i[0] + A_joint_i_world_4 * omega_i[1] +
+    const jg_real omega_i_in_joint_i_1 = A_joint_i_world_4 * omega_i[1] + omega_i[0] * A_joint_i_world_1 +
         A_joint_i_world_7 * omega_i[2];
-    const jg_real omega_i_in_joint_i_2 = A_joint_i_world_2 * omega_i[0] + A_joint_i_world_5 * omega_i[1] +
-        A_joint_i_world_8 * omega_i[2];
+    const jg_real omega_i_in_joint_i_2 = omega_i[1] * A_joint_i_world_5 + omega_i[0] * A_joint_i_world_2 +
+        omega_i[2] * A_joint_i_world_8;
     const jg_real t10 = A_joint_i_world_2 * omega_i_in_joint_i_1 - A_joint_i_world_1 * omega_i_in_joint_i_2;
     jac_phi_q_v_r_i[0] = t10;
     const jg_real A_joint_i_world_0 = A_joint_i_world_4 * A_joint_i_world_8 - A_joint_i_world_7 * A_joint_i_world_5;
     jac_phi_q_v_velocity[24] = A_joint_i_world_0;
-    const jg_real omega_i_in_joint_i_0 = omega_i[0] * A_joint_i_world_0 + A_joint_i_world_3 * omega_i[1] +
+    const jg_real omega_i_in_joint_i_0 = A_joint_i_world_3 * omega_i[1] + omega_i[0] * A_joint_i_world_0 +
         A_joint_i_world_6 * omega_i[2];
-    const jg_real t13 = omega_i_in_joint_i_2 * A_joint_i_world_0 - A_joint_i_world_2 * omega_i_in_joint_i_0;
+    const jg_real t13 = A_joint_i_world_0 * omega_i_in_joint_i_2 - A_joint_i_world_2 * omega_i_in_joint_i_0;
     jac_phi_q_v_r_i[1] = t13;
-    const jg_real t14 = A_joint_i_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * A_joint_i_world_0;
+    const jg_real t14 = A_joint_i_world_1 * omega_i_in_joint_i_0 - A_joint_i_world_0 * omega_i_in_joint_i_1;
     jac_phi_q_v_r_i[2] = t14;
     const jg_real t15 = A_joint_i_world_5 * omega_i_in_joint_i_1 - A_joint_i_world_4 * omega_i_in_joint_i_2;
     jac_phi_q_v_r_i[3] = t15;
@@ -359,72 +359,72 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_r_i[7] = t19;
     const jg_real t20 = A_joint_i_world_7 * omega_i_in_joint_i_0 - A_joint_i_world_6 * omega_i_in_joint_i_1;
     jac_phi_q_v_r_i[8] = t20;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_0_in_joint_i = r_j - r_i, axes of joint i */
-    const jg_real v_0_in_joint_i_2 = A_joint_i_world_2 * v_0_world_0 + A_joint_i_world_5 * v_0_world_1 +
-        A_joint_i_world_8 * v_0_world_2;
-    /* s_i_in_joint_i = s_i, axes of joint i */
-    const jg_real s_i_in_joint_i_2 = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    /* v_1_in_joint_i = r_j - r_i - s_i, axes of joint i */
-    const jg_real v_1_in_joint_i_2 = v_0_in_joint_i_2 - s_i_in_joint_i_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_j_in_joint_i = s_j, axes of joint i */
-    const jg_real s_j_in_joint_i_2 = A_joint_i_world_2 * s_j_world_0 + A_joint_i_world_5 * s_j_world_1 +
+    const jg_real s_j_in_joint_i_2 = A_joint_i_world_5 * s_j_world_1 + s_j_world_0 * A_joint_i_world_2 +
         A_joint_i_world_8 * s_j_world_2;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* v_0_in_joint_i = r_j - r_i, axes of joint i */
+    const jg_real v_0_in_joint_i_2 = v_0_world_1 * A_joint_i_world_5 + v_0_world_0 * A_joint_i_world_2 + v_0_world_2
+        * A_joint_i_world_8;
+    /* s_i_in_joint_i = s_i, axes of joint i */
+    const jg_real s_i_in_joint_i_2 = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
+    /* v_1_in_joint_i = r_j - r_i - s_i, axes of joint i */
+    const jg_real v_1_in_joint_i_2 = v_0_in_joint_i_2 - s_i_in_joint_i_2;
     /* d_ij_in_joint_i = r_j + s_j - r_i - s_i, axes of joint i */
-    const jg_real d_ij_in_joint_i_2 = v_1_in_joint_i_2 + s_j_in_joint_i_2;
-    const jg_real t32 = A_joint_i_world_6 * C_i[6] - C_i[0] * A_joint_i_world_8;
-    const jg_real t33 = t32 * omega_i[0] + C_i[3] * omega_i[1];
+    const jg_real d_ij_in_joint_i_2 = s_j_in_joint_i_2 + v_1_in_joint_i_2;
+    const jg_real t32 = C_i[6] * A_joint_i_world_6 - C_i[0] * A_joint_i_world_8;
+    const jg_real t33 = C_i[3] * omega_i[1] + omega_i[0] * t32;
     const jg_real t34 = C_i[0] * A_joint_i_world_7 - C_i[3] * A_joint_i_world_6;
-    const jg_real t35 = t34 * s_j_world_0 + C_i[6] * s_j_world_1;
-    const jg_real t36 = t34 * v_0_world_0 + C_i[6] * v_0_world_1 + t35;
-    const jg_real v_0_in_joint_i_1 = v_0_world_0 * A_joint_i_world_1 + A_joint_i_world_4 * v_0_world_1 +
-        A_joint_i_world_7 * v_0_world_2;
+    const jg_real t35 = C_i[6] * s_j_world_1 + s_j_world_0 * t34;
+    const jg_real t36 = C_i[6] * v_0_world_1 + v_0_world_0 * t34 + t35;
+    const jg_real s_j_in_joint_i_1 = A_joint_i_world_4 * s_j_world_1 + s_j_world_0 * A_joint_i_world_1 +
+        A_joint_i_world_7 * s_j_world_2;
+    const jg_real v_0_in_joint_i_1 = v_0_world_1 * A_joint_i_world_4 + v_0_world_0 * A_joint_i_world_1 + v_0_world_2
+        * A_joint_i_world_7;
     const jg_real s_i_in_joint_i_1 = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
     const jg_real v_1_in_joint_i_1 = v_0_in_joint_i_1 - s_i_in_joint_i_1;
-    const jg_real s_j_in_joint_i_1 = s_j_world_0 * A_joint_i_world_1 + A_joint_i_world_4 * s_j_world_1 +
-        A_joint_i_world_7 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_1 = v_1_in_joint_i_1 + s_j_in_joint_i_1;
-    const jg_real t42 = t34 * omega_i[0] + C_i[6] * omega_i[1];
-    const jg_real t43 = s_j_world_0 * t32 + C_i[3] * s_j_world_1;
-    const jg_real t44 = v_0_world_0 * t32 + C_i[3] * v_0_world_1 + t43;
-    const jg_real t45 = C_i[3] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[6];
+    const jg_real d_ij_in_joint_i_1 = s_j_in_joint_i_1 + v_1_in_joint_i_1;
+    const jg_real t42 = C_i[6] * omega_i[1] + omega_i[0] * t34;
+    const jg_real t43 = C_i[3] * s_j_world_1 + s_j_world_0 * t32;
+    const jg_real t44 = C_i[3] * v_0_world_1 + v_0_world_0 * t32 + t43;
+    const jg_real t45 = C_i[3] * A_joint_i_world_8 - C_i[6] * A_joint_i_world_7;
     /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = A_joint_i_world_1 * omega_j[0] + A_joint_i_world_4 * omega_j[1] +
+    const jg_real g_i_dot_omega_j = A_joint_i_world_4 * omega_j[1] + omega_j[0] * A_joint_i_world_1 +
         A_joint_i_world_7 * omega_j[2];
-    const jg_real t47 = t32 * omega_j[0] + C_i[3] * omega_j[1];
+    const jg_real t47 = C_i[3] * omega_j[1] + omega_j[0] * t32;
     /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = A_joint_i_world_2 * omega_j[0] + A_joint_i_world_5 * omega_j[1] +
+    const jg_real h_i_dot_omega_j = A_joint_i_world_5 * omega_j[1] + omega_j[0] * A_joint_i_world_2 +
         A_joint_i_world_8 * omega_j[2];
-    const jg_real t49 = t34 * omega_j[0] + C_i[6] * omega_j[1];
-    jac_phi_q_v_A_i[0] = t45 * v_j[0] + C_i[0] * v_j[1] - (d_ij_in_joint_i_2 * t33 + t36 * omega_i_in_joint_i_1 -
-        (d_ij_in_joint_i_1 * t42 + t44 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t33 - s_i_in_joint_i_1 * t42 +
-        (t45 * v_i[0] + C_i[0] * v_i[1])) - (t35 * g_i_dot_omega_j + s_j_in_joint_i_2 * t47 - (t43 * h_i_dot_omega_j
-        + s_j_in_joint_i_1 * t49)));
-    const jg_real v_0_in_joint_i_0 = v_0_world_0 * A_joint_i_world_0 + A_joint_i_world_3 * v_0_world_1 +
-        A_joint_i_world_6 * v_0_world_2;
+    const jg_real t49 = C_i[6] * omega_j[1] + omega_j[0] * t34;
+    jac_phi_q_v_A_i[0] = C_i[0] * v_j[1] + v_j[0] * t45 - (C_i[0] * v_i[1] + v_i[0] * t45 + (s_i_in_joint_i_2 * t33
+        - s_i_in_joint_i_1 * t42) + (t33 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t36 - (t42 * d_ij_in_joint_i_1
+        + omega_i_in_joint_i_2 * t44)) - (t35 * g_i_dot_omega_j + t47 * s_j_in_joint_i_2 - (t43 * h_i_dot_omega_j +
+        t49 * s_j_in_joint_i_1)));
+    const jg_real s_j_in_joint_i_0 = A_joint_i_world_3 * s_j_world_1 + s_j_world_0 * A_joint_i_world_0 +
+        A_joint_i_world_6 * s_j_world_2;
+    const jg_real v_0_in_joint_i_0 = v_0_world_1 * A_joint_i_world_3 + v_0_world_0 * A_joint_i_world_0 + v_0_world_2
+        * A_joint_i_world_6;
     const jg_real s_i_in_joint_i_0 = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     const jg_real v_1_in_joint_i_0 = v_0_in_joint_i_0 - s_i_in_joint_i_0;
-    const jg_real s_j_in_joint_i_0 = s_j_world_0 * A_joint_i_world_0 + A_joint_i_world_3 * s_j_world_1 +
-        A_joint_i_world_6 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_0 = v_1_in_joint_i_0 + s_j_in_joint_i_0;
-    const jg_real t55 = s_j_world_0 * t45 + C_i[0] * s_j_world_1;
-    const jg_real t56 = v_0_world_0 * t45 + C_i[0] * v_0_world_1 + t55;
-    const jg_real t57 = omega_i[0] * t45 + C_i[0] * omega_i[1];
+    const jg_real d_ij_in_joint_i_0 = s_j_in_joint_i_0 + v_1_in_joint_i_0;
+    const jg_real t55 = C_i[0] * s_j_world_1 + s_j_world_0 * t45;
+    const jg_real t56 = C_i[0] * v_0_world_1 + v_0_world_0 * t45 + t55;
+    const jg_real t57 = C_i[0] * omega_i[1] + omega_i[0] * t45;
     /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = A_joint_i_world_0 * omega_j[0] + A_joint_i_world_3 * omega_j[1] +
+    const jg_real f_i_dot_omega_j = omega_j[0] * A_joint_i_world_0 + A_joint_i_world_3 * omega_j[1] +
         A_joint_i_world_6 * omega_j[2];
-    const jg_real t59 = t45 * omega_j[0] + C_i[0] * omega_j[1];
-    jac_phi_q_v_A_i[1] = t32 * v_j[0] + C_i[3] * v_j[1] - (t42 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t56 -
-        (d_ij_in_joint_i_2 * t57 + t36 * omega_i_in_joint_i_0) + (t42 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * t57 +
-        (t32 * v_i[0] + C_i[3] * v_i[1])) - (h_i_dot_omega_j * t55 + t49 * s_j_in_joint_i_0 - (t35 * f_i_dot_omega_j
-        + s_j_in_joint_i_2 * t59)));
+    const jg_real t59 = omega_j[0] * t45 + C_i[0] * omega_j[1];
+    jac_phi_q_v_A_i[1] = v_j[0] * t32 + C_i[3] * v_j[1] - (v_i[0] * t32 + C_i[3] * v_i[1] + (t42 * s_i_in_joint_i_0
+        - s_i_in_joint_i_2 * t57) + (t42 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t56 - (t57 * d_ij_in_joint_i_2
+        + omega_i_in_joint_i_0 * t36)) - (h_i_dot_omega_j * t55 + t49 * s_j_in_joint_i_0 - (t35 * f_i_dot_omega_j +
+        s_j_in_joint_i_2 * t59)));
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -461,38 +461,38 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = omega_i[0] * f_j_world_0 + omega_i[1] * f_j_world_1 + omega_i[2] * f_j_world_2;
     const jg_real t79 = h_i_dot_f_j * omega_i_dot_f_j - omega_i_in_joint_i_2;
-    const jg_real t80 = spread * pitch;
+    const jg_real t80 = pitch * spread;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j[0] * f_j_world_0 + omega_j[1] * f_j_world_1 + omega_j[2] * f_j_world_2;
     const jg_real t82 = h_i_dot_f_j * omega_j_dot_f_j - h_i_dot_omega_j;
-    jac_phi_q_v_A_i[4] = t34 * v_j[0] + C_i[6] * v_j[1] - ((t75 * omega_i_dot_f_j - t42) * t80 + t79 * t77 +
-        (s_i_in_joint_i_1 * t57 - t33 * s_i_in_joint_i_0 + (t34 * v_i[0] + C_i[6] * v_i[1])) - (t77 * t82 + t80 *
-        (t75 * omega_j_dot_f_j - t49)) + (d_ij_in_joint_i_1 * t57 + t44 * omega_i_in_joint_i_0 - (t33 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t56)) - (t43 * f_i_dot_omega_j + s_j_in_joint_i_1 * t59 -
-        (g_i_dot_omega_j * t55 + t47 * s_j_in_joint_i_0)));
-    const jg_real t83 = C_i[0] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[6];
-    const jg_real t84 = t83 * omega_i[0] + C_i[3] * omega_i[2];
-    const jg_real t85 = A_joint_i_world_3 * C_i[3] - C_i[0] * A_joint_i_world_4;
-    const jg_real t86 = t85 * s_j_world_0 + C_i[6] * s_j_world_2;
-    const jg_real t87 = t85 * v_0_world_0 + C_i[6] * v_0_world_2 + t86;
-    const jg_real t88 = t85 * omega_i[0] + C_i[6] * omega_i[2];
-    const jg_real t89 = s_j_world_0 * t83 + C_i[3] * s_j_world_2;
-    const jg_real t90 = v_0_world_0 * t83 + C_i[3] * v_0_world_2 + t89;
-    const jg_real t91 = A_joint_i_world_4 * C_i[6] - C_i[3] * A_joint_i_world_5;
-    const jg_real t92 = t83 * omega_j[0] + C_i[3] * omega_j[2];
-    const jg_real t93 = t85 * omega_j[0] + C_i[6] * omega_j[2];
-    jac_phi_q_v_A_i[5] = t91 * v_j[0] + C_i[0] * v_j[2] - (d_ij_in_joint_i_2 * t84 + t87 * omega_i_in_joint_i_1 -
-        (d_ij_in_joint_i_1 * t88 + t90 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t84 - s_i_in_joint_i_1 * t88 +
-        (t91 * v_i[0] + C_i[0] * v_i[2])) - (t86 * g_i_dot_omega_j + s_j_in_joint_i_2 * t92 - (t89 * h_i_dot_omega_j
-        + s_j_in_joint_i_1 * t93)));
-    const jg_real t94 = s_j_world_0 * t91 + C_i[0] * s_j_world_2;
-    const jg_real t95 = v_0_world_0 * t91 + C_i[0] * v_0_world_2 + t94;
-    const jg_real t96 = omega_i[0] * t91 + C_i[0] * omega_i[2];
-    const jg_real t97 = t91 * omega_j[0] + C_i[0] * omega_j[2];
-    jac_phi_q_v_A_i[6] = t83 * v_j[0] + C_i[3] * v_j[2] - (t88 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t95 -
-        (d_ij_in_joint_i_2 * t96 + t87 * omega_i_in_joint_i_0) + (t88 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * t96 +
-        (t83 * v_i[0] + C_i[3] * v_i[2])) - (h_i_dot_omega_j * t94 + t93 * s_j_in_joint_i_0 - (t86 * f_i_dot_omega_j
-        + s_j_in_joint_i_2 * t97)));
+    jac_phi_q_v_A_i[4] = t34 * v_j[0] + C_i[6] * v_j[1] - (t57 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t44 -
+        (t33 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t56) + (s_i_in_joint_i_1 * t57 - t33 * s_i_in_joint_i_0 +
+        (v_i[0] * t34 + C_i[6] * v_i[1]) + ((t75 * omega_i_dot_f_j - t42) * t80 + t79 * t77) - (t82 * t77 + (t75 *
+        omega_j_dot_f_j - t49) * t80)) - (t43 * f_i_dot_omega_j + s_j_in_joint_i_1 * t59 - (t55 * g_i_dot_omega_j +
+        t47 * s_j_in_joint_i_0)));
+    const jg_real t83 = C_i[0] * A_joint_i_world_5 - C_i[6] * A_joint_i_world_3;
+    const jg_real t84 = C_i[3] * omega_i[2] + omega_i[0] * t83;
+    const jg_real t85 = C_i[3] * A_joint_i_world_3 - C_i[0] * A_joint_i_world_4;
+    const jg_real t86 = C_i[6] * s_j_world_2 + s_j_world_0 * t85;
+    const jg_real t87 = C_i[6] * v_0_world_2 + v_0_world_0 * t85 + t86;
+    const jg_real t88 = C_i[6] * omega_i[2] + omega_i[0] * t85;
+    const jg_real t89 = C_i[3] * s_j_world_2 + s_j_world_0 * t83;
+    const jg_real t90 = C_i[3] * v_0_world_2 + v_0_world_0 * t83 + t89;
+    const jg_real t91 = C_i[6] * A_joint_i_world_4 - C_i[3] * A_joint_i_world_5;
+    const jg_real t92 = C_i[3] * omega_j[2] + omega_j[0] * t83;
+    const jg_real t93 = C_i[6] * omega_j[2] + omega_j[0] * t85;
+    jac_phi_q_v_A_i[5] = C_i[0] * v_j[2] + v_j[0] * t91 - (C_i[0] * v_i[2] + v_i[0] * t91 + (s_i_in_joint_i_2 * t84
+        - s_i_in_joint_i_1 * t88) + (t84 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t87 - (t88 * d_ij_in_joint_i_1
+        + omega_i_in_joint_i_2 * t90)) - (t86 * g_i_dot_omega_j + s_j_in_joint_i_2 * t92 - (h_i_dot_omega_j * t89 +
+        t93 * s_j_in_joint_i_1)));
+    const jg_real t94 = C_i[0] * s_j_world_2 + s_j_world_0 * t91;
+    const jg_real t95 = C_i[0] * v_0_world_2 + v_0_world_0 * t91 + t94;
+    const jg_real t96 = C_i[0] * omega_i[2] + omega_i[0] * t91;
+    const jg_real t97 = omega_j[0] * t91 + C_i[0] * omega_j[2];
+    jac_phi_q_v_A_i[6] = v_j[0] * t83 + C_i[3] * v_j[2] - (v_i[0] * t83 + C_i[3] * v_i[2] + (t88 * s_i_in_joint_i_0
+        - s_i_in_joint_i_2 * t96) + (t88 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t95 - (t96 * d_ij_in_joint_i_2
+        + omega_i_in_joint_i_0 * t87)) - (h_i_dot_omega_j * t94 + t93 * s_j_in_joint_i_0 - (t86 * f_i_dot_omega_j +
+        s_j_in_joint_i_2 * t97)));
     const jg_real t98 = t85 * h_j_world_0 + C_i[6] * h_j_world_2;
     const jg_real t99 = t83 * h_j_world_0 + C_i[3] * h_j_world_2;
     jac_phi_q_v_A_i[7] = t92 * h_j_in_joint_i_2 + g_i_dot_omega_j * t98 - (t93 * h_j_in_joint_i_1 + h_i_dot_omega_j
@@ -505,34 +505,34 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t101 = t85 * f_j_world_0 + C_i[6] * f_j_world_2;
     const jg_real t102 = h_i_dot_f_j * t101;
     const jg_real t103 = (t102 + t102) * t74 * pitch;
-    jac_phi_q_v_A_i[9] = t85 * v_j[0] + C_i[6] * v_j[2] - ((t101 * omega_i_dot_f_j - t88) * t80 + t79 * t103 +
-        (s_i_in_joint_i_1 * t96 - t84 * s_i_in_joint_i_0 + (t85 * v_i[0] + C_i[6] * v_i[2])) - (t103 * t82 + t80 *
-        (t101 * omega_j_dot_f_j - t93)) + (d_ij_in_joint_i_1 * t96 + t90 * omega_i_in_joint_i_0 - (t84 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t95)) - (t89 * f_i_dot_omega_j + s_j_in_joint_i_1 * t97 -
-        (g_i_dot_omega_j * t94 + t92 * s_j_in_joint_i_0)));
-    const jg_real t104 = A_joint_i_world_6 * C_i[7] - C_i[1] * A_joint_i_world_8;
-    const jg_real t105 = t104 * omega_i[0] + C_i[4] * omega_i[1];
+    jac_phi_q_v_A_i[9] = t85 * v_j[0] + C_i[6] * v_j[2] - (t96 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t90 -
+        (t84 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t95) + (s_i_in_joint_i_1 * t96 - s_i_in_joint_i_0 * t84 +
+        (v_i[0] * t85 + C_i[6] * v_i[2]) + ((t101 * omega_i_dot_f_j - t88) * t80 + t79 * t103) - (t82 * t103 + (t101
+        * omega_j_dot_f_j - t93) * t80)) - (t89 * f_i_dot_omega_j + s_j_in_joint_i_1 * t97 - (g_i_dot_omega_j * t94
+        + t92 * s_j_in_joint_i_0)));
+    const jg_real t104 = C_i[7] * A_joint_i_world_6 - C_i[1] * A_joint_i_world_8;
+    const jg_real t105 = C_i[4] * omega_i[1] + omega_i[0] * t104;
     const jg_real t106 = C_i[1] * A_joint_i_world_7 - C_i[4] * A_joint_i_world_6;
-    const jg_real t107 = t106 * s_j_world_0 + C_i[7] * s_j_world_1;
-    const jg_real t108 = t106 * v_0_world_0 + C_i[7] * v_0_world_1 + t107;
-    const jg_real t109 = t106 * omega_i[0] + C_i[7] * omega_i[1];
-    const jg_real t110 = s_j_world_0 * t104 + C_i[4] * s_j_world_1;
-    const jg_real t111 = v_0_world_0 * t104 + C_i[4] * v_0_world_1 + t110;
-    const jg_real t112 = C_i[4] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[7];
-    const jg_real t113 = t104 * omega_j[0] + C_i[4] * omega_j[1];
-    const jg_real t114 = t106 * omega_j[0] + C_i[7] * omega_j[1];
-    jac_phi_q_v_A_i[10] = t112 * v_j[0] + C_i[1] * v_j[1] - (d_ij_in_joint_i_2 * t105 + t108 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t109 + t111 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t105 - s_i_in_joint_i_1 *
-        t109 + (t112 * v_i[0] + C_i[1] * v_i[1])) - (t107 * g_i_dot_omega_j + s_j_in_joint_i_2 * t113 - (t110 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t114)));
-    const jg_real t115 = s_j_world_0 * t112 + C_i[1] * s_j_world_1;
-    const jg_real t116 = v_0_world_0 * t112 + C_i[1] * v_0_world_1 + t115;
-    const jg_real t117 = omega_i[0] * t112 + C_i[1] * omega_i[1];
-    const jg_real t118 = t112 * omega_j[0] + C_i[1] * omega_j[1];
-    jac_phi_q_v_A_i[11] = t104 * v_j[0] + C_i[4] * v_j[1] - (t109 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t116
-        - (d_ij_in_joint_i_2 * t117 + t108 * omega_i_in_joint_i_0) + (t109 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t117 + (t104 * v_i[0] + C_i[4] * v_i[1])) - (h_i_dot_omega_j * t115 + t114 * s_j_in_joint_i_0 - (t107 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t118)));
+    const jg_real t107 = C_i[7] * s_j_world_1 + s_j_world_0 * t106;
+    const jg_real t108 = C_i[7] * v_0_world_1 + v_0_world_0 * t106 + t107;
+    const jg_real t109 = C_i[7] * omega_i[1] + omega_i[0] * t106;
+    const jg_real t110 = C_i[4] * s_j_world_1 + s_j_world_0 * t104;
+    const jg_real t111 = C_i[4] * v_0_world_1 + v_0_world_0 * t104 + t110;
+    const jg_real t112 = C_i[4] * A_joint_i_world_8 - C_i[7] * A_joint_i_world_7;
+    const jg_real t113 = C_i[4] * omega_j[1] + omega_j[0] * t104;
+    const jg_real t114 = C_i[7] * omega_j[1] + omega_j[0] * t106;
+    jac_phi_q_v_A_i[10] = C_i[1] * v_j[1] + v_j[0] * t112 - (C_i[1] * v_i[1] + v_i[0] * t112 + (s_i_in_joint_i_2 *
+        t105 - s_i_in_joint_i_1 * t109) + (t105 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t108 - (t109 *
+        d_ij_in_joint_i_1 + omega_i_in_joint_i_2 * t111)) - (t107 * g_i_dot_omega_j + t113 * s_j_in_joint_i_2 -
+        (t110 * h_i_dot_omega_j + t114 * s_j_in_joint_i_1)));
+    const jg_real t115 = C_i[1] * s_j_world_1 + s_j_world_0 * t112;
+    const jg_real t116 = C_i[1] * v_0_world_1 + v_0_world_0 * t112 + t115;
+    const jg_real t117 = C_i[1] * omega_i[1] + omega_i[0] * t112;
+    const jg_real t118 = omega_j[0] * t112 + C_i[1] * omega_j[1];
+    jac_phi_q_v_A_i[11] = v_j[0] * t104 + C_i[4] * v_j[1] - (v_i[0] * t104 + C_i[4] * v_i[1] + (t109 *
+        s_i_in_joint_i_0 - s_i_in_joint_i_2 * t117) + (t109 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t116 -
+        (t117 * d_ij_in_joint_i_2 + omega_i_in_joint_i_0 * t108)) - (h_i_dot_omega_j * t115 + t114 *
+        s_j_in_joint_i_0 - (t107 * f_i_dot_omega_j + s_j_in_joint_i_2 * t118)));
     const jg_real t119 = t106 * h_j_world_0 + C_i[7] * h_j_world_1;
     const jg_real t120 = t104 * h_j_world_0 + C_i[4] * h_j_world_1;
     jac_phi_q_v_A_i[12] = t113 * h_j_in_joint_i_2 + g_i_dot_omega_j * t119 - (t114 * h_j_in_joint_i_1 +
@@ -545,34 +545,34 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t122 = t106 * f_j_world_0 + C_i[7] * f_j_world_1;
     const jg_real t123 = t122 * h_i_dot_f_j;
     const jg_real t124 = (t123 + t123) * t74 * pitch;
-    jac_phi_q_v_A_i[14] = t106 * v_j[0] + C_i[7] * v_j[1] - ((t122 * omega_i_dot_f_j - t109) * t80 + t79 * t124 +
-        (s_i_in_joint_i_1 * t117 - t105 * s_i_in_joint_i_0 + (t106 * v_i[0] + C_i[7] * v_i[1])) - (t124 * t82 + t80
-        * (t122 * omega_j_dot_f_j - t114)) + (d_ij_in_joint_i_1 * t117 + t111 * omega_i_in_joint_i_0 - (t105 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t116)) - (t110 * f_i_dot_omega_j + s_j_in_joint_i_1 * t118 -
-        (g_i_dot_omega_j * t115 + t113 * s_j_in_joint_i_0)));
-    const jg_real t125 = C_i[1] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[7];
-    const jg_real t126 = t125 * omega_i[0] + C_i[4] * omega_i[2];
-    const jg_real t127 = A_joint_i_world_3 * C_i[4] - C_i[1] * A_joint_i_world_4;
-    const jg_real t128 = t127 * s_j_world_0 + C_i[7] * s_j_world_2;
-    const jg_real t129 = t127 * v_0_world_0 + C_i[7] * v_0_world_2 + t128;
-    const jg_real t130 = t127 * omega_i[0] + C_i[7] * omega_i[2];
-    const jg_real t131 = s_j_world_0 * t125 + C_i[4] * s_j_world_2;
-    const jg_real t132 = v_0_world_0 * t125 + C_i[4] * v_0_world_2 + t131;
-    const jg_real t133 = A_joint_i_world_4 * C_i[7] - C_i[4] * A_joint_i_world_5;
-    const jg_real t134 = t125 * omega_j[0] + C_i[4] * omega_j[2];
-    const jg_real t135 = t127 * omega_j[0] + C_i[7] * omega_j[2];
-    jac_phi_q_v_A_i[15] = t133 * v_j[0] + C_i[1] * v_j[2] - (d_ij_in_joint_i_2 * t126 + t129 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t130 + t132 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t126 - s_i_in_joint_i_1 *
-        t130 + (t133 * v_i[0] + C_i[1] * v_i[2])) - (t128 * g_i_dot_omega_j + s_j_in_joint_i_2 * t134 - (t131 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t135)));
-    const jg_real t136 = s_j_world_0 * t133 + C_i[1] * s_j_world_2;
-    const jg_real t137 = v_0_world_0 * t133 + C_i[1] * v_0_world_2 + t136;
-    const jg_real t138 = omega_i[0] * t133 + C_i[1] * omega_i[2];
-    const jg_real t139 = t133 * omega_j[0] + C_i[1] * omega_j[2];
-    jac_phi_q_v_A_i[16] = t125 * v_j[0] + C_i[4] * v_j[2] - (t130 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t137
-        - (d_ij_in_joint_i_2 * t138 + t129 * omega_i_in_joint_i_0) + (t130 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t138 + (t125 * v_i[0] + C_i[4] * v_i[2])) - (h_i_dot_omega_j * t136 + t135 * s_j_in_joint_i_0 - (t128 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t139)));
+    jac_phi_q_v_A_i[14] = t106 * v_j[0] + C_i[7] * v_j[1] - (t117 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t111
+        - (t105 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t116) + (s_i_in_joint_i_1 * t117 - t105 *
+        s_i_in_joint_i_0 + (v_i[0] * t106 + C_i[7] * v_i[1]) + ((t122 * omega_i_dot_f_j - t109) * t80 + t79 * t124)
+        - (t82 * t124 + (t122 * omega_j_dot_f_j - t114) * t80)) - (t110 * f_i_dot_omega_j + s_j_in_joint_i_1 * t118
+        - (t115 * g_i_dot_omega_j + t113 * s_j_in_joint_i_0)));
+    const jg_real t125 = C_i[1] * A_joint_i_world_5 - C_i[7] * A_joint_i_world_3;
+    const jg_real t126 = C_i[4] * omega_i[2] + omega_i[0] * t125;
+    const jg_real t127 = C_i[4] * A_joint_i_world_3 - C_i[1] * A_joint_i_world_4;
+    const jg_real t128 = C_i[7] * s_j_world_2 + s_j_world_0 * t127;
+    const jg_real t129 = C_i[7] * v_0_world_2 + v_0_world_0 * t127 + t128;
+    const jg_real t130 = C_i[7] * omega_i[2] + omega_i[0] * t127;
+    const jg_real t131 = C_i[4] * s_j_world_2 + s_j_world_0 * t125;
+    const jg_real t132 = C_i[4] * v_0_world_2 + v_0_world_0 * t125 + t131;
+    const jg_real t133 = C_i[7] * A_joint_i_world_4 - C_i[4] * A_joint_i_world_5;
+    const jg_real t134 = C_i[4] * omega_j[2] + omega_j[0] * t125;
+    const jg_real t135 = C_i[7] * omega_j[2] + omega_j[0] * t127;
+    jac_phi_q_v_A_i[15] = C_i[1] * v_j[2] + v_j[0] * t133 - (C_i[1] * v_i[2] + v_i[0] * t133 + (s_i_in_joint_i_2 *
+        t126 - s_i_in_joint_i_1 * t130) + (t126 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t129 - (t130 *
+        d_ij_in_joint_i_1 + omega_i_in_joint_i_2 * t132)) - (t128 * g_i_dot_omega_j + s_j_in_joint_i_2 * t134 -
+        (h_i_dot_omega_j * t131 + t135 * s_j_in_joint_i_1)));
+    const jg_real t136 = C_i[1] * s_j_world_2 + s_j_world_0 * t133;
+    const jg_real t137 = C_i[1] * v_0_world_2 + v_0_world_0 * t133 + t136;
+    const jg_real t138 = C_i[1] * omega_i[2] + omega_i[0] * t133;
+    const jg_real t139 = omega_j[0] * t133 + C_i[1] * omega_j[2];
+    jac_phi_q_v_A_i[16] = v_j[0] * t125 + C_i[4] * v_j[2] - (v_i[0] * t125 + C_i[4] * v_i[2] + (t130 *
+        s_i_in_joint_i_0 - s_i_in_joint_i_2 * t138) + (t130 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t137 -
+        (t138 * d_ij_in_joint_i_2 + omega_i_in_joint_i_0 * t129)) - (h_i_dot_omega_j * t136 + t135 *
+        s_j_in_joint_i_0 - (t128 * f_i_dot_omega_j + s_j_in_joint_i_2 * t139)));
     const jg_real t140 = t127 * h_j_world_0 + C_i[7] * h_j_world_2;
     const jg_real t141 = t125 * h_j_world_0 + C_i[4] * h_j_world_2;
     jac_phi_q_v_A_i[17] = t134 * h_j_in_joint_i_2 + g_i_dot_omega_j * t140 - (t135 * h_j_in_joint_i_1 +
@@ -585,34 +585,34 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t143 = t127 * f_j_world_0 + C_i[7] * f_j_world_2;
     const jg_real t144 = h_i_dot_f_j * t143;
     const jg_real t145 = (t144 + t144) * t74 * pitch;
-    jac_phi_q_v_A_i[19] = t127 * v_j[0] + C_i[7] * v_j[2] - ((t143 * omega_i_dot_f_j - t130) * t80 + t79 * t145 +
-        (s_i_in_joint_i_1 * t138 - t126 * s_i_in_joint_i_0 + (t127 * v_i[0] + C_i[7] * v_i[2])) - (t145 * t82 + t80
-        * (t143 * omega_j_dot_f_j - t135)) + (d_ij_in_joint_i_1 * t138 + t132 * omega_i_in_joint_i_0 - (t126 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t137)) - (t131 * f_i_dot_omega_j + s_j_in_joint_i_1 * t139 -
+    jac_phi_q_v_A_i[19] = t127 * v_j[0] + C_i[7] * v_j[2] - (t138 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t132
+        - (t126 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t137) + (s_i_in_joint_i_1 * t138 - s_i_in_joint_i_0 *
+        t126 + (v_i[0] * t127 + C_i[7] * v_i[2]) + ((t143 * omega_i_dot_f_j - t130) * t80 + t79 * t145) - (t82 *
+        t145 + (t143 * omega_j_dot_f_j - t135) * t80)) - (t131 * f_i_dot_omega_j + s_j_in_joint_i_1 * t139 -
         (g_i_dot_omega_j * t136 + t134 * s_j_in_joint_i_0)));
-    const jg_real t146 = A_joint_i_world_6 * C_i[8] - C_i[2] * A_joint_i_world_8;
-    const jg_real t147 = t146 * omega_i[0] + C_i[5] * omega_i[1];
+    const jg_real t146 = C_i[8] * A_joint_i_world_6 - C_i[2] * A_joint_i_world_8;
+    const jg_real t147 = C_i[5] * omega_i[1] + omega_i[0] * t146;
     const jg_real t148 = C_i[2] * A_joint_i_world_7 - C_i[5] * A_joint_i_world_6;
-    const jg_real t149 = t148 * s_j_world_0 + C_i[8] * s_j_world_1;
-    const jg_real t150 = t148 * v_0_world_0 + C_i[8] * v_0_world_1 + t149;
-    const jg_real t151 = t148 * omega_i[0] + C_i[8] * omega_i[1];
-    const jg_real t152 = s_j_world_0 * t146 + C_i[5] * s_j_world_1;
-    const jg_real t153 = v_0_world_0 * t146 + C_i[5] * v_0_world_1 + t152;
-    const jg_real t154 = C_i[5] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[8];
-    const jg_real t155 = t146 * omega_j[0] + C_i[5] * omega_j[1];
-    const jg_real t156 = t148 * omega_j[0] + C_i[8] * omega_j[1];
-    jac_phi_q_v_A_i[20] = t154 * v_j[0] + C_i[2] * v_j[1] - (d_ij_in_joint_i_2 * t147 + t150 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t151 + t153 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t147 - s_i_in_joint_i_1 *
-        t151 + (t154 * v_i[0] + C_i[2] * v_i[1])) - (t149 * g_i_dot_omega_j + s_j_in_joint_i_2 * t155 - (t152 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t156)));
-    const jg_real t157 = s_j_world_0 * t154 + C_i[2] * s_j_world_1;
-    const jg_real t158 = v_0_world_0 * t154 + C_i[2] * v_0_world_1 + t157;
-    const jg_real t159 = omega_i[0] * t154 + C_i[2] * omega_i[1];
-    const jg_real t160 = t154 * omega_j[0] + C_i[2] * omega_j[1];
-    jac_phi_q_v_A_i[21] = t146 * v_j[0] + C_i[5] * v_j[1] - (t151 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t158
-        - (d_ij_in_joint_i_2 * t159 + t150 * omega_i_in_joint_i_0) + (t151 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t159 + (t146 * v_i[0] + C_i[5] * v_i[1])) - (h_i_dot_omega_j * t157 + t156 * s_j_in_joint_i_0 - (t149 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t160)));
+    const jg_real t149 = C_i[8] * s_j_world_1 + s_j_world_0 * t148;
+    const jg_real t150 = C_i[8] * v_0_world_1 + v_0_world_0 * t148 + t149;
+    const jg_real t151 = C_i[8] * omega_i[1] + omega_i[0] * t148;
+    const jg_real t152 = C_i[5] * s_j_world_1 + s_j_world_0 * t146;
+    const jg_real t153 = C_i[5] * v_0_world_1 + v_0_world_0 * t146 + t152;
+    const jg_real t154 = C_i[5] * A_joint_i_world_8 - C_i[8] * A_joint_i_world_7;
+    const jg_real t155 = C_i[5] * omega_j[1] + omega_j[0] * t146;
+    const jg_real t156 = C_i[8] * omega_j[1] + omega_j[0] * t148;
+    jac_phi_q_v_A_i[20] = C_i[2] * v_j[1] + v_j[0] * t154 - (C_i[2] * v_i[1] + v_i[0] * t154 + (s_i_in_joint_i_2 *
+        t147 - s_i_in_joint_i_1 * t151) + (t147 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t150 - (t151 *
+        d_ij_in_joint_i_1 + omega_i_in_joint_i_2 * t153)) - (t149 * g_i_dot_omega_j + t155 * s_j_in_joint_i_2 -
+        (t152 * h_i_dot_omega_j + t156 * s_j_in_joint_i_1)));
+    const jg_real t157 = C_i[2] * s_j_world_1 + s_j_world_0 * t154;
+    const jg_real t158 = C_i[2] * v_0_world_1 + v_0_world_0 * t154 + t157;
+    const jg_real t159 = C_i[2] * omega_i[1] + omega_i[0] * t154;
+    const jg_real t160 = omega_j[0] * t154 + C_i[2] * omega_j[1];
+    jac_phi_q_v_A_i[21] = v_j[0] * t146 + C_i[5] * v_j[1] - (v_i[0] * t146 + C_i[5] * v_i[1] + (t151 *
+        s_i_in_joint_i_0 - s_i_in_joint_i_2 * t159) + (t151 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t158 -
+        (t159 * d_ij_in_joint_i_2 + omega_i_in_joint_i_0 * t150)) - (h_i_dot_omega_j * t157 + t156 *
+        s_j_in_joint_i_0 - (t149 * f_i_dot_omega_j + s_j_in_joint_i_2 * t160)));
     const jg_real t161 = t148 * h_j_world_0 + C_i[8] * h_j_world_1;
     const jg_real t162 = t146 * h_j_world_0 + C_i[5] * h_j_world_1;
     jac_phi_q_v_A_i[22] = t155 * h_j_in_joint_i_2 + g_i_dot_omega_j * t161 - (t156 * h_j_in_joint_i_1 +
@@ -625,34 +625,34 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t164 = t148 * f_j_world_0 + C_i[8] * f_j_world_1;
     const jg_real t165 = t164 * h_i_dot_f_j;
     const jg_real t166 = (t165 + t165) * t74 * pitch;
-    jac_phi_q_v_A_i[24] = t148 * v_j[0] + C_i[8] * v_j[1] - ((t164 * omega_i_dot_f_j - t151) * t80 + t79 * t166 +
-        (s_i_in_joint_i_1 * t159 - t147 * s_i_in_joint_i_0 + (t148 * v_i[0] + C_i[8] * v_i[1])) - (t166 * t82 + t80
-        * (t164 * omega_j_dot_f_j - t156)) + (d_ij_in_joint_i_1 * t159 + t153 * omega_i_in_joint_i_0 - (t147 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t158)) - (t152 * f_i_dot_omega_j + s_j_in_joint_i_1 * t160 -
-        (g_i_dot_omega_j * t157 + t155 * s_j_in_joint_i_0)));
-    const jg_real t167 = C_i[2] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[8];
-    const jg_real t168 = t167 * omega_i[0] + C_i[5] * omega_i[2];
-    const jg_real t169 = A_joint_i_world_3 * C_i[5] - C_i[2] * A_joint_i_world_4;
-    const jg_real t170 = t169 * s_j_world_0 + C_i[8] * s_j_world_2;
-    const jg_real t171 = t169 * v_0_world_0 + C_i[8] * v_0_world_2 + t170;
-    const jg_real t172 = t169 * omega_i[0] + C_i[8] * omega_i[2];
-    const jg_real t173 = s_j_world_0 * t167 + C_i[5] * s_j_world_2;
-    const jg_real t174 = v_0_world_0 * t167 + C_i[5] * v_0_world_2 + t173;
-    const jg_real t175 = A_joint_i_world_4 * C_i[8] - C_i[5] * A_joint_i_world_5;
-    const jg_real t176 = t167 * omega_j[0] + C_i[5] * omega_j[2];
-    const jg_real t177 = t169 * omega_j[0] + C_i[8] * omega_j[2];
-    jac_phi_q_v_A_i[25] = t175 * v_j[0] + C_i[2] * v_j[2] - (d_ij_in_joint_i_2 * t168 + t171 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t172 + t174 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t168 - s_i_in_joint_i_1 *
-        t172 + (t175 * v_i[0] + C_i[2] * v_i[2])) - (t170 * g_i_dot_omega_j + s_j_in_joint_i_2 * t176 - (t173 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t177)));
-    const jg_real t178 = s_j_world_0 * t175 + C_i[2] * s_j_world_2;
-    const jg_real t179 = v_0_world_0 * t175 + C_i[2] * v_0_world_2 + t178;
-    const jg_real t180 = omega_i[0] * t175 + C_i[2] * omega_i[2];
-    const jg_real t181 = t175 * omega_j[0] + C_i[2] * omega_j[2];
-    jac_phi_q_v_A_i[26] = t167 * v_j[0] + C_i[5] * v_j[2] - (t172 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t179
-        - (d_ij_in_joint_i_2 * t180 + t171 * omega_i_in_joint_i_0) + (t172 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t180 + (t167 * v_i[0] + C_i[5] * v_i[2])) - (h_i_dot_omega_j * t178 + t177 * s_j_in_joint_i_0 - (t170 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t181)));
+    jac_phi_q_v_A_i[24] = t148 * v_j[0] + C_i[8] * v_j[1] - (t159 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t153
+        - (t147 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t158) + (s_i_in_joint_i_1 * t159 - t147 *
+        s_i_in_joint_i_0 + (v_i[0] * t148 + C_i[8] * v_i[1]) + ((t164 * omega_i_dot_f_j - t151) * t80 + t79 * t166)
+        - (t82 * t166 + (t164 * omega_j_dot_f_j - t156) * t80)) - (t152 * f_i_dot_omega_j + s_j_in_joint_i_1 * t160
+        - (t157 * g_i_dot_omega_j + t155 * s_j_in_joint_i_0)));
+    const jg_real t167 = C_i[2] * A_joint_i_world_5 - C_i[8] * A_joint_i_world_3;
+    const jg_real t168 = C_i[5] * omega_i[2] + omega_i[0] * t167;
+    const jg_real t169 = C_i[5] * A_joint_i_world_3 - C_i[2] * A_joint_i_world_4;
+    const jg_real t170 = C_i[8] * s_j_world_2 + s_j_world_0 * t169;
+    const jg_real t171 = C_i[8] * v_0_world_2 + v_0_world_0 * t169 + t170;
+    const jg_real t172 = C_i[8] * omega_i[2] + omega_i[0] * t169;
+    const jg_real t173 = C_i[5] * s_j_world_2 + s_j_world_0 * t167;
+    const jg_real t174 = C_i[5] * v_0_world_2 + v_0_world_0 * t167 + t173;
+    const jg_real t175 = C_i[8] * A_joint_i_world_4 - C_i[5] * A_joint_i_world_5;
+    const jg_real t176 = C_i[5] * omega_j[2] + omega_j[0] * t167;
+    const jg_real t177 = C_i[8] * omega_j[2] + omega_j[0] * t169;
+    jac_phi_q_v_A_i[25] = C_i[2] * v_j[2] + v_j[0] * t175 - (C_i[2] * v_i[2] + v_i[0] * t175 + (s_i_in_joint_i_2 *
+        t168 - s_i_in_joint_i_1 * t172) + (t168 * d_ij_in_joint_i_2 + omega_i_in_joint_i_1 * t171 - (t172 *
+        d_ij_in_joint_i_1 + omega_i_in_joint_i_2 * t174)) - (t170 * g_i_dot_omega_j + s_j_in_joint_i_2 * t176 -
+        (h_i_dot_omega_j * t173 + t177 * s_j_in_joint_i_1)));
+    const jg_real t178 = C_i[2] * s_j_world_2 + s_j_world_0 * t175;
+    const jg_real t179 = C_i[2] * v_0_world_2 + v_0_world_0 * t175 + t178;
+    const jg_real t180 = C_i[2] * omega_i[2] + omega_i[0] * t175;
+    const jg_real t181 = omega_j[0] * t175 + C_i[2] * omega_j[2];
+    jac_phi_q_v_A_i[26] = v_j[0] * t167 + C_i[5] * v_j[2] - (v_i[0] * t167 + C_i[5] * v_i[2] + (t172 *
+        s_i_in_joint_i_0 - s_i_in_joint_i_2 * t180) + (t172 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t179 -
+        (t180 * d_ij_in_joint_i_2 + omega_i_in_joint_i_0 * t171)) - (h_i_dot_omega_j * t178 + t177 *
+        s_j_in_joint_i_0 - (t170 * f_i_dot_omega_j + s_j_in_joint_i_2 * t181)));
     const jg_real t182 = t169 * h_j_world_0 + C_i[8] * h_j_world_2;
     const jg_real t183 = t167 * h_j_world_0 + C_i[5] * h_j_world_2;
     jac_phi_q_v_A_i[27] = t176 * h_j_in_joint_i_2 + g_i_dot_omega_j * t182 - (t177 * h_j_in_joint_i_1 +
@@ -665,10 +665,10 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t185 = t169 * f_j_world_0 + C_i[8] * f_j_world_2;
     const jg_real t186 = h_i_dot_f_j * t185;
     const jg_real t187 = (t186 + t186) * t74 * pitch;
-    jac_phi_q_v_A_i[29] = t169 * v_j[0] + C_i[8] * v_j[2] - ((t185 * omega_i_dot_f_j - t172) * t80 + t79 * t187 +
-        (s_i_in_joint_i_1 * t180 - t168 * s_i_in_joint_i_0 + (t169 * v_i[0] + C_i[8] * v_i[2])) - (t187 * t82 + t80
-        * (t185 * omega_j_dot_f_j - t177)) + (d_ij_in_joint_i_1 * t180 + t174 * omega_i_in_joint_i_0 - (t168 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t179)) - (t173 * f_i_dot_omega_j + s_j_in_joint_i_1 * t181 -
+    jac_phi_q_v_A_i[29] = t169 * v_j[0] + C_i[8] * v_j[2] - (t180 * d_ij_in_joint_i_1 + omega_i_in_joint_i_0 * t174
+        - (t168 * d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t179) + (s_i_in_joint_i_1 * t180 - s_i_in_joint_i_0 *
+        t168 + (v_i[0] * t169 + C_i[8] * v_i[2]) + ((t185 * omega_i_dot_f_j - t172) * t80 + t79 * t187) - (t82 *
+        t187 + (t185 * omega_j_dot_f_j - t177) * t80)) - (t173 * f_i_dot_omega_j + s_j_in_joint_i_1 * t181 -
         (g_i_dot_omega_j * t178 + t176 * s_j_in_joint_i_0)));
     jac_phi_q_v_r_j[0] = -t10;
     jac_phi_q_v_r_j[1] = -t13;
@@ -679,12 +679,12 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_r_j[6] = -t18;
     jac_phi_q_v_r_j[7] = -t19;
     jac_phi_q_v_r_j[8] = -t20;
-    const jg_real t188 = A_joint_i_world_2 * s_j[0];
+    const jg_real t188 = s_j[0] * A_joint_i_world_2;
     const jg_real t189 = s_j[0] * A_joint_i_world_1;
     jac_phi_q_v_A_j[0] = t188 * g_i_dot_omega_j - t189 * h_i_dot_omega_j - (t188 * omega_i_in_joint_i_1 - t189 *
         omega_i_in_joint_i_2);
     const jg_real t190 = s_j[0] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[1] = h_i_dot_omega_j * t190 - t188 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t190 - t188 *
+    jac_phi_q_v_A_j[1] = t190 * h_i_dot_omega_j - t188 * f_i_dot_omega_j - (t190 * omega_i_in_joint_i_2 - t188 *
         omega_i_in_joint_i_0);
     const jg_real t191 = A_joint_i_world_2 * C_j[6];
     const jg_real t192 = A_joint_i_world_1 * C_j[6];
@@ -696,15 +696,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t194 = A_joint_i_world_2 * C_j[0];
     const jg_real t195 = t194 * h_i_dot_f_j;
     const jg_real t196 = (t195 + t195) * t74 * pitch;
-    jac_phi_q_v_A_j[4] = t189 * f_i_dot_omega_j - g_i_dot_omega_j * t190 - ((t194 * omega_i_dot_f_j + omega_i[0] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t196 - (t196 * t82 + t80 * (t194 * omega_j_dot_f_j + omega_j[0] * C_j[0]
-        * h_i_dot_f_j)) + (t189 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t190));
-    const jg_real t197 = A_joint_i_world_5 * s_j[0];
-    const jg_real t198 = A_joint_i_world_4 * s_j[0];
+    jac_phi_q_v_A_j[4] = t189 * f_i_dot_omega_j - t190 * g_i_dot_omega_j - (t189 * omega_i_in_joint_i_0 - t190 *
+        omega_i_in_joint_i_1 + ((t194 * omega_i_dot_f_j + omega_i[0] * C_j[0] * h_i_dot_f_j) * t80 + t79 * t196 -
+        (t82 * t196 + (t194 * omega_j_dot_f_j + omega_j[0] * C_j[0] * h_i_dot_f_j) * t80)));
+    const jg_real t197 = s_j[0] * A_joint_i_world_5;
+    const jg_real t198 = s_j[0] * A_joint_i_world_4;
     jac_phi_q_v_A_j[5] = t197 * g_i_dot_omega_j - t198 * h_i_dot_omega_j - (t197 * omega_i_in_joint_i_1 - t198 *
         omega_i_in_joint_i_2);
-    const jg_real t199 = A_joint_i_world_3 * s_j[0];
-    jac_phi_q_v_A_j[6] = h_i_dot_omega_j * t199 - t197 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t199 - t197 *
+    const jg_real t199 = s_j[0] * A_joint_i_world_3;
+    jac_phi_q_v_A_j[6] = t199 * h_i_dot_omega_j - t197 * f_i_dot_omega_j - (t199 * omega_i_in_joint_i_2 - t197 *
         omega_i_in_joint_i_0);
     const jg_real t200 = A_joint_i_world_5 * C_j[6];
     const jg_real t201 = A_joint_i_world_4 * C_j[6];
@@ -716,15 +716,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t203 = A_joint_i_world_5 * C_j[0];
     const jg_real t204 = t203 * h_i_dot_f_j;
     const jg_real t205 = (t204 + t204) * t74 * pitch;
-    jac_phi_q_v_A_j[9] = t198 * f_i_dot_omega_j - g_i_dot_omega_j * t199 - ((t203 * omega_i_dot_f_j + omega_i[1] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t205 - (t205 * t82 + t80 * (t203 * omega_j_dot_f_j + omega_j[1] * C_j[0]
-        * h_i_dot_f_j)) + (t198 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t199));
-    const jg_real t206 = A_joint_i_world_8 * s_j[0];
-    const jg_real t207 = A_joint_i_world_7 * s_j[0];
+    jac_phi_q_v_A_j[9] = t198 * f_i_dot_omega_j - t199 * g_i_dot_omega_j - (t198 * omega_i_in_joint_i_0 - t199 *
+        omega_i_in_joint_i_1 + ((t203 * omega_i_dot_f_j + omega_i[1] * C_j[0] * h_i_dot_f_j) * t80 + t79 * t205 -
+        (t82 * t205 + (t203 * omega_j_dot_f_j + omega_j[1] * C_j[0] * h_i_dot_f_j) * t80)));
+    const jg_real t206 = s_j[0] * A_joint_i_world_8;
+    const jg_real t207 = s_j[0] * A_joint_i_world_7;
     jac_phi_q_v_A_j[10] = t206 * g_i_dot_omega_j - t207 * h_i_dot_omega_j - (t206 * omega_i_in_joint_i_1 - t207 *
         omega_i_in_joint_i_2);
-    const jg_real t208 = A_joint_i_world_6 * s_j[0];
-    jac_phi_q_v_A_j[11] = h_i_dot_omega_j * t208 - t206 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t208 - t206 *
+    const jg_real t208 = s_j[0] * A_joint_i_world_6;
+    jac_phi_q_v_A_j[11] = t208 * h_i_dot_omega_j - t206 * f_i_dot_omega_j - (t208 * omega_i_in_joint_i_2 - t206 *
         omega_i_in_joint_i_0);
     const jg_real t209 = A_joint_i_world_8 * C_j[6];
     const jg_real t210 = A_joint_i_world_7 * C_j[6];
@@ -736,15 +736,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t212 = A_joint_i_world_8 * C_j[0];
     const jg_real t213 = t212 * h_i_dot_f_j;
     const jg_real t214 = (t213 + t213) * t74 * pitch;
-    jac_phi_q_v_A_j[14] = t207 * f_i_dot_omega_j - g_i_dot_omega_j * t208 - ((t212 * omega_i_dot_f_j + omega_i[2] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t214 - (t214 * t82 + t80 * (t212 * omega_j_dot_f_j + omega_j[2] * C_j[0]
-        * h_i_dot_f_j)) + (t207 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t208));
-    const jg_real t215 = A_joint_i_world_2 * s_j[1];
+    jac_phi_q_v_A_j[14] = t207 * f_i_dot_omega_j - t208 * g_i_dot_omega_j - (t207 * omega_i_in_joint_i_0 - t208 *
+        omega_i_in_joint_i_1 + ((t212 * omega_i_dot_f_j + omega_i[2] * C_j[0] * h_i_dot_f_j) * t80 + t79 * t214 -
+        (t82 * t214 + (t212 * omega_j_dot_f_j + omega_j[2] * C_j[0] * h_i_dot_f_j) * t80)));
+    const jg_real t215 = s_j[1] * A_joint_i_world_2;
     const jg_real t216 = s_j[1] * A_joint_i_world_1;
     jac_phi_q_v_A_j[15] = t215 * g_i_dot_omega_j - t216 * h_i_dot_omega_j - (t215 * omega_i_in_joint_i_1 - t216 *
         omega_i_in_joint_i_2);
     const jg_real t217 = s_j[1] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[16] = h_i_dot_omega_j * t217 - t215 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t217 - t215 *
+    jac_phi_q_v_A_j[16] = t217 * h_i_dot_omega_j - t215 * f_i_dot_omega_j - (t217 * omega_i_in_joint_i_2 - t215 *
         omega_i_in_joint_i_0);
     const jg_real t218 = A_joint_i_world_2 * C_j[7];
     const jg_real t219 = A_joint_i_world_1 * C_j[7];
@@ -756,15 +756,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t221 = A_joint_i_world_2 * C_j[1];
     const jg_real t222 = t221 * h_i_dot_f_j;
     const jg_real t223 = (t222 + t222) * t74 * pitch;
-    jac_phi_q_v_A_j[19] = t216 * f_i_dot_omega_j - g_i_dot_omega_j * t217 - ((t221 * omega_i_dot_f_j + omega_i[0] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t223 - (t223 * t82 + t80 * (t221 * omega_j_dot_f_j + omega_j[0] * C_j[1]
-        * h_i_dot_f_j)) + (t216 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t217));
-    const jg_real t224 = A_joint_i_world_5 * s_j[1];
-    const jg_real t225 = A_joint_i_world_4 * s_j[1];
+    jac_phi_q_v_A_j[19] = t216 * f_i_dot_omega_j - t217 * g_i_dot_omega_j - (t216 * omega_i_in_joint_i_0 - t217 *
+        omega_i_in_joint_i_1 + ((t221 * omega_i_dot_f_j + omega_i[0] * C_j[1] * h_i_dot_f_j) * t80 + t79 * t223 -
+        (t82 * t223 + (t221 * omega_j_dot_f_j + omega_j[0] * C_j[1] * h_i_dot_f_j) * t80)));
+    const jg_real t224 = s_j[1] * A_joint_i_world_5;
+    const jg_real t225 = s_j[1] * A_joint_i_world_4;
     jac_phi_q_v_A_j[20] = t224 * g_i_dot_omega_j - t225 * h_i_dot_omega_j - (t224 * omega_i_in_joint_i_1 - t225 *
         omega_i_in_joint_i_2);
-    const jg_real t226 = A_joint_i_world_3 * s_j[1];
-    jac_phi_q_v_A_j[21] = h_i_dot_omega_j * t226 - t224 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t226 - t224 *
+    const jg_real t226 = s_j[1] * A_joint_i_world_3;
+    jac_phi_q_v_A_j[21] = t226 * h_i_dot_omega_j - t224 * f_i_dot_omega_j - (t226 * omega_i_in_joint_i_2 - t224 *
         omega_i_in_joint_i_0);
     const jg_real t227 = A_joint_i_world_5 * C_j[7];
     const jg_real t228 = A_joint_i_world_4 * C_j[7];
@@ -776,15 +776,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t230 = A_joint_i_world_5 * C_j[1];
     const jg_real t231 = t230 * h_i_dot_f_j;
     const jg_real t232 = (t231 + t231) * t74 * pitch;
-    jac_phi_q_v_A_j[24] = t225 * f_i_dot_omega_j - g_i_dot_omega_j * t226 - ((t230 * omega_i_dot_f_j + omega_i[1] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t232 - (t232 * t82 + t80 * (t230 * omega_j_dot_f_j + omega_j[1] * C_j[1]
-        * h_i_dot_f_j)) + (t225 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t226));
-    const jg_real t233 = A_joint_i_world_8 * s_j[1];
-    const jg_real t234 = A_joint_i_world_7 * s_j[1];
+    jac_phi_q_v_A_j[24] = t225 * f_i_dot_omega_j - t226 * g_i_dot_omega_j - (t225 * omega_i_in_joint_i_0 - t226 *
+        omega_i_in_joint_i_1 + ((t230 * omega_i_dot_f_j + omega_i[1] * C_j[1] * h_i_dot_f_j) * t80 + t79 * t232 -
+        (t82 * t232 + (t230 * omega_j_dot_f_j + omega_j[1] * C_j[1] * h_i_dot_f_j) * t80)));
+    const jg_real t233 = s_j[1] * A_joint_i_world_8;
+    const jg_real t234 = s_j[1] * A_joint_i_world_7;
     jac_phi_q_v_A_j[25] = t233 * g_i_dot_omega_j - t234 * h_i_dot_omega_j - (t233 * omega_i_in_joint_i_1 - t234 *
         omega_i_in_joint_i_2);
-    const jg_real t235 = A_joint_i_world_6 * s_j[1];
-    jac_phi_q_v_A_j[26] = h_i_dot_omega_j * t235 - t233 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t235 - t233 *
+    const jg_real t235 = s_j[1] * A_joint_i_world_6;
+    jac_phi_q_v_A_j[26] = t235 * h_i_dot_omega_j - t233 * f_i_dot_omega_j - (t235 * omega_i_in_joint_i_2 - t233 *
         omega_i_in_joint_i_0);
     const jg_real t236 = A_joint_i_world_8 * C_j[7];
     const jg_real t237 = A_joint_i_world_7 * C_j[7];
@@ -796,15 +796,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t239 = A_joint_i_world_8 * C_j[1];
     const jg_real t240 = t239 * h_i_dot_f_j;
     const jg_real t241 = (t240 + t240) * t74 * pitch;
-    jac_phi_q_v_A_j[29] = t234 * f_i_dot_omega_j - g_i_dot_omega_j * t235 - ((t239 * omega_i_dot_f_j + omega_i[2] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t241 - (t241 * t82 + t80 * (t239 * omega_j_dot_f_j + omega_j[2] * C_j[1]
-        * h_i_dot_f_j)) + (t234 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t235));
-    const jg_real t242 = A_joint_i_world_2 * s_j[2];
+    jac_phi_q_v_A_j[29] = t234 * f_i_dot_omega_j - t235 * g_i_dot_omega_j - (t234 * omega_i_in_joint_i_0 - t235 *
+        omega_i_in_joint_i_1 + ((t239 * omega_i_dot_f_j + omega_i[2] * C_j[1] * h_i_dot_f_j) * t80 + t79 * t241 -
+        (t82 * t241 + (t239 * omega_j_dot_f_j + omega_j[2] * C_j[1] * h_i_dot_f_j) * t80)));
+    const jg_real t242 = s_j[2] * A_joint_i_world_2;
     const jg_real t243 = s_j[2] * A_joint_i_world_1;
     jac_phi_q_v_A_j[30] = t242 * g_i_dot_omega_j - t243 * h_i_dot_omega_j - (t242 * omega_i_in_joint_i_1 - t243 *
         omega_i_in_joint_i_2);
     const jg_real t244 = s_j[2] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[31] = h_i_dot_omega_j * t244 - t242 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t244 - t242 *
+    jac_phi_q_v_A_j[31] = t244 * h_i_dot_omega_j - t242 * f_i_dot_omega_j - (t244 * omega_i_in_joint_i_2 - t242 *
         omega_i_in_joint_i_0);
     const jg_real t245 = A_joint_i_world_2 * C_j[8];
     const jg_real t246 = A_joint_i_world_1 * C_j[8];
@@ -816,15 +816,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t248 = A_joint_i_world_2 * C_j[2];
     const jg_real t249 = t248 * h_i_dot_f_j;
     const jg_real t250 = (t249 + t249) * t74 * pitch;
-    jac_phi_q_v_A_j[34] = t243 * f_i_dot_omega_j - g_i_dot_omega_j * t244 - ((t248 * omega_i_dot_f_j + omega_i[0] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t250 - (t250 * t82 + t80 * (t248 * omega_j_dot_f_j + omega_j[0] * C_j[2]
-        * h_i_dot_f_j)) + (t243 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t244));
-    const jg_real t251 = A_joint_i_world_5 * s_j[2];
-    const jg_real t252 = A_joint_i_world_4 * s_j[2];
+    jac_phi_q_v_A_j[34] = t243 * f_i_dot_omega_j - t244 * g_i_dot_omega_j - (t243 * omega_i_in_joint_i_0 - t244 *
+        omega_i_in_joint_i_1 + ((t248 * omega_i_dot_f_j + omega_i[0] * C_j[2] * h_i_dot_f_j) * t80 + t79 * t250 -
+        (t82 * t250 + (t248 * omega_j_dot_f_j + omega_j[0] * C_j[2] * h_i_dot_f_j) * t80)));
+    const jg_real t251 = s_j[2] * A_joint_i_world_5;
+    const jg_real t252 = s_j[2] * A_joint_i_world_4;
     jac_phi_q_v_A_j[35] = t251 * g_i_dot_omega_j - t252 * h_i_dot_omega_j - (t251 * omega_i_in_joint_i_1 - t252 *
         omega_i_in_joint_i_2);
-    const jg_real t253 = A_joint_i_world_3 * s_j[2];
-    jac_phi_q_v_A_j[36] = h_i_dot_omega_j * t253 - t251 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t253 - t251 *
+    const jg_real t253 = s_j[2] * A_joint_i_world_3;
+    jac_phi_q_v_A_j[36] = t253 * h_i_dot_omega_j - t251 * f_i_dot_omega_j - (t253 * omega_i_in_joint_i_2 - t251 *
         omega_i_in_joint_i_0);
     const jg_real t254 = A_joint_i_world_5 * C_j[8];
     const jg_real t255 = A_joint_i_world_4 * C_j[8];
@@ -836,15 +836,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t257 = A_joint_i_world_5 * C_j[2];
     const jg_real t258 = t257 * h_i_dot_f_j;
     const jg_real t259 = (t258 + t258) * t74 * pitch;
-    jac_phi_q_v_A_j[39] = t252 * f_i_dot_omega_j - g_i_dot_omega_j * t253 - ((t257 * omega_i_dot_f_j + omega_i[1] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t259 - (t259 * t82 + t80 * (t257 * omega_j_dot_f_j + omega_j[1] * C_j[2]
-        * h_i_dot_f_j)) + (t252 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t253));
-    const jg_real t260 = A_joint_i_world_8 * s_j[2];
-    const jg_real t261 = A_joint_i_world_7 * s_j[2];
+    jac_phi_q_v_A_j[39] = t252 * f_i_dot_omega_j - t253 * g_i_dot_omega_j - (t252 * omega_i_in_joint_i_0 - t253 *
+        omega_i_in_joint_i_1 + ((t257 * omega_i_dot_f_j + omega_i[1] * C_j[2] * h_i_dot_f_j) * t80 + t79 * t259 -
+        (t82 * t259 + (t257 * omega_j_dot_f_j + omega_j[1] * C_j[2] * h_i_dot_f_j) * t80)));
+    const jg_real t260 = s_j[2] * A_joint_i_world_8;
+    const jg_real t261 = s_j[2] * A_joint_i_world_7;
     jac_phi_q_v_A_j[40] = t260 * g_i_dot_omega_j - t261 * h_i_dot_omega_j - (t260 * omega_i_in_joint_i_1 - t261 *
         omega_i_in_joint_i_2);
-    const jg_real t262 = A_joint_i_world_6 * s_j[2];
-    jac_phi_q_v_A_j[41] = h_i_dot_omega_j * t262 - t260 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t262 - t260 *
+    const jg_real t262 = s_j[2] * A_joint_i_world_6;
+    jac_phi_q_v_A_j[41] = t262 * h_i_dot_omega_j - t260 * f_i_dot_omega_j - (t262 * omega_i_in_joint_i_2 - t260 *
         omega_i_in_joint_i_0);
     const jg_real t263 = A_joint_i_world_8 * C_j[8];
     const jg_real t264 = A_joint_i_world_7 * C_j[8];
@@ -856,47 +856,47 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t266 = A_joint_i_world_8 * C_j[2];
     const jg_real t267 = t266 * h_i_dot_f_j;
     const jg_real t268 = (t267 + t267) * t74 * pitch;
-    jac_phi_q_v_A_j[44] = t261 * f_i_dot_omega_j - g_i_dot_omega_j * t262 - ((t266 * omega_i_dot_f_j + omega_i[2] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t268 - (t268 * t82 + t80 * (t266 * omega_j_dot_f_j + omega_j[2] * C_j[2]
-        * h_i_dot_f_j)) + (t261 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t262));
+    jac_phi_q_v_A_j[44] = t261 * f_i_dot_omega_j - t262 * g_i_dot_omega_j - (t261 * omega_i_in_joint_i_0 - t262 *
+        omega_i_in_joint_i_1 + ((t266 * omega_i_dot_f_j + omega_i[2] * C_j[2] * h_i_dot_f_j) * t80 + t79 * t268 -
+        (t82 * t268 + (t266 * omega_j_dot_f_j + omega_j[2] * C_j[2] * h_i_dot_f_j) * t80)));
     const jg_real t269 = A_i[2] * A_joint_i_world_5 - A_i[1] * A_joint_i_world_8;
-    const jg_real t270 = t269 * omega_i[0];
-    const jg_real t271 = d_ij_in_joint_i_2 * t270;
+    const jg_real t270 = omega_i[0] * t269;
+    const jg_real t271 = t270 * d_ij_in_joint_i_2;
     const jg_real t272 = A_i[1] * A_joint_i_world_7 - A_i[2] * A_joint_i_world_4;
-    const jg_real t273 = t272 * s_j_world_0;
-    const jg_real t274 = t272 * v_0_world_0 + t273;
-    const jg_real t275 = t274 * omega_i_in_joint_i_1;
-    const jg_real t276 = t272 * omega_i[0];
-    const jg_real t277 = d_ij_in_joint_i_1 * t276;
+    const jg_real t273 = s_j_world_0 * t272;
+    const jg_real t274 = v_0_world_0 * t272 + t273;
+    const jg_real t275 = omega_i_in_joint_i_1 * t274;
+    const jg_real t276 = omega_i[0] * t272;
+    const jg_real t277 = t276 * d_ij_in_joint_i_1;
     const jg_real t278 = s_j_world_0 * t269;
     const jg_real t279 = v_0_world_0 * t269 + t278;
-    const jg_real t280 = t279 * omega_i_in_joint_i_2;
+    const jg_real t280 = omega_i_in_joint_i_2 * t279;
     const jg_real t281 = s_i_in_joint_i_2 * t270;
     const jg_real t282 = s_i_in_joint_i_1 * t276;
     const jg_real t283 = A_i[1] * v_i[1] + A_i[2] * v_i[2];
     const jg_real t284 = t273 * g_i_dot_omega_j;
-    const jg_real t285 = t269 * omega_j[0];
-    const jg_real t286 = s_j_in_joint_i_2 * t285;
+    const jg_real t285 = omega_j[0] * t269;
+    const jg_real t286 = t285 * s_j_in_joint_i_2;
     const jg_real t287 = t278 * h_i_dot_omega_j;
-    const jg_real t288 = t272 * omega_j[0];
-    const jg_real t289 = s_j_in_joint_i_1 * t288;
+    const jg_real t288 = omega_j[0] * t272;
+    const jg_real t289 = t288 * s_j_in_joint_i_1;
     const jg_real t290 = A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = t290 - (t271 + t275 - (t277 + t280) + (t281 - t282 + t283) - (t284 + t286 - (t287 +
+    jac_phi_q_v_geometry[0] = t290 - (t281 - t282 + t283 + (t271 + t275 - (t277 + t280)) - (t284 + t286 - (t287 +
         t289)));
-    const jg_real t291 = A_i[1] * omega_i[1] + A_i[2] * omega_i[2];
-    const jg_real t292 = d_ij_in_joint_i_2 * t291;
+    const jg_real t291 = A_i[2] * omega_i[2] + A_i[1] * omega_i[1];
+    const jg_real t292 = t291 * d_ij_in_joint_i_2;
     const jg_real t293 = A_i[1] * s_j_world_1 + A_i[2] * s_j_world_2;
-    const jg_real t294 = A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2 - s_i[0] + t293;
-    const jg_real t295 = t294 * omega_i_in_joint_i_2;
+    const jg_real t294 = A_i[2] * v_0_world_2 + A_i[1] * v_0_world_1 - s_i[0] + t293;
+    const jg_real t295 = omega_i_in_joint_i_2 * t294;
     const jg_real t296 = s_i[0] * omega_i_in_joint_i_2;
     const jg_real t297 = s_i_in_joint_i_2 * t291;
-    const jg_real t298 = t269 * v_i[0];
+    const jg_real t298 = v_i[0] * t269;
     const jg_real t299 = t293 * h_i_dot_omega_j;
     const jg_real t300 = A_i[1] * omega_j[1] + A_i[2] * omega_j[2];
     const jg_real t301 = s_j_in_joint_i_2 * t300;
-    const jg_real t302 = t269 * v_j[0];
-    jac_phi_q_v_geometry[1] = t302 - (t295 + t276 * d_ij_in_joint_i_0 - (t292 + t274 * omega_i_in_joint_i_0) + (t296
-        + t276 * s_i_in_joint_i_0 - t297 + t298) - (t299 + t288 * s_j_in_joint_i_0 - (t301 + t273 *
+    const jg_real t302 = v_j[0] * t269;
+    jac_phi_q_v_geometry[1] = t302 - (t296 + t276 * s_i_in_joint_i_0 - t297 + t298 + (t295 + t276 *
+        d_ij_in_joint_i_0 - (t292 + omega_i_in_joint_i_0 * t274)) - (t299 + t288 * s_j_in_joint_i_0 - (t301 + t273 *
         f_i_dot_omega_j)));
     const jg_real t303 = t285 * h_j_in_joint_i_2;
     const jg_real t304 = t272 * h_j_world_0;
@@ -917,55 +917,55 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t315 = t314 * h_i_dot_f_j;
     const jg_real t316 = (t315 + t315) * t74 * pitch;
     const jg_real t317 = s_i[0] * omega_i_in_joint_i_1;
-    const jg_real t318 = t291 * s_i_in_joint_i_1;
-    const jg_real t319 = t272 * v_i[0];
+    const jg_real t318 = s_i_in_joint_i_1 * t291;
+    const jg_real t319 = v_i[0] * t272;
     const jg_real t320 = t291 * d_ij_in_joint_i_1;
-    const jg_real t321 = t294 * omega_i_in_joint_i_1;
-    const jg_real t322 = s_j_in_joint_i_1 * t300;
+    const jg_real t321 = omega_i_in_joint_i_1 * t294;
+    const jg_real t322 = t300 * s_j_in_joint_i_1;
     const jg_real t323 = t293 * g_i_dot_omega_j;
     const jg_real t324 = t272 * v_j[0];
-    jac_phi_q_v_geometry[4] = t324 - ((t314 * omega_i_dot_f_j - t276) * t80 + t79 * t316 + (t318 - (t317 + t270 *
-        s_i_in_joint_i_0) + t319) - (t316 * t82 + t80 * (t314 * omega_j_dot_f_j - t288)) + (t320 + t279 *
-        omega_i_in_joint_i_0 - (t321 + t270 * d_ij_in_joint_i_0)) - (t322 + t278 * f_i_dot_omega_j - (t323 + t285 *
+    jac_phi_q_v_geometry[4] = t324 - (t320 + omega_i_in_joint_i_0 * t279 - (t321 + t270 * d_ij_in_joint_i_0) + (t318
+        - (t317 + t270 * s_i_in_joint_i_0) + t319 + ((t314 * omega_i_dot_f_j - t276) * t80 + t79 * t316) - (t82 *
+        t316 + (t314 * omega_j_dot_f_j - t288) * t80)) - (t322 + t278 * f_i_dot_omega_j - (t323 + t285 *
         s_j_in_joint_i_0)));
     const jg_real t325 = A_i[5] * A_joint_i_world_5 - A_i[4] * A_joint_i_world_8;
-    const jg_real t326 = t325 * omega_i[0];
-    const jg_real t327 = d_ij_in_joint_i_2 * t326;
+    const jg_real t326 = omega_i[0] * t325;
+    const jg_real t327 = t326 * d_ij_in_joint_i_2;
     const jg_real t328 = A_i[4] * A_joint_i_world_7 - A_i[5] * A_joint_i_world_4;
-    const jg_real t329 = t328 * s_j_world_0;
-    const jg_real t330 = t328 * v_0_world_0 + t329;
-    const jg_real t331 = t330 * omega_i_in_joint_i_1;
-    const jg_real t332 = t328 * omega_i[0];
-    const jg_real t333 = d_ij_in_joint_i_1 * t332;
+    const jg_real t329 = s_j_world_0 * t328;
+    const jg_real t330 = v_0_world_0 * t328 + t329;
+    const jg_real t331 = omega_i_in_joint_i_1 * t330;
+    const jg_real t332 = omega_i[0] * t328;
+    const jg_real t333 = t332 * d_ij_in_joint_i_1;
     const jg_real t334 = s_j_world_0 * t325;
     const jg_real t335 = v_0_world_0 * t325 + t334;
-    const jg_real t336 = t335 * omega_i_in_joint_i_2;
+    const jg_real t336 = omega_i_in_joint_i_2 * t335;
     const jg_real t337 = s_i_in_joint_i_2 * t326;
     const jg_real t338 = s_i_in_joint_i_1 * t332;
     const jg_real t339 = A_i[4] * v_i[1] + A_i[5] * v_i[2];
     const jg_real t340 = t329 * g_i_dot_omega_j;
-    const jg_real t341 = t325 * omega_j[0];
-    const jg_real t342 = s_j_in_joint_i_2 * t341;
+    const jg_real t341 = omega_j[0] * t325;
+    const jg_real t342 = t341 * s_j_in_joint_i_2;
     const jg_real t343 = t334 * h_i_dot_omega_j;
-    const jg_real t344 = t328 * omega_j[0];
-    const jg_real t345 = s_j_in_joint_i_1 * t344;
+    const jg_real t344 = omega_j[0] * t328;
+    const jg_real t345 = t344 * s_j_in_joint_i_1;
     const jg_real t346 = A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = t346 - (t327 + t331 - (t333 + t336) + (t337 - t338 + t339) - (t340 + t342 - (t343 +
+    jac_phi_q_v_geometry[5] = t346 - (t337 - t338 + t339 + (t327 + t331 - (t333 + t336)) - (t340 + t342 - (t343 +
         t345)));
-    const jg_real t347 = A_i[4] * omega_i[1] + A_i[5] * omega_i[2];
-    const jg_real t348 = d_ij_in_joint_i_2 * t347;
+    const jg_real t347 = A_i[5] * omega_i[2] + A_i[4] * omega_i[1];
+    const jg_real t348 = t347 * d_ij_in_joint_i_2;
     const jg_real t349 = A_i[4] * s_j_world_1 + A_i[5] * s_j_world_2;
-    const jg_real t350 = A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2 - s_i[1] + t349;
-    const jg_real t351 = t350 * omega_i_in_joint_i_2;
+    const jg_real t350 = A_i[5] * v_0_world_2 + A_i[4] * v_0_world_1 - s_i[1] + t349;
+    const jg_real t351 = omega_i_in_joint_i_2 * t350;
     const jg_real t352 = s_i[1] * omega_i_in_joint_i_2;
     const jg_real t353 = s_i_in_joint_i_2 * t347;
-    const jg_real t354 = t325 * v_i[0];
+    const jg_real t354 = v_i[0] * t325;
     const jg_real t355 = t349 * h_i_dot_omega_j;
     const jg_real t356 = A_i[4] * omega_j[1] + A_i[5] * omega_j[2];
     const jg_real t357 = s_j_in_joint_i_2 * t356;
-    const jg_real t358 = t325 * v_j[0];
-    jac_phi_q_v_geometry[6] = t358 - (t351 + t332 * d_ij_in_joint_i_0 - (t348 + t330 * omega_i_in_joint_i_0) + (t352
-        + t332 * s_i_in_joint_i_0 - t353 + t354) - (t355 + t344 * s_j_in_joint_i_0 - (t357 + t329 *
+    const jg_real t358 = v_j[0] * t325;
+    jac_phi_q_v_geometry[6] = t358 - (t352 + t332 * s_i_in_joint_i_0 - t353 + t354 + (t351 + t332 *
+        d_ij_in_joint_i_0 - (t348 + omega_i_in_joint_i_0 * t330)) - (t355 + t344 * s_j_in_joint_i_0 - (t357 + t329 *
         f_i_dot_omega_j)));
     const jg_real t359 = t341 * h_j_in_joint_i_2;
     const jg_real t360 = t328 * h_j_world_0;
@@ -986,55 +986,55 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t371 = t370 * h_i_dot_f_j;
     const jg_real t372 = (t371 + t371) * t74 * pitch;
     const jg_real t373 = s_i[1] * omega_i_in_joint_i_1;
-    const jg_real t374 = t347 * s_i_in_joint_i_1;
-    const jg_real t375 = t328 * v_i[0];
+    const jg_real t374 = s_i_in_joint_i_1 * t347;
+    const jg_real t375 = v_i[0] * t328;
     const jg_real t376 = t347 * d_ij_in_joint_i_1;
-    const jg_real t377 = t350 * omega_i_in_joint_i_1;
-    const jg_real t378 = s_j_in_joint_i_1 * t356;
+    const jg_real t377 = omega_i_in_joint_i_1 * t350;
+    const jg_real t378 = t356 * s_j_in_joint_i_1;
     const jg_real t379 = t349 * g_i_dot_omega_j;
     const jg_real t380 = t328 * v_j[0];
-    jac_phi_q_v_geometry[9] = t380 - ((t370 * omega_i_dot_f_j - t332) * t80 + t79 * t372 + (t374 - (t373 + t326 *
-        s_i_in_joint_i_0) + t375) - (t372 * t82 + t80 * (t370 * omega_j_dot_f_j - t344)) + (t376 + t335 *
-        omega_i_in_joint_i_0 - (t377 + t326 * d_ij_in_joint_i_0)) - (t378 + t334 * f_i_dot_omega_j - (t379 + t341 *
+    jac_phi_q_v_geometry[9] = t380 - (t376 + omega_i_in_joint_i_0 * t335 - (t377 + t326 * d_ij_in_joint_i_0) + (t374
+        - (t373 + t326 * s_i_in_joint_i_0) + t375 + ((t370 * omega_i_dot_f_j - t332) * t80 + t79 * t372) - (t82 *
+        t372 + (t370 * omega_j_dot_f_j - t344) * t80)) - (t378 + t334 * f_i_dot_omega_j - (t379 + t341 *
         s_j_in_joint_i_0)));
     const jg_real t381 = A_i[8] * A_joint_i_world_5 - A_i[7] * A_joint_i_world_8;
-    const jg_real t382 = t381 * omega_i[0];
-    const jg_real t383 = d_ij_in_joint_i_2 * t382;
+    const jg_real t382 = omega_i[0] * t381;
+    const jg_real t383 = t382 * d_ij_in_joint_i_2;
     const jg_real t384 = A_i[7] * A_joint_i_world_7 - A_i[8] * A_joint_i_world_4;
-    const jg_real t385 = t384 * s_j_world_0;
-    const jg_real t386 = t384 * v_0_world_0 + t385;
-    const jg_real t387 = t386 * omega_i_in_joint_i_1;
-    const jg_real t388 = t384 * omega_i[0];
-    const jg_real t389 = d_ij_in_joint_i_1 * t388;
+    const jg_real t385 = s_j_world_0 * t384;
+    const jg_real t386 = v_0_world_0 * t384 + t385;
+    const jg_real t387 = omega_i_in_joint_i_1 * t386;
+    const jg_real t388 = omega_i[0] * t384;
+    const jg_real t389 = t388 * d_ij_in_joint_i_1;
     const jg_real t390 = s_j_world_0 * t381;
     const jg_real t391 = v_0_world_0 * t381 + t390;
-    const jg_real t392 = t391 * omega_i_in_joint_i_2;
+    const jg_real t392 = omega_i_in_joint_i_2 * t391;
     const jg_real t393 = s_i_in_joint_i_2 * t382;
     const jg_real t394 = s_i_in_joint_i_1 * t388;
     const jg_real t395 = A_i[7] * v_i[1] + A_i[8] * v_i[2];
     const jg_real t396 = t385 * g_i_dot_omega_j;
-    const jg_real t397 = t381 * omega_j[0];
-    const jg_real t398 = s_j_in_joint_i_2 * t397;
+    const jg_real t397 = omega_j[0] * t381;
+    const jg_real t398 = t397 * s_j_in_joint_i_2;
     const jg_real t399 = t390 * h_i_dot_omega_j;
-    const jg_real t400 = t384 * omega_j[0];
-    const jg_real t401 = s_j_in_joint_i_1 * t400;
+    const jg_real t400 = omega_j[0] * t384;
+    const jg_real t401 = t400 * s_j_in_joint_i_1;
     const jg_real t402 = A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    jac_phi_q_v_geometry[10] = t402 - (t383 + t387 - (t389 + t392) + (t393 - t394 + t395) - (t396 + t398 - (t399 +
+    jac_phi_q_v_geometry[10] = t402 - (t393 - t394 + t395 + (t383 + t387 - (t389 + t392)) - (t396 + t398 - (t399 +
         t401)));
-    const jg_real t403 = A_i[7] * omega_i[1] + A_i[8] * omega_i[2];
-    const jg_real t404 = d_ij_in_joint_i_2 * t403;
+    const jg_real t403 = A_i[8] * omega_i[2] + A_i[7] * omega_i[1];
+    const jg_real t404 = t403 * d_ij_in_joint_i_2;
     const jg_real t405 = A_i[7] * s_j_world_1 + A_i[8] * s_j_world_2;
-    const jg_real t406 = A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2 - s_i[2] + t405;
-    const jg_real t407 = t406 * omega_i_in_joint_i_2;
+    const jg_real t406 = A_i[8] * v_0_world_2 + A_i[7] * v_0_world_1 - s_i[2] + t405;
+    const jg_real t407 = omega_i_in_joint_i_2 * t406;
     const jg_real t408 = s_i[2] * omega_i_in_joint_i_2;
     const jg_real t409 = s_i_in_joint_i_2 * t403;
-    const jg_real t410 = t381 * v_i[0];
+    const jg_real t410 = v_i[0] * t381;
     const jg_real t411 = t405 * h_i_dot_omega_j;
     const jg_real t412 = A_i[7] * omega_j[1] + A_i[8] * omega_j[2];
     const jg_real t413 = s_j_in_joint_i_2 * t412;
-    const jg_real t414 = t381 * v_j[0];
-    jac_phi_q_v_geometry[11] = t414 - (t407 + t388 * d_ij_in_joint_i_0 - (t404 + t386 * omega_i_in_joint_i_0) +
-        (t408 + t388 * s_i_in_joint_i_0 - t409 + t410) - (t411 + t400 * s_j_in_joint_i_0 - (t413 + t385 *
+    const jg_real t414 = v_j[0] * t381;
+    jac_phi_q_v_geometry[11] = t414 - (t408 + t388 * s_i_in_joint_i_0 - t409 + t410 + (t407 + t388 *
+        d_ij_in_joint_i_0 - (t404 + omega_i_in_joint_i_0 * t386)) - (t411 + t400 * s_j_in_joint_i_0 - (t413 + t385 *
         f_i_dot_omega_j)));
     const jg_real t415 = t397 * h_j_in_joint_i_2;
     const jg_real t416 = t384 * h_j_world_0;
@@ -1055,31 +1055,31 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t427 = t426 * h_i_dot_f_j;
     const jg_real t428 = (t427 + t427) * t74 * pitch;
     const jg_real t429 = s_i[2] * omega_i_in_joint_i_1;
-    const jg_real t430 = t403 * s_i_in_joint_i_1;
-    const jg_real t431 = t384 * v_i[0];
+    const jg_real t430 = s_i_in_joint_i_1 * t403;
+    const jg_real t431 = v_i[0] * t384;
     const jg_real t432 = t403 * d_ij_in_joint_i_1;
-    const jg_real t433 = t406 * omega_i_in_joint_i_1;
-    const jg_real t434 = s_j_in_joint_i_1 * t412;
+    const jg_real t433 = omega_i_in_joint_i_1 * t406;
+    const jg_real t434 = t412 * s_j_in_joint_i_1;
     const jg_real t435 = t405 * g_i_dot_omega_j;
     const jg_real t436 = t384 * v_j[0];
-    jac_phi_q_v_geometry[14] = t436 - ((t426 * omega_i_dot_f_j - t388) * t80 + t79 * t428 + (t430 - (t429 + t382 *
-        s_i_in_joint_i_0) + t431) - (t428 * t82 + t80 * (t426 * omega_j_dot_f_j - t400)) + (t432 + t391 *
-        omega_i_in_joint_i_0 - (t433 + t382 * d_ij_in_joint_i_0)) - (t434 + t390 * f_i_dot_omega_j - (t435 + t397 *
+    jac_phi_q_v_geometry[14] = t436 - (t432 + omega_i_in_joint_i_0 * t391 - (t433 + t382 * d_ij_in_joint_i_0) +
+        (t430 - (t429 + t382 * s_i_in_joint_i_0) + t431 + ((t426 * omega_i_dot_f_j - t388) * t80 + t79 * t428) -
+        (t82 * t428 + (t426 * omega_j_dot_f_j - t400) * t80)) - (t434 + t390 * f_i_dot_omega_j - (t435 + t397 *
         s_j_in_joint_i_0)));
-    const jg_real t437 = A_joint_i_world_3 * A_i[2] - A_i[1] * A_joint_i_world_6;
-    const jg_real t438 = t437 * s_j_world_0;
-    const jg_real t439 = t437 * v_0_world_0 + t438;
-    const jg_real t440 = t437 * omega_i[0];
-    const jg_real t441 = t437 * omega_j[0];
-    jac_phi_q_v_geometry[15] = -(t292 + t439 * omega_i_in_joint_i_1 - (t440 * d_ij_in_joint_i_1 + t295) + (t297 -
-        (t440 * s_i_in_joint_i_1 + t296) - t298) - (t438 * g_i_dot_omega_j + t301 - (t299 + s_j_in_joint_i_1 *
-        t441)) + t302);
+    const jg_real t437 = A_i[2] * A_joint_i_world_3 - A_i[1] * A_joint_i_world_6;
+    const jg_real t438 = s_j_world_0 * t437;
+    const jg_real t439 = v_0_world_0 * t437 + t438;
+    const jg_real t440 = omega_i[0] * t437;
+    const jg_real t441 = omega_j[0] * t437;
+    jac_phi_q_v_geometry[15] = -(t297 - (s_i_in_joint_i_1 * t440 + t296) - t298 + (t292 + omega_i_in_joint_i_1 *
+        t439 - (t440 * d_ij_in_joint_i_1 + t295)) - (t438 * g_i_dot_omega_j + t301 - (t299 + t441 *
+        s_j_in_joint_i_1)) + t302);
     const jg_real t442 = t440 * d_ij_in_joint_i_0;
-    const jg_real t443 = t439 * omega_i_in_joint_i_0;
+    const jg_real t443 = omega_i_in_joint_i_0 * t439;
     const jg_real t444 = t440 * s_i_in_joint_i_0;
     const jg_real t445 = t441 * s_j_in_joint_i_0;
     const jg_real t446 = t438 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[16] = t290 - (t442 - t280 - (t443 - t271) + (t281 + t444 + t283) - (t445 - t287 - (t446 -
+    jac_phi_q_v_geometry[16] = t290 - (t444 + t281 + t283 + (t442 - t280 - (t443 - t271)) - (t445 - t287 - (t446 -
         t286)));
     const jg_real t447 = t437 * h_j_world_0;
     jac_phi_q_v_geometry[17] = t311 + g_i_dot_omega_j * t447 - (t441 * h_j_in_joint_i_1 + t310) - (t313 +
@@ -1091,30 +1091,30 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t450 = (t449 + t449) * t74 * pitch;
     const jg_real t451 = s_i[0] * omega_i_in_joint_i_0;
     const jg_real t452 = t291 * s_i_in_joint_i_0;
-    const jg_real t453 = t437 * v_i[0];
+    const jg_real t453 = v_i[0] * t437;
     const jg_real t454 = t291 * d_ij_in_joint_i_0;
-    const jg_real t455 = t294 * omega_i_in_joint_i_0;
+    const jg_real t455 = omega_i_in_joint_i_0 * t294;
     const jg_real t456 = t293 * f_i_dot_omega_j;
     const jg_real t457 = t300 * s_j_in_joint_i_0;
     const jg_real t458 = t437 * v_j[0];
-    jac_phi_q_v_geometry[19] = t458 - ((t448 * omega_i_dot_f_j - t440) * t80 + t79 * t450 + (t451 - t270 *
-        s_i_in_joint_i_1 - t452 + t453) - (t450 * t82 + t80 * (t448 * omega_j_dot_f_j - t441)) + (t455 - t270 *
-        d_ij_in_joint_i_1 - (t454 - omega_i_in_joint_i_1 * t279)) - (t456 - s_j_in_joint_i_1 * t285 - (t457 - t278 *
+    jac_phi_q_v_geometry[19] = t458 - (t455 - t270 * d_ij_in_joint_i_1 - (t454 - omega_i_in_joint_i_1 * t279) +
+        (t451 - s_i_in_joint_i_1 * t270 - t452 + t453 + ((t448 * omega_i_dot_f_j - t440) * t80 + t79 * t450) - (t82
+        * t450 + (t448 * omega_j_dot_f_j - t441) * t80)) - (t456 - t285 * s_j_in_joint_i_1 - (t457 - t278 *
         g_i_dot_omega_j)));
-    const jg_real t459 = A_joint_i_world_3 * A_i[5] - A_i[4] * A_joint_i_world_6;
-    const jg_real t460 = t459 * s_j_world_0;
-    const jg_real t461 = t459 * v_0_world_0 + t460;
-    const jg_real t462 = t459 * omega_i[0];
-    const jg_real t463 = t459 * omega_j[0];
-    jac_phi_q_v_geometry[20] = -(t348 + t461 * omega_i_in_joint_i_1 - (t462 * d_ij_in_joint_i_1 + t351) + (t353 -
-        (t462 * s_i_in_joint_i_1 + t352) - t354) - (t460 * g_i_dot_omega_j + t357 - (t355 + s_j_in_joint_i_1 *
-        t463)) + t358);
+    const jg_real t459 = A_i[5] * A_joint_i_world_3 - A_i[4] * A_joint_i_world_6;
+    const jg_real t460 = s_j_world_0 * t459;
+    const jg_real t461 = v_0_world_0 * t459 + t460;
+    const jg_real t462 = omega_i[0] * t459;
+    const jg_real t463 = omega_j[0] * t459;
+    jac_phi_q_v_geometry[20] = -(t353 - (s_i_in_joint_i_1 * t462 + t352) - t354 + (t348 + omega_i_in_joint_i_1 *
+        t461 - (t462 * d_ij_in_joint_i_1 + t351)) - (t460 * g_i_dot_omega_j + t357 - (t355 + t463 *
+        s_j_in_joint_i_1)) + t358);
     const jg_real t464 = t462 * d_ij_in_joint_i_0;
-    const jg_real t465 = t461 * omega_i_in_joint_i_0;
+    const jg_real t465 = omega_i_in_joint_i_0 * t461;
     const jg_real t466 = t462 * s_i_in_joint_i_0;
     const jg_real t467 = t463 * s_j_in_joint_i_0;
     const jg_real t468 = t460 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[21] = t346 - (t464 - t336 - (t465 - t327) + (t337 + t466 + t339) - (t467 - t343 - (t468 -
+    jac_phi_q_v_geometry[21] = t346 - (t466 + t337 + t339 + (t464 - t336 - (t465 - t327)) - (t467 - t343 - (t468 -
         t342)));
     const jg_real t469 = t459 * h_j_world_0;
     jac_phi_q_v_geometry[22] = t367 + g_i_dot_omega_j * t469 - (t463 * h_j_in_joint_i_1 + t366) - (t369 +
@@ -1126,30 +1126,30 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t472 = (t471 + t471) * t74 * pitch;
     const jg_real t473 = s_i[1] * omega_i_in_joint_i_0;
     const jg_real t474 = t347 * s_i_in_joint_i_0;
-    const jg_real t475 = t459 * v_i[0];
+    const jg_real t475 = v_i[0] * t459;
     const jg_real t476 = t347 * d_ij_in_joint_i_0;
-    const jg_real t477 = t350 * omega_i_in_joint_i_0;
+    const jg_real t477 = omega_i_in_joint_i_0 * t350;
     const jg_real t478 = t349 * f_i_dot_omega_j;
     const jg_real t479 = t356 * s_j_in_joint_i_0;
     const jg_real t480 = t459 * v_j[0];
-    jac_phi_q_v_geometry[24] = t480 - ((t470 * omega_i_dot_f_j - t462) * t80 + t79 * t472 + (t473 - t326 *
-        s_i_in_joint_i_1 - t474 + t475) - (t472 * t82 + t80 * (t470 * omega_j_dot_f_j - t463)) + (t477 - t326 *
-        d_ij_in_joint_i_1 - (t476 - omega_i_in_joint_i_1 * t335)) - (t478 - s_j_in_joint_i_1 * t341 - (t479 - t334 *
+    jac_phi_q_v_geometry[24] = t480 - (t477 - t326 * d_ij_in_joint_i_1 - (t476 - omega_i_in_joint_i_1 * t335) +
+        (t473 - s_i_in_joint_i_1 * t326 - t474 + t475 + ((t470 * omega_i_dot_f_j - t462) * t80 + t79 * t472) - (t82
+        * t472 + (t470 * omega_j_dot_f_j - t463) * t80)) - (t478 - t341 * s_j_in_joint_i_1 - (t479 - t334 *
         g_i_dot_omega_j)));
-    const jg_real t481 = A_joint_i_world_3 * A_i[8] - A_i[7] * A_joint_i_world_6;
-    const jg_real t482 = t481 * s_j_world_0;
-    const jg_real t483 = t481 * v_0_world_0 + t482;
-    const jg_real t484 = t481 * omega_i[0];
-    const jg_real t485 = t481 * omega_j[0];
-    jac_phi_q_v_geometry[25] = -(t404 + t483 * omega_i_in_joint_i_1 - (t484 * d_ij_in_joint_i_1 + t407) + (t409 -
-        (t484 * s_i_in_joint_i_1 + t408) - t410) - (t482 * g_i_dot_omega_j + t413 - (t411 + s_j_in_joint_i_1 *
-        t485)) + t414);
+    const jg_real t481 = A_i[8] * A_joint_i_world_3 - A_i[7] * A_joint_i_world_6;
+    const jg_real t482 = s_j_world_0 * t481;
+    const jg_real t483 = v_0_world_0 * t481 + t482;
+    const jg_real t484 = omega_i[0] * t481;
+    const jg_real t485 = omega_j[0] * t481;
+    jac_phi_q_v_geometry[25] = -(t409 - (s_i_in_joint_i_1 * t484 + t408) - t410 + (t404 + omega_i_in_joint_i_1 *
+        t483 - (t484 * d_ij_in_joint_i_1 + t407)) - (t482 * g_i_dot_omega_j + t413 - (t411 + t485 *
+        s_j_in_joint_i_1)) + t414);
     const jg_real t486 = t484 * d_ij_in_joint_i_0;
-    const jg_real t487 = t483 * omega_i_in_joint_i_0;
+    const jg_real t487 = omega_i_in_joint_i_0 * t483;
     const jg_real t488 = t484 * s_i_in_joint_i_0;
     const jg_real t489 = t485 * s_j_in_joint_i_0;
     const jg_real t490 = t482 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[26] = t402 - (t486 - t392 - (t487 - t383) + (t393 + t488 + t395) - (t489 - t399 - (t490 -
+    jac_phi_q_v_geometry[26] = t402 - (t488 + t393 + t395 + (t486 - t392 - (t487 - t383)) - (t489 - t399 - (t490 -
         t398)));
     const jg_real t491 = t481 * h_j_world_0;
     jac_phi_q_v_geometry[27] = t423 + g_i_dot_omega_j * t491 - (t485 * h_j_in_joint_i_1 + t422) - (t425 +
@@ -1161,22 +1161,22 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t494 = (t493 + t493) * t74 * pitch;
     const jg_real t495 = s_i[2] * omega_i_in_joint_i_0;
     const jg_real t496 = t403 * s_i_in_joint_i_0;
-    const jg_real t497 = t481 * v_i[0];
+    const jg_real t497 = v_i[0] * t481;
     const jg_real t498 = t403 * d_ij_in_joint_i_0;
-    const jg_real t499 = t406 * omega_i_in_joint_i_0;
+    const jg_real t499 = omega_i_in_joint_i_0 * t406;
     const jg_real t500 = t405 * f_i_dot_omega_j;
     const jg_real t501 = t412 * s_j_in_joint_i_0;
     const jg_real t502 = t481 * v_j[0];
-    jac_phi_q_v_geometry[29] = t502 - ((t492 * omega_i_dot_f_j - t484) * t80 + t79 * t494 + (t495 - t382 *
-        s_i_in_joint_i_1 - t496 + t497) - (t494 * t82 + t80 * (t492 * omega_j_dot_f_j - t485)) + (t499 - t382 *
-        d_ij_in_joint_i_1 - (t498 - omega_i_in_joint_i_1 * t391)) - (t500 - s_j_in_joint_i_1 * t397 - (t501 - t390 *
+    jac_phi_q_v_geometry[29] = t502 - (t499 - t382 * d_ij_in_joint_i_1 - (t498 - omega_i_in_joint_i_1 * t391) +
+        (t495 - s_i_in_joint_i_1 * t382 - t496 + t497 + ((t492 * omega_i_dot_f_j - t484) * t80 + t79 * t494) - (t82
+        * t494 + (t492 * omega_j_dot_f_j - t485) * t80)) - (t500 - t397 * s_j_in_joint_i_1 - (t501 - t390 *
         g_i_dot_omega_j)));
-    jac_phi_q_v_geometry[30] = -(t321 - d_ij_in_joint_i_2 * t440 - (t320 - t439 * omega_i_in_joint_i_2) + (t317 -
-        s_i_in_joint_i_2 * t440 - t318 - t319) - (t323 - s_j_in_joint_i_2 * t441 - (t322 - t438 * h_i_dot_omega_j))
-        + t324);
-    jac_phi_q_v_geometry[31] = -(t454 - t274 * omega_i_in_joint_i_2 - (t455 - d_ij_in_joint_i_2 * t276) + (t452 -
-        (t451 - s_i_in_joint_i_2 * t276) - t453) - (t457 - t273 * h_i_dot_omega_j - (t456 - s_j_in_joint_i_2 *
-        t288)) + t458);
+    jac_phi_q_v_geometry[30] = -(t317 - s_i_in_joint_i_2 * t440 - t318 - t319 + (t321 - t440 * d_ij_in_joint_i_2 -
+        (t320 - omega_i_in_joint_i_2 * t439)) - (t323 - t441 * s_j_in_joint_i_2 - (t322 - t438 * h_i_dot_omega_j)) +
+        t324);
+    jac_phi_q_v_geometry[31] = -(t452 - (t451 - s_i_in_joint_i_2 * t276) - t453 + (t454 - omega_i_in_joint_i_2 *
+        t274 - (t455 - t276 * d_ij_in_joint_i_2)) - (t457 - t273 * h_i_dot_omega_j - (t456 - t288 *
+        s_j_in_joint_i_2)) + t458);
     jac_phi_q_v_geometry[32] = g_i_dot_omega_j * t309 - t441 * h_j_in_joint_i_2 - (t300 * h_j_in_joint_i_1 -
         h_i_dot_omega_j * t447) - (omega_i_in_joint_i_1 * t309 - t440 * h_j_in_joint_i_2 - (t291 * h_j_in_joint_i_1
         - omega_i_in_joint_i_2 * t447));
@@ -1186,15 +1186,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t503 = A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real t504 = h_i_dot_f_j * t503;
     const jg_real t505 = (t504 + t504) * t74 * pitch;
-    jac_phi_q_v_geometry[34] = t290 - ((t503 * omega_i_dot_f_j - t291) * t80 + t79 * t505 + (t444 - t282 + t283) -
-        (t505 * t82 + t80 * (t503 * omega_j_dot_f_j - t300)) + (t275 + t442 - (t277 + t443)) - (t284 + t445 - (t289
-        + t446)));
-    jac_phi_q_v_geometry[35] = -(t377 - d_ij_in_joint_i_2 * t462 - (t376 - t461 * omega_i_in_joint_i_2) + (t373 -
-        s_i_in_joint_i_2 * t462 - t374 - t375) - (t379 - s_j_in_joint_i_2 * t463 - (t378 - t460 * h_i_dot_omega_j))
-        + t380);
-    jac_phi_q_v_geometry[36] = -(t476 - t330 * omega_i_in_joint_i_2 - (t477 - d_ij_in_joint_i_2 * t332) + (t474 -
-        (t473 - s_i_in_joint_i_2 * t332) - t475) - (t479 - t329 * h_i_dot_omega_j - (t478 - s_j_in_joint_i_2 *
-        t344)) + t480);
+    jac_phi_q_v_geometry[34] = t290 - (t275 + t442 - (t443 + t277) + (t444 - t282 + t283 + ((t503 * omega_i_dot_f_j
+        - t291) * t80 + t79 * t505) - (t82 * t505 + (t503 * omega_j_dot_f_j - t300) * t80)) - (t284 + t445 - (t289 +
+        t446)));
+    jac_phi_q_v_geometry[35] = -(t373 - s_i_in_joint_i_2 * t462 - t374 - t375 + (t377 - t462 * d_ij_in_joint_i_2 -
+        (t376 - omega_i_in_joint_i_2 * t461)) - (t379 - t463 * s_j_in_joint_i_2 - (t378 - t460 * h_i_dot_omega_j)) +
+        t380);
+    jac_phi_q_v_geometry[36] = -(t474 - (t473 - s_i_in_joint_i_2 * t332) - t475 + (t476 - omega_i_in_joint_i_2 *
+        t330 - (t477 - t332 * d_ij_in_joint_i_2)) - (t479 - t329 * h_i_dot_omega_j - (t478 - t344 *
+        s_j_in_joint_i_2)) + t480);
     jac_phi_q_v_geometry[37] = g_i_dot_omega_j * t365 - t463 * h_j_in_joint_i_2 - (t356 * h_j_in_joint_i_1 -
         h_i_dot_omega_j * t469) - (omega_i_in_joint_i_1 * t365 - t462 * h_j_in_joint_i_2 - (t347 * h_j_in_joint_i_1
         - omega_i_in_joint_i_2 * t469));
@@ -1204,15 +1204,15 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t506 = A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     const jg_real t507 = h_i_dot_f_j * t506;
     const jg_real t508 = (t507 + t507) * t74 * pitch;
-    jac_phi_q_v_geometry[39] = t346 - ((t506 * omega_i_dot_f_j - t347) * t80 + t79 * t508 + (t466 - t338 + t339) -
-        (t508 * t82 + t80 * (t506 * omega_j_dot_f_j - t356)) + (t331 + t464 - (t333 + t465)) - (t340 + t467 - (t345
-        + t468)));
-    jac_phi_q_v_geometry[40] = -(t433 - d_ij_in_joint_i_2 * t484 - (t432 - t483 * omega_i_in_joint_i_2) + (t429 -
-        s_i_in_joint_i_2 * t484 - t430 - t431) - (t435 - s_j_in_joint_i_2 * t485 - (t434 - t482 * h_i_dot_omega_j))
-        + t436);
-    jac_phi_q_v_geometry[41] = -(t498 - t386 * omega_i_in_joint_i_2 - (t499 - d_ij_in_joint_i_2 * t388) + (t496 -
-        (t495 - s_i_in_joint_i_2 * t388) - t497) - (t501 - t385 * h_i_dot_omega_j - (t500 - s_j_in_joint_i_2 *
-        t400)) + t502);
+    jac_phi_q_v_geometry[39] = t346 - (t331 + t464 - (t465 + t333) + (t466 - t338 + t339 + ((t506 * omega_i_dot_f_j
+        - t347) * t80 + t79 * t508) - (t82 * t508 + (t506 * omega_j_dot_f_j - t356) * t80)) - (t340 + t467 - (t345 +
+        t468)));
+    jac_phi_q_v_geometry[40] = -(t429 - s_i_in_joint_i_2 * t484 - t430 - t431 + (t433 - t484 * d_ij_in_joint_i_2 -
+        (t432 - omega_i_in_joint_i_2 * t483)) - (t435 - t485 * s_j_in_joint_i_2 - (t434 - t482 * h_i_dot_omega_j)) +
+        t436);
+    jac_phi_q_v_geometry[41] = -(t496 - (t495 - s_i_in_joint_i_2 * t388) - t497 + (t498 - omega_i_in_joint_i_2 *
+        t386 - (t499 - t388 * d_ij_in_joint_i_2)) - (t501 - t385 * h_i_dot_omega_j - (t500 - t400 *
+        s_j_in_joint_i_2)) + t502);
     jac_phi_q_v_geometry[42] = g_i_dot_omega_j * t421 - t485 * h_j_in_joint_i_2 - (t412 * h_j_in_joint_i_1 -
         h_i_dot_omega_j * t491) - (omega_i_in_joint_i_1 * t421 - t484 * h_j_in_joint_i_2 - (t403 * h_j_in_joint_i_1
         - omega_i_in_joint_i_2 * t491));
@@ -1222,42 +1222,42 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t509 = A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real t510 = h_i_dot_f_j * t509;
     const jg_real t511 = (t510 + t510) * t74 * pitch;
-    jac_phi_q_v_geometry[44] = t402 - ((t509 * omega_i_dot_f_j - t403) * t80 + t79 * t511 + (t488 - t394 + t395) -
-        (t511 * t82 + t80 * (t509 * omega_j_dot_f_j - t412)) + (t387 + t486 - (t389 + t487)) - (t396 + t489 - (t401
-        + t490)));
-    const jg_real t512 = A_joint_i_world_2 * A_j[0] + A_joint_i_world_5 * A_j[1] + A_joint_i_world_8 * A_j[2];
-    const jg_real t513 = A_j[0] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[1] + A_joint_i_world_7 * A_j[2];
-    const jg_real t514 = t512 * g_i_dot_omega_j - t513 * h_i_dot_omega_j - (t512 * omega_i_in_joint_i_1 - t513 *
-        omega_i_in_joint_i_2);
+    jac_phi_q_v_geometry[44] = t402 - (t387 + t486 - (t487 + t389) + (t488 - t394 + t395 + ((t509 * omega_i_dot_f_j
+        - t403) * t80 + t79 * t511) - (t82 * t511 + (t509 * omega_j_dot_f_j - t412) * t80)) - (t396 + t489 - (t401 +
+        t490)));
+    const jg_real t512 = A_j[1] * A_joint_i_world_5 + A_j[0] * A_joint_i_world_2 + A_j[2] * A_joint_i_world_8;
+    const jg_real t513 = A_j[1] * A_joint_i_world_4 + A_j[0] * A_joint_i_world_1 + A_joint_i_world_7 * A_j[2];
+    const jg_real t514 = t512 * g_i_dot_omega_j - h_i_dot_omega_j * t513 - (t512 * omega_i_in_joint_i_1 -
+        omega_i_in_joint_i_2 * t513);
     jac_phi_q_v_geometry[45] = t514;
     jac_phi_q_v_geometry[57] = t514;
-    const jg_real t515 = A_j[0] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[1] + A_joint_i_world_6 * A_j[2];
+    const jg_real t515 = A_j[1] * A_joint_i_world_3 + A_j[0] * A_joint_i_world_0 + A_j[2] * A_joint_i_world_6;
     const jg_real t516 = h_i_dot_omega_j * t515 - t512 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t515 - t512 *
         omega_i_in_joint_i_0);
     jac_phi_q_v_geometry[46] = t516;
     jac_phi_q_v_geometry[58] = t516;
     jac_phi_q_v_geometry[47] = t513 * f_i_dot_omega_j - g_i_dot_omega_j * t515 - (t513 * omega_i_in_joint_i_0 -
         omega_i_in_joint_i_1 * t515);
-    const jg_real t517 = A_joint_i_world_2 * A_j[3] + A_joint_i_world_5 * A_j[4] + A_joint_i_world_8 * A_j[5];
-    const jg_real t518 = A_j[3] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[4] + A_joint_i_world_7 * A_j[5];
-    const jg_real t519 = t517 * g_i_dot_omega_j - t518 * h_i_dot_omega_j - (t517 * omega_i_in_joint_i_1 - t518 *
-        omega_i_in_joint_i_2);
+    const jg_real t517 = A_j[4] * A_joint_i_world_5 + A_j[3] * A_joint_i_world_2 + A_j[5] * A_joint_i_world_8;
+    const jg_real t518 = A_j[4] * A_joint_i_world_4 + A_j[3] * A_joint_i_world_1 + A_joint_i_world_7 * A_j[5];
+    const jg_real t519 = t517 * g_i_dot_omega_j - h_i_dot_omega_j * t518 - (t517 * omega_i_in_joint_i_1 -
+        omega_i_in_joint_i_2 * t518);
     jac_phi_q_v_geometry[48] = t519;
     jac_phi_q_v_geometry[59] = t519;
-    const jg_real t520 = A_j[3] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[4] + A_joint_i_world_6 * A_j[5];
+    const jg_real t520 = A_joint_i_world_3 * A_j[4] + A_j[3] * A_joint_i_world_0 + A_j[5] * A_joint_i_world_6;
     const jg_real t521 = h_i_dot_omega_j * t520 - t517 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t520 - t517 *
         omega_i_in_joint_i_0);
     jac_phi_q_v_geometry[49] = t521;
     jac_phi_q_v_geometry[60] = t521;
     jac_phi_q_v_geometry[50] = t518 * f_i_dot_omega_j - g_i_dot_omega_j * t520 - (t518 * omega_i_in_joint_i_0 -
         omega_i_in_joint_i_1 * t520);
-    const jg_real t522 = A_joint_i_world_2 * A_j[6] + A_joint_i_world_5 * A_j[7] + A_joint_i_world_8 * A_j[8];
-    const jg_real t523 = A_j[6] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[7] + A_joint_i_world_7 * A_j[8];
-    const jg_real t524 = t522 * g_i_dot_omega_j - t523 * h_i_dot_omega_j - (t522 * omega_i_in_joint_i_1 - t523 *
-        omega_i_in_joint_i_2);
+    const jg_real t522 = A_j[7] * A_joint_i_world_5 + A_j[6] * A_joint_i_world_2 + A_j[8] * A_joint_i_world_8;
+    const jg_real t523 = A_j[7] * A_joint_i_world_4 + A_j[6] * A_joint_i_world_1 + A_joint_i_world_7 * A_j[8];
+    const jg_real t524 = t522 * g_i_dot_omega_j - h_i_dot_omega_j * t523 - (t522 * omega_i_in_joint_i_1 -
+        omega_i_in_joint_i_2 * t523);
     jac_phi_q_v_geometry[51] = t524;
     jac_phi_q_v_geometry[61] = t524;
-    const jg_real t525 = A_j[6] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[7] + A_joint_i_world_6 * A_j[8];
+    const jg_real t525 = A_joint_i_world_3 * A_j[7] + A_j[6] * A_joint_i_world_0 + A_joint_i_world_6 * A_j[8];
     const jg_real t526 = h_i_dot_omega_j * t525 - t522 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t525 - t522 *
         omega_i_in_joint_i_0);
     jac_phi_q_v_geometry[52] = t526;
@@ -1266,20 +1266,20 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
         omega_i_in_joint_i_1 * t525);
     const jg_real t527 = t512 * h_i_dot_f_j;
     const jg_real t528 = (t527 + t527) * t74 * pitch;
-    jac_phi_q_v_geometry[54] = t528 * t82 + t80 * (t512 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_j[0] +
-        A_j[1] * omega_j[1] + A_j[2] * omega_j[2])) - ((t512 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_i[0]
-        + A_j[1] * omega_i[1] + A_j[2] * omega_i[2])) * t80 + t79 * t528);
+    jac_phi_q_v_geometry[54] = t82 * t528 + (t512 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_j[0] + A_j[1] *
+        omega_j[1] + A_j[2] * omega_j[2])) * t80 - ((t512 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_i[0] +
+        A_j[1] * omega_i[1] + A_j[2] * omega_i[2])) * t80 + t79 * t528);
     const jg_real t529 = t517 * h_i_dot_f_j;
     const jg_real t530 = (t529 + t529) * t74 * pitch;
-    jac_phi_q_v_geometry[55] = t530 * t82 + t80 * (t517 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_j[0] +
-        A_j[4] * omega_j[1] + A_j[5] * omega_j[2])) - ((t517 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_i[0]
-        + A_j[4] * omega_i[1] + A_j[5] * omega_i[2])) * t80 + t79 * t530);
+    jac_phi_q_v_geometry[55] = t82 * t530 + (t517 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_j[0] + A_j[4] *
+        omega_j[1] + A_j[5] * omega_j[2])) * t80 - ((t517 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_i[0] +
+        A_j[4] * omega_i[1] + A_j[5] * omega_i[2])) * t80 + t79 * t530);
     const jg_real t531 = t522 * h_i_dot_f_j;
     const jg_real t532 = (t531 + t531) * t74 * pitch;
-    jac_phi_q_v_geometry[56] = t532 * t82 + t80 * (t522 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_j[0] +
-        A_j[7] * omega_j[1] + A_j[8] * omega_j[2])) - ((t522 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_i[0]
-        + A_j[7] * omega_i[1] + A_j[8] * omega_i[2])) * t80 + t79 * t532);
-    jac_phi_q_v_geometry[63] = spread * t82 - t79 * spread;
+    jac_phi_q_v_geometry[56] = t82 * t532 + (t522 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_j[0] + A_j[7] *
+        omega_j[1] + A_j[8] * omega_j[2])) * t80 - ((t522 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_i[0] +
+        A_j[7] * omega_i[1] + A_j[8] * omega_i[2])) * t80 + t79 * t532);
+    jac_phi_q_v_geometry[63] = t82 * spread - t79 * spread;
     jac_phi_q_v_velocity[0] = -A_joint_i_world_0;
     jac_phi_q_v_velocity[1] = -A_joint_i_world_1;
     jac_phi_q_v_velocity[2] = -A_joint_i_world_2;
@@ -1289,10 +1289,10 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[6] = -A_joint_i_world_6;
     jac_phi_q_v_velocity[7] = -A_joint_i_world_7;
     jac_phi_q_v_velocity[8] = -A_joint_i_world_8;
-    jac_phi_q_v_velocity[9] = -(d_ij_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * d_ij_in_joint_i_1 +
-        (s_i_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[10] = -(A_joint_i_world_2 * d_ij_in_joint_i_0 - d_ij_in_joint_i_2 * A_joint_i_world_0 +
-        (A_joint_i_world_2 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * A_joint_i_world_0));
+    jac_phi_q_v_velocity[9] = -(s_i_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * s_i_in_joint_i_1 +
+        (A_joint_i_world_1 * d_ij_in_joint_i_2 - A_joint_i_world_2 * d_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[10] = -(A_joint_i_world_2 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * A_joint_i_world_0 +
+        (A_joint_i_world_2 * d_ij_in_joint_i_0 - A_joint_i_world_0 * d_ij_in_joint_i_2));
     const jg_real t533 = A_joint_i_world_1 * h_j_in_joint_i_2 - A_joint_i_world_2 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[35] = t533;
     jac_phi_q_v_velocity[11] = -t533;
@@ -1300,12 +1300,12 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[36] = t534;
     jac_phi_q_v_velocity[12] = -t534;
     const jg_real t535 = (f_j_world_0 * h_i_dot_f_j - A_joint_i_world_2) * t80;
-    jac_phi_q_v_velocity[13] = -(s_i_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * s_i_in_joint_i_0 + t535
-        + (d_ij_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[14] = -(A_joint_i_world_4 * d_ij_in_joint_i_2 - A_joint_i_world_5 * d_ij_in_joint_i_1 +
-        (A_joint_i_world_4 * s_i_in_joint_i_2 - A_joint_i_world_5 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[15] = -(A_joint_i_world_5 * d_ij_in_joint_i_0 - A_joint_i_world_3 * d_ij_in_joint_i_2 +
-        (A_joint_i_world_5 * s_i_in_joint_i_0 - A_joint_i_world_3 * s_i_in_joint_i_2));
+    jac_phi_q_v_velocity[13] = -(A_joint_i_world_0 * d_ij_in_joint_i_1 - A_joint_i_world_1 * d_ij_in_joint_i_0 +
+        (s_i_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * s_i_in_joint_i_0 + t535));
+    jac_phi_q_v_velocity[14] = -(A_joint_i_world_4 * s_i_in_joint_i_2 - A_joint_i_world_5 * s_i_in_joint_i_1 +
+        (A_joint_i_world_4 * d_ij_in_joint_i_2 - A_joint_i_world_5 * d_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[15] = -(A_joint_i_world_5 * s_i_in_joint_i_0 - A_joint_i_world_3 * s_i_in_joint_i_2 +
+        (A_joint_i_world_5 * d_ij_in_joint_i_0 - A_joint_i_world_3 * d_ij_in_joint_i_2));
     const jg_real t536 = A_joint_i_world_4 * h_j_in_joint_i_2 - A_joint_i_world_5 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[40] = t536;
     jac_phi_q_v_velocity[16] = -t536;
@@ -1313,12 +1313,12 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[41] = t537;
     jac_phi_q_v_velocity[17] = -t537;
     const jg_real t538 = (f_j_world_1 * h_i_dot_f_j - A_joint_i_world_5) * t80;
-    jac_phi_q_v_velocity[18] = -(A_joint_i_world_3 * s_i_in_joint_i_1 - A_joint_i_world_4 * s_i_in_joint_i_0 + t538
-        + (A_joint_i_world_3 * d_ij_in_joint_i_1 - A_joint_i_world_4 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[19] = -(A_joint_i_world_7 * d_ij_in_joint_i_2 - A_joint_i_world_8 * d_ij_in_joint_i_1 +
-        (A_joint_i_world_7 * s_i_in_joint_i_2 - A_joint_i_world_8 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[20] = -(A_joint_i_world_8 * d_ij_in_joint_i_0 - A_joint_i_world_6 * d_ij_in_joint_i_2 +
-        (A_joint_i_world_8 * s_i_in_joint_i_0 - A_joint_i_world_6 * s_i_in_joint_i_2));
+    jac_phi_q_v_velocity[18] = -(A_joint_i_world_3 * d_ij_in_joint_i_1 - A_joint_i_world_4 * d_ij_in_joint_i_0 +
+        (A_joint_i_world_3 * s_i_in_joint_i_1 - A_joint_i_world_4 * s_i_in_joint_i_0 + t538));
+    jac_phi_q_v_velocity[19] = -(A_joint_i_world_7 * s_i_in_joint_i_2 - A_joint_i_world_8 * s_i_in_joint_i_1 +
+        (A_joint_i_world_7 * d_ij_in_joint_i_2 - A_joint_i_world_8 * d_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[20] = -(A_joint_i_world_8 * s_i_in_joint_i_0 - A_joint_i_world_6 * s_i_in_joint_i_2 +
+        (A_joint_i_world_8 * d_ij_in_joint_i_0 - A_joint_i_world_6 * d_ij_in_joint_i_2));
     const jg_real t539 = A_joint_i_world_7 * h_j_in_joint_i_2 - A_joint_i_world_8 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[45] = t539;
     jac_phi_q_v_velocity[21] = -t539;
@@ -1326,11 +1326,11 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[46] = t540;
     jac_phi_q_v_velocity[22] = -t540;
     const jg_real t541 = (f_j_world_2 * h_i_dot_f_j - A_joint_i_world_8) * t80;
-    jac_phi_q_v_velocity[23] = -(A_joint_i_world_6 * s_i_in_joint_i_1 - A_joint_i_world_7 * s_i_in_joint_i_0 + t541
-        + (A_joint_i_world_6 * d_ij_in_joint_i_1 - A_joint_i_world_7 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[33] = s_j_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[34] = A_joint_i_world_2 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * A_joint_i_world_0;
-    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * s_j_in_joint_i_0 + t535;
+    jac_phi_q_v_velocity[23] = -(A_joint_i_world_6 * d_ij_in_joint_i_1 - A_joint_i_world_7 * d_ij_in_joint_i_0 +
+        (A_joint_i_world_6 * s_i_in_joint_i_1 - A_joint_i_world_7 * s_i_in_joint_i_0 + t541));
+    jac_phi_q_v_velocity[33] = A_joint_i_world_1 * s_j_in_joint_i_2 - A_joint_i_world_2 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[34] = A_joint_i_world_2 * s_j_in_joint_i_0 - A_joint_i_world_0 * s_j_in_joint_i_2;
+    jac_phi_q_v_velocity[37] = A_joint_i_world_0 * s_j_in_joint_i_1 - A_joint_i_world_1 * s_j_in_joint_i_0 + t535;
     jac_phi_q_v_velocity[38] = A_joint_i_world_4 * s_j_in_joint_i_2 - A_joint_i_world_5 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[39] = A_joint_i_world_5 * s_j_in_joint_i_0 - A_joint_i_world_3 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[42] = A_joint_i_world_3 * s_j_in_joint_i_1 - A_joint_i_world_4 * s_j_in_joint_i_0 + t538;
@@ -1368,7 +1368,7 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
-    const jg_real v_0_world_2 = lambda[1] * g_i_world_2 + f_i_world_2 * lambda[0] + h_i_world_2 * lambda[4];
+    const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
     jac_phi_q_t_lambda_r_i[2] = v_0_world_2;
     jac_phi_q_t_lambda_r_j[0] = v_0_world_2;
     const jg_real t8 = -v_0_world_2;
@@ -1376,12 +1376,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_r_j[2] = t8;
     const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - f_i_world_2 * h_i_world_0;
     jac_phi_q_t_lambda_lambda[19] = g_i_world_1;
-    const jg_real v_0_world_1 = lambda[1] * g_i_world_1 + f_i_world_1 * lambda[0] + h_i_world_1 * lambda[4];
+    const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
     jac_phi_q_t_lambda_r_i[1] = v_0_world_1;
     jac_phi_q_t_lambda_r_j[4] = v_0_world_1;
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
     jac_phi_q_t_lambda_lambda[18] = g_i_world_0;
-    const jg_real v_0_world_0 = g_i_world_0 * lambda[1] + f_i_world_0 * lambda[0] + h_i_world_0 * lambda[4];
+    const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
     jac_phi_q_t_lambda_r_i[5] = v_0_world_0;
     jac_phi_q_t_lambda_r_j[3] = v_0_world_0;
     const jg_real t13 = -v_0_world_0;
@@ -1398,12 +1398,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[0] = t16;
     jac_phi_q_t_lambda_A_i[13] = t16;
     jac_phi_q_t_lambda_A_i[26] = t16;
-    const jg_real t17 = f_i_world_2 * C_i[6] - C_i[0] * h_i_world_2;
-    const jg_real t18 = t17 * lambda[1];
+    const jg_real t17 = C_i[6] * f_i_world_2 - C_i[0] * h_i_world_2;
+    const jg_real t18 = lambda[1] * t17;
     jac_phi_q_t_lambda_A_i[1] = t18;
     jac_phi_q_t_lambda_A_i[18] = t18;
     const jg_real t19 = C_i[0] * h_i_world_1 - C_i[6] * f_i_world_1;
-    const jg_real t20 = t19 * lambda[1];
+    const jg_real t20 = lambda[1] * t19;
     jac_phi_q_t_lambda_A_i[2] = t20;
     jac_phi_q_t_lambda_A_i[30] = t20;
     /* f_j_world = f_j, world axes */
@@ -1421,44 +1421,44 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
     const jg_real t31 = lambda[4] * spread;
-    const jg_real t32 = t31 * pitch;
-    const jg_real t33 = t19 * lambda[3];
+    const jg_real t32 = pitch * t31;
+    const jg_real t33 = lambda[3] * t19;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    const jg_real t35 = t33 * h_j_world_1;
-    const jg_real t36 = t17 * lambda[3];
+    const jg_real t35 = h_j_world_1 * t33;
+    const jg_real t36 = lambda[3] * t17;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t38 = t36 * h_j_world_2;
+    const jg_real t38 = h_j_world_2 * t36;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t40 = t18 * s_j_world_2;
+    const jg_real t40 = s_j_world_2 * t18;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t42 = t20 * s_j_world_1;
-    const jg_real t43 = t35 - t38 - (t40 - t42) + (t29 * across_world_0 + t32 * (C_i[6] - f_j_world_0 * t27));
+    const jg_real t42 = s_j_world_1 * t20;
+    const jg_real t43 = t35 - t38 - (t40 - t42) + (across_world_0 * t29 + (C_i[6] - f_j_world_0 * t27) * t32);
     /* v_6_world = r_j - r_i, world axes */
     const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    const jg_real t45 = t18 * v_6_world_2;
+    const jg_real t45 = v_6_world_2 * t18;
     const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real t47 = t20 * v_6_world_1;
+    const jg_real t47 = v_6_world_1 * t20;
     jac_phi_q_t_lambda_A_i[3] = t43 - (t45 - t47);
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    const jg_real t49 = t15 * s_j_world_2;
+    const jg_real t49 = s_j_world_2 * t15;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real t52 = C_i[0] * lambda[2];
     const jg_real t53 = t52 * h_j_world_2;
-    const jg_real t54 = t29 * across_world_1 - t27 * f_j_world_1 * t32 - (t53 + t33 * h_j_world_0 + (t49 + t20 *
+    const jg_real t54 = across_world_1 * t29 - t27 * f_j_world_1 * t32 - (t53 + t33 * h_j_world_0 + (t49 + t20 *
         s_j_world_0));
     const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t56 = t15 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + t20 * v_6_world_0);
+    const jg_real t56 = v_6_world_2 * t15;
+    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + v_6_world_0 * t20);
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    const jg_real t58 = t15 * s_j_world_1;
+    const jg_real t58 = s_j_world_1 * t15;
     const jg_real t59 = t52 * h_j_world_1;
-    const jg_real t60 = t59 + t36 * h_j_world_0 + (t58 + t18 * s_j_world_0) + (t29 * across_world_2 - t27 *
+    const jg_real t60 = t59 + t36 * h_j_world_0 + (t58 + t18 * s_j_world_0) + (across_world_2 * t29 - t27 *
         f_j_world_2 * t32);
-    const jg_real t61 = t15 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[5] = t61 + t18 * v_6_world_0 + t60;
+    const jg_real t61 = v_6_world_1 * t15;
+    jac_phi_q_t_lambda_A_i[5] = t61 + v_6_world_0 * t18 + t60;
     const jg_real t62 = -t18;
     jac_phi_q_t_lambda_A_i[7] = t62;
     jac_phi_q_t_lambda_A_i[12] = t62;
@@ -1475,21 +1475,21 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t66 = C_i[6] * f_j_world_1;
     const jg_real t67 = t66 * h_i_dot_f_j;
     const jg_real t68 = (t67 + t67) * t26 * lambda[4] * pitch;
-    const jg_real t69 = t64 * lambda[3];
-    const jg_real t70 = t53 + t69 * h_j_world_1 + (t65 * s_j_world_1 + t49) + (t68 * across_world_0 - f_j_world_0 *
+    const jg_real t69 = lambda[3] * t64;
+    const jg_real t70 = t53 + h_j_world_1 * t69 + (t49 + s_j_world_1 * t65) + (across_world_0 * t68 - f_j_world_0 *
         t66 * t32);
-    jac_phi_q_t_lambda_A_i[15] = t65 * v_6_world_1 + t56 + t70;
+    jac_phi_q_t_lambda_A_i[15] = t56 + v_6_world_1 * t65 + t70;
     const jg_real t71 = t69 * h_j_world_0;
     const jg_real t72 = t65 * s_j_world_0;
-    const jg_real t73 = t68 * across_world_1 + t32 * (C_i[6] - f_j_world_1 * t66) - (t38 + t71 + (t40 + t72));
-    const jg_real t74 = t65 * v_6_world_0;
+    const jg_real t73 = across_world_1 * t68 + (C_i[6] - f_j_world_1 * t66) * t32 - (t38 + t71 + (t40 + t72));
+    const jg_real t74 = v_6_world_0 * t65;
     jac_phi_q_t_lambda_A_i[16] = t73 - (t45 + t74);
-    const jg_real t75 = t15 * s_j_world_0;
+    const jg_real t75 = s_j_world_0 * t15;
     const jg_real t76 = t52 * h_j_world_0;
-    const jg_real t77 = t36 * h_j_world_1 - t76 - (t75 - t18 * s_j_world_1) + (t68 * across_world_2 - t66 *
-        f_j_world_2 * t32);
-    const jg_real t78 = t15 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - t18 * v_6_world_1);
+    const jg_real t77 = h_j_world_1 * t36 - t76 - (t75 - s_j_world_1 * t18) + (across_world_2 * t68 - f_j_world_2 *
+        t66 * t32);
+    const jg_real t78 = v_6_world_0 * t15;
+    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - v_6_world_1 * t18);
     const jg_real t79 = -t65;
     jac_phi_q_t_lambda_A_i[20] = t79;
     jac_phi_q_t_lambda_A_i[25] = t79;
@@ -1499,13 +1499,13 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t80 = C_i[6] * f_j_world_2;
     const jg_real t81 = t80 * h_i_dot_f_j;
     const jg_real t82 = (t81 + t81) * t26 * lambda[4] * pitch;
-    const jg_real t83 = t69 * h_j_world_2 - t59 - (t58 - t65 * s_j_world_2) + (t82 * across_world_0 - f_j_world_0 *
+    const jg_real t83 = h_j_world_2 * t69 - t59 - (t58 - s_j_world_2 * t65) + (across_world_0 * t82 - f_j_world_0 *
         t80 * t32);
-    jac_phi_q_t_lambda_A_i[27] = t83 - (t61 - t65 * v_6_world_2);
-    const jg_real t84 = t76 - h_j_world_2 * t33 - (t20 * s_j_world_2 - t75) + (t82 * across_world_1 - f_j_world_1 *
+    jac_phi_q_t_lambda_A_i[27] = t83 - (t61 - v_6_world_2 * t65);
+    const jg_real t84 = t76 - h_j_world_2 * t33 - (s_j_world_2 * t20 - t75) + (across_world_1 * t82 - f_j_world_1 *
         t80 * t32);
-    jac_phi_q_t_lambda_A_i[28] = t84 - (t20 * v_6_world_2 - t78);
-    const jg_real t85 = t35 - t71 - (t72 - t42) + (t82 * across_world_2 + t32 * (C_i[6] - f_j_world_2 * t80));
+    jac_phi_q_t_lambda_A_i[28] = t84 - (v_6_world_2 * t20 - t78);
+    const jg_real t85 = t35 - t71 - (t72 - t42) + (across_world_2 * t82 + (C_i[6] - f_j_world_2 * t80) * t32);
     jac_phi_q_t_lambda_A_i[29] = t85 - (t74 - t47);
     jac_phi_q_t_lambda_A_i[33] = -t83;
     jac_phi_q_t_lambda_A_i[34] = -t84;
@@ -1518,40 +1518,40 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[36] = t87;
     jac_phi_q_t_lambda_A_i[49] = t87;
     jac_phi_q_t_lambda_A_i[62] = t87;
-    const jg_real t88 = f_i_world_2 * C_i[7] - C_i[1] * h_i_world_2;
-    const jg_real t89 = t88 * lambda[1];
+    const jg_real t88 = C_i[7] * f_i_world_2 - C_i[1] * h_i_world_2;
+    const jg_real t89 = lambda[1] * t88;
     jac_phi_q_t_lambda_A_i[37] = t89;
     jac_phi_q_t_lambda_A_i[54] = t89;
     const jg_real t90 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
-    const jg_real t91 = t90 * lambda[1];
+    const jg_real t91 = lambda[1] * t90;
     jac_phi_q_t_lambda_A_i[38] = t91;
     jac_phi_q_t_lambda_A_i[66] = t91;
     const jg_real t92 = C_i[7] * f_j_world_0;
     const jg_real t93 = t92 * h_i_dot_f_j;
     const jg_real t94 = (t93 + t93) * t26 * lambda[4] * pitch;
-    const jg_real t95 = t90 * lambda[3];
-    const jg_real t96 = t95 * h_j_world_1;
-    const jg_real t97 = t88 * lambda[3];
-    const jg_real t98 = t97 * h_j_world_2;
-    const jg_real t99 = t89 * s_j_world_2;
-    const jg_real t100 = t91 * s_j_world_1;
-    const jg_real t101 = t96 - t98 - (t99 - t100) + (t94 * across_world_0 + t32 * (C_i[7] - f_j_world_0 * t92));
-    const jg_real t102 = t89 * v_6_world_2;
-    const jg_real t103 = t91 * v_6_world_1;
+    const jg_real t95 = lambda[3] * t90;
+    const jg_real t96 = h_j_world_1 * t95;
+    const jg_real t97 = lambda[3] * t88;
+    const jg_real t98 = h_j_world_2 * t97;
+    const jg_real t99 = s_j_world_2 * t89;
+    const jg_real t100 = s_j_world_1 * t91;
+    const jg_real t101 = t96 - t98 - (t99 - t100) + (across_world_0 * t94 + (C_i[7] - f_j_world_0 * t92) * t32);
+    const jg_real t102 = v_6_world_2 * t89;
+    const jg_real t103 = v_6_world_1 * t91;
     jac_phi_q_t_lambda_A_i[39] = t101 - (t102 - t103);
-    const jg_real t104 = t86 * s_j_world_2;
+    const jg_real t104 = s_j_world_2 * t86;
     const jg_real t105 = C_i[1] * lambda[2];
     const jg_real t106 = t105 * h_j_world_2;
-    const jg_real t107 = t94 * across_world_1 - t92 * f_j_world_1 * t32 - (t106 + t95 * h_j_world_0 + (t104 + t91 *
+    const jg_real t107 = across_world_1 * t94 - t92 * f_j_world_1 * t32 - (t106 + t95 * h_j_world_0 + (t104 + t91 *
         s_j_world_0));
-    const jg_real t108 = t86 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + t91 * v_6_world_0);
-    const jg_real t109 = t86 * s_j_world_1;
+    const jg_real t108 = v_6_world_2 * t86;
+    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + v_6_world_0 * t91);
+    const jg_real t109 = s_j_world_1 * t86;
     const jg_real t110 = t105 * h_j_world_1;
-    const jg_real t111 = t110 + t97 * h_j_world_0 + (t109 + t89 * s_j_world_0) + (t94 * across_world_2 - t92 *
+    const jg_real t111 = t110 + t97 * h_j_world_0 + (t109 + t89 * s_j_world_0) + (across_world_2 * t94 - t92 *
         f_j_world_2 * t32);
-    const jg_real t112 = t86 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[41] = t112 + t89 * v_6_world_0 + t111;
+    const jg_real t112 = v_6_world_1 * t86;
+    jac_phi_q_t_lambda_A_i[41] = t112 + v_6_world_0 * t89 + t111;
     const jg_real t113 = -t89;
     jac_phi_q_t_lambda_A_i[43] = t113;
     jac_phi_q_t_lambda_A_i[48] = t113;
@@ -1568,21 +1568,21 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t117 = C_i[7] * f_j_world_1;
     const jg_real t118 = t117 * h_i_dot_f_j;
     const jg_real t119 = (t118 + t118) * t26 * lambda[4] * pitch;
-    const jg_real t120 = t115 * lambda[3];
-    const jg_real t121 = t106 + t120 * h_j_world_1 + (t116 * s_j_world_1 + t104) + (t119 * across_world_0 -
+    const jg_real t120 = lambda[3] * t115;
+    const jg_real t121 = t106 + h_j_world_1 * t120 + (t104 + s_j_world_1 * t116) + (across_world_0 * t119 -
         f_j_world_0 * t117 * t32);
-    jac_phi_q_t_lambda_A_i[51] = t116 * v_6_world_1 + t108 + t121;
+    jac_phi_q_t_lambda_A_i[51] = t108 + v_6_world_1 * t116 + t121;
     const jg_real t122 = t120 * h_j_world_0;
     const jg_real t123 = t116 * s_j_world_0;
-    const jg_real t124 = t119 * across_world_1 + t32 * (C_i[7] - f_j_world_1 * t117) - (t98 + t122 + (t99 + t123));
-    const jg_real t125 = t116 * v_6_world_0;
+    const jg_real t124 = across_world_1 * t119 + (C_i[7] - f_j_world_1 * t117) * t32 - (t98 + t122 + (t99 + t123));
+    const jg_real t125 = v_6_world_0 * t116;
     jac_phi_q_t_lambda_A_i[52] = t124 - (t102 + t125);
-    const jg_real t126 = t86 * s_j_world_0;
+    const jg_real t126 = s_j_world_0 * t86;
     const jg_real t127 = t105 * h_j_world_0;
-    const jg_real t128 = t97 * h_j_world_1 - t127 - (t126 - t89 * s_j_world_1) + (t119 * across_world_2 - t117 *
-        f_j_world_2 * t32);
-    const jg_real t129 = t86 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - t89 * v_6_world_1);
+    const jg_real t128 = h_j_world_1 * t97 - t127 - (t126 - s_j_world_1 * t89) + (across_world_2 * t119 -
+        f_j_world_2 * t117 * t32);
+    const jg_real t129 = v_6_world_0 * t86;
+    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - v_6_world_1 * t89);
     const jg_real t130 = -t116;
     jac_phi_q_t_lambda_A_i[56] = t130;
     jac_phi_q_t_lambda_A_i[61] = t130;
@@ -1592,13 +1592,13 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t131 = C_i[7] * f_j_world_2;
     const jg_real t132 = t131 * h_i_dot_f_j;
     const jg_real t133 = (t132 + t132) * t26 * lambda[4] * pitch;
-    const jg_real t134 = t120 * h_j_world_2 - t110 - (t109 - t116 * s_j_world_2) + (t133 * across_world_0 -
+    const jg_real t134 = h_j_world_2 * t120 - t110 - (t109 - s_j_world_2 * t116) + (across_world_0 * t133 -
         f_j_world_0 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - t116 * v_6_world_2);
-    const jg_real t135 = t127 - h_j_world_2 * t95 - (t91 * s_j_world_2 - t126) + (t133 * across_world_1 -
+    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - v_6_world_2 * t116);
+    const jg_real t135 = t127 - h_j_world_2 * t95 - (s_j_world_2 * t91 - t126) + (across_world_1 * t133 -
         f_j_world_1 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[64] = t135 - (t91 * v_6_world_2 - t129);
-    const jg_real t136 = t96 - t122 - (t123 - t100) + (t133 * across_world_2 + t32 * (C_i[7] - f_j_world_2 * t131));
+    jac_phi_q_t_lambda_A_i[64] = t135 - (v_6_world_2 * t91 - t129);
+    const jg_real t136 = t96 - t122 - (t123 - t100) + (across_world_2 * t133 + (C_i[7] - f_j_world_2 * t131) * t32);
     jac_phi_q_t_lambda_A_i[65] = t136 - (t125 - t103);
     jac_phi_q_t_lambda_A_i[69] = -t134;
     jac_phi_q_t_lambda_A_i[70] = -t135;
@@ -1611,41 +1611,41 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[72] = t138;
     jac_phi_q_t_lambda_A_i[85] = t138;
     jac_phi_q_t_lambda_A_i[98] = t138;
-    const jg_real t139 = f_i_world_2 * C_i[8] - C_i[2] * h_i_world_2;
-    const jg_real t140 = t139 * lambda[1];
+    const jg_real t139 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
+    const jg_real t140 = lambda[1] * t139;
     jac_phi_q_t_lambda_A_i[73] = t140;
     jac_phi_q_t_lambda_A_i[90] = t140;
     const jg_real t141 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
-    const jg_real t142 = t141 * lambda[1];
+    const jg_real t142 = lambda[1] * t141;
     jac_phi_q_t_lambda_A_i[74] = t142;
     jac_phi_q_t_lambda_A_i[102] = t142;
     const jg_real t143 = C_i[8] * f_j_world_0;
     const jg_real t144 = t143 * h_i_dot_f_j;
     const jg_real t145 = (t144 + t144) * t26 * lambda[4] * pitch;
-    const jg_real t146 = t141 * lambda[3];
-    const jg_real t147 = t146 * h_j_world_1;
-    const jg_real t148 = t139 * lambda[3];
-    const jg_real t149 = t148 * h_j_world_2;
-    const jg_real t150 = t140 * s_j_world_2;
-    const jg_real t151 = t142 * s_j_world_1;
-    const jg_real t152 = t147 - t149 - (t150 - t151) + (t145 * across_world_0 + t32 * (C_i[8] - f_j_world_0 *
-        t143));
-    const jg_real t153 = t140 * v_6_world_2;
-    const jg_real t154 = t142 * v_6_world_1;
+    const jg_real t146 = lambda[3] * t141;
+    const jg_real t147 = h_j_world_1 * t146;
+    const jg_real t148 = lambda[3] * t139;
+    const jg_real t149 = h_j_world_2 * t148;
+    const jg_real t150 = s_j_world_2 * t140;
+    const jg_real t151 = s_j_world_1 * t142;
+    const jg_real t152 = t147 - t149 - (t150 - t151) + (across_world_0 * t145 + (C_i[8] - f_j_world_0 * t143) *
+        t32);
+    const jg_real t153 = v_6_world_2 * t140;
+    const jg_real t154 = v_6_world_1 * t142;
     jac_phi_q_t_lambda_A_i[75] = t152 - (t153 - t154);
-    const jg_real t155 = t137 * s_j_world_2;
+    const jg_real t155 = s_j_world_2 * t137;
     const jg_real t156 = C_i[2] * lambda[2];
     const jg_real t157 = t156 * h_j_world_2;
-    const jg_real t158 = t145 * across_world_1 - t143 * f_j_world_1 * t32 - (t157 + t146 * h_j_world_0 + (t155 +
+    const jg_real t158 = across_world_1 * t145 - t143 * f_j_world_1 * t32 - (t157 + t146 * h_j_world_0 + (t155 +
         t142 * s_j_world_0));
-    const jg_real t159 = t137 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + t142 * v_6_world_0);
-    const jg_real t160 = t137 * s_j_world_1;
+    const jg_real t159 = v_6_world_2 * t137;
+    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + v_6_world_0 * t142);
+    const jg_real t160 = s_j_world_1 * t137;
     const jg_real t161 = t156 * h_j_world_1;
-    const jg_real t162 = t161 + t148 * h_j_world_0 + (t160 + t140 * s_j_world_0) + (t145 * across_world_2 - t143 *
+    const jg_real t162 = t161 + t148 * h_j_world_0 + (t160 + t140 * s_j_world_0) + (across_world_2 * t145 - t143 *
         f_j_world_2 * t32);
-    const jg_real t163 = t137 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[77] = t163 + t140 * v_6_world_0 + t162;
+    const jg_real t163 = v_6_world_1 * t137;
+    jac_phi_q_t_lambda_A_i[77] = t163 + v_6_world_0 * t140 + t162;
     const jg_real t164 = -t140;
     jac_phi_q_t_lambda_A_i[79] = t164;
     jac_phi_q_t_lambda_A_i[84] = t164;
@@ -1662,22 +1662,22 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t168 = C_i[8] * f_j_world_1;
     const jg_real t169 = t168 * h_i_dot_f_j;
     const jg_real t170 = (t169 + t169) * t26 * lambda[4] * pitch;
-    const jg_real t171 = t166 * lambda[3];
-    const jg_real t172 = t157 + t171 * h_j_world_1 + (t167 * s_j_world_1 + t155) + (t170 * across_world_0 -
+    const jg_real t171 = lambda[3] * t166;
+    const jg_real t172 = t157 + h_j_world_1 * t171 + (t155 + s_j_world_1 * t167) + (across_world_0 * t170 -
         f_j_world_0 * t168 * t32);
-    jac_phi_q_t_lambda_A_i[87] = t167 * v_6_world_1 + t159 + t172;
+    jac_phi_q_t_lambda_A_i[87] = t159 + v_6_world_1 * t167 + t172;
     const jg_real t173 = t171 * h_j_world_0;
     const jg_real t174 = t167 * s_j_world_0;
-    const jg_real t175 = t170 * across_world_1 + t32 * (C_i[8] - f_j_world_1 * t168) - (t149 + t173 + (t150 +
+    const jg_real t175 = across_world_1 * t170 + (C_i[8] - f_j_world_1 * t168) * t32 - (t149 + t173 + (t150 +
         t174));
-    const jg_real t176 = t167 * v_6_world_0;
+    const jg_real t176 = v_6_world_0 * t167;
     jac_phi_q_t_lambda_A_i[88] = t175 - (t153 + t176);
-    const jg_real t177 = t137 * s_j_world_0;
+    const jg_real t177 = s_j_world_0 * t137;
     const jg_real t178 = t156 * h_j_world_0;
-    const jg_real t179 = t148 * h_j_world_1 - t178 - (t177 - t140 * s_j_world_1) + (t170 * across_world_2 - t168 *
-        f_j_world_2 * t32);
-    const jg_real t180 = t137 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - t140 * v_6_world_1);
+    const jg_real t179 = h_j_world_1 * t148 - t178 - (t177 - s_j_world_1 * t140) + (across_world_2 * t170 -
+        f_j_world_2 * t168 * t32);
+    const jg_real t180 = v_6_world_0 * t137;
+    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - v_6_world_1 * t140);
     const jg_real t181 = -t167;
     jac_phi_q_t_lambda_A_i[92] = t181;
     jac_phi_q_t_lambda_A_i[97] = t181;
@@ -1687,32 +1687,32 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t182 = C_i[8] * f_j_world_2;
     const jg_real t183 = t182 * h_i_dot_f_j;
     const jg_real t184 = (t183 + t183) * t26 * lambda[4] * pitch;
-    const jg_real t185 = t171 * h_j_world_2 - t161 - (t160 - t167 * s_j_world_2) + (t184 * across_world_0 -
+    const jg_real t185 = h_j_world_2 * t171 - t161 - (t160 - s_j_world_2 * t167) + (across_world_0 * t184 -
         f_j_world_0 * t182 * t32);
-    jac_phi_q_t_lambda_A_i[99] = t185 - (t163 - t167 * v_6_world_2);
-    const jg_real t186 = t178 - h_j_world_2 * t146 - (t142 * s_j_world_2 - t177) + (t184 * across_world_1 -
+    jac_phi_q_t_lambda_A_i[99] = t185 - (t163 - v_6_world_2 * t167);
+    const jg_real t186 = t178 - h_j_world_2 * t146 - (s_j_world_2 * t142 - t177) + (across_world_1 * t184 -
         f_j_world_1 * t182 * t32);
-    jac_phi_q_t_lambda_A_i[100] = t186 - (t142 * v_6_world_2 - t180);
-    const jg_real t187 = t147 - t173 - (t174 - t151) + (t184 * across_world_2 + t32 * (C_i[8] - f_j_world_2 *
-        t182));
+    jac_phi_q_t_lambda_A_i[100] = t186 - (v_6_world_2 * t142 - t180);
+    const jg_real t187 = t147 - t173 - (t174 - t151) + (across_world_2 * t184 + (C_i[8] - f_j_world_2 * t182) *
+        t32);
     jac_phi_q_t_lambda_A_i[101] = t187 - (t176 - t154);
     jac_phi_q_t_lambda_A_i[105] = -t185;
     jac_phi_q_t_lambda_A_i[106] = -t186;
     jac_phi_q_t_lambda_A_i[107] = -t187;
-    const jg_real t188 = h_i_world_0 * C_j[0];
+    const jg_real t188 = C_j[0] * h_i_world_0;
     const jg_real t189 = t188 * h_i_dot_f_j;
     const jg_real t190 = (t189 + t189) * t26 * lambda[4] * pitch;
     const jg_real t191 = C_j[0] * h_i_dot_f_j;
-    const jg_real t192 = t190 * across_world_0 - t32 * (t191 + f_j_world_0 * t188);
+    const jg_real t192 = across_world_0 * t190 - (t191 + f_j_world_0 * t188) * t32;
     jac_phi_q_t_lambda_A_j[0] = t192;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_2 = g_i_world_2 * lambda[3] + f_i_world_2 * lambda[2];
-    const jg_real t194 = C_j[6] * v_2_world_2 + v_0_world_2 * s_j[0];
-    const jg_real t195 = t190 * across_world_1 - t188 * f_j_world_1 * t32 + t194;
+    const jg_real v_2_world_2 = lambda[2] * f_i_world_2 + lambda[3] * g_i_world_2;
+    const jg_real t194 = C_j[6] * v_2_world_2 + s_j[0] * v_0_world_2;
+    const jg_real t195 = across_world_1 * t190 - t188 * f_j_world_1 * t32 + t194;
     jac_phi_q_t_lambda_A_j[1] = t195;
-    const jg_real v_2_world_1 = g_i_world_1 * lambda[3] + f_i_world_1 * lambda[2];
-    const jg_real t197 = v_2_world_1 * C_j[6] + v_0_world_1 * s_j[0];
-    const jg_real t198 = t190 * across_world_2 - t188 * f_j_world_2 * t32 - t197;
+    const jg_real v_2_world_1 = lambda[2] * f_i_world_1 + lambda[3] * g_i_world_1;
+    const jg_real t197 = C_j[6] * v_2_world_1 + s_j[0] * v_0_world_1;
+    const jg_real t198 = across_world_2 * t190 - t188 * f_j_world_2 * t32 - t197;
     jac_phi_q_t_lambda_A_j[2] = t198;
     jac_phi_q_t_lambda_A_j[3] = -t192;
     jac_phi_q_t_lambda_A_j[4] = -t195;
@@ -1720,40 +1720,40 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t199 = h_i_world_1 * C_j[0];
     const jg_real t200 = t199 * h_i_dot_f_j;
     const jg_real t201 = (t200 + t200) * t26 * lambda[4] * pitch;
-    const jg_real t202 = t201 * across_world_0 - f_j_world_0 * t199 * t32 - t194;
+    const jg_real t202 = across_world_0 * t201 - f_j_world_0 * t199 * t32 - t194;
     jac_phi_q_t_lambda_A_j[6] = t202;
-    const jg_real t203 = t201 * across_world_1 - t32 * (t191 + f_j_world_1 * t199);
+    const jg_real t203 = across_world_1 * t201 - (t191 + f_j_world_1 * t199) * t32;
     jac_phi_q_t_lambda_A_j[7] = t203;
-    const jg_real v_2_world_0 = g_i_world_0 * lambda[3] + f_i_world_0 * lambda[2];
-    const jg_real t205 = C_j[6] * v_2_world_0 + v_0_world_0 * s_j[0];
-    const jg_real t206 = t201 * across_world_2 - t199 * f_j_world_2 * t32 + t205;
+    const jg_real v_2_world_0 = lambda[2] * f_i_world_0 + lambda[3] * g_i_world_0;
+    const jg_real t205 = C_j[6] * v_2_world_0 + s_j[0] * v_0_world_0;
+    const jg_real t206 = across_world_2 * t201 - f_j_world_2 * t199 * t32 + t205;
     jac_phi_q_t_lambda_A_j[8] = t206;
     jac_phi_q_t_lambda_A_j[9] = -t202;
     jac_phi_q_t_lambda_A_j[10] = -t203;
     jac_phi_q_t_lambda_A_j[11] = -t206;
-    const jg_real t207 = h_i_world_2 * C_j[0];
+    const jg_real t207 = C_j[0] * h_i_world_2;
     const jg_real t208 = t207 * h_i_dot_f_j;
     const jg_real t209 = (t208 + t208) * t26 * lambda[4] * pitch;
-    const jg_real t210 = t209 * across_world_0 - f_j_world_0 * t207 * t32 + t197;
+    const jg_real t210 = across_world_0 * t209 - f_j_world_0 * t207 * t32 + t197;
     jac_phi_q_t_lambda_A_j[12] = t210;
-    const jg_real t211 = t209 * across_world_1 - f_j_world_1 * t207 * t32 - t205;
+    const jg_real t211 = across_world_1 * t209 - f_j_world_1 * t207 * t32 - t205;
     jac_phi_q_t_lambda_A_j[13] = t211;
-    const jg_real t212 = t209 * across_world_2 - t32 * (t191 + f_j_world_2 * t207);
+    const jg_real t212 = across_world_2 * t209 - (t191 + f_j_world_2 * t207) * t32;
     jac_phi_q_t_lambda_A_j[14] = t212;
     jac_phi_q_t_lambda_A_j[15] = -t210;
     jac_phi_q_t_lambda_A_j[16] = -t211;
     jac_phi_q_t_lambda_A_j[17] = -t212;
-    const jg_real t213 = h_i_world_0 * C_j[1];
+    const jg_real t213 = C_j[1] * h_i_world_0;
     const jg_real t214 = t213 * h_i_dot_f_j;
     const jg_real t215 = (t214 + t214) * t26 * lambda[4] * pitch;
     const jg_real t216 = C_j[1] * h_i_dot_f_j;
-    const jg_real t217 = t215 * across_world_0 - t32 * (t216 + f_j_world_0 * t213);
+    const jg_real t217 = across_world_0 * t215 - (t216 + f_j_world_0 * t213) * t32;
     jac_phi_q_t_lambda_A_j[18] = t217;
-    const jg_real t218 = C_j[7] * v_2_world_2 + v_0_world_2 * s_j[1];
-    const jg_real t219 = t215 * across_world_1 - t213 * f_j_world_1 * t32 + t218;
+    const jg_real t218 = C_j[7] * v_2_world_2 + s_j[1] * v_0_world_2;
+    const jg_real t219 = across_world_1 * t215 - t213 * f_j_world_1 * t32 + t218;
     jac_phi_q_t_lambda_A_j[19] = t219;
-    const jg_real t220 = v_2_world_1 * C_j[7] + v_0_world_1 * s_j[1];
-    const jg_real t221 = t215 * across_world_2 - t213 * f_j_world_2 * t32 - t220;
+    const jg_real t220 = C_j[7] * v_2_world_1 + s_j[1] * v_0_world_1;
+    const jg_real t221 = across_world_2 * t215 - t213 * f_j_world_2 * t32 - t220;
     jac_phi_q_t_lambda_A_j[20] = t221;
     jac_phi_q_t_lambda_A_j[21] = -t217;
     jac_phi_q_t_lambda_A_j[22] = -t219;
@@ -1761,12 +1761,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t222 = h_i_world_1 * C_j[1];
     const jg_real t223 = t222 * h_i_dot_f_j;
     const jg_real t224 = (t223 + t223) * t26 * lambda[4] * pitch;
-    const jg_real t225 = t224 * across_world_0 - f_j_world_0 * t222 * t32 - t218;
+    const jg_real t225 = across_world_0 * t224 - f_j_world_0 * t222 * t32 - t218;
     jac_phi_q_t_lambda_A_j[24] = t225;
-    const jg_real t226 = t224 * across_world_1 - t32 * (t216 + f_j_world_1 * t222);
+    const jg_real t226 = across_world_1 * t224 - (t216 + f_j_world_1 * t222) * t32;
     jac_phi_q_t_lambda_A_j[25] = t226;
-    const jg_real t227 = C_j[7] * v_2_world_0 + v_0_world_0 * s_j[1];
-    const jg_real t228 = t224 * across_world_2 - t222 * f_j_world_2 * t32 + t227;
+    const jg_real t227 = C_j[7] * v_2_world_0 + s_j[1] * v_0_world_0;
+    const jg_real t228 = across_world_2 * t224 - f_j_world_2 * t222 * t32 + t227;
     jac_phi_q_t_lambda_A_j[26] = t228;
     jac_phi_q_t_lambda_A_j[27] = -t225;
     jac_phi_q_t_lambda_A_j[28] = -t226;
@@ -1774,26 +1774,26 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t229 = h_i_world_2 * C_j[1];
     const jg_real t230 = t229 * h_i_dot_f_j;
     const jg_real t231 = (t230 + t230) * t26 * lambda[4] * pitch;
-    const jg_real t232 = t231 * across_world_0 - f_j_world_0 * t229 * t32 + t220;
+    const jg_real t232 = across_world_0 * t231 - f_j_world_0 * t229 * t32 + t220;
     jac_phi_q_t_lambda_A_j[30] = t232;
-    const jg_real t233 = t231 * across_world_1 - f_j_world_1 * t229 * t32 - t227;
+    const jg_real t233 = across_world_1 * t231 - f_j_world_1 * t229 * t32 - t227;
     jac_phi_q_t_lambda_A_j[31] = t233;
-    const jg_real t234 = t231 * across_world_2 - t32 * (t216 + f_j_world_2 * t229);
+    const jg_real t234 = across_world_2 * t231 - (t216 + f_j_world_2 * t229) * t32;
     jac_phi_q_t_lambda_A_j[32] = t234;
     jac_phi_q_t_lambda_A_j[33] = -t232;
     jac_phi_q_t_lambda_A_j[34] = -t233;
     jac_phi_q_t_lambda_A_j[35] = -t234;
-    const jg_real t235 = h_i_world_0 * C_j[2];
+    const jg_real t235 = C_j[2] * h_i_world_0;
     const jg_real t236 = t235 * h_i_dot_f_j;
     const jg_real t237 = (t236 + t236) * t26 * lambda[4] * pitch;
     const jg_real t238 = C_j[2] * h_i_dot_f_j;
-    const jg_real t239 = t237 * across_world_0 - t32 * (t238 + f_j_world_0 * t235);
+    const jg_real t239 = across_world_0 * t237 - (t238 + f_j_world_0 * t235) * t32;
     jac_phi_q_t_lambda_A_j[36] = t239;
-    const jg_real t240 = C_j[8] * v_2_world_2 + v_0_world_2 * s_j[2];
-    const jg_real t241 = t237 * across_world_1 - t235 * f_j_world_1 * t32 + t240;
+    const jg_real t240 = C_j[8] * v_2_world_2 + s_j[2] * v_0_world_2;
+    const jg_real t241 = across_world_1 * t237 - t235 * f_j_world_1 * t32 + t240;
     jac_phi_q_t_lambda_A_j[37] = t241;
-    const jg_real t242 = v_2_world_1 * C_j[8] + v_0_world_1 * s_j[2];
-    const jg_real t243 = t237 * across_world_2 - t235 * f_j_world_2 * t32 - t242;
+    const jg_real t242 = C_j[8] * v_2_world_1 + s_j[2] * v_0_world_1;
+    const jg_real t243 = across_world_2 * t237 - t235 * f_j_world_2 * t32 - t242;
     jac_phi_q_t_lambda_A_j[38] = t243;
     jac_phi_q_t_lambda_A_j[39] = -t239;
     jac_phi_q_t_lambda_A_j[40] = -t241;
@@ -1801,12 +1801,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t244 = h_i_world_1 * C_j[2];
     const jg_real t245 = t244 * h_i_dot_f_j;
     const jg_real t246 = (t245 + t245) * t26 * lambda[4] * pitch;
-    const jg_real t247 = t246 * across_world_0 - f_j_world_0 * t244 * t32 - t240;
+    const jg_real t247 = across_world_0 * t246 - f_j_world_0 * t244 * t32 - t240;
     jac_phi_q_t_lambda_A_j[42] = t247;
-    const jg_real t248 = t246 * across_world_1 - t32 * (t238 + f_j_world_1 * t244);
+    const jg_real t248 = across_world_1 * t246 - (t238 + f_j_world_1 * t244) * t32;
     jac_phi_q_t_lambda_A_j[43] = t248;
-    const jg_real t249 = C_j[8] * v_2_world_0 + v_0_world_0 * s_j[2];
-    const jg_real t250 = t246 * across_world_2 - t244 * f_j_world_2 * t32 + t249;
+    const jg_real t249 = C_j[8] * v_2_world_0 + s_j[2] * v_0_world_0;
+    const jg_real t250 = across_world_2 * t246 - f_j_world_2 * t244 * t32 + t249;
     jac_phi_q_t_lambda_A_j[44] = t250;
     jac_phi_q_t_lambda_A_j[45] = -t247;
     jac_phi_q_t_lambda_A_j[46] = -t248;
@@ -1814,272 +1814,272 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t251 = h_i_world_2 * C_j[2];
     const jg_real t252 = t251 * h_i_dot_f_j;
     const jg_real t253 = (t252 + t252) * t26 * lambda[4] * pitch;
-    const jg_real t254 = t253 * across_world_0 - f_j_world_0 * t251 * t32 + t242;
+    const jg_real t254 = across_world_0 * t253 - f_j_world_0 * t251 * t32 + t242;
     jac_phi_q_t_lambda_A_j[48] = t254;
-    const jg_real t255 = t253 * across_world_1 - f_j_world_1 * t251 * t32 - t249;
+    const jg_real t255 = across_world_1 * t253 - f_j_world_1 * t251 * t32 - t249;
     jac_phi_q_t_lambda_A_j[49] = t255;
-    const jg_real t256 = t253 * across_world_2 - t32 * (t238 + f_j_world_2 * t251);
+    const jg_real t256 = across_world_2 * t253 - (t238 + f_j_world_2 * t251) * t32;
     jac_phi_q_t_lambda_A_j[50] = t256;
     jac_phi_q_t_lambda_A_j[51] = -t254;
     jac_phi_q_t_lambda_A_j[52] = -t255;
     jac_phi_q_t_lambda_A_j[53] = -t256;
     const jg_real t257 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
-    const jg_real t258 = t257 * lambda[1] + A_i[0] * lambda[0];
+    const jg_real t258 = A_i[0] * lambda[0] + lambda[1] * t257;
     jac_phi_q_t_lambda_geometry[6] = t258;
     jac_phi_q_t_lambda_geometry[0] = -t258;
-    const jg_real t259 = h_i_world_2 * A_i[0] - A_i[2] * h_i_world_0;
-    const jg_real t260 = lambda[1] * t259 + A_i[1] * lambda[0];
+    const jg_real t259 = A_i[0] * h_i_world_2 - A_i[2] * h_i_world_0;
+    const jg_real t260 = A_i[1] * lambda[0] + lambda[1] * t259;
     jac_phi_q_t_lambda_geometry[7] = t260;
     jac_phi_q_t_lambda_geometry[1] = -t260;
-    const jg_real t261 = A_i[1] * h_i_world_0 - h_i_world_1 * A_i[0];
-    const jg_real t262 = lambda[1] * t261 + A_i[2] * lambda[0];
+    const jg_real t261 = A_i[1] * h_i_world_0 - A_i[0] * h_i_world_1;
+    const jg_real t262 = A_i[2] * lambda[0] + lambda[1] * t261;
     jac_phi_q_t_lambda_geometry[8] = t262;
     jac_phi_q_t_lambda_geometry[2] = -t262;
-    const jg_real t263 = t259 * lambda[3] + A_i[1] * lambda[2];
-    const jg_real t264 = t261 * lambda[3] + A_i[2] * lambda[2];
-    const jg_real t265 = t263 * h_j_world_2 - t264 * h_j_world_1 - (t262 * s_j_world_1 - t260 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[3] = t265 - (t262 * v_6_world_1 - t260 * v_6_world_2);
-    const jg_real t266 = t257 * lambda[3] + A_i[0] * lambda[2];
-    const jg_real t267 = t264 * h_j_world_0 - h_j_world_2 * t266 - (t258 * s_j_world_2 - t262 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[4] = t267 - (t258 * v_6_world_2 - t262 * v_6_world_0);
-    const jg_real t268 = h_j_world_1 * t266 - t263 * h_j_world_0 - (t260 * s_j_world_0 - t258 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[5] = t268 - (t260 * v_6_world_0 - t258 * v_6_world_1);
+    const jg_real t263 = A_i[1] * lambda[2] + lambda[3] * t259;
+    const jg_real t264 = A_i[2] * lambda[2] + lambda[3] * t261;
+    const jg_real t265 = h_j_world_2 * t263 - h_j_world_1 * t264 - (s_j_world_1 * t262 - s_j_world_2 * t260);
+    jac_phi_q_t_lambda_geometry[3] = t265 - (v_6_world_1 * t262 - v_6_world_2 * t260);
+    const jg_real t266 = A_i[0] * lambda[2] + lambda[3] * t257;
+    const jg_real t267 = h_j_world_0 * t264 - h_j_world_2 * t266 - (s_j_world_2 * t258 - t262 * s_j_world_0);
+    jac_phi_q_t_lambda_geometry[4] = t267 - (v_6_world_2 * t258 - v_6_world_0 * t262);
+    const jg_real t268 = h_j_world_1 * t266 - h_j_world_0 * t263 - (t260 * s_j_world_0 - s_j_world_1 * t258);
+    jac_phi_q_t_lambda_geometry[5] = t268 - (v_6_world_0 * t260 - v_6_world_1 * t258);
     jac_phi_q_t_lambda_geometry[9] = -t265;
     jac_phi_q_t_lambda_geometry[10] = -t267;
     jac_phi_q_t_lambda_geometry[11] = -t268;
     const jg_real t269 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
-    const jg_real t270 = t269 * lambda[1] + A_i[3] * lambda[0];
+    const jg_real t270 = A_i[3] * lambda[0] + lambda[1] * t269;
     jac_phi_q_t_lambda_geometry[18] = t270;
     jac_phi_q_t_lambda_geometry[12] = -t270;
-    const jg_real t271 = h_i_world_2 * A_i[3] - A_i[5] * h_i_world_0;
-    const jg_real t272 = lambda[1] * t271 + A_i[4] * lambda[0];
+    const jg_real t271 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
+    const jg_real t272 = A_i[4] * lambda[0] + lambda[1] * t271;
     jac_phi_q_t_lambda_geometry[19] = t272;
     jac_phi_q_t_lambda_geometry[13] = -t272;
-    const jg_real t273 = A_i[4] * h_i_world_0 - h_i_world_1 * A_i[3];
-    const jg_real t274 = lambda[1] * t273 + A_i[5] * lambda[0];
+    const jg_real t273 = A_i[4] * h_i_world_0 - A_i[3] * h_i_world_1;
+    const jg_real t274 = A_i[5] * lambda[0] + lambda[1] * t273;
     jac_phi_q_t_lambda_geometry[20] = t274;
     jac_phi_q_t_lambda_geometry[14] = -t274;
-    const jg_real t275 = t271 * lambda[3] + A_i[4] * lambda[2];
-    const jg_real t276 = t273 * lambda[3] + A_i[5] * lambda[2];
-    const jg_real t277 = t275 * h_j_world_2 - t276 * h_j_world_1 - (t274 * s_j_world_1 - t272 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[15] = t277 - (t274 * v_6_world_1 - t272 * v_6_world_2);
-    const jg_real t278 = t269 * lambda[3] + A_i[3] * lambda[2];
-    const jg_real t279 = t276 * h_j_world_0 - h_j_world_2 * t278 - (t270 * s_j_world_2 - t274 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[16] = t279 - (t270 * v_6_world_2 - t274 * v_6_world_0);
-    const jg_real t280 = h_j_world_1 * t278 - t275 * h_j_world_0 - (t272 * s_j_world_0 - t270 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[17] = t280 - (t272 * v_6_world_0 - t270 * v_6_world_1);
+    const jg_real t275 = A_i[4] * lambda[2] + lambda[3] * t271;
+    const jg_real t276 = A_i[5] * lambda[2] + lambda[3] * t273;
+    const jg_real t277 = h_j_world_2 * t275 - h_j_world_1 * t276 - (s_j_world_1 * t274 - s_j_world_2 * t272);
+    jac_phi_q_t_lambda_geometry[15] = t277 - (v_6_world_1 * t274 - v_6_world_2 * t272);
+    const jg_real t278 = A_i[3] * lambda[2] + lambda[3] * t269;
+    const jg_real t279 = h_j_world_0 * t276 - h_j_world_2 * t278 - (s_j_world_2 * t270 - t274 * s_j_world_0);
+    jac_phi_q_t_lambda_geometry[16] = t279 - (v_6_world_2 * t270 - v_6_world_0 * t274);
+    const jg_real t280 = h_j_world_1 * t278 - h_j_world_0 * t275 - (t272 * s_j_world_0 - s_j_world_1 * t270);
+    jac_phi_q_t_lambda_geometry[17] = t280 - (v_6_world_0 * t272 - v_6_world_1 * t270);
     jac_phi_q_t_lambda_geometry[21] = -t277;
     jac_phi_q_t_lambda_geometry[22] = -t279;
     jac_phi_q_t_lambda_geometry[23] = -t280;
     const jg_real t281 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
-    const jg_real t282 = t281 * lambda[1] + A_i[6] * lambda[0];
+    const jg_real t282 = A_i[6] * lambda[0] + lambda[1] * t281;
     jac_phi_q_t_lambda_geometry[30] = t282;
     jac_phi_q_t_lambda_geometry[24] = -t282;
-    const jg_real t283 = h_i_world_2 * A_i[6] - A_i[8] * h_i_world_0;
-    const jg_real t284 = lambda[1] * t283 + A_i[7] * lambda[0];
+    const jg_real t283 = A_i[6] * h_i_world_2 - A_i[8] * h_i_world_0;
+    const jg_real t284 = A_i[7] * lambda[0] + lambda[1] * t283;
     jac_phi_q_t_lambda_geometry[31] = t284;
     jac_phi_q_t_lambda_geometry[25] = -t284;
-    const jg_real t285 = A_i[7] * h_i_world_0 - h_i_world_1 * A_i[6];
-    const jg_real t286 = lambda[1] * t285 + A_i[8] * lambda[0];
+    const jg_real t285 = A_i[7] * h_i_world_0 - A_i[6] * h_i_world_1;
+    const jg_real t286 = A_i[8] * lambda[0] + lambda[1] * t285;
     jac_phi_q_t_lambda_geometry[32] = t286;
     jac_phi_q_t_lambda_geometry[26] = -t286;
-    const jg_real t287 = t283 * lambda[3] + A_i[7] * lambda[2];
-    const jg_real t288 = t285 * lambda[3] + A_i[8] * lambda[2];
-    const jg_real t289 = t287 * h_j_world_2 - t288 * h_j_world_1 - (t286 * s_j_world_1 - t284 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[27] = t289 - (t286 * v_6_world_1 - t284 * v_6_world_2);
-    const jg_real t290 = t281 * lambda[3] + A_i[6] * lambda[2];
-    const jg_real t291 = t288 * h_j_world_0 - h_j_world_2 * t290 - (t282 * s_j_world_2 - t286 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[28] = t291 - (t282 * v_6_world_2 - t286 * v_6_world_0);
-    const jg_real t292 = h_j_world_1 * t290 - t287 * h_j_world_0 - (t284 * s_j_world_0 - t282 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[29] = t292 - (t284 * v_6_world_0 - t282 * v_6_world_1);
+    const jg_real t287 = A_i[7] * lambda[2] + lambda[3] * t283;
+    const jg_real t288 = A_i[8] * lambda[2] + lambda[3] * t285;
+    const jg_real t289 = h_j_world_2 * t287 - h_j_world_1 * t288 - (s_j_world_1 * t286 - s_j_world_2 * t284);
+    jac_phi_q_t_lambda_geometry[27] = t289 - (v_6_world_1 * t286 - v_6_world_2 * t284);
+    const jg_real t290 = A_i[6] * lambda[2] + lambda[3] * t281;
+    const jg_real t291 = h_j_world_0 * t288 - h_j_world_2 * t290 - (s_j_world_2 * t282 - t286 * s_j_world_0);
+    jac_phi_q_t_lambda_geometry[28] = t291 - (v_6_world_2 * t282 - v_6_world_0 * t286);
+    const jg_real t292 = h_j_world_1 * t290 - h_j_world_0 * t287 - (t284 * s_j_world_0 - s_j_world_1 * t282);
+    jac_phi_q_t_lambda_geometry[29] = t292 - (v_6_world_0 * t284 - v_6_world_1 * t282);
     jac_phi_q_t_lambda_geometry[33] = -t289;
     jac_phi_q_t_lambda_geometry[34] = -t291;
     jac_phi_q_t_lambda_geometry[35] = -t292;
-    const jg_real t293 = f_i_world_2 * A_i[1] - A_i[2] * f_i_world_1;
-    const jg_real t294 = t293 * lambda[1] + A_i[0] * lambda[4];
+    const jg_real t293 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
+    const jg_real t294 = A_i[0] * lambda[4] + lambda[1] * t293;
     jac_phi_q_t_lambda_geometry[42] = t294;
     jac_phi_q_t_lambda_geometry[36] = -t294;
-    const jg_real t295 = A_i[2] * f_i_world_0 - f_i_world_2 * A_i[0];
-    const jg_real t296 = lambda[1] * t295 + A_i[1] * lambda[4];
+    const jg_real t295 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
+    const jg_real t296 = A_i[1] * lambda[4] + lambda[1] * t295;
     jac_phi_q_t_lambda_geometry[43] = t296;
     jac_phi_q_t_lambda_geometry[37] = -t296;
-    const jg_real t297 = f_i_world_1 * A_i[0] - A_i[1] * f_i_world_0;
-    const jg_real t298 = lambda[1] * t297 + A_i[2] * lambda[4];
+    const jg_real t297 = A_i[0] * f_i_world_1 - A_i[1] * f_i_world_0;
+    const jg_real t298 = A_i[2] * lambda[4] + lambda[1] * t297;
     jac_phi_q_t_lambda_geometry[44] = t298;
     jac_phi_q_t_lambda_geometry[38] = -t298;
     const jg_real t299 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real t300 = h_i_dot_f_j * t299;
     const jg_real t301 = (t300 + t300) * t26 * lambda[4] * pitch;
-    const jg_real t302 = t295 * lambda[3];
-    const jg_real t303 = t297 * lambda[3];
-    const jg_real t304 = t302 * h_j_world_2 - t303 * h_j_world_1 - (t298 * s_j_world_1 - t296 * s_j_world_2) + (t301
-        * across_world_0 + t32 * (A_i[0] - f_j_world_0 * t299));
-    jac_phi_q_t_lambda_geometry[39] = t304 - (t298 * v_6_world_1 - t296 * v_6_world_2);
-    const jg_real t305 = t293 * lambda[3];
-    const jg_real t306 = t303 * h_j_world_0 - h_j_world_2 * t305 - (t294 * s_j_world_2 - t298 * s_j_world_0) + (t301
-        * across_world_1 + t32 * (A_i[1] - f_j_world_1 * t299));
-    jac_phi_q_t_lambda_geometry[40] = t306 - (t294 * v_6_world_2 - t298 * v_6_world_0);
-    const jg_real t307 = h_j_world_1 * t305 - t302 * h_j_world_0 - (t296 * s_j_world_0 - t294 * s_j_world_1) + (t301
-        * across_world_2 + t32 * (A_i[2] - f_j_world_2 * t299));
-    jac_phi_q_t_lambda_geometry[41] = t307 - (t296 * v_6_world_0 - t294 * v_6_world_1);
+    const jg_real t302 = lambda[3] * t295;
+    const jg_real t303 = lambda[3] * t297;
+    const jg_real t304 = h_j_world_2 * t302 - h_j_world_1 * t303 - (s_j_world_1 * t298 - s_j_world_2 * t296) +
+        (across_world_0 * t301 + (A_i[0] - f_j_world_0 * t299) * t32);
+    jac_phi_q_t_lambda_geometry[39] = t304 - (v_6_world_1 * t298 - v_6_world_2 * t296);
+    const jg_real t305 = lambda[3] * t293;
+    const jg_real t306 = t303 * h_j_world_0 - h_j_world_2 * t305 - (s_j_world_2 * t294 - s_j_world_0 * t298) +
+        (across_world_1 * t301 + (A_i[1] - f_j_world_1 * t299) * t32);
+    jac_phi_q_t_lambda_geometry[40] = t306 - (v_6_world_2 * t294 - v_6_world_0 * t298);
+    const jg_real t307 = h_j_world_1 * t305 - t302 * h_j_world_0 - (s_j_world_0 * t296 - s_j_world_1 * t294) +
+        (across_world_2 * t301 + (A_i[2] - f_j_world_2 * t299) * t32);
+    jac_phi_q_t_lambda_geometry[41] = t307 - (v_6_world_0 * t296 - v_6_world_1 * t294);
     jac_phi_q_t_lambda_geometry[45] = -t304;
     jac_phi_q_t_lambda_geometry[46] = -t306;
     jac_phi_q_t_lambda_geometry[47] = -t307;
-    const jg_real t308 = f_i_world_2 * A_i[4] - A_i[5] * f_i_world_1;
-    const jg_real t309 = t308 * lambda[1] + A_i[3] * lambda[4];
+    const jg_real t308 = A_i[4] * f_i_world_2 - A_i[5] * f_i_world_1;
+    const jg_real t309 = A_i[3] * lambda[4] + lambda[1] * t308;
     jac_phi_q_t_lambda_geometry[54] = t309;
     jac_phi_q_t_lambda_geometry[48] = -t309;
-    const jg_real t310 = A_i[5] * f_i_world_0 - f_i_world_2 * A_i[3];
-    const jg_real t311 = lambda[1] * t310 + A_i[4] * lambda[4];
+    const jg_real t310 = A_i[5] * f_i_world_0 - A_i[3] * f_i_world_2;
+    const jg_real t311 = A_i[4] * lambda[4] + lambda[1] * t310;
     jac_phi_q_t_lambda_geometry[55] = t311;
     jac_phi_q_t_lambda_geometry[49] = -t311;
-    const jg_real t312 = f_i_world_1 * A_i[3] - A_i[4] * f_i_world_0;
-    const jg_real t313 = lambda[1] * t312 + A_i[5] * lambda[4];
+    const jg_real t312 = A_i[3] * f_i_world_1 - A_i[4] * f_i_world_0;
+    const jg_real t313 = A_i[5] * lambda[4] + lambda[1] * t312;
     jac_phi_q_t_lambda_geometry[56] = t313;
     jac_phi_q_t_lambda_geometry[50] = -t313;
     const jg_real t314 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     const jg_real t315 = h_i_dot_f_j * t314;
     const jg_real t316 = (t315 + t315) * t26 * lambda[4] * pitch;
-    const jg_real t317 = t310 * lambda[3];
-    const jg_real t318 = t312 * lambda[3];
-    const jg_real t319 = t317 * h_j_world_2 - t318 * h_j_world_1 - (t313 * s_j_world_1 - t311 * s_j_world_2) + (t316
-        * across_world_0 + t32 * (A_i[3] - f_j_world_0 * t314));
-    jac_phi_q_t_lambda_geometry[51] = t319 - (t313 * v_6_world_1 - t311 * v_6_world_2);
-    const jg_real t320 = t308 * lambda[3];
-    const jg_real t321 = t318 * h_j_world_0 - h_j_world_2 * t320 - (t309 * s_j_world_2 - t313 * s_j_world_0) + (t316
-        * across_world_1 + t32 * (A_i[4] - f_j_world_1 * t314));
-    jac_phi_q_t_lambda_geometry[52] = t321 - (t309 * v_6_world_2 - t313 * v_6_world_0);
-    const jg_real t322 = h_j_world_1 * t320 - t317 * h_j_world_0 - (t311 * s_j_world_0 - t309 * s_j_world_1) + (t316
-        * across_world_2 + t32 * (A_i[5] - f_j_world_2 * t314));
-    jac_phi_q_t_lambda_geometry[53] = t322 - (t311 * v_6_world_0 - t309 * v_6_world_1);
+    const jg_real t317 = lambda[3] * t310;
+    const jg_real t318 = lambda[3] * t312;
+    const jg_real t319 = h_j_world_2 * t317 - h_j_world_1 * t318 - (s_j_world_1 * t313 - s_j_world_2 * t311) +
+        (across_world_0 * t316 + (A_i[3] - f_j_world_0 * t314) * t32);
+    jac_phi_q_t_lambda_geometry[51] = t319 - (v_6_world_1 * t313 - v_6_world_2 * t311);
+    const jg_real t320 = lambda[3] * t308;
+    const jg_real t321 = t318 * h_j_world_0 - h_j_world_2 * t320 - (s_j_world_2 * t309 - s_j_world_0 * t313) +
+        (across_world_1 * t316 + (A_i[4] - f_j_world_1 * t314) * t32);
+    jac_phi_q_t_lambda_geometry[52] = t321 - (v_6_world_2 * t309 - v_6_world_0 * t313);
+    const jg_real t322 = h_j_world_1 * t320 - t317 * h_j_world_0 - (s_j_world_0 * t311 - s_j_world_1 * t309) +
+        (across_world_2 * t316 + (A_i[5] - f_j_world_2 * t314) * t32);
+    jac_phi_q_t_lambda_geometry[53] = t322 - (v_6_world_0 * t311 - v_6_world_1 * t309);
     jac_phi_q_t_lambda_geometry[57] = -t319;
     jac_phi_q_t_lambda_geometry[58] = -t321;
     jac_phi_q_t_lambda_geometry[59] = -t322;
-    const jg_real t323 = f_i_world_2 * A_i[7] - A_i[8] * f_i_world_1;
-    const jg_real t324 = t323 * lambda[1] + A_i[6] * lambda[4];
+    const jg_real t323 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
+    const jg_real t324 = A_i[6] * lambda[4] + lambda[1] * t323;
     jac_phi_q_t_lambda_geometry[66] = t324;
     jac_phi_q_t_lambda_geometry[60] = -t324;
-    const jg_real t325 = A_i[8] * f_i_world_0 - f_i_world_2 * A_i[6];
-    const jg_real t326 = lambda[1] * t325 + A_i[7] * lambda[4];
+    const jg_real t325 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
+    const jg_real t326 = A_i[7] * lambda[4] + lambda[1] * t325;
     jac_phi_q_t_lambda_geometry[67] = t326;
     jac_phi_q_t_lambda_geometry[61] = -t326;
-    const jg_real t327 = f_i_world_1 * A_i[6] - A_i[7] * f_i_world_0;
-    const jg_real t328 = lambda[1] * t327 + A_i[8] * lambda[4];
+    const jg_real t327 = A_i[6] * f_i_world_1 - A_i[7] * f_i_world_0;
+    const jg_real t328 = A_i[8] * lambda[4] + lambda[1] * t327;
     jac_phi_q_t_lambda_geometry[68] = t328;
     jac_phi_q_t_lambda_geometry[62] = -t328;
     const jg_real t329 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real t330 = h_i_dot_f_j * t329;
     const jg_real t331 = (t330 + t330) * t26 * lambda[4] * pitch;
-    const jg_real t332 = t325 * lambda[3];
-    const jg_real t333 = t327 * lambda[3];
-    const jg_real t334 = t332 * h_j_world_2 - t333 * h_j_world_1 - (t328 * s_j_world_1 - t326 * s_j_world_2) + (t331
-        * across_world_0 + t32 * (A_i[6] - f_j_world_0 * t329));
-    jac_phi_q_t_lambda_geometry[63] = t334 - (t328 * v_6_world_1 - t326 * v_6_world_2);
-    const jg_real t335 = t323 * lambda[3];
-    const jg_real t336 = t333 * h_j_world_0 - h_j_world_2 * t335 - (t324 * s_j_world_2 - t328 * s_j_world_0) + (t331
-        * across_world_1 + t32 * (A_i[7] - f_j_world_1 * t329));
-    jac_phi_q_t_lambda_geometry[64] = t336 - (t324 * v_6_world_2 - t328 * v_6_world_0);
-    const jg_real t337 = h_j_world_1 * t335 - t332 * h_j_world_0 - (t326 * s_j_world_0 - t324 * s_j_world_1) + (t331
-        * across_world_2 + t32 * (A_i[8] - f_j_world_2 * t329));
-    jac_phi_q_t_lambda_geometry[65] = t337 - (t326 * v_6_world_0 - t324 * v_6_world_1);
+    const jg_real t332 = lambda[3] * t325;
+    const jg_real t333 = lambda[3] * t327;
+    const jg_real t334 = h_j_world_2 * t332 - h_j_world_1 * t333 - (s_j_world_1 * t328 - s_j_world_2 * t326) +
+        (across_world_0 * t331 + (A_i[6] - f_j_world_0 * t329) * t32);
+    jac_phi_q_t_lambda_geometry[63] = t334 - (v_6_world_1 * t328 - v_6_world_2 * t326);
+    const jg_real t335 = lambda[3] * t323;
+    const jg_real t336 = t333 * h_j_world_0 - h_j_world_2 * t335 - (s_j_world_2 * t324 - s_j_world_0 * t328) +
+        (across_world_1 * t331 + (A_i[7] - f_j_world_1 * t329) * t32);
+    jac_phi_q_t_lambda_geometry[64] = t336 - (v_6_world_2 * t324 - v_6_world_0 * t328);
+    const jg_real t337 = h_j_world_1 * t335 - t332 * h_j_world_0 - (s_j_world_0 * t326 - s_j_world_1 * t324) +
+        (across_world_2 * t331 + (A_i[8] - f_j_world_2 * t329) * t32);
+    jac_phi_q_t_lambda_geometry[65] = t337 - (v_6_world_0 * t326 - v_6_world_1 * t324);
     jac_phi_q_t_lambda_geometry[69] = -t334;
     jac_phi_q_t_lambda_geometry[70] = -t336;
     jac_phi_q_t_lambda_geometry[71] = -t337;
-    const jg_real t338 = v_0_world_2 * A_j[1] - v_0_world_1 * A_j[2];
+    const jg_real t338 = A_j[1] * v_0_world_2 - A_j[2] * v_0_world_1;
     jac_phi_q_t_lambda_geometry[75] = t338;
     jac_phi_q_t_lambda_geometry[72] = -t338;
-    const jg_real t339 = v_0_world_0 * A_j[2] - v_0_world_2 * A_j[0];
+    const jg_real t339 = A_j[2] * v_0_world_0 - A_j[0] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[76] = t339;
     jac_phi_q_t_lambda_geometry[73] = -t339;
-    const jg_real t340 = v_0_world_1 * A_j[0] - v_0_world_0 * A_j[1];
+    const jg_real t340 = A_j[0] * v_0_world_1 - A_j[1] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[77] = t340;
     jac_phi_q_t_lambda_geometry[74] = -t340;
-    const jg_real t341 = v_0_world_2 * A_j[4] - v_0_world_1 * A_j[5];
+    const jg_real t341 = A_j[4] * v_0_world_2 - A_j[5] * v_0_world_1;
     jac_phi_q_t_lambda_geometry[81] = t341;
     jac_phi_q_t_lambda_geometry[78] = -t341;
-    const jg_real t342 = v_0_world_0 * A_j[5] - v_0_world_2 * A_j[3];
+    const jg_real t342 = A_j[5] * v_0_world_0 - A_j[3] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[82] = t342;
     jac_phi_q_t_lambda_geometry[79] = -t342;
-    const jg_real t343 = v_0_world_1 * A_j[3] - v_0_world_0 * A_j[4];
+    const jg_real t343 = A_j[3] * v_0_world_1 - A_j[4] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[83] = t343;
     jac_phi_q_t_lambda_geometry[80] = -t343;
-    const jg_real t344 = v_0_world_2 * A_j[7] - v_0_world_1 * A_j[8];
+    const jg_real t344 = A_j[7] * v_0_world_2 - A_j[8] * v_0_world_1;
     jac_phi_q_t_lambda_geometry[87] = t344;
     jac_phi_q_t_lambda_geometry[84] = -t344;
-    const jg_real t345 = v_0_world_0 * A_j[8] - v_0_world_2 * A_j[6];
+    const jg_real t345 = A_j[8] * v_0_world_0 - A_j[6] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[88] = t345;
     jac_phi_q_t_lambda_geometry[85] = -t345;
-    const jg_real t346 = v_0_world_1 * A_j[6] - v_0_world_0 * A_j[7];
+    const jg_real t346 = A_j[6] * v_0_world_1 - A_j[7] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[89] = t346;
     jac_phi_q_t_lambda_geometry[86] = -t346;
-    const jg_real t347 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
+    const jg_real t347 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     const jg_real t348 = h_i_dot_f_j * t347;
     const jg_real t349 = (t348 + t348) * t26 * lambda[4] * pitch;
-    const jg_real t350 = t349 * across_world_0 - t32 * (A_j[0] * h_i_dot_f_j + f_j_world_0 * t347);
+    const jg_real t350 = across_world_0 * t349 - (A_j[0] * h_i_dot_f_j + f_j_world_0 * t347) * t32;
     jac_phi_q_t_lambda_geometry[90] = t350;
-    const jg_real t351 = t349 * across_world_1 - t32 * (A_j[1] * h_i_dot_f_j + f_j_world_1 * t347);
+    const jg_real t351 = across_world_1 * t349 - (A_j[1] * h_i_dot_f_j + f_j_world_1 * t347) * t32;
     jac_phi_q_t_lambda_geometry[91] = t351;
-    const jg_real t352 = t349 * across_world_2 - t32 * (A_j[2] * h_i_dot_f_j + f_j_world_2 * t347);
+    const jg_real t352 = across_world_2 * t349 - (A_j[2] * h_i_dot_f_j + f_j_world_2 * t347) * t32;
     jac_phi_q_t_lambda_geometry[92] = t352;
     jac_phi_q_t_lambda_geometry[93] = -t350;
     jac_phi_q_t_lambda_geometry[94] = -t351;
     jac_phi_q_t_lambda_geometry[95] = -t352;
-    const jg_real t353 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
+    const jg_real t353 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     const jg_real t354 = h_i_dot_f_j * t353;
     const jg_real t355 = (t354 + t354) * t26 * lambda[4] * pitch;
-    const jg_real t356 = t355 * across_world_0 - t32 * (A_j[3] * h_i_dot_f_j + f_j_world_0 * t353);
+    const jg_real t356 = across_world_0 * t355 - (A_j[3] * h_i_dot_f_j + f_j_world_0 * t353) * t32;
     jac_phi_q_t_lambda_geometry[96] = t356;
-    const jg_real t357 = t355 * across_world_1 - t32 * (A_j[4] * h_i_dot_f_j + f_j_world_1 * t353);
+    const jg_real t357 = across_world_1 * t355 - (A_j[4] * h_i_dot_f_j + f_j_world_1 * t353) * t32;
     jac_phi_q_t_lambda_geometry[97] = t357;
-    const jg_real t358 = t355 * across_world_2 - t32 * (A_j[5] * h_i_dot_f_j + f_j_world_2 * t353);
+    const jg_real t358 = across_world_2 * t355 - (A_j[5] * h_i_dot_f_j + f_j_world_2 * t353) * t32;
     jac_phi_q_t_lambda_geometry[98] = t358;
     jac_phi_q_t_lambda_geometry[99] = -t356;
     jac_phi_q_t_lambda_geometry[100] = -t357;
     jac_phi_q_t_lambda_geometry[101] = -t358;
-    const jg_real t359 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real t359 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     const jg_real t360 = h_i_dot_f_j * t359;
     const jg_real t361 = (t360 + t360) * t26 * lambda[4] * pitch;
-    const jg_real t362 = t361 * across_world_0 - t32 * (A_j[6] * h_i_dot_f_j + f_j_world_0 * t359);
+    const jg_real t362 = across_world_0 * t361 - (A_j[6] * h_i_dot_f_j + f_j_world_0 * t359) * t32;
     jac_phi_q_t_lambda_geometry[102] = t362;
-    const jg_real t363 = t361 * across_world_1 - t32 * (A_j[7] * h_i_dot_f_j + f_j_world_1 * t359);
+    const jg_real t363 = across_world_1 * t361 - (A_j[7] * h_i_dot_f_j + f_j_world_1 * t359) * t32;
     jac_phi_q_t_lambda_geometry[103] = t363;
-    const jg_real t364 = t361 * across_world_2 - t32 * (A_j[8] * h_i_dot_f_j + f_j_world_2 * t359);
+    const jg_real t364 = across_world_2 * t361 - (A_j[8] * h_i_dot_f_j + f_j_world_2 * t359) * t32;
     jac_phi_q_t_lambda_geometry[104] = t364;
     jac_phi_q_t_lambda_geometry[105] = -t362;
     jac_phi_q_t_lambda_geometry[106] = -t363;
     jac_phi_q_t_lambda_geometry[107] = -t364;
-    const jg_real t365 = v_2_world_1 * A_j[2] - v_2_world_2 * A_j[1];
+    const jg_real t365 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[108] = t365;
-    const jg_real t366 = v_2_world_2 * A_j[0] - A_j[2] * v_2_world_0;
+    const jg_real t366 = A_j[0] * v_2_world_2 - A_j[2] * v_2_world_0;
     jac_phi_q_t_lambda_geometry[109] = t366;
-    const jg_real t367 = A_j[1] * v_2_world_0 - v_2_world_1 * A_j[0];
+    const jg_real t367 = A_j[1] * v_2_world_0 - A_j[0] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[110] = t367;
     jac_phi_q_t_lambda_geometry[111] = -t365;
     jac_phi_q_t_lambda_geometry[112] = -t366;
     jac_phi_q_t_lambda_geometry[113] = -t367;
-    const jg_real t368 = v_2_world_1 * A_j[5] - v_2_world_2 * A_j[4];
+    const jg_real t368 = A_j[5] * v_2_world_1 - A_j[4] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[114] = t368;
-    const jg_real t369 = v_2_world_2 * A_j[3] - A_j[5] * v_2_world_0;
+    const jg_real t369 = A_j[3] * v_2_world_2 - A_j[5] * v_2_world_0;
     jac_phi_q_t_lambda_geometry[115] = t369;
-    const jg_real t370 = A_j[4] * v_2_world_0 - v_2_world_1 * A_j[3];
+    const jg_real t370 = A_j[4] * v_2_world_0 - A_j[3] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[116] = t370;
     jac_phi_q_t_lambda_geometry[117] = -t368;
     jac_phi_q_t_lambda_geometry[118] = -t369;
     jac_phi_q_t_lambda_geometry[119] = -t370;
-    const jg_real t371 = v_2_world_1 * A_j[8] - v_2_world_2 * A_j[7];
+    const jg_real t371 = A_j[8] * v_2_world_1 - A_j[7] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[120] = t371;
-    const jg_real t372 = v_2_world_2 * A_j[6] - A_j[8] * v_2_world_0;
+    const jg_real t372 = A_j[6] * v_2_world_2 - A_j[8] * v_2_world_0;
     jac_phi_q_t_lambda_geometry[121] = t372;
-    const jg_real t373 = A_j[7] * v_2_world_0 - v_2_world_1 * A_j[6];
+    const jg_real t373 = A_j[7] * v_2_world_0 - A_j[6] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[122] = t373;
     jac_phi_q_t_lambda_geometry[123] = -t371;
     jac_phi_q_t_lambda_geometry[124] = -t372;
     jac_phi_q_t_lambda_geometry[125] = -t373;
-    const jg_real t374 = t31 * across_world_0;
+    const jg_real t374 = across_world_0 * t31;
     jac_phi_q_t_lambda_geometry[126] = t374;
-    const jg_real t375 = t31 * across_world_1;
+    const jg_real t375 = across_world_1 * t31;
     jac_phi_q_t_lambda_geometry[127] = t375;
-    const jg_real t376 = t31 * across_world_2;
+    const jg_real t376 = across_world_2 * t31;
     jac_phi_q_t_lambda_geometry[128] = t376;
     jac_phi_q_t_lambda_geometry[129] = -t374;
     jac_phi_q_t_lambda_geometry[130] = -t375;
@@ -2099,13 +2099,13 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
-    const jg_real t380 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
+    const jg_real t380 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
     jac_phi_q_t_lambda_lambda[21] = t380;
-    jac_phi_q_t_lambda_lambda[15] = -(g_i_world_2 * v_6_world_1 - g_i_world_1 * v_6_world_2 + t380);
-    const jg_real t381 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
+    jac_phi_q_t_lambda_lambda[15] = -(v_6_world_1 * g_i_world_2 - v_6_world_2 * g_i_world_1 + t380);
+    const jg_real t381 = s_j_world_2 * g_i_world_0 - g_i_world_2 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[22] = t381;
     jac_phi_q_t_lambda_lambda[16] = -(g_i_world_0 * v_6_world_2 - g_i_world_2 * v_6_world_0 + t381);
-    const jg_real t382 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
+    const jg_real t382 = g_i_world_1 * s_j_world_0 - s_j_world_1 * g_i_world_0;
     jac_phi_q_t_lambda_lambda[23] = t382;
     jac_phi_q_t_lambda_lambda[17] = -(g_i_world_1 * v_6_world_0 - g_i_world_0 * v_6_world_1 + t382);
     const jg_real t383 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
@@ -2117,11 +2117,11 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[27] = -t383;
     jac_phi_q_t_lambda_lambda[28] = -t384;
     jac_phi_q_t_lambda_lambda[29] = -t385;
-    const jg_real t386 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
+    const jg_real t386 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
     jac_phi_q_t_lambda_lambda[30] = t386;
-    const jg_real t387 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real t387 = g_i_world_2 * h_j_world_0 - h_j_world_2 * g_i_world_0;
     jac_phi_q_t_lambda_lambda[31] = t387;
-    const jg_real t388 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
+    const jg_real t388 = h_j_world_1 * g_i_world_0 - g_i_world_1 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[32] = t388;
     jac_phi_q_t_lambda_lambda[33] = -t386;
     jac_phi_q_t_lambda_lambda[34] = -t387;
@@ -2129,12 +2129,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
-    const jg_real t389 = spread * pitch;
-    const jg_real t390 = t389 * across_world_0 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
+    const jg_real t389 = pitch * spread;
+    const jg_real t390 = across_world_0 * t389 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
     jac_phi_q_t_lambda_lambda[39] = t390 - (h_i_world_2 * v_6_world_1 - h_i_world_1 * v_6_world_2);
-    const jg_real t391 = t389 * across_world_1 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
+    const jg_real t391 = across_world_1 * t389 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
     jac_phi_q_t_lambda_lambda[40] = t391 - (h_i_world_0 * v_6_world_2 - h_i_world_2 * v_6_world_0);
-    const jg_real t392 = t389 * across_world_2 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
+    const jg_real t392 = across_world_2 * t389 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
     jac_phi_q_t_lambda_lambda[41] = t392 - (h_i_world_1 * v_6_world_0 - h_i_world_0 * v_6_world_1);
     jac_phi_q_t_lambda_lambda[45] = -t390;
     jac_phi_q_t_lambda_lambda[46] = -t391;

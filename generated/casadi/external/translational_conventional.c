@@ -35,15 +35,15 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real f_i_in_j_0 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[21] = f_i_in_j_0;
     jac_phi_geometry[27] = f_i_in_j_0;
     jac_phi_geometry[30] = f_i_in_j_0;
-    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    const jg_real f_i_in_j_1 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[23] = f_i_in_j_1;
     jac_phi_geometry[28] = f_i_in_j_1;
     jac_phi_geometry[32] = f_i_in_j_1;
-    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real f_i_in_j_2 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[25] = f_i_in_j_2;
     jac_phi_geometry[29] = f_i_in_j_2;
     jac_phi_geometry[34] = f_i_in_j_2;
@@ -82,12 +82,12 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     const jg_real t18 = C_i[0] * A_j[0];
     const jg_real t19 = C_i[0] * A_j[3];
     const jg_real t20 = C_i[0] * A_j[6];
-    jac_phi_A_i[0] = t18 * C_j[6] + t19 * C_j[7] + t20 * C_j[8];
+    jac_phi_A_i[0] = C_j[6] * t18 + C_j[7] * t19 + C_j[8] * t20;
     const jg_real t21 = A_j[0] * C_i[3];
     const jg_real t22 = A_j[3] * C_i[3];
     const jg_real t23 = A_j[6] * C_i[3];
     jac_phi_A_i[1] = C_j[6] * t21 + C_j[7] * t22 + C_j[8] * t23;
-    jac_phi_A_i[2] = t18 * C_j[3] + t19 * C_j[4] + t20 * C_j[5];
+    jac_phi_A_i[2] = C_j[3] * t18 + C_j[4] * t19 + C_j[5] * t20;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -95,146 +95,146 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
+    const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
+    const jg_real e_ij_in_j_1 = s_j[1] + v_0_in_j_1;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    const jg_real e_ij_in_j_2 = s_j[2] + v_0_in_j_2;
     jac_phi_A_i[3] = t18 * e_ij_in_j_0 + t19 * e_ij_in_j_1 + t20 * e_ij_in_j_2;
     jac_phi_A_i[4] = t21 * e_ij_in_j_0 + t22 * e_ij_in_j_1 + t23 * e_ij_in_j_2;
     const jg_real t33 = C_i[0] * A_j[1];
     const jg_real t34 = C_i[0] * A_j[4];
     const jg_real t35 = C_i[0] * A_j[7];
-    jac_phi_A_i[5] = t33 * C_j[6] + t34 * C_j[7] + t35 * C_j[8];
+    jac_phi_A_i[5] = C_j[6] * t33 + C_j[7] * t34 + C_j[8] * t35;
     const jg_real t36 = A_j[1] * C_i[3];
     const jg_real t37 = A_j[4] * C_i[3];
     const jg_real t38 = A_j[7] * C_i[3];
     jac_phi_A_i[6] = C_j[6] * t36 + C_j[7] * t37 + C_j[8] * t38;
-    jac_phi_A_i[7] = t33 * C_j[3] + t34 * C_j[4] + t35 * C_j[5];
+    jac_phi_A_i[7] = C_j[3] * t33 + C_j[4] * t34 + C_j[5] * t35;
     jac_phi_A_i[8] = t33 * e_ij_in_j_0 + t34 * e_ij_in_j_1 + t35 * e_ij_in_j_2;
     jac_phi_A_i[9] = t36 * e_ij_in_j_0 + t37 * e_ij_in_j_1 + t38 * e_ij_in_j_2;
     const jg_real t39 = C_i[0] * A_j[2];
     const jg_real t40 = C_i[0] * A_j[5];
     const jg_real t41 = C_i[0] * A_j[8];
-    jac_phi_A_i[10] = t39 * C_j[6] + t40 * C_j[7] + t41 * C_j[8];
+    jac_phi_A_i[10] = C_j[6] * t39 + C_j[7] * t40 + C_j[8] * t41;
     const jg_real t42 = A_j[2] * C_i[3];
     const jg_real t43 = A_j[5] * C_i[3];
     const jg_real t44 = A_j[8] * C_i[3];
     jac_phi_A_i[11] = C_j[6] * t42 + C_j[7] * t43 + C_j[8] * t44;
-    jac_phi_A_i[12] = t39 * C_j[3] + t40 * C_j[4] + t41 * C_j[5];
+    jac_phi_A_i[12] = C_j[3] * t39 + C_j[4] * t40 + C_j[5] * t41;
     jac_phi_A_i[13] = t39 * e_ij_in_j_0 + t40 * e_ij_in_j_1 + t41 * e_ij_in_j_2;
     jac_phi_A_i[14] = t42 * e_ij_in_j_0 + t43 * e_ij_in_j_1 + t44 * e_ij_in_j_2;
     const jg_real t45 = C_i[1] * A_j[0];
     const jg_real t46 = C_i[1] * A_j[3];
     const jg_real t47 = C_i[1] * A_j[6];
-    jac_phi_A_i[15] = t45 * C_j[6] + t46 * C_j[7] + t47 * C_j[8];
+    jac_phi_A_i[15] = C_j[6] * t45 + C_j[7] * t46 + C_j[8] * t47;
     const jg_real t48 = A_j[0] * C_i[4];
     const jg_real t49 = A_j[3] * C_i[4];
     const jg_real t50 = A_j[6] * C_i[4];
     jac_phi_A_i[16] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
-    jac_phi_A_i[17] = t45 * C_j[3] + t46 * C_j[4] + t47 * C_j[5];
+    jac_phi_A_i[17] = C_j[3] * t45 + C_j[4] * t46 + C_j[5] * t47;
     jac_phi_A_i[18] = t45 * e_ij_in_j_0 + t46 * e_ij_in_j_1 + t47 * e_ij_in_j_2;
     jac_phi_A_i[19] = t48 * e_ij_in_j_0 + t49 * e_ij_in_j_1 + t50 * e_ij_in_j_2;
     const jg_real t51 = C_i[1] * A_j[1];
     const jg_real t52 = C_i[1] * A_j[4];
     const jg_real t53 = C_i[1] * A_j[7];
-    jac_phi_A_i[20] = t51 * C_j[6] + t52 * C_j[7] + t53 * C_j[8];
+    jac_phi_A_i[20] = C_j[6] * t51 + C_j[7] * t52 + C_j[8] * t53;
     const jg_real t54 = A_j[1] * C_i[4];
     const jg_real t55 = A_j[4] * C_i[4];
     const jg_real t56 = A_j[7] * C_i[4];
     jac_phi_A_i[21] = C_j[6] * t54 + C_j[7] * t55 + C_j[8] * t56;
-    jac_phi_A_i[22] = t51 * C_j[3] + t52 * C_j[4] + t53 * C_j[5];
+    jac_phi_A_i[22] = C_j[3] * t51 + C_j[4] * t52 + C_j[5] * t53;
     jac_phi_A_i[23] = t51 * e_ij_in_j_0 + t52 * e_ij_in_j_1 + t53 * e_ij_in_j_2;
     jac_phi_A_i[24] = t54 * e_ij_in_j_0 + t55 * e_ij_in_j_1 + t56 * e_ij_in_j_2;
     const jg_real t57 = C_i[1] * A_j[2];
     const jg_real t58 = C_i[1] * A_j[5];
     const jg_real t59 = C_i[1] * A_j[8];
-    jac_phi_A_i[25] = t57 * C_j[6] + t58 * C_j[7] + t59 * C_j[8];
+    jac_phi_A_i[25] = C_j[6] * t57 + C_j[7] * t58 + C_j[8] * t59;
     const jg_real t60 = A_j[2] * C_i[4];
     const jg_real t61 = A_j[5] * C_i[4];
     const jg_real t62 = A_j[8] * C_i[4];
     jac_phi_A_i[26] = C_j[6] * t60 + C_j[7] * t61 + C_j[8] * t62;
-    jac_phi_A_i[27] = t57 * C_j[3] + t58 * C_j[4] + t59 * C_j[5];
+    jac_phi_A_i[27] = C_j[3] * t57 + C_j[4] * t58 + C_j[5] * t59;
     jac_phi_A_i[28] = t57 * e_ij_in_j_0 + t58 * e_ij_in_j_1 + t59 * e_ij_in_j_2;
     jac_phi_A_i[29] = t60 * e_ij_in_j_0 + t61 * e_ij_in_j_1 + t62 * e_ij_in_j_2;
     const jg_real t63 = C_i[2] * A_j[0];
     const jg_real t64 = C_i[2] * A_j[3];
     const jg_real t65 = C_i[2] * A_j[6];
-    jac_phi_A_i[30] = t63 * C_j[6] + t64 * C_j[7] + t65 * C_j[8];
+    jac_phi_A_i[30] = C_j[6] * t63 + C_j[7] * t64 + C_j[8] * t65;
     const jg_real t66 = A_j[0] * C_i[5];
     const jg_real t67 = A_j[3] * C_i[5];
     const jg_real t68 = A_j[6] * C_i[5];
     jac_phi_A_i[31] = C_j[6] * t66 + C_j[7] * t67 + C_j[8] * t68;
-    jac_phi_A_i[32] = t63 * C_j[3] + t64 * C_j[4] + t65 * C_j[5];
+    jac_phi_A_i[32] = C_j[3] * t63 + C_j[4] * t64 + C_j[5] * t65;
     jac_phi_A_i[33] = t63 * e_ij_in_j_0 + t64 * e_ij_in_j_1 + t65 * e_ij_in_j_2;
     jac_phi_A_i[34] = t66 * e_ij_in_j_0 + t67 * e_ij_in_j_1 + t68 * e_ij_in_j_2;
     const jg_real t69 = C_i[2] * A_j[1];
     const jg_real t70 = C_i[2] * A_j[4];
     const jg_real t71 = C_i[2] * A_j[7];
-    jac_phi_A_i[35] = t69 * C_j[6] + t70 * C_j[7] + t71 * C_j[8];
+    jac_phi_A_i[35] = C_j[6] * t69 + C_j[7] * t70 + C_j[8] * t71;
     const jg_real t72 = A_j[1] * C_i[5];
     const jg_real t73 = A_j[4] * C_i[5];
     const jg_real t74 = A_j[7] * C_i[5];
     jac_phi_A_i[36] = C_j[6] * t72 + C_j[7] * t73 + C_j[8] * t74;
-    jac_phi_A_i[37] = t69 * C_j[3] + t70 * C_j[4] + t71 * C_j[5];
+    jac_phi_A_i[37] = C_j[3] * t69 + C_j[4] * t70 + C_j[5] * t71;
     jac_phi_A_i[38] = t69 * e_ij_in_j_0 + t70 * e_ij_in_j_1 + t71 * e_ij_in_j_2;
     jac_phi_A_i[39] = t72 * e_ij_in_j_0 + t73 * e_ij_in_j_1 + t74 * e_ij_in_j_2;
     const jg_real t75 = C_i[2] * A_j[2];
     const jg_real t76 = C_i[2] * A_j[5];
     const jg_real t77 = C_i[2] * A_j[8];
-    jac_phi_A_i[40] = t75 * C_j[6] + t76 * C_j[7] + t77 * C_j[8];
+    jac_phi_A_i[40] = C_j[6] * t75 + C_j[7] * t76 + C_j[8] * t77;
     const jg_real t78 = A_j[2] * C_i[5];
     const jg_real t79 = A_j[5] * C_i[5];
     const jg_real t80 = A_j[8] * C_i[5];
     jac_phi_A_i[41] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
-    jac_phi_A_i[42] = t75 * C_j[3] + t76 * C_j[4] + t77 * C_j[5];
+    jac_phi_A_i[42] = C_j[3] * t75 + C_j[4] * t76 + C_j[5] * t77;
     jac_phi_A_i[43] = t75 * e_ij_in_j_0 + t76 * e_ij_in_j_1 + t77 * e_ij_in_j_2;
     jac_phi_A_i[44] = t78 * e_ij_in_j_0 + t79 * e_ij_in_j_1 + t80 * e_ij_in_j_2;
-    jac_phi_A_j[0] = f_i_world_0 * C_j[6];
+    jac_phi_A_j[0] = C_j[6] * f_i_world_0;
     jac_phi_A_j[1] = C_j[6] * g_i_world_0;
-    jac_phi_A_j[2] = f_i_world_0 * C_j[3];
-    jac_phi_A_j[3] = f_i_world_0 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_0;
-    jac_phi_A_j[4] = g_i_world_0 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_0;
-    jac_phi_A_j[5] = f_i_world_1 * C_j[6];
+    jac_phi_A_j[2] = C_j[3] * f_i_world_0;
+    jac_phi_A_j[3] = f_i_world_0 * e_ij_in_j_0 + v_0_world_0 * f_i_in_j_0;
+    jac_phi_A_j[4] = g_i_world_0 * e_ij_in_j_0 + v_0_world_0 * g_i_in_j_0;
+    jac_phi_A_j[5] = C_j[6] * f_i_world_1;
     jac_phi_A_j[6] = C_j[6] * g_i_world_1;
-    jac_phi_A_j[7] = f_i_world_1 * C_j[3];
-    jac_phi_A_j[8] = f_i_world_1 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_1;
-    jac_phi_A_j[9] = g_i_world_1 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_1;
-    jac_phi_A_j[10] = f_i_world_2 * C_j[6];
+    jac_phi_A_j[7] = C_j[3] * f_i_world_1;
+    jac_phi_A_j[8] = f_i_world_1 * e_ij_in_j_0 + v_0_world_1 * f_i_in_j_0;
+    jac_phi_A_j[9] = g_i_world_1 * e_ij_in_j_0 + v_0_world_1 * g_i_in_j_0;
+    jac_phi_A_j[10] = C_j[6] * f_i_world_2;
     jac_phi_A_j[11] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[12] = f_i_world_2 * C_j[3];
-    jac_phi_A_j[13] = f_i_world_2 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_2;
-    jac_phi_A_j[14] = g_i_world_2 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_2;
-    jac_phi_A_j[15] = f_i_world_0 * C_j[7];
+    jac_phi_A_j[12] = C_j[3] * f_i_world_2;
+    jac_phi_A_j[13] = f_i_world_2 * e_ij_in_j_0 + v_0_world_2 * f_i_in_j_0;
+    jac_phi_A_j[14] = g_i_world_2 * e_ij_in_j_0 + v_0_world_2 * g_i_in_j_0;
+    jac_phi_A_j[15] = C_j[7] * f_i_world_0;
     jac_phi_A_j[16] = C_j[7] * g_i_world_0;
-    jac_phi_A_j[17] = f_i_world_0 * C_j[4];
-    jac_phi_A_j[18] = f_i_world_0 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_0;
-    jac_phi_A_j[19] = g_i_world_0 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_0;
-    jac_phi_A_j[20] = f_i_world_1 * C_j[7];
+    jac_phi_A_j[17] = C_j[4] * f_i_world_0;
+    jac_phi_A_j[18] = f_i_world_0 * e_ij_in_j_1 + v_0_world_0 * f_i_in_j_1;
+    jac_phi_A_j[19] = g_i_world_0 * e_ij_in_j_1 + v_0_world_0 * g_i_in_j_1;
+    jac_phi_A_j[20] = C_j[7] * f_i_world_1;
     jac_phi_A_j[21] = C_j[7] * g_i_world_1;
-    jac_phi_A_j[22] = f_i_world_1 * C_j[4];
-    jac_phi_A_j[23] = f_i_world_1 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_1;
-    jac_phi_A_j[24] = g_i_world_1 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_1;
-    jac_phi_A_j[25] = f_i_world_2 * C_j[7];
+    jac_phi_A_j[22] = C_j[4] * f_i_world_1;
+    jac_phi_A_j[23] = f_i_world_1 * e_ij_in_j_1 + v_0_world_1 * f_i_in_j_1;
+    jac_phi_A_j[24] = g_i_world_1 * e_ij_in_j_1 + v_0_world_1 * g_i_in_j_1;
+    jac_phi_A_j[25] = C_j[7] * f_i_world_2;
     jac_phi_A_j[26] = C_j[7] * g_i_world_2;
-    jac_phi_A_j[27] = f_i_world_2 * C_j[4];
-    jac_phi_A_j[28] = f_i_world_2 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_2;
-    jac_phi_A_j[29] = g_i_world_2 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_2;
-    jac_phi_A_j[30] = f_i_world_0 * C_j[8];
+    jac_phi_A_j[27] = C_j[4] * f_i_world_2;
+    jac_phi_A_j[28] = f_i_world_2 * e_ij_in_j_1 + v_0_world_2 * f_i_in_j_1;
+    jac_phi_A_j[29] = g_i_world_2 * e_ij_in_j_1 + v_0_world_2 * g_i_in_j_1;
+    jac_phi_A_j[30] = C_j[8] * f_i_world_0;
     jac_phi_A_j[31] = C_j[8] * g_i_world_0;
-    jac_phi_A_j[32] = f_i_world_0 * C_j[5];
-    jac_phi_A_j[33] = f_i_world_0 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_0;
-    jac_phi_A_j[34] = g_i_world_0 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_0;
-    jac_phi_A_j[35] = f_i_world_1 * C_j[8];
+    jac_phi_A_j[32] = C_j[5] * f_i_world_0;
+    jac_phi_A_j[33] = f_i_world_0 * e_ij_in_j_2 + v_0_world_0 * f_i_in_j_2;
+    jac_phi_A_j[34] = g_i_world_0 * e_ij_in_j_2 + v_0_world_0 * g_i_in_j_2;
+    jac_phi_A_j[35] = C_j[8] * f_i_world_1;
     jac_phi_A_j[36] = C_j[8] * g_i_world_1;
-    jac_phi_A_j[37] = f_i_world_1 * C_j[5];
-    jac_phi_A_j[38] = f_i_world_1 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_1;
-    jac_phi_A_j[39] = g_i_world_1 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_1;
-    jac_phi_A_j[40] = f_i_world_2 * C_j[8];
+    jac_phi_A_j[37] = C_j[5] * f_i_world_1;
+    jac_phi_A_j[38] = f_i_world_1 * e_ij_in_j_2 + v_0_world_1 * f_i_in_j_2;
+    jac_phi_A_j[39] = g_i_world_1 * e_ij_in_j_2 + v_0_world_1 * g_i_in_j_2;
+    jac_phi_A_j[40] = C_j[8] * f_i_world_2;
     jac_phi_A_j[41] = C_j[8] * g_i_world_2;
-    jac_phi_A_j[42] = f_i_world_2 * C_j[5];
-    jac_phi_A_j[43] = f_i_world_2 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_2;
-    jac_phi_A_j[44] = g_i_world_2 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_2;
+    jac_phi_A_j[42] = C_j[5] * f_i_world_2;
+    jac_phi_A_j[43] = f_i_world_2 * e_ij_in_j_2 + v_0_world_2 * f_i_in_j_2;
+    jac_phi_A_j[44] = g_i_world_2 * e_ij_in_j_2 + v_0_world_2 * g_i_in_j_2;
     jac_phi_geometry[0] = -C_i[0];
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[1];
@@ -244,30 +244,30 @@ static void jg_translational_conventional_phi_jacobian(const jg_real *JG_RESTRIC
     const jg_real t81 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real t82 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real t83 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t84 = t81 * C_j[6] + t82 * C_j[7] + t83 * C_j[8];
+    const jg_real t84 = C_j[6] * t81 + C_j[7] * t82 + C_j[8] * t83;
     jac_phi_geometry[6] = t84;
     jac_phi_geometry[15] = t84;
-    jac_phi_geometry[7] = t81 * C_j[3] + t82 * C_j[4] + t83 * C_j[5];
+    jac_phi_geometry[7] = C_j[3] * t81 + C_j[4] * t82 + C_j[5] * t83;
     const jg_real t85 = t81 * e_ij_in_j_0 + t82 * e_ij_in_j_1 + t83 * e_ij_in_j_2 - s_i[0];
     jac_phi_geometry[8] = t85;
     jac_phi_geometry[16] = t85;
     const jg_real t86 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real t87 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real t88 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t89 = t86 * C_j[6] + t87 * C_j[7] + t88 * C_j[8];
+    const jg_real t89 = C_j[6] * t86 + C_j[7] * t87 + C_j[8] * t88;
     jac_phi_geometry[9] = t89;
     jac_phi_geometry[17] = t89;
-    jac_phi_geometry[10] = t86 * C_j[3] + t87 * C_j[4] + t88 * C_j[5];
+    jac_phi_geometry[10] = C_j[3] * t86 + C_j[4] * t87 + C_j[5] * t88;
     const jg_real t90 = t86 * e_ij_in_j_0 + t87 * e_ij_in_j_1 + t88 * e_ij_in_j_2 - s_i[1];
     jac_phi_geometry[11] = t90;
     jac_phi_geometry[18] = t90;
     const jg_real t91 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t92 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real t93 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t94 = t91 * C_j[6] + t92 * C_j[7] + t93 * C_j[8];
+    const jg_real t94 = C_j[6] * t91 + C_j[7] * t92 + C_j[8] * t93;
     jac_phi_geometry[12] = t94;
     jac_phi_geometry[19] = t94;
-    jac_phi_geometry[13] = t91 * C_j[3] + t92 * C_j[4] + t93 * C_j[5];
+    jac_phi_geometry[13] = C_j[3] * t91 + C_j[4] * t92 + C_j[5] * t93;
     const jg_real t95 = t91 * e_ij_in_j_0 + t92 * e_ij_in_j_1 + t93 * e_ij_in_j_2 - s_i[2];
     jac_phi_geometry[14] = t95;
     jac_phi_geometry[20] = t95;
@@ -320,19 +320,19 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real g_i_cross_omega_i_world_2 = omega_i_world_1 * g_i_world_0 - omega_i_world_0 * g_i_world_1;
     jac_phi_q_v_r_i[5] = g_i_cross_omega_i_world_2;
     const jg_real t15 = C_i[0] * omega_i_world_2 - omega_i[0] * f_i_world_2;
-    const jg_real t16 = f_i_world_1 * omega_i[0] - C_i[0] * omega_i_world_1;
-    const jg_real t17 = t15 * A_j[1] + t16 * A_j[2];
-    const jg_real t18 = t15 * A_j[4] + t16 * A_j[5];
-    const jg_real t19 = t15 * A_j[7] + t16 * A_j[8];
+    const jg_real t16 = omega_i[0] * f_i_world_1 - C_i[0] * omega_i_world_1;
+    const jg_real t17 = A_j[1] * t15 + A_j[2] * t16;
+    const jg_real t18 = A_j[4] * t15 + A_j[5] * t16;
+    const jg_real t19 = A_j[7] * t15 + A_j[8] * t16;
     const jg_real t20 = C_i[0] * A_j[3];
     const jg_real t21 = C_i[0] * A_j[6];
-    const jg_real t22 = t20 * omega_j[2] - t21 * omega_j[1];
+    const jg_real t22 = omega_j[2] * t20 - omega_j[1] * t21;
     const jg_real t23 = C_i[0] * A_j[0];
-    const jg_real t24 = t21 * omega_j[0] - omega_j[2] * t23;
-    const jg_real t25 = omega_j[1] * t23 - t20 * omega_j[0];
-    jac_phi_q_v_A_i[0] = t17 * C_j[6] + t18 * C_j[7] + t19 * C_j[8] + (C_j[6] * t22 + C_j[7] * t24 + C_j[8] * t25);
-    const jg_real t26 = omega_i_world_2 * C_i[3] - omega_i[0] * g_i_world_2;
-    const jg_real t27 = omega_i[0] * g_i_world_1 - omega_i_world_1 * C_i[3];
+    const jg_real t24 = omega_j[0] * t21 - omega_j[2] * t23;
+    const jg_real t25 = omega_j[1] * t23 - omega_j[0] * t20;
+    jac_phi_q_v_A_i[0] = C_j[6] * t17 + C_j[7] * t18 + C_j[8] * t19 + (C_j[6] * t22 + C_j[7] * t24 + C_j[8] * t25);
+    const jg_real t26 = C_i[3] * omega_i_world_2 - omega_i[0] * g_i_world_2;
+    const jg_real t27 = omega_i[0] * g_i_world_1 - C_i[3] * omega_i_world_1;
     const jg_real t28 = A_j[1] * t26 + A_j[2] * t27;
     const jg_real t29 = A_j[4] * t26 + A_j[5] * t27;
     const jg_real t30 = A_j[7] * t26 + A_j[8] * t27;
@@ -343,23 +343,23 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t35 = omega_j[0] * t32 - omega_j[2] * t34;
     const jg_real t36 = omega_j[1] * t34 - omega_j[0] * t31;
     jac_phi_q_v_A_i[1] = C_j[6] * t28 + C_j[7] * t29 + C_j[8] * t30 + (C_j[6] * t33 + C_j[7] * t35 + C_j[8] * t36);
-    jac_phi_q_v_A_i[2] = t17 * C_j[3] + t18 * C_j[4] + t19 * C_j[5] + (t22 * C_j[3] + t24 * C_j[4] + t25 * C_j[5]);
-    jac_phi_q_v_A_i[3] = t22 * s_j[0] + t24 * s_j[1] + t25 * s_j[2] - (t15 * r_i[1] + t16 * r_i[2] - (t17 * s_j[0] +
-        t18 * s_j[1] + t19 * s_j[2] + (t15 * r_j[1] + t16 * r_j[2])) + C_i[0] * v_i[0] - C_i[0] * v_j[0]);
-    jac_phi_q_v_A_i[4] = t33 * s_j[0] + t35 * s_j[1] + t36 * s_j[2] - (t26 * r_i[1] + t27 * r_i[2] - (t28 * s_j[0] +
-        t29 * s_j[1] + t30 * s_j[2] + (t26 * r_j[1] + t27 * r_j[2])) + C_i[3] * v_i[0] - C_i[3] * v_j[0]);
+    jac_phi_q_v_A_i[2] = C_j[3] * t17 + C_j[4] * t18 + C_j[5] * t19 + (C_j[3] * t22 + C_j[4] * t24 + C_j[5] * t25);
+    jac_phi_q_v_A_i[3] = s_j[0] * t22 + s_j[1] * t24 + s_j[2] * t25 - (r_i[1] * t15 + r_i[2] * t16 - (r_j[1] * t15 +
+        r_j[2] * t16 + (s_j[0] * t17 + s_j[1] * t18 + s_j[2] * t19)) + C_i[0] * v_i[0] - C_i[0] * v_j[0]);
+    jac_phi_q_v_A_i[4] = s_j[0] * t33 + s_j[1] * t35 + s_j[2] * t36 - (r_i[1] * t26 + r_i[2] * t27 - (s_j[0] * t28 +
+        s_j[1] * t29 + s_j[2] * t30 + (r_j[1] * t26 + r_j[2] * t27)) + C_i[3] * v_i[0] - C_i[3] * v_j[0]);
     const jg_real t37 = C_i[0] * omega_i_world_0 - omega_i[0] * f_i_world_0;
-    const jg_real t38 = t15 * A_j[0] - t37 * A_j[2];
-    const jg_real t39 = t15 * A_j[3] - t37 * A_j[5];
-    const jg_real t40 = t15 * A_j[6] - t37 * A_j[8];
+    const jg_real t38 = A_j[0] * t15 - A_j[2] * t37;
+    const jg_real t39 = A_j[3] * t15 - A_j[5] * t37;
+    const jg_real t40 = A_j[6] * t15 - A_j[8] * t37;
     const jg_real t41 = C_i[0] * A_j[4];
     const jg_real t42 = C_i[0] * A_j[7];
-    const jg_real t43 = t41 * omega_j[2] - t42 * omega_j[1];
+    const jg_real t43 = omega_j[2] * t41 - omega_j[1] * t42;
     const jg_real t44 = C_i[0] * A_j[1];
-    const jg_real t45 = t42 * omega_j[0] - omega_j[2] * t44;
-    const jg_real t46 = omega_j[1] * t44 - t41 * omega_j[0];
-    jac_phi_q_v_A_i[5] = C_j[6] * t43 + C_j[7] * t45 + C_j[8] * t46 - (t38 * C_j[6] + t39 * C_j[7] + t40 * C_j[8]);
-    const jg_real t47 = omega_i_world_0 * C_i[3] - omega_i[0] * g_i_world_0;
+    const jg_real t45 = omega_j[0] * t42 - omega_j[2] * t44;
+    const jg_real t46 = omega_j[1] * t44 - omega_j[0] * t41;
+    jac_phi_q_v_A_i[5] = C_j[6] * t43 + C_j[7] * t45 + C_j[8] * t46 - (C_j[6] * t38 + C_j[7] * t39 + C_j[8] * t40);
+    const jg_real t47 = C_i[3] * omega_i_world_0 - omega_i[0] * g_i_world_0;
     const jg_real t48 = A_j[0] * t26 - A_j[2] * t47;
     const jg_real t49 = A_j[3] * t26 - A_j[5] * t47;
     const jg_real t50 = A_j[6] * t26 - A_j[8] * t47;
@@ -370,21 +370,21 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t55 = omega_j[0] * t52 - omega_j[2] * t54;
     const jg_real t56 = omega_j[1] * t54 - omega_j[0] * t51;
     jac_phi_q_v_A_i[6] = C_j[6] * t53 + C_j[7] * t55 + C_j[8] * t56 - (C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50);
-    jac_phi_q_v_A_i[7] = t43 * C_j[3] + t45 * C_j[4] + t46 * C_j[5] - (t38 * C_j[3] + t39 * C_j[4] + t40 * C_j[5]);
-    jac_phi_q_v_A_i[8] = t43 * s_j[0] + t45 * s_j[1] + t46 * s_j[2] - (t38 * s_j[0] + t39 * s_j[1] + t40 * s_j[2] +
-        (t15 * r_j[0] - t37 * r_j[2]) - (t15 * r_i[0] - t37 * r_i[2]) + C_i[0] * v_i[1] - C_i[0] * v_j[1]);
-    jac_phi_q_v_A_i[9] = t53 * s_j[0] + t55 * s_j[1] + t56 * s_j[2] - (t48 * s_j[0] + t49 * s_j[1] + t50 * s_j[2] +
-        (t26 * r_j[0] - t47 * r_j[2]) - (t26 * r_i[0] - t47 * r_i[2]) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
-    const jg_real t57 = t16 * A_j[0] + t37 * A_j[1];
-    const jg_real t58 = t16 * A_j[3] + t37 * A_j[4];
-    const jg_real t59 = t16 * A_j[6] + t37 * A_j[7];
+    jac_phi_q_v_A_i[7] = C_j[3] * t43 + C_j[4] * t45 + C_j[5] * t46 - (C_j[3] * t38 + C_j[4] * t39 + C_j[5] * t40);
+    jac_phi_q_v_A_i[8] = s_j[0] * t43 + s_j[1] * t45 + s_j[2] * t46 - (r_j[0] * t15 - r_j[2] * t37 + (s_j[0] * t38 +
+        s_j[1] * t39 + s_j[2] * t40) - (r_i[0] * t15 - r_i[2] * t37) + C_i[0] * v_i[1] - C_i[0] * v_j[1]);
+    jac_phi_q_v_A_i[9] = s_j[0] * t53 + s_j[1] * t55 + s_j[2] * t56 - (s_j[0] * t48 + s_j[1] * t49 + s_j[2] * t50 +
+        (r_j[0] * t26 - r_j[2] * t47) - (r_i[0] * t26 - r_i[2] * t47) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
+    const jg_real t57 = A_j[0] * t16 + A_j[1] * t37;
+    const jg_real t58 = A_j[3] * t16 + A_j[4] * t37;
+    const jg_real t59 = A_j[6] * t16 + A_j[7] * t37;
     const jg_real t60 = C_i[0] * A_j[5];
     const jg_real t61 = C_i[0] * A_j[8];
-    const jg_real t62 = t60 * omega_j[2] - t61 * omega_j[1];
+    const jg_real t62 = omega_j[2] * t60 - omega_j[1] * t61;
     const jg_real t63 = C_i[0] * A_j[2];
-    const jg_real t64 = t61 * omega_j[0] - omega_j[2] * t63;
-    const jg_real t65 = omega_j[1] * t63 - t60 * omega_j[0];
-    jac_phi_q_v_A_i[10] = C_j[6] * t62 + C_j[7] * t64 + C_j[8] * t65 - (t57 * C_j[6] + t58 * C_j[7] + t59 * C_j[8]);
+    const jg_real t64 = omega_j[0] * t61 - omega_j[2] * t63;
+    const jg_real t65 = omega_j[1] * t63 - omega_j[0] * t60;
+    jac_phi_q_v_A_i[10] = C_j[6] * t62 + C_j[7] * t64 + C_j[8] * t65 - (C_j[6] * t57 + C_j[7] * t58 + C_j[8] * t59);
     const jg_real t66 = A_j[0] * t27 + A_j[1] * t47;
     const jg_real t67 = A_j[3] * t27 + A_j[4] * t47;
     const jg_real t68 = A_j[6] * t27 + A_j[7] * t47;
@@ -395,25 +395,25 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t73 = omega_j[0] * t70 - omega_j[2] * t72;
     const jg_real t74 = omega_j[1] * t72 - omega_j[0] * t69;
     jac_phi_q_v_A_i[11] = C_j[6] * t71 + C_j[7] * t73 + C_j[8] * t74 - (C_j[6] * t66 + C_j[7] * t67 + C_j[8] * t68);
-    jac_phi_q_v_A_i[12] = t62 * C_j[3] + t64 * C_j[4] + t65 * C_j[5] - (t57 * C_j[3] + t58 * C_j[4] + t59 * C_j[5]);
-    jac_phi_q_v_A_i[13] = t62 * s_j[0] + t64 * s_j[1] + t65 * s_j[2] - (t57 * s_j[0] + t58 * s_j[1] + t59 * s_j[2] +
-        (t16 * r_j[0] + t37 * r_j[1]) - (t16 * r_i[0] + t37 * r_i[1]) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
-    jac_phi_q_v_A_i[14] = t71 * s_j[0] + t73 * s_j[1] + t74 * s_j[2] - (t66 * s_j[0] + t67 * s_j[1] + t68 * s_j[2] +
-        (t27 * r_j[0] + t47 * r_j[1]) - (t27 * r_i[0] + t47 * r_i[1]) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
+    jac_phi_q_v_A_i[12] = C_j[3] * t62 + C_j[4] * t64 + C_j[5] * t65 - (C_j[3] * t57 + C_j[4] * t58 + C_j[5] * t59);
+    jac_phi_q_v_A_i[13] = s_j[0] * t62 + s_j[1] * t64 + s_j[2] * t65 - (r_j[0] * t16 + r_j[1] * t37 + (s_j[0] * t57
+        + s_j[1] * t58 + s_j[2] * t59) - (r_i[0] * t16 + r_i[1] * t37) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
+    jac_phi_q_v_A_i[14] = s_j[0] * t71 + s_j[1] * t73 + s_j[2] * t74 - (r_j[0] * t27 + r_j[1] * t47 + (s_j[0] * t66
+        + s_j[1] * t67 + s_j[2] * t68) - (r_i[0] * t27 + r_i[1] * t47) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
     const jg_real t75 = C_i[1] * omega_i_world_2 - omega_i[1] * f_i_world_2;
-    const jg_real t76 = f_i_world_1 * omega_i[1] - C_i[1] * omega_i_world_1;
-    const jg_real t77 = t75 * A_j[1] + t76 * A_j[2];
-    const jg_real t78 = t75 * A_j[4] + t76 * A_j[5];
-    const jg_real t79 = t75 * A_j[7] + t76 * A_j[8];
+    const jg_real t76 = omega_i[1] * f_i_world_1 - C_i[1] * omega_i_world_1;
+    const jg_real t77 = A_j[1] * t75 + A_j[2] * t76;
+    const jg_real t78 = A_j[4] * t75 + A_j[5] * t76;
+    const jg_real t79 = A_j[7] * t75 + A_j[8] * t76;
     const jg_real t80 = C_i[1] * A_j[3];
     const jg_real t81 = C_i[1] * A_j[6];
-    const jg_real t82 = t80 * omega_j[2] - t81 * omega_j[1];
+    const jg_real t82 = omega_j[2] * t80 - omega_j[1] * t81;
     const jg_real t83 = C_i[1] * A_j[0];
-    const jg_real t84 = t81 * omega_j[0] - omega_j[2] * t83;
-    const jg_real t85 = omega_j[1] * t83 - t80 * omega_j[0];
-    jac_phi_q_v_A_i[15] = t77 * C_j[6] + t78 * C_j[7] + t79 * C_j[8] + (C_j[6] * t82 + C_j[7] * t84 + C_j[8] * t85);
-    const jg_real t86 = omega_i_world_2 * C_i[4] - omega_i[1] * g_i_world_2;
-    const jg_real t87 = omega_i[1] * g_i_world_1 - omega_i_world_1 * C_i[4];
+    const jg_real t84 = omega_j[0] * t81 - omega_j[2] * t83;
+    const jg_real t85 = omega_j[1] * t83 - omega_j[0] * t80;
+    jac_phi_q_v_A_i[15] = C_j[6] * t77 + C_j[7] * t78 + C_j[8] * t79 + (C_j[6] * t82 + C_j[7] * t84 + C_j[8] * t85);
+    const jg_real t86 = C_i[4] * omega_i_world_2 - omega_i[1] * g_i_world_2;
+    const jg_real t87 = omega_i[1] * g_i_world_1 - C_i[4] * omega_i_world_1;
     const jg_real t88 = A_j[1] * t86 + A_j[2] * t87;
     const jg_real t89 = A_j[4] * t86 + A_j[5] * t87;
     const jg_real t90 = A_j[7] * t86 + A_j[8] * t87;
@@ -424,24 +424,24 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t95 = omega_j[0] * t92 - omega_j[2] * t94;
     const jg_real t96 = omega_j[1] * t94 - omega_j[0] * t91;
     jac_phi_q_v_A_i[16] = C_j[6] * t88 + C_j[7] * t89 + C_j[8] * t90 + (C_j[6] * t93 + C_j[7] * t95 + C_j[8] * t96);
-    jac_phi_q_v_A_i[17] = t77 * C_j[3] + t78 * C_j[4] + t79 * C_j[5] + (t82 * C_j[3] + t84 * C_j[4] + t85 * C_j[5]);
-    jac_phi_q_v_A_i[18] = t82 * s_j[0] + t84 * s_j[1] + t85 * s_j[2] - (t75 * r_i[1] + t76 * r_i[2] - (t77 * s_j[0]
-        + t78 * s_j[1] + t79 * s_j[2] + (t75 * r_j[1] + t76 * r_j[2])) + C_i[1] * v_i[0] - C_i[1] * v_j[0]);
-    jac_phi_q_v_A_i[19] = t93 * s_j[0] + t95 * s_j[1] + t96 * s_j[2] - (t86 * r_i[1] + t87 * r_i[2] - (t88 * s_j[0]
-        + t89 * s_j[1] + t90 * s_j[2] + (t86 * r_j[1] + t87 * r_j[2])) + C_i[4] * v_i[0] - C_i[4] * v_j[0]);
+    jac_phi_q_v_A_i[17] = C_j[3] * t77 + C_j[4] * t78 + C_j[5] * t79 + (C_j[3] * t82 + C_j[4] * t84 + C_j[5] * t85);
+    jac_phi_q_v_A_i[18] = s_j[0] * t82 + s_j[1] * t84 + s_j[2] * t85 - (r_i[1] * t75 + r_i[2] * t76 - (r_j[1] * t75
+        + r_j[2] * t76 + (s_j[0] * t77 + s_j[1] * t78 + s_j[2] * t79)) + C_i[1] * v_i[0] - C_i[1] * v_j[0]);
+    jac_phi_q_v_A_i[19] = s_j[0] * t93 + s_j[1] * t95 + s_j[2] * t96 - (r_i[1] * t86 + r_i[2] * t87 - (s_j[0] * t88
+        + s_j[1] * t89 + s_j[2] * t90 + (r_j[1] * t86 + r_j[2] * t87)) + C_i[4] * v_i[0] - C_i[4] * v_j[0]);
     const jg_real t97 = C_i[1] * omega_i_world_0 - omega_i[1] * f_i_world_0;
-    const jg_real t98 = t75 * A_j[0] - t97 * A_j[2];
-    const jg_real t99 = t75 * A_j[3] - t97 * A_j[5];
-    const jg_real t100 = t75 * A_j[6] - t97 * A_j[8];
+    const jg_real t98 = A_j[0] * t75 - A_j[2] * t97;
+    const jg_real t99 = A_j[3] * t75 - A_j[5] * t97;
+    const jg_real t100 = A_j[6] * t75 - A_j[8] * t97;
     const jg_real t101 = C_i[1] * A_j[4];
     const jg_real t102 = C_i[1] * A_j[7];
-    const jg_real t103 = t101 * omega_j[2] - t102 * omega_j[1];
+    const jg_real t103 = omega_j[2] * t101 - omega_j[1] * t102;
     const jg_real t104 = C_i[1] * A_j[1];
-    const jg_real t105 = t102 * omega_j[0] - omega_j[2] * t104;
-    const jg_real t106 = omega_j[1] * t104 - t101 * omega_j[0];
-    jac_phi_q_v_A_i[20] = C_j[6] * t103 + C_j[7] * t105 + C_j[8] * t106 - (t98 * C_j[6] + t99 * C_j[7] + t100 *
-        C_j[8]);
-    const jg_real t107 = omega_i_world_0 * C_i[4] - omega_i[1] * g_i_world_0;
+    const jg_real t105 = omega_j[0] * t102 - omega_j[2] * t104;
+    const jg_real t106 = omega_j[1] * t104 - omega_j[0] * t101;
+    jac_phi_q_v_A_i[20] = C_j[6] * t103 + C_j[7] * t105 + C_j[8] * t106 - (C_j[6] * t98 + C_j[7] * t99 + C_j[8] *
+        t100);
+    const jg_real t107 = C_i[4] * omega_i_world_0 - omega_i[1] * g_i_world_0;
     const jg_real t108 = A_j[0] * t86 - A_j[2] * t107;
     const jg_real t109 = A_j[3] * t86 - A_j[5] * t107;
     const jg_real t110 = A_j[6] * t86 - A_j[8] * t107;
@@ -453,24 +453,23 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t116 = omega_j[1] * t114 - omega_j[0] * t111;
     jac_phi_q_v_A_i[21] = C_j[6] * t113 + C_j[7] * t115 + C_j[8] * t116 - (C_j[6] * t108 + C_j[7] * t109 + C_j[8] *
         t110);
-    jac_phi_q_v_A_i[22] = t103 * C_j[3] + t105 * C_j[4] + t106 * C_j[5] - (t98 * C_j[3] + t99 * C_j[4] + t100 *
-        C_j[5]);
-    jac_phi_q_v_A_i[23] = t103 * s_j[0] + t105 * s_j[1] + t106 * s_j[2] - (t98 * s_j[0] + t99 * s_j[1] + t100 *
-        s_j[2] + (t75 * r_j[0] - t97 * r_j[2]) - (t75 * r_i[0] - t97 * r_i[2]) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
-    jac_phi_q_v_A_i[24] = t113 * s_j[0] + t115 * s_j[1] + t116 * s_j[2] - (t108 * s_j[0] + t109 * s_j[1] + t110 *
-        s_j[2] + (t86 * r_j[0] - t107 * r_j[2]) - (t86 * r_i[0] - t107 * r_i[2]) + C_i[4] * v_i[1] - C_i[4] *
-        v_j[1]);
-    const jg_real t117 = t76 * A_j[0] + t97 * A_j[1];
-    const jg_real t118 = t76 * A_j[3] + t97 * A_j[4];
-    const jg_real t119 = t76 * A_j[6] + t97 * A_j[7];
+    jac_phi_q_v_A_i[22] = C_j[3] * t103 + C_j[4] * t105 + C_j[5] * t106 - (C_j[3] * t98 + C_j[4] * t99 + C_j[5] *
+        t100);
+    jac_phi_q_v_A_i[23] = s_j[0] * t103 + s_j[1] * t105 + s_j[2] * t106 - (r_j[0] * t75 - r_j[2] * t97 + (s_j[0] *
+        t98 + s_j[1] * t99 + s_j[2] * t100) - (r_i[0] * t75 - r_i[2] * t97) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
+    jac_phi_q_v_A_i[24] = s_j[0] * t113 + s_j[1] * t115 + s_j[2] * t116 - (s_j[0] * t108 + s_j[1] * t109 + s_j[2] *
+        t110 + (r_j[0] * t86 - r_j[2] * t107) - (r_i[0] * t86 - r_i[2] * t107) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
+    const jg_real t117 = A_j[0] * t76 + A_j[1] * t97;
+    const jg_real t118 = A_j[3] * t76 + A_j[4] * t97;
+    const jg_real t119 = A_j[6] * t76 + A_j[7] * t97;
     const jg_real t120 = C_i[1] * A_j[5];
     const jg_real t121 = C_i[1] * A_j[8];
-    const jg_real t122 = t120 * omega_j[2] - t121 * omega_j[1];
+    const jg_real t122 = omega_j[2] * t120 - omega_j[1] * t121;
     const jg_real t123 = C_i[1] * A_j[2];
-    const jg_real t124 = t121 * omega_j[0] - omega_j[2] * t123;
-    const jg_real t125 = omega_j[1] * t123 - t120 * omega_j[0];
-    jac_phi_q_v_A_i[25] = C_j[6] * t122 + C_j[7] * t124 + C_j[8] * t125 - (t117 * C_j[6] + t118 * C_j[7] + t119 *
-        C_j[8]);
+    const jg_real t124 = omega_j[0] * t121 - omega_j[2] * t123;
+    const jg_real t125 = omega_j[1] * t123 - omega_j[0] * t120;
+    jac_phi_q_v_A_i[25] = C_j[6] * t122 + C_j[7] * t124 + C_j[8] * t125 - (C_j[6] * t117 + C_j[7] * t118 + C_j[8] *
+        t119);
     const jg_real t126 = A_j[0] * t87 + A_j[1] * t107;
     const jg_real t127 = A_j[3] * t87 + A_j[4] * t107;
     const jg_real t128 = A_j[6] * t87 + A_j[7] * t107;
@@ -482,28 +481,27 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t134 = omega_j[1] * t132 - omega_j[0] * t129;
     jac_phi_q_v_A_i[26] = C_j[6] * t131 + C_j[7] * t133 + C_j[8] * t134 - (C_j[6] * t126 + C_j[7] * t127 + C_j[8] *
         t128);
-    jac_phi_q_v_A_i[27] = t122 * C_j[3] + t124 * C_j[4] + t125 * C_j[5] - (t117 * C_j[3] + t118 * C_j[4] + t119 *
-        C_j[5]);
-    jac_phi_q_v_A_i[28] = t122 * s_j[0] + t124 * s_j[1] + t125 * s_j[2] - (t117 * s_j[0] + t118 * s_j[1] + t119 *
-        s_j[2] + (t76 * r_j[0] + t97 * r_j[1]) - (t76 * r_i[0] + t97 * r_i[1]) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
-    jac_phi_q_v_A_i[29] = t131 * s_j[0] + t133 * s_j[1] + t134 * s_j[2] - (t126 * s_j[0] + t127 * s_j[1] + t128 *
-        s_j[2] + (t87 * r_j[0] + t107 * r_j[1]) - (t87 * r_i[0] + t107 * r_i[1]) + C_i[4] * v_i[2] - C_i[4] *
-        v_j[2]);
+    jac_phi_q_v_A_i[27] = C_j[3] * t122 + C_j[4] * t124 + C_j[5] * t125 - (C_j[3] * t117 + C_j[4] * t118 + C_j[5] *
+        t119);
+    jac_phi_q_v_A_i[28] = s_j[0] * t122 + s_j[1] * t124 + s_j[2] * t125 - (r_j[0] * t76 + r_j[1] * t97 + (s_j[0] *
+        t117 + s_j[1] * t118 + s_j[2] * t119) - (r_i[0] * t76 + r_i[1] * t97) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
+    jac_phi_q_v_A_i[29] = s_j[0] * t131 + s_j[1] * t133 + s_j[2] * t134 - (r_j[0] * t87 + r_j[1] * t107 + (s_j[0] *
+        t126 + s_j[1] * t127 + s_j[2] * t128) - (r_i[0] * t87 + r_i[1] * t107) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
     const jg_real t135 = C_i[2] * omega_i_world_2 - omega_i[2] * f_i_world_2;
-    const jg_real t136 = f_i_world_1 * omega_i[2] - C_i[2] * omega_i_world_1;
-    const jg_real t137 = t135 * A_j[1] + t136 * A_j[2];
-    const jg_real t138 = t135 * A_j[4] + t136 * A_j[5];
-    const jg_real t139 = t135 * A_j[7] + t136 * A_j[8];
+    const jg_real t136 = omega_i[2] * f_i_world_1 - C_i[2] * omega_i_world_1;
+    const jg_real t137 = A_j[1] * t135 + A_j[2] * t136;
+    const jg_real t138 = A_j[4] * t135 + A_j[5] * t136;
+    const jg_real t139 = A_j[7] * t135 + A_j[8] * t136;
     const jg_real t140 = C_i[2] * A_j[3];
     const jg_real t141 = C_i[2] * A_j[6];
-    const jg_real t142 = t140 * omega_j[2] - t141 * omega_j[1];
+    const jg_real t142 = omega_j[2] * t140 - omega_j[1] * t141;
     const jg_real t143 = C_i[2] * A_j[0];
-    const jg_real t144 = t141 * omega_j[0] - omega_j[2] * t143;
-    const jg_real t145 = omega_j[1] * t143 - t140 * omega_j[0];
-    jac_phi_q_v_A_i[30] = t137 * C_j[6] + t138 * C_j[7] + t139 * C_j[8] + (C_j[6] * t142 + C_j[7] * t144 + C_j[8] *
+    const jg_real t144 = omega_j[0] * t141 - omega_j[2] * t143;
+    const jg_real t145 = omega_j[1] * t143 - omega_j[0] * t140;
+    jac_phi_q_v_A_i[30] = C_j[6] * t137 + C_j[7] * t138 + C_j[8] * t139 + (C_j[6] * t142 + C_j[7] * t144 + C_j[8] *
         t145);
-    const jg_real t146 = omega_i_world_2 * C_i[5] - omega_i[2] * g_i_world_2;
-    const jg_real t147 = omega_i[2] * g_i_world_1 - omega_i_world_1 * C_i[5];
+    const jg_real t146 = C_i[5] * omega_i_world_2 - omega_i[2] * g_i_world_2;
+    const jg_real t147 = omega_i[2] * g_i_world_1 - C_i[5] * omega_i_world_1;
     const jg_real t148 = A_j[1] * t146 + A_j[2] * t147;
     const jg_real t149 = A_j[4] * t146 + A_j[5] * t147;
     const jg_real t150 = A_j[7] * t146 + A_j[8] * t147;
@@ -515,27 +513,27 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t156 = omega_j[1] * t154 - omega_j[0] * t151;
     jac_phi_q_v_A_i[31] = C_j[6] * t148 + C_j[7] * t149 + C_j[8] * t150 + (C_j[6] * t153 + C_j[7] * t155 + C_j[8] *
         t156);
-    jac_phi_q_v_A_i[32] = t137 * C_j[3] + t138 * C_j[4] + t139 * C_j[5] + (t142 * C_j[3] + t144 * C_j[4] + t145 *
-        C_j[5]);
-    jac_phi_q_v_A_i[33] = t142 * s_j[0] + t144 * s_j[1] + t145 * s_j[2] - (t135 * r_i[1] + t136 * r_i[2] - (t137 *
-        s_j[0] + t138 * s_j[1] + t139 * s_j[2] + (t135 * r_j[1] + t136 * r_j[2])) + C_i[2] * v_i[0] - C_i[2] *
+    jac_phi_q_v_A_i[32] = C_j[3] * t137 + C_j[4] * t138 + C_j[5] * t139 + (C_j[3] * t142 + C_j[4] * t144 + C_j[5] *
+        t145);
+    jac_phi_q_v_A_i[33] = s_j[0] * t142 + s_j[1] * t144 + s_j[2] * t145 - (r_i[1] * t135 + r_i[2] * t136 - (r_j[1] *
+        t135 + r_j[2] * t136 + (s_j[0] * t137 + s_j[1] * t138 + s_j[2] * t139)) + C_i[2] * v_i[0] - C_i[2] *
         v_j[0]);
-    jac_phi_q_v_A_i[34] = t153 * s_j[0] + t155 * s_j[1] + t156 * s_j[2] - (t146 * r_i[1] + t147 * r_i[2] - (t148 *
-        s_j[0] + t149 * s_j[1] + t150 * s_j[2] + (t146 * r_j[1] + t147 * r_j[2])) + C_i[5] * v_i[0] - C_i[5] *
+    jac_phi_q_v_A_i[34] = s_j[0] * t153 + s_j[1] * t155 + s_j[2] * t156 - (r_i[1] * t146 + r_i[2] * t147 - (s_j[0] *
+        t148 + s_j[1] * t149 + s_j[2] * t150 + (r_j[1] * t146 + r_j[2] * t147)) + C_i[5] * v_i[0] - C_i[5] *
         v_j[0]);
     const jg_real t157 = C_i[2] * omega_i_world_0 - omega_i[2] * f_i_world_0;
-    const jg_real t158 = t135 * A_j[0] - t157 * A_j[2];
-    const jg_real t159 = t135 * A_j[3] - t157 * A_j[5];
-    const jg_real t160 = t135 * A_j[6] - t157 * A_j[8];
+    const jg_real t158 = A_j[0] * t135 - A_j[2] * t157;
+    const jg_real t159 = A_j[3] * t135 - A_j[5] * t157;
+    const jg_real t160 = A_j[6] * t135 - A_j[8] * t157;
     const jg_real t161 = C_i[2] * A_j[4];
     const jg_real t162 = C_i[2] * A_j[7];
-    const jg_real t163 = t161 * omega_j[2] - t162 * omega_j[1];
+    const jg_real t163 = omega_j[2] * t161 - omega_j[1] * t162;
     const jg_real t164 = C_i[2] * A_j[1];
-    const jg_real t165 = t162 * omega_j[0] - omega_j[2] * t164;
-    const jg_real t166 = omega_j[1] * t164 - t161 * omega_j[0];
-    jac_phi_q_v_A_i[35] = C_j[6] * t163 + C_j[7] * t165 + C_j[8] * t166 - (t158 * C_j[6] + t159 * C_j[7] + t160 *
-        C_j[8]);
-    const jg_real t167 = omega_i_world_0 * C_i[5] - omega_i[2] * g_i_world_0;
+    const jg_real t165 = omega_j[0] * t162 - omega_j[2] * t164;
+    const jg_real t166 = omega_j[1] * t164 - omega_j[0] * t161;
+    jac_phi_q_v_A_i[35] = C_j[6] * t163 + C_j[7] * t165 + C_j[8] * t166 - (C_j[6] * t158 + C_j[7] * t159 + C_j[8] *
+        t160);
+    const jg_real t167 = C_i[5] * omega_i_world_0 - omega_i[2] * g_i_world_0;
     const jg_real t168 = A_j[0] * t146 - A_j[2] * t167;
     const jg_real t169 = A_j[3] * t146 - A_j[5] * t167;
     const jg_real t170 = A_j[6] * t146 - A_j[8] * t167;
@@ -547,25 +545,25 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t176 = omega_j[1] * t174 - omega_j[0] * t171;
     jac_phi_q_v_A_i[36] = C_j[6] * t173 + C_j[7] * t175 + C_j[8] * t176 - (C_j[6] * t168 + C_j[7] * t169 + C_j[8] *
         t170);
-    jac_phi_q_v_A_i[37] = t163 * C_j[3] + t165 * C_j[4] + t166 * C_j[5] - (t158 * C_j[3] + t159 * C_j[4] + t160 *
-        C_j[5]);
-    jac_phi_q_v_A_i[38] = t163 * s_j[0] + t165 * s_j[1] + t166 * s_j[2] - (t158 * s_j[0] + t159 * s_j[1] + t160 *
-        s_j[2] + (t135 * r_j[0] - t157 * r_j[2]) - (t135 * r_i[0] - t157 * r_i[2]) + C_i[2] * v_i[1] - C_i[2] *
+    jac_phi_q_v_A_i[37] = C_j[3] * t163 + C_j[4] * t165 + C_j[5] * t166 - (C_j[3] * t158 + C_j[4] * t159 + C_j[5] *
+        t160);
+    jac_phi_q_v_A_i[38] = s_j[0] * t163 + s_j[1] * t165 + s_j[2] * t166 - (r_j[0] * t135 - r_j[2] * t157 + (s_j[0] *
+        t158 + s_j[1] * t159 + s_j[2] * t160) - (r_i[0] * t135 - r_i[2] * t157) + C_i[2] * v_i[1] - C_i[2] *
         v_j[1]);
-    jac_phi_q_v_A_i[39] = t173 * s_j[0] + t175 * s_j[1] + t176 * s_j[2] - (t168 * s_j[0] + t169 * s_j[1] + t170 *
-        s_j[2] + (t146 * r_j[0] - t167 * r_j[2]) - (t146 * r_i[0] - t167 * r_i[2]) + C_i[5] * v_i[1] - C_i[5] *
+    jac_phi_q_v_A_i[39] = s_j[0] * t173 + s_j[1] * t175 + s_j[2] * t176 - (s_j[0] * t168 + s_j[1] * t169 + s_j[2] *
+        t170 + (r_j[0] * t146 - r_j[2] * t167) - (r_i[0] * t146 - r_i[2] * t167) + C_i[5] * v_i[1] - C_i[5] *
         v_j[1]);
-    const jg_real t177 = t136 * A_j[0] + t157 * A_j[1];
-    const jg_real t178 = t136 * A_j[3] + t157 * A_j[4];
-    const jg_real t179 = t136 * A_j[6] + t157 * A_j[7];
+    const jg_real t177 = A_j[0] * t136 + A_j[1] * t157;
+    const jg_real t178 = A_j[3] * t136 + A_j[4] * t157;
+    const jg_real t179 = A_j[6] * t136 + A_j[7] * t157;
     const jg_real t180 = C_i[2] * A_j[5];
     const jg_real t181 = C_i[2] * A_j[8];
-    const jg_real t182 = t180 * omega_j[2] - t181 * omega_j[1];
+    const jg_real t182 = omega_j[2] * t180 - omega_j[1] * t181;
     const jg_real t183 = C_i[2] * A_j[2];
-    const jg_real t184 = t181 * omega_j[0] - omega_j[2] * t183;
-    const jg_real t185 = omega_j[1] * t183 - t180 * omega_j[0];
-    jac_phi_q_v_A_i[40] = C_j[6] * t182 + C_j[7] * t184 + C_j[8] * t185 - (t177 * C_j[6] + t178 * C_j[7] + t179 *
-        C_j[8]);
+    const jg_real t184 = omega_j[0] * t181 - omega_j[2] * t183;
+    const jg_real t185 = omega_j[1] * t183 - omega_j[0] * t180;
+    jac_phi_q_v_A_i[40] = C_j[6] * t182 + C_j[7] * t184 + C_j[8] * t185 - (C_j[6] * t177 + C_j[7] * t178 + C_j[8] *
+        t179);
     const jg_real t186 = A_j[0] * t147 + A_j[1] * t167;
     const jg_real t187 = A_j[3] * t147 + A_j[4] * t167;
     const jg_real t188 = A_j[6] * t147 + A_j[7] * t167;
@@ -577,13 +575,13 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t194 = omega_j[1] * t192 - omega_j[0] * t189;
     jac_phi_q_v_A_i[41] = C_j[6] * t191 + C_j[7] * t193 + C_j[8] * t194 - (C_j[6] * t186 + C_j[7] * t187 + C_j[8] *
         t188);
-    jac_phi_q_v_A_i[42] = t182 * C_j[3] + t184 * C_j[4] + t185 * C_j[5] - (t177 * C_j[3] + t178 * C_j[4] + t179 *
-        C_j[5]);
-    jac_phi_q_v_A_i[43] = t182 * s_j[0] + t184 * s_j[1] + t185 * s_j[2] - (t177 * s_j[0] + t178 * s_j[1] + t179 *
-        s_j[2] + (t136 * r_j[0] + t157 * r_j[1]) - (t136 * r_i[0] + t157 * r_i[1]) + C_i[2] * v_i[2] - C_i[2] *
+    jac_phi_q_v_A_i[42] = C_j[3] * t182 + C_j[4] * t184 + C_j[5] * t185 - (C_j[3] * t177 + C_j[4] * t178 + C_j[5] *
+        t179);
+    jac_phi_q_v_A_i[43] = s_j[0] * t182 + s_j[1] * t184 + s_j[2] * t185 - (r_j[0] * t136 + r_j[1] * t157 + (s_j[0] *
+        t177 + s_j[1] * t178 + s_j[2] * t179) - (r_i[0] * t136 + r_i[1] * t157) + C_i[2] * v_i[2] - C_i[2] *
         v_j[2]);
-    jac_phi_q_v_A_i[44] = t191 * s_j[0] + t193 * s_j[1] + t194 * s_j[2] - (t186 * s_j[0] + t187 * s_j[1] + t188 *
-        s_j[2] + (t147 * r_j[0] + t167 * r_j[1]) - (t147 * r_i[0] + t167 * r_i[1]) + C_i[5] * v_i[2] - C_i[5] *
+    jac_phi_q_v_A_i[44] = s_j[0] * t191 + s_j[1] * t193 + s_j[2] * t194 - (r_j[0] * t147 + r_j[1] * t167 + (s_j[0] *
+        t186 + s_j[1] * t187 + s_j[2] * t188) - (r_i[0] * t147 + r_i[1] * t167) + C_i[5] * v_i[2] - C_i[5] *
         v_j[2]);
     jac_phi_q_v_r_j[0] = -f_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[1] = -g_i_cross_omega_i_world_0;
@@ -591,149 +589,146 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_r_j[3] = -g_i_cross_omega_i_world_1;
     jac_phi_q_v_r_j[4] = -f_i_cross_omega_i_world_2;
     jac_phi_q_v_r_j[5] = -g_i_cross_omega_i_world_2;
-    const jg_real t195 = f_i_world_0 * omega_j[1];
-    const jg_real t196 = f_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[0] = C_j[8] * t195 - C_j[7] * t196 - f_i_cross_omega_i_world_0 * C_j[6];
+    const jg_real t195 = omega_j[1] * f_i_world_0;
+    const jg_real t196 = omega_j[2] * f_i_world_0;
+    jac_phi_q_v_A_j[0] = C_j[8] * t195 - C_j[7] * t196 - C_j[6] * f_i_cross_omega_i_world_0;
     const jg_real t197 = omega_j[1] * g_i_world_0;
     const jg_real t198 = omega_j[2] * g_i_world_0;
     jac_phi_q_v_A_j[1] = C_j[8] * t197 - C_j[7] * t198 - C_j[6] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[2] = t195 * C_j[5] - t196 * C_j[4] - f_i_cross_omega_i_world_0 * C_j[3];
-    jac_phi_q_v_A_j[3] = t195 * s_j[2] - t196 * s_j[1] - f_i_cross_omega_i_world_0 * s_j[0];
-    jac_phi_q_v_A_j[4] = t197 * s_j[2] - t198 * s_j[1] - g_i_cross_omega_i_world_0 * s_j[0];
-    const jg_real t199 = f_i_world_1 * omega_j[1];
-    const jg_real t200 = f_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[5] = C_j[8] * t199 - C_j[7] * t200 - f_i_cross_omega_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[2] = C_j[5] * t195 - C_j[4] * t196 - C_j[3] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[3] = s_j[2] * t195 - s_j[1] * t196 - s_j[0] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[4] = s_j[2] * t197 - s_j[1] * t198 - s_j[0] * g_i_cross_omega_i_world_0;
+    const jg_real t199 = omega_j[1] * f_i_world_1;
+    const jg_real t200 = omega_j[2] * f_i_world_1;
+    jac_phi_q_v_A_j[5] = C_j[8] * t199 - C_j[7] * t200 - C_j[6] * f_i_cross_omega_i_world_1;
     const jg_real t201 = omega_j[1] * g_i_world_1;
     const jg_real t202 = omega_j[2] * g_i_world_1;
     jac_phi_q_v_A_j[6] = C_j[8] * t201 - C_j[7] * t202 - C_j[6] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[7] = t199 * C_j[5] - t200 * C_j[4] - f_i_cross_omega_i_world_1 * C_j[3];
-    jac_phi_q_v_A_j[8] = t199 * s_j[2] - t200 * s_j[1] - f_i_cross_omega_i_world_1 * s_j[0];
-    jac_phi_q_v_A_j[9] = t201 * s_j[2] - t202 * s_j[1] - g_i_cross_omega_i_world_1 * s_j[0];
-    const jg_real t203 = f_i_world_2 * omega_j[1];
-    const jg_real t204 = f_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[10] = C_j[8] * t203 - C_j[7] * t204 - f_i_cross_omega_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[7] = C_j[5] * t199 - C_j[4] * t200 - C_j[3] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[8] = s_j[2] * t199 - s_j[1] * t200 - s_j[0] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[9] = s_j[2] * t201 - s_j[1] * t202 - s_j[0] * g_i_cross_omega_i_world_1;
+    const jg_real t203 = omega_j[1] * f_i_world_2;
+    const jg_real t204 = omega_j[2] * f_i_world_2;
+    jac_phi_q_v_A_j[10] = C_j[8] * t203 - C_j[7] * t204 - C_j[6] * f_i_cross_omega_i_world_2;
     const jg_real t205 = omega_j[1] * g_i_world_2;
     const jg_real t206 = omega_j[2] * g_i_world_2;
     jac_phi_q_v_A_j[11] = C_j[8] * t205 - C_j[7] * t206 - C_j[6] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[12] = t203 * C_j[5] - t204 * C_j[4] - f_i_cross_omega_i_world_2 * C_j[3];
-    jac_phi_q_v_A_j[13] = t203 * s_j[2] - t204 * s_j[1] - f_i_cross_omega_i_world_2 * s_j[0];
-    jac_phi_q_v_A_j[14] = t205 * s_j[2] - t206 * s_j[1] - g_i_cross_omega_i_world_2 * s_j[0];
-    const jg_real t207 = f_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[15] = C_j[6] * t196 - C_j[8] * t207 - f_i_cross_omega_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[12] = C_j[5] * t203 - C_j[4] * t204 - C_j[3] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[13] = s_j[2] * t203 - s_j[1] * t204 - s_j[0] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[14] = s_j[2] * t205 - s_j[1] * t206 - s_j[0] * g_i_cross_omega_i_world_2;
+    const jg_real t207 = omega_j[0] * f_i_world_0;
+    jac_phi_q_v_A_j[15] = C_j[6] * t196 - C_j[8] * t207 - C_j[7] * f_i_cross_omega_i_world_0;
     const jg_real t208 = omega_j[0] * g_i_world_0;
     jac_phi_q_v_A_j[16] = C_j[6] * t198 - C_j[8] * t208 - C_j[7] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[17] = t196 * C_j[3] - t207 * C_j[5] - f_i_cross_omega_i_world_0 * C_j[4];
-    jac_phi_q_v_A_j[18] = t196 * s_j[0] - t207 * s_j[2] - f_i_cross_omega_i_world_0 * s_j[1];
-    jac_phi_q_v_A_j[19] = t198 * s_j[0] - t208 * s_j[2] - g_i_cross_omega_i_world_0 * s_j[1];
-    const jg_real t209 = f_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[20] = C_j[6] * t200 - C_j[8] * t209 - f_i_cross_omega_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[17] = C_j[3] * t196 - C_j[5] * t207 - C_j[4] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[18] = s_j[0] * t196 - s_j[2] * t207 - s_j[1] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[19] = s_j[0] * t198 - s_j[2] * t208 - s_j[1] * g_i_cross_omega_i_world_0;
+    const jg_real t209 = omega_j[0] * f_i_world_1;
+    jac_phi_q_v_A_j[20] = C_j[6] * t200 - C_j[8] * t209 - C_j[7] * f_i_cross_omega_i_world_1;
     const jg_real t210 = omega_j[0] * g_i_world_1;
     jac_phi_q_v_A_j[21] = C_j[6] * t202 - C_j[8] * t210 - C_j[7] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[22] = t200 * C_j[3] - t209 * C_j[5] - f_i_cross_omega_i_world_1 * C_j[4];
-    jac_phi_q_v_A_j[23] = t200 * s_j[0] - t209 * s_j[2] - f_i_cross_omega_i_world_1 * s_j[1];
-    jac_phi_q_v_A_j[24] = t202 * s_j[0] - t210 * s_j[2] - g_i_cross_omega_i_world_1 * s_j[1];
-    const jg_real t211 = f_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[25] = C_j[6] * t204 - C_j[8] * t211 - f_i_cross_omega_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[22] = C_j[3] * t200 - C_j[5] * t209 - C_j[4] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[23] = s_j[0] * t200 - s_j[2] * t209 - s_j[1] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[24] = s_j[0] * t202 - s_j[2] * t210 - s_j[1] * g_i_cross_omega_i_world_1;
+    const jg_real t211 = omega_j[0] * f_i_world_2;
+    jac_phi_q_v_A_j[25] = C_j[6] * t204 - C_j[8] * t211 - C_j[7] * f_i_cross_omega_i_world_2;
     const jg_real t212 = omega_j[0] * g_i_world_2;
     jac_phi_q_v_A_j[26] = C_j[6] * t206 - C_j[8] * t212 - C_j[7] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[27] = t204 * C_j[3] - t211 * C_j[5] - f_i_cross_omega_i_world_2 * C_j[4];
-    jac_phi_q_v_A_j[28] = t204 * s_j[0] - t211 * s_j[2] - f_i_cross_omega_i_world_2 * s_j[1];
-    jac_phi_q_v_A_j[29] = t206 * s_j[0] - t212 * s_j[2] - g_i_cross_omega_i_world_2 * s_j[1];
-    jac_phi_q_v_A_j[30] = C_j[7] * t207 - C_j[6] * t195 - f_i_cross_omega_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[27] = C_j[3] * t204 - C_j[5] * t211 - C_j[4] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[28] = s_j[0] * t204 - s_j[2] * t211 - s_j[1] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[29] = s_j[0] * t206 - s_j[2] * t212 - s_j[1] * g_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[30] = C_j[7] * t207 - C_j[6] * t195 - C_j[8] * f_i_cross_omega_i_world_0;
     jac_phi_q_v_A_j[31] = C_j[7] * t208 - C_j[6] * t197 - C_j[8] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[32] = t207 * C_j[4] - t195 * C_j[3] - f_i_cross_omega_i_world_0 * C_j[5];
-    jac_phi_q_v_A_j[33] = t207 * s_j[1] - t195 * s_j[0] - f_i_cross_omega_i_world_0 * s_j[2];
-    jac_phi_q_v_A_j[34] = t208 * s_j[1] - t197 * s_j[0] - g_i_cross_omega_i_world_0 * s_j[2];
-    jac_phi_q_v_A_j[35] = C_j[7] * t209 - C_j[6] * t199 - f_i_cross_omega_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[32] = C_j[4] * t207 - C_j[3] * t195 - C_j[5] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[33] = s_j[1] * t207 - s_j[0] * t195 - s_j[2] * f_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[34] = s_j[1] * t208 - s_j[0] * t197 - s_j[2] * g_i_cross_omega_i_world_0;
+    jac_phi_q_v_A_j[35] = C_j[7] * t209 - C_j[6] * t199 - C_j[8] * f_i_cross_omega_i_world_1;
     jac_phi_q_v_A_j[36] = C_j[7] * t210 - C_j[6] * t201 - C_j[8] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[37] = t209 * C_j[4] - t199 * C_j[3] - f_i_cross_omega_i_world_1 * C_j[5];
-    jac_phi_q_v_A_j[38] = t209 * s_j[1] - t199 * s_j[0] - f_i_cross_omega_i_world_1 * s_j[2];
-    jac_phi_q_v_A_j[39] = t210 * s_j[1] - t201 * s_j[0] - g_i_cross_omega_i_world_1 * s_j[2];
-    jac_phi_q_v_A_j[40] = C_j[7] * t211 - C_j[6] * t203 - f_i_cross_omega_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[37] = C_j[4] * t209 - C_j[3] * t199 - C_j[5] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[38] = s_j[1] * t209 - s_j[0] * t199 - s_j[2] * f_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[39] = s_j[1] * t210 - s_j[0] * t201 - s_j[2] * g_i_cross_omega_i_world_1;
+    jac_phi_q_v_A_j[40] = C_j[7] * t211 - C_j[6] * t203 - C_j[8] * f_i_cross_omega_i_world_2;
     jac_phi_q_v_A_j[41] = C_j[7] * t212 - C_j[6] * t205 - C_j[8] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[42] = t211 * C_j[4] - t203 * C_j[3] - f_i_cross_omega_i_world_2 * C_j[5];
-    jac_phi_q_v_A_j[43] = t211 * s_j[1] - t203 * s_j[0] - f_i_cross_omega_i_world_2 * s_j[2];
-    jac_phi_q_v_A_j[44] = t212 * s_j[1] - t205 * s_j[0] - g_i_cross_omega_i_world_2 * s_j[2];
+    jac_phi_q_v_A_j[42] = C_j[4] * t211 - C_j[3] * t203 - C_j[5] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[43] = s_j[1] * t211 - s_j[0] * t203 - s_j[2] * f_i_cross_omega_i_world_2;
+    jac_phi_q_v_A_j[44] = s_j[1] * t212 - s_j[0] * t205 - s_j[2] * g_i_cross_omega_i_world_2;
     const jg_real t213 = A_i[1] * omega_i_world_2 - A_i[2] * omega_i_world_1;
-    const jg_real t214 = A_i[2] * omega_i_world_0 - omega_i_world_2 * A_i[0];
-    const jg_real t215 = omega_i_world_1 * A_i[0] - A_i[1] * omega_i_world_0;
-    const jg_real t216 = t213 * A_j[0] + t214 * A_j[1] + t215 * A_j[2];
-    const jg_real t217 = t213 * A_j[3] + t214 * A_j[4] + t215 * A_j[5];
-    const jg_real t218 = t213 * A_j[6] + t214 * A_j[7] + t215 * A_j[8];
-    const jg_real t219 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t220 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t221 = t219 * omega_j[2] - t220 * omega_j[1];
-    const jg_real t222 = A_j[0] * A_i[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t223 = t220 * omega_j[0] - omega_j[2] * t222;
-    const jg_real t224 = omega_j[1] * t222 - t219 * omega_j[0];
-    const jg_real t225 = C_j[6] * t221 + C_j[7] * t223 + C_j[8] * t224 - (t216 * C_j[6] + t217 * C_j[7] + t218 *
-        C_j[8]);
+    const jg_real t214 = A_i[2] * omega_i_world_0 - A_i[0] * omega_i_world_2;
+    const jg_real t215 = A_i[0] * omega_i_world_1 - A_i[1] * omega_i_world_0;
+    const jg_real t216 = A_j[0] * t213 + A_j[1] * t214 + A_j[2] * t215;
+    const jg_real t217 = A_j[3] * t213 + A_j[4] * t214 + A_j[5] * t215;
+    const jg_real t218 = A_j[6] * t213 + A_j[7] * t214 + A_j[8] * t215;
+    const jg_real t219 = A_i[1] * A_j[4] + A_i[0] * A_j[3] + A_i[2] * A_j[5];
+    const jg_real t220 = A_i[1] * A_j[7] + A_i[0] * A_j[6] + A_i[2] * A_j[8];
+    const jg_real t221 = omega_j[2] * t219 - omega_j[1] * t220;
+    const jg_real t222 = A_i[1] * A_j[1] + A_j[0] * A_i[0] + A_i[2] * A_j[2];
+    const jg_real t223 = omega_j[0] * t220 - omega_j[2] * t222;
+    const jg_real t224 = omega_j[1] * t222 - omega_j[0] * t219;
+    const jg_real t225 = C_j[6] * t221 + C_j[7] * t223 + C_j[8] * t224 - (C_j[6] * t216 + C_j[7] * t217 + C_j[8] *
+        t218);
     jac_phi_q_v_geometry[0] = t225;
     jac_phi_q_v_geometry[9] = t225;
-    jac_phi_q_v_geometry[1] = t221 * C_j[3] + t223 * C_j[4] + t224 * C_j[5] - (t216 * C_j[3] + t217 * C_j[4] + t218
-        * C_j[5]);
-    const jg_real t226 = t221 * s_j[0] + t223 * s_j[1] + t224 * s_j[2] - (t216 * s_j[0] + t217 * s_j[1] + t218 *
-        s_j[2] + (t213 * r_j[0] + t214 * r_j[1] + t215 * r_j[2]) - (t213 * r_i[0] + t214 * r_i[1] + t215 * r_i[2]) +
-        (A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2]) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] *
-        v_j[2]));
+    jac_phi_q_v_geometry[1] = C_j[3] * t221 + C_j[4] * t223 + C_j[5] * t224 - (C_j[3] * t216 + C_j[4] * t217 +
+        C_j[5] * t218);
+    const jg_real t226 = s_j[0] * t221 + s_j[1] * t223 + s_j[2] * t224 - (A_i[1] * v_i[1] + A_i[0] * v_i[0] + A_i[2]
+        * v_i[2] + (r_j[0] * t213 + r_j[1] * t214 + r_j[2] * t215 + (s_j[0] * t216 + s_j[1] * t217 + s_j[2] * t218)
+        - (r_i[0] * t213 + r_i[1] * t214 + r_i[2] * t215)) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
     jac_phi_q_v_geometry[2] = t226;
     jac_phi_q_v_geometry[10] = t226;
     const jg_real t227 = A_i[4] * omega_i_world_2 - A_i[5] * omega_i_world_1;
-    const jg_real t228 = A_i[5] * omega_i_world_0 - omega_i_world_2 * A_i[3];
-    const jg_real t229 = omega_i_world_1 * A_i[3] - A_i[4] * omega_i_world_0;
-    const jg_real t230 = t227 * A_j[0] + t228 * A_j[1] + t229 * A_j[2];
-    const jg_real t231 = t227 * A_j[3] + t228 * A_j[4] + t229 * A_j[5];
-    const jg_real t232 = t227 * A_j[6] + t228 * A_j[7] + t229 * A_j[8];
-    const jg_real t233 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real t234 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t235 = t233 * omega_j[2] - t234 * omega_j[1];
-    const jg_real t236 = A_j[0] * A_i[3] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t237 = t234 * omega_j[0] - omega_j[2] * t236;
-    const jg_real t238 = omega_j[1] * t236 - t233 * omega_j[0];
-    const jg_real t239 = C_j[6] * t235 + C_j[7] * t237 + C_j[8] * t238 - (t230 * C_j[6] + t231 * C_j[7] + t232 *
-        C_j[8]);
+    const jg_real t228 = A_i[5] * omega_i_world_0 - A_i[3] * omega_i_world_2;
+    const jg_real t229 = A_i[3] * omega_i_world_1 - A_i[4] * omega_i_world_0;
+    const jg_real t230 = A_j[0] * t227 + A_j[1] * t228 + A_j[2] * t229;
+    const jg_real t231 = A_j[3] * t227 + A_j[4] * t228 + A_j[5] * t229;
+    const jg_real t232 = A_j[6] * t227 + A_j[7] * t228 + A_j[8] * t229;
+    const jg_real t233 = A_i[4] * A_j[4] + A_i[3] * A_j[3] + A_i[5] * A_j[5];
+    const jg_real t234 = A_i[4] * A_j[7] + A_i[3] * A_j[6] + A_i[5] * A_j[8];
+    const jg_real t235 = omega_j[2] * t233 - omega_j[1] * t234;
+    const jg_real t236 = A_i[4] * A_j[1] + A_j[0] * A_i[3] + A_i[5] * A_j[2];
+    const jg_real t237 = omega_j[0] * t234 - omega_j[2] * t236;
+    const jg_real t238 = omega_j[1] * t236 - omega_j[0] * t233;
+    const jg_real t239 = C_j[6] * t235 + C_j[7] * t237 + C_j[8] * t238 - (C_j[6] * t230 + C_j[7] * t231 + C_j[8] *
+        t232);
     jac_phi_q_v_geometry[3] = t239;
     jac_phi_q_v_geometry[11] = t239;
-    jac_phi_q_v_geometry[4] = t235 * C_j[3] + t237 * C_j[4] + t238 * C_j[5] - (t230 * C_j[3] + t231 * C_j[4] + t232
-        * C_j[5]);
-    const jg_real t240 = t235 * s_j[0] + t237 * s_j[1] + t238 * s_j[2] - (t230 * s_j[0] + t231 * s_j[1] + t232 *
-        s_j[2] + (t227 * r_j[0] + t228 * r_j[1] + t229 * r_j[2]) - (t227 * r_i[0] + t228 * r_i[1] + t229 * r_i[2]) +
-        (A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2]) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] *
-        v_j[2]));
+    jac_phi_q_v_geometry[4] = C_j[3] * t235 + C_j[4] * t237 + C_j[5] * t238 - (C_j[3] * t230 + C_j[4] * t231 +
+        C_j[5] * t232);
+    const jg_real t240 = s_j[0] * t235 + s_j[1] * t237 + s_j[2] * t238 - (A_i[4] * v_i[1] + A_i[3] * v_i[0] + A_i[5]
+        * v_i[2] + (r_j[0] * t227 + r_j[1] * t228 + r_j[2] * t229 + (s_j[0] * t230 + s_j[1] * t231 + s_j[2] * t232)
+        - (r_i[0] * t227 + r_i[1] * t228 + r_i[2] * t229)) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
     jac_phi_q_v_geometry[5] = t240;
     jac_phi_q_v_geometry[12] = t240;
     const jg_real t241 = A_i[7] * omega_i_world_2 - A_i[8] * omega_i_world_1;
-    const jg_real t242 = A_i[8] * omega_i_world_0 - omega_i_world_2 * A_i[6];
-    const jg_real t243 = omega_i_world_1 * A_i[6] - A_i[7] * omega_i_world_0;
-    const jg_real t244 = t241 * A_j[0] + t242 * A_j[1] + t243 * A_j[2];
-    const jg_real t245 = t241 * A_j[3] + t242 * A_j[4] + t243 * A_j[5];
-    const jg_real t246 = t241 * A_j[6] + t242 * A_j[7] + t243 * A_j[8];
-    const jg_real t247 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t248 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t249 = t247 * omega_j[2] - t248 * omega_j[1];
-    const jg_real t250 = A_j[0] * A_i[6] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t251 = t248 * omega_j[0] - omega_j[2] * t250;
-    const jg_real t252 = omega_j[1] * t250 - t247 * omega_j[0];
-    const jg_real t253 = C_j[6] * t249 + C_j[7] * t251 + C_j[8] * t252 - (t244 * C_j[6] + t245 * C_j[7] + t246 *
-        C_j[8]);
+    const jg_real t242 = A_i[8] * omega_i_world_0 - A_i[6] * omega_i_world_2;
+    const jg_real t243 = A_i[6] * omega_i_world_1 - A_i[7] * omega_i_world_0;
+    const jg_real t244 = A_j[0] * t241 + A_j[1] * t242 + A_j[2] * t243;
+    const jg_real t245 = A_j[3] * t241 + A_j[4] * t242 + A_j[5] * t243;
+    const jg_real t246 = A_j[6] * t241 + A_j[7] * t242 + A_j[8] * t243;
+    const jg_real t247 = A_i[7] * A_j[4] + A_i[6] * A_j[3] + A_i[8] * A_j[5];
+    const jg_real t248 = A_i[7] * A_j[7] + A_i[6] * A_j[6] + A_i[8] * A_j[8];
+    const jg_real t249 = omega_j[2] * t247 - omega_j[1] * t248;
+    const jg_real t250 = A_i[7] * A_j[1] + A_j[0] * A_i[6] + A_i[8] * A_j[2];
+    const jg_real t251 = omega_j[0] * t248 - omega_j[2] * t250;
+    const jg_real t252 = omega_j[1] * t250 - omega_j[0] * t247;
+    const jg_real t253 = C_j[6] * t249 + C_j[7] * t251 + C_j[8] * t252 - (C_j[6] * t244 + C_j[7] * t245 + C_j[8] *
+        t246);
     jac_phi_q_v_geometry[6] = t253;
     jac_phi_q_v_geometry[13] = t253;
-    jac_phi_q_v_geometry[7] = t249 * C_j[3] + t251 * C_j[4] + t252 * C_j[5] - (t244 * C_j[3] + t245 * C_j[4] + t246
-        * C_j[5]);
-    const jg_real t254 = t249 * s_j[0] + t251 * s_j[1] + t252 * s_j[2] - (t244 * s_j[0] + t245 * s_j[1] + t246 *
-        s_j[2] + (t241 * r_j[0] + t242 * r_j[1] + t243 * r_j[2]) - (t241 * r_i[0] + t242 * r_i[1] + t243 * r_i[2]) +
-        (A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2]) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] *
-        v_j[2]));
+    jac_phi_q_v_geometry[7] = C_j[3] * t249 + C_j[4] * t251 + C_j[5] * t252 - (C_j[3] * t244 + C_j[4] * t245 +
+        C_j[5] * t246);
+    const jg_real t254 = s_j[0] * t249 + s_j[1] * t251 + s_j[2] * t252 - (A_i[7] * v_i[1] + A_i[6] * v_i[0] + A_i[8]
+        * v_i[2] + (r_j[0] * t241 + r_j[1] * t242 + r_j[2] * t243 + (s_j[0] * t244 + s_j[1] * t245 + s_j[2] * t246)
+        - (r_i[0] * t241 + r_i[1] * t242 + r_i[2] * t243)) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
     jac_phi_q_v_geometry[8] = t254;
     jac_phi_q_v_geometry[14] = t254;
     /* f_i_cross_omega_i_in_j = f_i x omega_i, axes of body j */
-    const jg_real f_i_cross_omega_i_in_j_0 = f_i_cross_omega_i_world_0 * A_j[0] + f_i_cross_omega_i_world_1 * A_j[1]
-        + f_i_cross_omega_i_world_2 * A_j[2];
+    const jg_real f_i_cross_omega_i_in_j_0 = A_j[0] * f_i_cross_omega_i_world_0 + A_j[1] * f_i_cross_omega_i_world_1
+        + A_j[2] * f_i_cross_omega_i_world_2;
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
-    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real f_i_in_j_1 = A_j[4] * f_i_world_1 + A_j[3] * f_i_world_0 + A_j[5] * f_i_world_2;
+    const jg_real f_i_in_j_2 = A_j[7] * f_i_world_1 + A_j[6] * f_i_world_0 + A_j[8] * f_i_world_2;
     /* f_i_cross_omega_j_in_j = f_i x omega_j, axes of body j */
-    const jg_real f_i_cross_omega_j_in_j_0 = f_i_in_j_1 * omega_j[2] - f_i_in_j_2 * omega_j[1];
+    const jg_real f_i_cross_omega_j_in_j_0 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2;
     const jg_real t259 = f_i_cross_omega_j_in_j_0 - f_i_cross_omega_i_in_j_0;
     jac_phi_q_v_geometry[15] = t259;
     jac_phi_q_v_geometry[21] = t259;
@@ -742,31 +737,31 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real g_i_cross_omega_i_in_j_0 = A_j[0] * g_i_cross_omega_i_world_0 + A_j[1] * g_i_cross_omega_i_world_1
         + A_j[2] * g_i_cross_omega_i_world_2;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
-    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
+    const jg_real g_i_in_j_1 = A_j[4] * g_i_world_1 + A_j[3] * g_i_world_0 + A_j[5] * g_i_world_2;
+    const jg_real g_i_in_j_2 = A_j[7] * g_i_world_1 + A_j[6] * g_i_world_0 + A_j[8] * g_i_world_2;
     /* g_i_cross_omega_j_in_j = g_i x omega_j, axes of body j */
     const jg_real g_i_cross_omega_j_in_j_0 = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2;
     const jg_real t264 = g_i_cross_omega_j_in_j_0 - g_i_cross_omega_i_in_j_0;
     jac_phi_q_v_geometry[16] = t264;
     jac_phi_q_v_geometry[25] = t264;
-    const jg_real f_i_cross_omega_i_in_j_1 = f_i_cross_omega_i_world_0 * A_j[3] + f_i_cross_omega_i_world_1 * A_j[4]
-        + f_i_cross_omega_i_world_2 * A_j[5];
-    const jg_real f_i_in_j_0 = A_j[0] * f_i_world_0 + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    const jg_real f_i_cross_omega_j_in_j_1 = f_i_in_j_2 * omega_j[0] - omega_j[2] * f_i_in_j_0;
+    const jg_real f_i_cross_omega_i_in_j_1 = A_j[3] * f_i_cross_omega_i_world_0 + A_j[4] * f_i_cross_omega_i_world_1
+        + A_j[5] * f_i_cross_omega_i_world_2;
+    const jg_real f_i_in_j_0 = A_j[1] * f_i_world_1 + A_j[0] * f_i_world_0 + A_j[2] * f_i_world_2;
+    const jg_real f_i_cross_omega_j_in_j_1 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0;
     const jg_real t268 = f_i_cross_omega_j_in_j_1 - f_i_cross_omega_i_in_j_1;
     jac_phi_q_v_geometry[17] = t268;
     jac_phi_q_v_geometry[22] = t268;
     jac_phi_q_v_geometry[26] = t268;
     const jg_real g_i_cross_omega_i_in_j_1 = A_j[3] * g_i_cross_omega_i_world_0 + A_j[4] * g_i_cross_omega_i_world_1
         + A_j[5] * g_i_cross_omega_i_world_2;
-    const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    const jg_real g_i_in_j_0 = A_j[1] * g_i_world_1 + A_j[0] * g_i_world_0 + A_j[2] * g_i_world_2;
     const jg_real g_i_cross_omega_j_in_j_1 = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0;
     const jg_real t272 = g_i_cross_omega_j_in_j_1 - g_i_cross_omega_i_in_j_1;
     jac_phi_q_v_geometry[18] = t272;
     jac_phi_q_v_geometry[27] = t272;
-    const jg_real f_i_cross_omega_i_in_j_2 = f_i_cross_omega_i_world_0 * A_j[6] + f_i_cross_omega_i_world_1 * A_j[7]
-        + f_i_cross_omega_i_world_2 * A_j[8];
-    const jg_real f_i_cross_omega_j_in_j_2 = omega_j[1] * f_i_in_j_0 - f_i_in_j_1 * omega_j[0];
+    const jg_real f_i_cross_omega_i_in_j_2 = A_j[6] * f_i_cross_omega_i_world_0 + A_j[7] * f_i_cross_omega_i_world_1
+        + A_j[8] * f_i_cross_omega_i_world_2;
+    const jg_real f_i_cross_omega_j_in_j_2 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1;
     const jg_real t275 = f_i_cross_omega_j_in_j_2 - f_i_cross_omega_i_in_j_2;
     jac_phi_q_v_geometry[19] = t275;
     jac_phi_q_v_geometry[23] = t275;
@@ -783,13 +778,13 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_velocity[3] = -g_i_world_1;
     jac_phi_q_v_velocity[4] = -f_i_world_2;
     jac_phi_q_v_velocity[5] = -g_i_world_2;
-    const jg_real t279 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
-    const jg_real t280 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
-    const jg_real t281 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
-    const jg_real t282 = t279 * A_j[0] + t280 * A_j[1] + t281 * A_j[2];
-    const jg_real t283 = t279 * A_j[3] + t280 * A_j[4] + t281 * A_j[5];
-    const jg_real t284 = t279 * A_j[6] + t280 * A_j[7] + t281 * A_j[8];
-    jac_phi_q_v_velocity[6] = -(t282 * C_j[6] + t283 * C_j[7] + t284 * C_j[8]);
+    const jg_real t279 = A_i[2] * f_i_world_1 - A_i[1] * f_i_world_2;
+    const jg_real t280 = A_i[0] * f_i_world_2 - A_i[2] * f_i_world_0;
+    const jg_real t281 = A_i[1] * f_i_world_0 - A_i[0] * f_i_world_1;
+    const jg_real t282 = A_j[0] * t279 + A_j[1] * t280 + A_j[2] * t281;
+    const jg_real t283 = A_j[3] * t279 + A_j[4] * t280 + A_j[5] * t281;
+    const jg_real t284 = A_j[6] * t279 + A_j[7] * t280 + A_j[8] * t281;
+    jac_phi_q_v_velocity[6] = -(C_j[6] * t282 + C_j[7] * t283 + C_j[8] * t284);
     const jg_real t285 = A_i[2] * g_i_world_1 - A_i[1] * g_i_world_2;
     const jg_real t286 = A_i[0] * g_i_world_2 - A_i[2] * g_i_world_0;
     const jg_real t287 = A_i[1] * g_i_world_0 - A_i[0] * g_i_world_1;
@@ -797,18 +792,18 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t289 = A_j[3] * t285 + A_j[4] * t286 + A_j[5] * t287;
     const jg_real t290 = A_j[6] * t285 + A_j[7] * t286 + A_j[8] * t287;
     jac_phi_q_v_velocity[7] = -(C_j[6] * t288 + C_j[7] * t289 + C_j[8] * t290);
-    jac_phi_q_v_velocity[8] = -(t282 * C_j[3] + t283 * C_j[4] + t284 * C_j[5]);
-    jac_phi_q_v_velocity[9] = t279 * r_i[0] + t280 * r_i[1] + t281 * r_i[2] - (t282 * s_j[0] + t283 * s_j[1] + t284
-        * s_j[2] + (t279 * r_j[0] + t280 * r_j[1] + t281 * r_j[2]));
-    jac_phi_q_v_velocity[10] = t285 * r_i[0] + t286 * r_i[1] + t287 * r_i[2] - (t288 * s_j[0] + t289 * s_j[1] + t290
-        * s_j[2] + (t285 * r_j[0] + t286 * r_j[1] + t287 * r_j[2]));
-    const jg_real t291 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
-    const jg_real t292 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
-    const jg_real t293 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
-    const jg_real t294 = t291 * A_j[0] + t292 * A_j[1] + t293 * A_j[2];
-    const jg_real t295 = t291 * A_j[3] + t292 * A_j[4] + t293 * A_j[5];
-    const jg_real t296 = t291 * A_j[6] + t292 * A_j[7] + t293 * A_j[8];
-    jac_phi_q_v_velocity[11] = -(t294 * C_j[6] + t295 * C_j[7] + t296 * C_j[8]);
+    jac_phi_q_v_velocity[8] = -(C_j[3] * t282 + C_j[4] * t283 + C_j[5] * t284);
+    jac_phi_q_v_velocity[9] = r_i[0] * t279 + r_i[1] * t280 + r_i[2] * t281 - (r_j[0] * t279 + r_j[1] * t280 +
+        r_j[2] * t281 + (s_j[0] * t282 + s_j[1] * t283 + s_j[2] * t284));
+    jac_phi_q_v_velocity[10] = r_i[0] * t285 + r_i[1] * t286 + r_i[2] * t287 - (s_j[0] * t288 + s_j[1] * t289 +
+        s_j[2] * t290 + (r_j[0] * t285 + r_j[1] * t286 + r_j[2] * t287));
+    const jg_real t291 = A_i[5] * f_i_world_1 - A_i[4] * f_i_world_2;
+    const jg_real t292 = A_i[3] * f_i_world_2 - A_i[5] * f_i_world_0;
+    const jg_real t293 = A_i[4] * f_i_world_0 - A_i[3] * f_i_world_1;
+    const jg_real t294 = A_j[0] * t291 + A_j[1] * t292 + A_j[2] * t293;
+    const jg_real t295 = A_j[3] * t291 + A_j[4] * t292 + A_j[5] * t293;
+    const jg_real t296 = A_j[6] * t291 + A_j[7] * t292 + A_j[8] * t293;
+    jac_phi_q_v_velocity[11] = -(C_j[6] * t294 + C_j[7] * t295 + C_j[8] * t296);
     const jg_real t297 = A_i[5] * g_i_world_1 - A_i[4] * g_i_world_2;
     const jg_real t298 = A_i[3] * g_i_world_2 - A_i[5] * g_i_world_0;
     const jg_real t299 = A_i[4] * g_i_world_0 - A_i[3] * g_i_world_1;
@@ -816,18 +811,18 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t301 = A_j[3] * t297 + A_j[4] * t298 + A_j[5] * t299;
     const jg_real t302 = A_j[6] * t297 + A_j[7] * t298 + A_j[8] * t299;
     jac_phi_q_v_velocity[12] = -(C_j[6] * t300 + C_j[7] * t301 + C_j[8] * t302);
-    jac_phi_q_v_velocity[13] = -(t294 * C_j[3] + t295 * C_j[4] + t296 * C_j[5]);
-    jac_phi_q_v_velocity[14] = t291 * r_i[0] + t292 * r_i[1] + t293 * r_i[2] - (t294 * s_j[0] + t295 * s_j[1] + t296
-        * s_j[2] + (t291 * r_j[0] + t292 * r_j[1] + t293 * r_j[2]));
-    jac_phi_q_v_velocity[15] = t297 * r_i[0] + t298 * r_i[1] + t299 * r_i[2] - (t300 * s_j[0] + t301 * s_j[1] + t302
-        * s_j[2] + (t297 * r_j[0] + t298 * r_j[1] + t299 * r_j[2]));
-    const jg_real t303 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
-    const jg_real t304 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
-    const jg_real t305 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
-    const jg_real t306 = t303 * A_j[0] + t304 * A_j[1] + t305 * A_j[2];
-    const jg_real t307 = t303 * A_j[3] + t304 * A_j[4] + t305 * A_j[5];
-    const jg_real t308 = t303 * A_j[6] + t304 * A_j[7] + t305 * A_j[8];
-    jac_phi_q_v_velocity[16] = -(t306 * C_j[6] + t307 * C_j[7] + t308 * C_j[8]);
+    jac_phi_q_v_velocity[13] = -(C_j[3] * t294 + C_j[4] * t295 + C_j[5] * t296);
+    jac_phi_q_v_velocity[14] = r_i[0] * t291 + r_i[1] * t292 + r_i[2] * t293 - (r_j[0] * t291 + r_j[1] * t292 +
+        r_j[2] * t293 + (s_j[0] * t294 + s_j[1] * t295 + s_j[2] * t296));
+    jac_phi_q_v_velocity[15] = r_i[0] * t297 + r_i[1] * t298 + r_i[2] * t299 - (s_j[0] * t300 + s_j[1] * t301 +
+        s_j[2] * t302 + (r_j[0] * t297 + r_j[1] * t298 + r_j[2] * t299));
+    const jg_real t303 = A_i[8] * f_i_world_1 - A_i[7] * f_i_world_2;
+    const jg_real t304 = A_i[6] * f_i_world_2 - A_i[8] * f_i_world_0;
+    const jg_real t305 = A_i[7] * f_i_world_0 - A_i[6] * f_i_world_1;
+    const jg_real t306 = A_j[0] * t303 + A_j[1] * t304 + A_j[2] * t305;
+    const jg_real t307 = A_j[3] * t303 + A_j[4] * t304 + A_j[5] * t305;
+    const jg_real t308 = A_j[6] * t303 + A_j[7] * t304 + A_j[8] * t305;
+    jac_phi_q_v_velocity[16] = -(C_j[6] * t306 + C_j[7] * t307 + C_j[8] * t308);
     const jg_real t309 = A_i[8] * g_i_world_1 - A_i[7] * g_i_world_2;
     const jg_real t310 = A_i[6] * g_i_world_2 - A_i[8] * g_i_world_0;
     const jg_real t311 = A_i[7] * g_i_world_0 - A_i[6] * g_i_world_1;
@@ -835,26 +830,26 @@ static void jg_translational_conventional_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t313 = A_j[3] * t309 + A_j[4] * t310 + A_j[5] * t311;
     const jg_real t314 = A_j[6] * t309 + A_j[7] * t310 + A_j[8] * t311;
     jac_phi_q_v_velocity[17] = -(C_j[6] * t312 + C_j[7] * t313 + C_j[8] * t314);
-    jac_phi_q_v_velocity[18] = -(t306 * C_j[3] + t307 * C_j[4] + t308 * C_j[5]);
-    jac_phi_q_v_velocity[19] = t303 * r_i[0] + t304 * r_i[1] + t305 * r_i[2] - (t306 * s_j[0] + t307 * s_j[1] + t308
-        * s_j[2] + (t303 * r_j[0] + t304 * r_j[1] + t305 * r_j[2]));
-    jac_phi_q_v_velocity[20] = t309 * r_i[0] + t310 * r_i[1] + t311 * r_i[2] - (t312 * s_j[0] + t313 * s_j[1] + t314
-        * s_j[2] + (t309 * r_j[0] + t310 * r_j[1] + t311 * r_j[2]));
+    jac_phi_q_v_velocity[18] = -(C_j[3] * t306 + C_j[4] * t307 + C_j[5] * t308);
+    jac_phi_q_v_velocity[19] = r_i[0] * t303 + r_i[1] * t304 + r_i[2] * t305 - (r_j[0] * t303 + r_j[1] * t304 +
+        r_j[2] * t305 + (s_j[0] * t306 + s_j[1] * t307 + s_j[2] * t308));
+    jac_phi_q_v_velocity[20] = r_i[0] * t309 + r_i[1] * t310 + r_i[2] * t311 - (s_j[0] * t312 + s_j[1] * t313 +
+        s_j[2] * t314 + (r_j[0] * t309 + r_j[1] * t310 + r_j[2] * t311));
     jac_phi_q_v_velocity[27] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
     jac_phi_q_v_velocity[28] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    jac_phi_q_v_velocity[29] = f_i_in_j_2 * C_j[4] - f_i_in_j_1 * C_j[5];
-    jac_phi_q_v_velocity[30] = f_i_in_j_2 * s_j[1] - f_i_in_j_1 * s_j[2];
-    jac_phi_q_v_velocity[31] = g_i_in_j_2 * s_j[1] - g_i_in_j_1 * s_j[2];
+    jac_phi_q_v_velocity[29] = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
+    jac_phi_q_v_velocity[30] = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
+    jac_phi_q_v_velocity[31] = s_j[1] * g_i_in_j_2 - s_j[2] * g_i_in_j_1;
     jac_phi_q_v_velocity[32] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_v_velocity[33] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    jac_phi_q_v_velocity[34] = f_i_in_j_0 * C_j[5] - f_i_in_j_2 * C_j[3];
-    jac_phi_q_v_velocity[35] = f_i_in_j_0 * s_j[2] - f_i_in_j_2 * s_j[0];
-    jac_phi_q_v_velocity[36] = g_i_in_j_0 * s_j[2] - g_i_in_j_2 * s_j[0];
+    jac_phi_q_v_velocity[34] = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
+    jac_phi_q_v_velocity[35] = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
+    jac_phi_q_v_velocity[36] = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
     jac_phi_q_v_velocity[37] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     jac_phi_q_v_velocity[38] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    jac_phi_q_v_velocity[39] = f_i_in_j_1 * C_j[3] - f_i_in_j_0 * C_j[4];
-    jac_phi_q_v_velocity[40] = f_i_in_j_1 * s_j[0] - f_i_in_j_0 * s_j[1];
-    jac_phi_q_v_velocity[41] = g_i_in_j_1 * s_j[0] - g_i_in_j_0 * s_j[1];
+    jac_phi_q_v_velocity[39] = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
+    jac_phi_q_v_velocity[40] = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
+    jac_phi_q_v_velocity[41] = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
 }
 
 static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -880,36 +875,36 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
     jac_phi_q_t_lambda_lambda[37] = g_i_world_1;
     const jg_real v_0_world_1 = lambda[3] * f_i_world_1 + lambda[4] * g_i_world_1;
-    const jg_real t6 = A_i[1] * v_0_world_2 - v_0_world_1 * A_i[2];
+    const jg_real t6 = A_i[1] * v_0_world_2 - A_i[2] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[0] = t6;
     jac_phi_q_t_lambda_r_i[0] = -t6;
-    const jg_real t7 = A_i[4] * v_0_world_2 - v_0_world_1 * A_i[5];
+    const jg_real t7 = A_i[4] * v_0_world_2 - A_i[5] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[1] = t7;
     jac_phi_q_t_lambda_r_i[1] = -t7;
-    const jg_real t8 = A_i[7] * v_0_world_2 - v_0_world_1 * A_i[8];
+    const jg_real t8 = A_i[7] * v_0_world_2 - A_i[8] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[2] = t8;
     jac_phi_q_t_lambda_r_i[2] = -t8;
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     jac_phi_q_t_lambda_lambda[24] = f_i_world_0;
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_q_t_lambda_lambda[36] = g_i_world_0;
-    const jg_real v_0_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
-    const jg_real t12 = v_0_world_0 * A_i[2] - A_i[0] * v_0_world_2;
+    const jg_real v_0_world_0 = lambda[3] * f_i_world_0 + lambda[4] * g_i_world_0;
+    const jg_real t12 = A_i[2] * v_0_world_0 - A_i[0] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[3] = t12;
     jac_phi_q_t_lambda_r_i[3] = -t12;
-    const jg_real t13 = v_0_world_0 * A_i[5] - A_i[3] * v_0_world_2;
+    const jg_real t13 = A_i[5] * v_0_world_0 - A_i[3] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[4] = t13;
     jac_phi_q_t_lambda_r_i[4] = -t13;
-    const jg_real t14 = v_0_world_0 * A_i[8] - A_i[6] * v_0_world_2;
+    const jg_real t14 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[5] = t14;
     jac_phi_q_t_lambda_r_i[5] = -t14;
-    const jg_real t15 = A_i[0] * v_0_world_1 - v_0_world_0 * A_i[1];
+    const jg_real t15 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[6] = t15;
     jac_phi_q_t_lambda_r_i[6] = -t15;
-    const jg_real t16 = A_i[3] * v_0_world_1 - v_0_world_0 * A_i[4];
+    const jg_real t16 = A_i[3] * v_0_world_1 - A_i[4] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[7] = t16;
     jac_phi_q_t_lambda_r_i[7] = -t16;
-    const jg_real t17 = A_i[6] * v_0_world_1 - v_0_world_0 * A_i[7];
+    const jg_real t17 = A_i[6] * v_0_world_1 - A_i[7] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[8] = t17;
     jac_phi_q_t_lambda_r_i[8] = -t17;
     const jg_real t18 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
@@ -925,8 +920,8 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real v_3_in_j_1 = lambda[4] * s_j[1] + lambda[1] * C_j[7];
     const jg_real v_3_in_j_2 = lambda[4] * s_j[2] + lambda[1] * C_j[8];
     /* v_3_world = lambda_4 s_j + lambda_1 h_j, world axes */
-    const jg_real v_3_world_2 = v_3_in_j_0 * A_j[2] + v_3_in_j_1 * A_j[5] + v_3_in_j_2 * A_j[8];
-    const jg_real v_3_world_1 = v_3_in_j_0 * A_j[1] + v_3_in_j_1 * A_j[4] + v_3_in_j_2 * A_j[7];
+    const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
+    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
     /* v_4_world = lambda_1 g_i x h_j - lambda_4 s_j x g_i, world axes */
     const jg_real v_4_world_0 = g_i_world_1 * v_3_world_2 - g_i_world_2 * v_3_world_1;
     /* v_1_in_j = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, axes of body j */
@@ -944,13 +939,13 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real v_6_world_1 = r_j[1] - r_i[1];
     const jg_real v_6_world_2 = r_j[2] - r_i[2];
     /* v_7_world = lambda_3 r_j x f_i + lambda_4 r_j x g_i - lambda_3 r_i x f_i - lambda_4 r_i x g_i, world axes */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
+    const jg_real v_7_world_0 = v_6_world_1 * v_0_world_2 - v_6_world_2 * v_0_world_1;
     /* v_8_world = lambda_1 g_i x h_j - lambda_3 r_j x f_i - lambda_4 r_j x g_i - lambda_3 s_j x f_i - ... */
     const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
     const jg_real t37 = C_i[3] * v_3_world_2 + C_i[0] * v_1_world_2;
-    const jg_real t38 = t37 + t18 * v_6_world_2;
+    const jg_real t38 = v_6_world_2 * t18 + t37;
     const jg_real t39 = C_i[3] * v_3_world_1 + C_i[0] * v_1_world_1;
-    const jg_real t40 = t39 + t18 * v_6_world_1;
+    const jg_real t40 = v_6_world_1 * t18 + t39;
     jac_phi_q_t_lambda_A_i[1] = v_8_world_0 - A_i[1] * t38 + A_i[2] * t40;
     jac_phi_q_t_lambda_A_i[2] = A_i[5] * t40 - A_i[4] * t38;
     jac_phi_q_t_lambda_A_i[3] = A_i[8] * t40 - A_i[7] * t38;
@@ -959,31 +954,31 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_i[7] = A_j[7] * t37 - A_j[8] * t39;
     const jg_real v_3_world_0 = v_3_in_j_0 * A_j[0] + v_3_in_j_1 * A_j[3] + v_3_in_j_2 * A_j[6];
     const jg_real v_4_world_1 = g_i_world_2 * v_3_world_0 - g_i_world_0 * v_3_world_2;
-    const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
+    const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + A_j[6] * v_1_in_j_2;
     const jg_real v_2_world_1 = f_i_world_0 * v_1_world_2 - f_i_world_2 * v_1_world_0;
     const jg_real v_5_world_1 = v_4_world_1 - v_2_world_1;
     const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
+    const jg_real v_7_world_1 = v_6_world_2 * v_0_world_0 - v_6_world_0 * v_0_world_2;
     const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
     const jg_real t49 = C_i[3] * v_3_world_0 + C_i[0] * v_1_world_0;
-    const jg_real t50 = t49 + t18 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[9] = A_i[0] * t38 + v_8_world_1 - A_i[2] * t50;
+    const jg_real t50 = t18 * v_6_world_0 + t49;
+    jac_phi_q_t_lambda_A_i[9] = v_8_world_1 + A_i[0] * t38 - A_i[2] * t50;
     jac_phi_q_t_lambda_A_i[10] = A_i[3] * t38 - A_i[5] * t50;
     jac_phi_q_t_lambda_A_i[11] = A_i[6] * t38 - A_i[8] * t50;
-    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t49 - t37 * A_j[0];
-    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t49 - t37 * A_j[3];
-    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t49 - t37 * A_j[6];
+    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t49 - A_j[0] * t37;
+    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t49 - A_j[3] * t37;
+    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t49 - A_j[6] * t37;
     const jg_real v_4_world_2 = g_i_world_0 * v_3_world_1 - g_i_world_1 * v_3_world_0;
     const jg_real v_2_world_2 = f_i_world_1 * v_1_world_0 - f_i_world_0 * v_1_world_1;
     const jg_real v_5_world_2 = v_4_world_2 - v_2_world_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
+    const jg_real v_7_world_2 = v_6_world_0 * v_0_world_1 - v_6_world_1 * v_0_world_0;
     const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
     jac_phi_q_t_lambda_A_i[17] = A_i[1] * t50 - A_i[0] * t40 + v_8_world_2;
     jac_phi_q_t_lambda_A_i[18] = A_i[4] * t50 - A_i[3] * t40;
     jac_phi_q_t_lambda_A_i[19] = A_i[7] * t50 - A_i[6] * t40;
-    jac_phi_q_t_lambda_A_i[21] = t39 * A_j[0] - A_j[1] * t49;
-    jac_phi_q_t_lambda_A_i[22] = t39 * A_j[3] - A_j[4] * t49;
-    jac_phi_q_t_lambda_A_i[23] = t39 * A_j[6] - A_j[7] * t49;
+    jac_phi_q_t_lambda_A_i[21] = A_j[0] * t39 - A_j[1] * t49;
+    jac_phi_q_t_lambda_A_i[22] = A_j[3] * t39 - A_j[4] * t49;
+    jac_phi_q_t_lambda_A_i[23] = A_j[6] * t39 - A_j[7] * t49;
     const jg_real t56 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
     jac_phi_q_t_lambda_A_i[28] = t56;
     jac_phi_q_t_lambda_A_i[36] = t56;
@@ -993,9 +988,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_i[32] = t57;
     jac_phi_q_t_lambda_A_i[40] = t57;
     const jg_real t58 = C_i[4] * v_3_world_1 + C_i[1] * v_1_world_1;
-    const jg_real t59 = t58 + t56 * v_6_world_1;
+    const jg_real t59 = v_6_world_1 * t56 + t58;
     const jg_real t60 = C_i[4] * v_3_world_2 + C_i[1] * v_1_world_2;
-    const jg_real t61 = t60 + t56 * v_6_world_2;
+    const jg_real t61 = v_6_world_2 * t56 + t60;
     jac_phi_q_t_lambda_A_i[25] = A_i[2] * t59 - A_i[1] * t61;
     jac_phi_q_t_lambda_A_i[26] = v_8_world_0 - A_i[4] * t61 + A_i[5] * t59;
     jac_phi_q_t_lambda_A_i[27] = A_i[8] * t59 - A_i[7] * t61;
@@ -1003,19 +998,19 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_i[30] = A_j[4] * t60 - A_j[5] * t58;
     jac_phi_q_t_lambda_A_i[31] = A_j[7] * t60 - A_j[8] * t58;
     const jg_real t62 = C_i[4] * v_3_world_0 + C_i[1] * v_1_world_0;
-    const jg_real t63 = t62 + t56 * v_6_world_0;
+    const jg_real t63 = t56 * v_6_world_0 + t62;
     jac_phi_q_t_lambda_A_i[33] = A_i[0] * t61 - A_i[2] * t63;
     jac_phi_q_t_lambda_A_i[34] = v_8_world_1 + A_i[3] * t61 - A_i[5] * t63;
     jac_phi_q_t_lambda_A_i[35] = A_i[6] * t61 - A_i[8] * t63;
-    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t62 - t60 * A_j[0];
-    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t62 - t60 * A_j[3];
-    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t62 - t60 * A_j[6];
+    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t62 - A_j[0] * t60;
+    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t62 - A_j[3] * t60;
+    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t62 - A_j[6] * t60;
     jac_phi_q_t_lambda_A_i[41] = A_i[1] * t63 - A_i[0] * t59;
     jac_phi_q_t_lambda_A_i[42] = A_i[4] * t63 - A_i[3] * t59 + v_8_world_2;
     jac_phi_q_t_lambda_A_i[43] = A_i[7] * t63 - A_i[6] * t59;
-    jac_phi_q_t_lambda_A_i[45] = t58 * A_j[0] - A_j[1] * t62;
-    jac_phi_q_t_lambda_A_i[46] = t58 * A_j[3] - A_j[4] * t62;
-    jac_phi_q_t_lambda_A_i[47] = t58 * A_j[6] - A_j[7] * t62;
+    jac_phi_q_t_lambda_A_i[45] = A_j[0] * t58 - A_j[1] * t62;
+    jac_phi_q_t_lambda_A_i[46] = A_j[3] * t58 - A_j[4] * t62;
+    jac_phi_q_t_lambda_A_i[47] = A_j[6] * t58 - A_j[7] * t62;
     const jg_real t64 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
     jac_phi_q_t_lambda_A_i[52] = t64;
     jac_phi_q_t_lambda_A_i[60] = t64;
@@ -1025,9 +1020,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_i[56] = t65;
     jac_phi_q_t_lambda_A_i[64] = t65;
     const jg_real t66 = C_i[5] * v_3_world_1 + C_i[2] * v_1_world_1;
-    const jg_real t67 = t66 + t64 * v_6_world_1;
+    const jg_real t67 = v_6_world_1 * t64 + t66;
     const jg_real t68 = C_i[5] * v_3_world_2 + C_i[2] * v_1_world_2;
-    const jg_real t69 = t68 + t64 * v_6_world_2;
+    const jg_real t69 = v_6_world_2 * t64 + t68;
     jac_phi_q_t_lambda_A_i[49] = A_i[2] * t67 - A_i[1] * t69;
     jac_phi_q_t_lambda_A_i[50] = A_i[5] * t67 - A_i[4] * t69;
     jac_phi_q_t_lambda_A_i[51] = v_8_world_0 - A_i[7] * t69 + A_i[8] * t67;
@@ -1035,21 +1030,21 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_i[54] = A_j[4] * t68 - A_j[5] * t66;
     jac_phi_q_t_lambda_A_i[55] = A_j[7] * t68 - A_j[8] * t66;
     const jg_real t70 = C_i[5] * v_3_world_0 + C_i[2] * v_1_world_0;
-    const jg_real t71 = t70 + t64 * v_6_world_0;
+    const jg_real t71 = t64 * v_6_world_0 + t70;
     jac_phi_q_t_lambda_A_i[57] = A_i[0] * t69 - A_i[2] * t71;
     jac_phi_q_t_lambda_A_i[58] = A_i[3] * t69 - A_i[5] * t71;
     jac_phi_q_t_lambda_A_i[59] = v_8_world_1 + A_i[6] * t69 - A_i[8] * t71;
-    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t70 - t68 * A_j[0];
-    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t70 - t68 * A_j[3];
-    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t70 - t68 * A_j[6];
+    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t70 - A_j[0] * t68;
+    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t70 - A_j[3] * t68;
+    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t70 - A_j[6] * t68;
     jac_phi_q_t_lambda_A_i[65] = A_i[1] * t71 - A_i[0] * t67;
     jac_phi_q_t_lambda_A_i[66] = A_i[4] * t71 - A_i[3] * t67;
     jac_phi_q_t_lambda_A_i[67] = A_i[7] * t71 - A_i[6] * t67 + v_8_world_2;
-    jac_phi_q_t_lambda_A_i[69] = t66 * A_j[0] - A_j[1] * t70;
-    jac_phi_q_t_lambda_A_i[70] = t66 * A_j[3] - A_j[4] * t70;
-    jac_phi_q_t_lambda_A_i[71] = t66 * A_j[6] - A_j[7] * t70;
-    const jg_real t72 = g_i_world_2 * v_3_in_j_0 + f_i_world_2 * v_1_in_j_0;
-    const jg_real t73 = g_i_world_1 * v_3_in_j_0 + f_i_world_1 * v_1_in_j_0;
+    jac_phi_q_t_lambda_A_i[69] = A_j[0] * t66 - A_j[1] * t70;
+    jac_phi_q_t_lambda_A_i[70] = A_j[3] * t66 - A_j[4] * t70;
+    jac_phi_q_t_lambda_A_i[71] = A_j[6] * t66 - A_j[7] * t70;
+    const jg_real t72 = v_3_in_j_0 * g_i_world_2 + f_i_world_2 * v_1_in_j_0;
+    const jg_real t73 = v_3_in_j_0 * g_i_world_1 + f_i_world_1 * v_1_in_j_0;
     jac_phi_q_t_lambda_A_j[0] = A_i[1] * t72 - A_i[2] * t73;
     jac_phi_q_t_lambda_A_j[1] = A_i[4] * t72 - A_i[5] * t73;
     jac_phi_q_t_lambda_A_j[2] = A_i[7] * t72 - A_i[8] * t73;
@@ -1060,17 +1055,17 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_j[6] = A_i[2] * t74 - A_i[0] * t72;
     jac_phi_q_t_lambda_A_j[7] = A_i[5] * t74 - A_i[3] * t72;
     jac_phi_q_t_lambda_A_j[8] = A_i[8] * t74 - A_i[6] * t72;
-    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - t72 * A_j[0] + A_j[2] * t74);
-    jac_phi_q_t_lambda_A_j[10] = t72 * A_j[3] - A_j[5] * t74;
-    jac_phi_q_t_lambda_A_j[11] = t72 * A_j[6] - A_j[8] * t74;
+    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - A_j[0] * t72 + A_j[2] * t74);
+    jac_phi_q_t_lambda_A_j[10] = A_j[3] * t72 - A_j[5] * t74;
+    jac_phi_q_t_lambda_A_j[11] = A_j[6] * t72 - A_j[8] * t74;
     jac_phi_q_t_lambda_A_j[12] = A_i[0] * t73 - A_i[1] * t74;
     jac_phi_q_t_lambda_A_j[13] = A_i[3] * t73 - A_i[4] * t74;
     jac_phi_q_t_lambda_A_j[14] = A_i[6] * t73 - A_i[7] * t74;
-    jac_phi_q_t_lambda_A_j[15] = -(t73 * A_j[0] - A_j[1] * t74 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t74 - t73 * A_j[3];
-    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t74 - t73 * A_j[6];
-    const jg_real t75 = g_i_world_2 * v_3_in_j_1 + f_i_world_2 * v_1_in_j_1;
-    const jg_real t76 = g_i_world_1 * v_3_in_j_1 + f_i_world_1 * v_1_in_j_1;
+    jac_phi_q_t_lambda_A_j[15] = -(A_j[0] * t73 - A_j[1] * t74 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t74 - A_j[3] * t73;
+    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t74 - A_j[6] * t73;
+    const jg_real t75 = v_3_in_j_1 * g_i_world_2 + f_i_world_2 * v_1_in_j_1;
+    const jg_real t76 = v_3_in_j_1 * g_i_world_1 + f_i_world_1 * v_1_in_j_1;
     jac_phi_q_t_lambda_A_j[18] = A_i[1] * t75 - A_i[2] * t76;
     jac_phi_q_t_lambda_A_j[19] = A_i[4] * t75 - A_i[5] * t76;
     jac_phi_q_t_lambda_A_j[20] = A_i[7] * t75 - A_i[8] * t76;
@@ -1081,16 +1076,16 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_j[24] = A_i[2] * t77 - A_i[0] * t75;
     jac_phi_q_t_lambda_A_j[25] = A_i[5] * t77 - A_i[3] * t75;
     jac_phi_q_t_lambda_A_j[26] = A_i[8] * t77 - A_i[6] * t75;
-    jac_phi_q_t_lambda_A_j[27] = t75 * A_j[0] - A_j[2] * t77;
-    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - t75 * A_j[3] + A_j[5] * t77);
-    jac_phi_q_t_lambda_A_j[29] = t75 * A_j[6] - A_j[8] * t77;
+    jac_phi_q_t_lambda_A_j[27] = A_j[0] * t75 - A_j[2] * t77;
+    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - A_j[3] * t75 + A_j[5] * t77);
+    jac_phi_q_t_lambda_A_j[29] = A_j[6] * t75 - A_j[8] * t77;
     jac_phi_q_t_lambda_A_j[30] = A_i[0] * t76 - A_i[1] * t77;
     jac_phi_q_t_lambda_A_j[31] = A_i[3] * t76 - A_i[4] * t77;
     jac_phi_q_t_lambda_A_j[32] = A_i[6] * t76 - A_i[7] * t77;
-    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t77 - t76 * A_j[0];
-    jac_phi_q_t_lambda_A_j[34] = -(t76 * A_j[3] - A_j[4] * t77 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t77 - t76 * A_j[6];
-    const jg_real t78 = g_i_world_2 * v_3_in_j_2 + f_i_world_2 * v_1_in_j_2;
+    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t77 - A_j[0] * t76;
+    jac_phi_q_t_lambda_A_j[34] = -(A_j[3] * t76 - A_j[4] * t77 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t77 - A_j[6] * t76;
+    const jg_real t78 = v_3_in_j_2 * g_i_world_2 + f_i_world_2 * v_1_in_j_2;
     const jg_real t79 = g_i_world_1 * v_3_in_j_2 + f_i_world_1 * v_1_in_j_2;
     jac_phi_q_t_lambda_A_j[36] = A_i[1] * t78 - A_i[2] * t79;
     jac_phi_q_t_lambda_A_j[37] = A_i[4] * t78 - A_i[5] * t79;
@@ -1102,15 +1097,15 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_A_j[42] = A_i[2] * t80 - A_i[0] * t78;
     jac_phi_q_t_lambda_A_j[43] = A_i[5] * t80 - A_i[3] * t78;
     jac_phi_q_t_lambda_A_j[44] = A_i[8] * t80 - A_i[6] * t78;
-    jac_phi_q_t_lambda_A_j[45] = t78 * A_j[0] - A_j[2] * t80;
-    jac_phi_q_t_lambda_A_j[46] = t78 * A_j[3] - A_j[5] * t80;
-    jac_phi_q_t_lambda_A_j[47] = -(v_5_world_1 - t78 * A_j[6] + A_j[8] * t80);
+    jac_phi_q_t_lambda_A_j[45] = A_j[0] * t78 - A_j[2] * t80;
+    jac_phi_q_t_lambda_A_j[46] = A_j[3] * t78 - A_j[5] * t80;
+    jac_phi_q_t_lambda_A_j[47] = -(v_5_world_1 - A_j[6] * t78 + A_j[8] * t80);
     jac_phi_q_t_lambda_A_j[48] = A_i[0] * t79 - A_i[1] * t80;
     jac_phi_q_t_lambda_A_j[49] = A_i[3] * t79 - A_i[4] * t80;
     jac_phi_q_t_lambda_A_j[50] = A_i[6] * t79 - A_i[7] * t80;
-    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t80 - t79 * A_j[0];
-    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t80 - t79 * A_j[3];
-    jac_phi_q_t_lambda_A_j[53] = -(t79 * A_j[6] - A_j[7] * t80 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t80 - A_j[0] * t79;
+    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t80 - A_j[3] * t79;
+    jac_phi_q_t_lambda_A_j[53] = -(A_j[6] * t79 - A_j[7] * t80 + v_5_world_2);
     const jg_real t81 = A_i[0] * lambda[3];
     jac_phi_q_t_lambda_geometry[6] = t81;
     jac_phi_q_t_lambda_geometry[0] = -t81;
@@ -1121,7 +1116,7 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[8] = t83;
     jac_phi_q_t_lambda_geometry[2] = -t83;
     const jg_real t84 = A_i[2] * v_1_world_1 - A_i[1] * v_1_world_2;
-    const jg_real t85 = t83 * v_6_world_1 - t82 * v_6_world_2 + t84;
+    const jg_real t85 = v_6_world_1 * t83 - t82 * v_6_world_2 + t84;
     const jg_real t86 = A_i[0] * v_1_world_2 - A_i[2] * v_1_world_0;
     const jg_real t87 = t81 * v_6_world_2 - t83 * v_6_world_0 + t86;
     const jg_real t88 = A_i[1] * v_1_world_0 - A_i[0] * v_1_world_1;
@@ -1129,9 +1124,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[3] = -(A_i[0] * t85 + A_i[1] * t87 + A_i[2] * t89);
     jac_phi_q_t_lambda_geometry[4] = -(A_i[3] * t85 + A_i[4] * t87 + A_i[5] * t89);
     jac_phi_q_t_lambda_geometry[5] = -(A_i[6] * t85 + A_i[7] * t87 + A_i[8] * t89);
-    jac_phi_q_t_lambda_geometry[9] = t84 * A_j[0] + A_j[1] * t86 + A_j[2] * t88;
-    jac_phi_q_t_lambda_geometry[10] = t84 * A_j[3] + A_j[4] * t86 + A_j[5] * t88;
-    jac_phi_q_t_lambda_geometry[11] = t84 * A_j[6] + A_j[7] * t86 + A_j[8] * t88;
+    jac_phi_q_t_lambda_geometry[9] = A_j[0] * t84 + A_j[1] * t86 + A_j[2] * t88;
+    jac_phi_q_t_lambda_geometry[10] = A_j[3] * t84 + A_j[4] * t86 + A_j[5] * t88;
+    jac_phi_q_t_lambda_geometry[11] = A_j[6] * t84 + A_j[7] * t86 + A_j[8] * t88;
     const jg_real t90 = A_i[3] * lambda[3];
     jac_phi_q_t_lambda_geometry[18] = t90;
     jac_phi_q_t_lambda_geometry[12] = -t90;
@@ -1142,7 +1137,7 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[20] = t92;
     jac_phi_q_t_lambda_geometry[14] = -t92;
     const jg_real t93 = A_i[5] * v_1_world_1 - A_i[4] * v_1_world_2;
-    const jg_real t94 = t92 * v_6_world_1 - t91 * v_6_world_2 + t93;
+    const jg_real t94 = v_6_world_1 * t92 - t91 * v_6_world_2 + t93;
     const jg_real t95 = A_i[3] * v_1_world_2 - A_i[5] * v_1_world_0;
     const jg_real t96 = t90 * v_6_world_2 - t92 * v_6_world_0 + t95;
     const jg_real t97 = A_i[4] * v_1_world_0 - A_i[3] * v_1_world_1;
@@ -1150,9 +1145,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[15] = -(A_i[0] * t94 + A_i[1] * t96 + A_i[2] * t98);
     jac_phi_q_t_lambda_geometry[16] = -(A_i[3] * t94 + A_i[4] * t96 + A_i[5] * t98);
     jac_phi_q_t_lambda_geometry[17] = -(A_i[6] * t94 + A_i[7] * t96 + A_i[8] * t98);
-    jac_phi_q_t_lambda_geometry[21] = t93 * A_j[0] + A_j[1] * t95 + A_j[2] * t97;
-    jac_phi_q_t_lambda_geometry[22] = t93 * A_j[3] + A_j[4] * t95 + A_j[5] * t97;
-    jac_phi_q_t_lambda_geometry[23] = t93 * A_j[6] + A_j[7] * t95 + A_j[8] * t97;
+    jac_phi_q_t_lambda_geometry[21] = A_j[0] * t93 + A_j[1] * t95 + A_j[2] * t97;
+    jac_phi_q_t_lambda_geometry[22] = A_j[3] * t93 + A_j[4] * t95 + A_j[5] * t97;
+    jac_phi_q_t_lambda_geometry[23] = A_j[6] * t93 + A_j[7] * t95 + A_j[8] * t97;
     const jg_real t99 = A_i[6] * lambda[3];
     jac_phi_q_t_lambda_geometry[30] = t99;
     jac_phi_q_t_lambda_geometry[24] = -t99;
@@ -1163,7 +1158,7 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[32] = t101;
     jac_phi_q_t_lambda_geometry[26] = -t101;
     const jg_real t102 = A_i[8] * v_1_world_1 - A_i[7] * v_1_world_2;
-    const jg_real t103 = t101 * v_6_world_1 - t100 * v_6_world_2 + t102;
+    const jg_real t103 = v_6_world_1 * t101 - t100 * v_6_world_2 + t102;
     const jg_real t104 = A_i[6] * v_1_world_2 - A_i[8] * v_1_world_0;
     const jg_real t105 = t99 * v_6_world_2 - t101 * v_6_world_0 + t104;
     const jg_real t106 = A_i[7] * v_1_world_0 - A_i[6] * v_1_world_1;
@@ -1171,9 +1166,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[27] = -(A_i[0] * t103 + A_i[1] * t105 + A_i[2] * t107);
     jac_phi_q_t_lambda_geometry[28] = -(A_i[3] * t103 + A_i[4] * t105 + A_i[5] * t107);
     jac_phi_q_t_lambda_geometry[29] = -(A_i[6] * t103 + A_i[7] * t105 + A_i[8] * t107);
-    jac_phi_q_t_lambda_geometry[33] = t102 * A_j[0] + A_j[1] * t104 + A_j[2] * t106;
-    jac_phi_q_t_lambda_geometry[34] = t102 * A_j[3] + A_j[4] * t104 + A_j[5] * t106;
-    jac_phi_q_t_lambda_geometry[35] = t102 * A_j[6] + A_j[7] * t104 + A_j[8] * t106;
+    jac_phi_q_t_lambda_geometry[33] = A_j[0] * t102 + A_j[1] * t104 + A_j[2] * t106;
+    jac_phi_q_t_lambda_geometry[34] = A_j[3] * t102 + A_j[4] * t104 + A_j[5] * t106;
+    jac_phi_q_t_lambda_geometry[35] = A_j[6] * t102 + A_j[7] * t104 + A_j[8] * t106;
     const jg_real t108 = A_i[0] * lambda[4];
     jac_phi_q_t_lambda_geometry[42] = t108;
     jac_phi_q_t_lambda_geometry[36] = -t108;
@@ -1184,17 +1179,17 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[44] = t110;
     jac_phi_q_t_lambda_geometry[38] = -t110;
     const jg_real t111 = A_i[1] * v_3_world_2 - A_i[2] * v_3_world_1;
-    const jg_real t112 = t111 - (t110 * v_6_world_1 - t109 * v_6_world_2);
+    const jg_real t112 = t111 - (v_6_world_1 * t110 - t109 * v_6_world_2);
     const jg_real t113 = A_i[2] * v_3_world_0 - A_i[0] * v_3_world_2;
     const jg_real t114 = t113 - (t108 * v_6_world_2 - t110 * v_6_world_0);
     const jg_real t115 = A_i[0] * v_3_world_1 - A_i[1] * v_3_world_0;
-    const jg_real t116 = t115 - (t109 * v_6_world_0 - t108 * v_6_world_1);
+    const jg_real t116 = t115 - (t109 * v_6_world_0 - v_6_world_1 * t108);
     jac_phi_q_t_lambda_geometry[39] = A_i[0] * t112 + A_i[1] * t114 + A_i[2] * t116;
     jac_phi_q_t_lambda_geometry[40] = A_i[3] * t112 + A_i[4] * t114 + A_i[5] * t116;
     jac_phi_q_t_lambda_geometry[41] = A_i[6] * t112 + A_i[7] * t114 + A_i[8] * t116;
-    jac_phi_q_t_lambda_geometry[45] = -(t111 * A_j[0] + A_j[1] * t113 + A_j[2] * t115);
-    jac_phi_q_t_lambda_geometry[46] = -(t111 * A_j[3] + A_j[4] * t113 + A_j[5] * t115);
-    jac_phi_q_t_lambda_geometry[47] = -(t111 * A_j[6] + A_j[7] * t113 + A_j[8] * t115);
+    jac_phi_q_t_lambda_geometry[45] = -(A_j[0] * t111 + A_j[1] * t113 + A_j[2] * t115);
+    jac_phi_q_t_lambda_geometry[46] = -(A_j[3] * t111 + A_j[4] * t113 + A_j[5] * t115);
+    jac_phi_q_t_lambda_geometry[47] = -(A_j[6] * t111 + A_j[7] * t113 + A_j[8] * t115);
     const jg_real t117 = A_i[3] * lambda[4];
     jac_phi_q_t_lambda_geometry[54] = t117;
     jac_phi_q_t_lambda_geometry[48] = -t117;
@@ -1205,17 +1200,17 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[56] = t119;
     jac_phi_q_t_lambda_geometry[50] = -t119;
     const jg_real t120 = A_i[4] * v_3_world_2 - A_i[5] * v_3_world_1;
-    const jg_real t121 = t120 - (t119 * v_6_world_1 - t118 * v_6_world_2);
+    const jg_real t121 = t120 - (v_6_world_1 * t119 - t118 * v_6_world_2);
     const jg_real t122 = A_i[5] * v_3_world_0 - A_i[3] * v_3_world_2;
     const jg_real t123 = t122 - (t117 * v_6_world_2 - t119 * v_6_world_0);
     const jg_real t124 = A_i[3] * v_3_world_1 - A_i[4] * v_3_world_0;
-    const jg_real t125 = t124 - (t118 * v_6_world_0 - t117 * v_6_world_1);
+    const jg_real t125 = t124 - (t118 * v_6_world_0 - v_6_world_1 * t117);
     jac_phi_q_t_lambda_geometry[51] = A_i[0] * t121 + A_i[1] * t123 + A_i[2] * t125;
     jac_phi_q_t_lambda_geometry[52] = A_i[3] * t121 + A_i[4] * t123 + A_i[5] * t125;
     jac_phi_q_t_lambda_geometry[53] = A_i[6] * t121 + A_i[7] * t123 + A_i[8] * t125;
-    jac_phi_q_t_lambda_geometry[57] = -(t120 * A_j[0] + A_j[1] * t122 + A_j[2] * t124);
-    jac_phi_q_t_lambda_geometry[58] = -(t120 * A_j[3] + A_j[4] * t122 + A_j[5] * t124);
-    jac_phi_q_t_lambda_geometry[59] = -(t120 * A_j[6] + A_j[7] * t122 + A_j[8] * t124);
+    jac_phi_q_t_lambda_geometry[57] = -(A_j[0] * t120 + A_j[1] * t122 + A_j[2] * t124);
+    jac_phi_q_t_lambda_geometry[58] = -(A_j[3] * t120 + A_j[4] * t122 + A_j[5] * t124);
+    jac_phi_q_t_lambda_geometry[59] = -(A_j[6] * t120 + A_j[7] * t122 + A_j[8] * t124);
     const jg_real t126 = A_i[6] * lambda[4];
     jac_phi_q_t_lambda_geometry[66] = t126;
     jac_phi_q_t_lambda_geometry[60] = -t126;
@@ -1226,17 +1221,17 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[68] = t128;
     jac_phi_q_t_lambda_geometry[62] = -t128;
     const jg_real t129 = A_i[7] * v_3_world_2 - A_i[8] * v_3_world_1;
-    const jg_real t130 = t129 - (t128 * v_6_world_1 - t127 * v_6_world_2);
+    const jg_real t130 = t129 - (v_6_world_1 * t128 - t127 * v_6_world_2);
     const jg_real t131 = A_i[8] * v_3_world_0 - A_i[6] * v_3_world_2;
     const jg_real t132 = t131 - (t126 * v_6_world_2 - t128 * v_6_world_0);
     const jg_real t133 = A_i[6] * v_3_world_1 - A_i[7] * v_3_world_0;
-    const jg_real t134 = t133 - (t127 * v_6_world_0 - t126 * v_6_world_1);
+    const jg_real t134 = t133 - (t127 * v_6_world_0 - v_6_world_1 * t126);
     jac_phi_q_t_lambda_geometry[63] = A_i[0] * t130 + A_i[1] * t132 + A_i[2] * t134;
     jac_phi_q_t_lambda_geometry[64] = A_i[3] * t130 + A_i[4] * t132 + A_i[5] * t134;
     jac_phi_q_t_lambda_geometry[65] = A_i[6] * t130 + A_i[7] * t132 + A_i[8] * t134;
-    jac_phi_q_t_lambda_geometry[69] = -(t129 * A_j[0] + A_j[1] * t131 + A_j[2] * t133);
-    jac_phi_q_t_lambda_geometry[70] = -(t129 * A_j[3] + A_j[4] * t131 + A_j[5] * t133);
-    jac_phi_q_t_lambda_geometry[71] = -(t129 * A_j[6] + A_j[7] * t131 + A_j[8] * t133);
+    jac_phi_q_t_lambda_geometry[69] = -(A_j[0] * t129 + A_j[1] * t131 + A_j[2] * t133);
+    jac_phi_q_t_lambda_geometry[70] = -(A_j[3] * t129 + A_j[4] * t131 + A_j[5] * t133);
+    jac_phi_q_t_lambda_geometry[71] = -(A_j[6] * t129 + A_j[7] * t131 + A_j[8] * t133);
     const jg_real t135 = lambda[4] * A_j[2];
     const jg_real t136 = lambda[4] * A_j[1];
     const jg_real t137 = lambda[3] * A_j[1];
@@ -1249,9 +1244,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[72] = A_i[0] * t139 + A_i[1] * t142 + A_i[2] * t143;
     jac_phi_q_t_lambda_geometry[73] = A_i[3] * t139 + A_i[4] * t142 + A_i[5] * t143;
     jac_phi_q_t_lambda_geometry[74] = A_i[6] * t139 + A_i[7] * t142 + A_i[8] * t143;
-    jac_phi_q_t_lambda_geometry[75] = -(t139 * A_j[0] + A_j[1] * t142 + A_j[2] * t143);
-    jac_phi_q_t_lambda_geometry[76] = -(t139 * A_j[3] + A_j[4] * t142 + A_j[5] * t143);
-    jac_phi_q_t_lambda_geometry[77] = -(t139 * A_j[6] + A_j[7] * t142 + A_j[8] * t143);
+    jac_phi_q_t_lambda_geometry[75] = -(A_j[0] * t139 + A_j[1] * t142 + A_j[2] * t143);
+    jac_phi_q_t_lambda_geometry[76] = -(A_j[3] * t139 + A_j[4] * t142 + A_j[5] * t143);
+    jac_phi_q_t_lambda_geometry[77] = -(A_j[6] * t139 + A_j[7] * t142 + A_j[8] * t143);
     const jg_real t144 = lambda[4] * A_j[5];
     const jg_real t145 = lambda[4] * A_j[4];
     const jg_real t146 = lambda[3] * A_j[4];
@@ -1264,9 +1259,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[78] = A_i[0] * t148 + A_i[1] * t151 + A_i[2] * t152;
     jac_phi_q_t_lambda_geometry[79] = A_i[3] * t148 + A_i[4] * t151 + A_i[5] * t152;
     jac_phi_q_t_lambda_geometry[80] = A_i[6] * t148 + A_i[7] * t151 + A_i[8] * t152;
-    jac_phi_q_t_lambda_geometry[81] = -(t148 * A_j[0] + A_j[1] * t151 + A_j[2] * t152);
-    jac_phi_q_t_lambda_geometry[82] = -(t148 * A_j[3] + A_j[4] * t151 + A_j[5] * t152);
-    jac_phi_q_t_lambda_geometry[83] = -(t148 * A_j[6] + A_j[7] * t151 + A_j[8] * t152);
+    jac_phi_q_t_lambda_geometry[81] = -(A_j[0] * t148 + A_j[1] * t151 + A_j[2] * t152);
+    jac_phi_q_t_lambda_geometry[82] = -(A_j[3] * t148 + A_j[4] * t151 + A_j[5] * t152);
+    jac_phi_q_t_lambda_geometry[83] = -(A_j[6] * t148 + A_j[7] * t151 + A_j[8] * t152);
     const jg_real t153 = lambda[4] * A_j[8];
     const jg_real t154 = lambda[4] * A_j[7];
     const jg_real t155 = lambda[3] * A_j[7];
@@ -1279,9 +1274,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[84] = A_i[0] * t157 + A_i[1] * t160 + A_i[2] * t161;
     jac_phi_q_t_lambda_geometry[85] = A_i[3] * t157 + A_i[4] * t160 + A_i[5] * t161;
     jac_phi_q_t_lambda_geometry[86] = A_i[6] * t157 + A_i[7] * t160 + A_i[8] * t161;
-    jac_phi_q_t_lambda_geometry[87] = -(t157 * A_j[0] + A_j[1] * t160 + A_j[2] * t161);
-    jac_phi_q_t_lambda_geometry[88] = -(t157 * A_j[3] + A_j[4] * t160 + A_j[5] * t161);
-    jac_phi_q_t_lambda_geometry[89] = -(t157 * A_j[6] + A_j[7] * t160 + A_j[8] * t161);
+    jac_phi_q_t_lambda_geometry[87] = -(A_j[0] * t157 + A_j[1] * t160 + A_j[2] * t161);
+    jac_phi_q_t_lambda_geometry[88] = -(A_j[3] * t157 + A_j[4] * t160 + A_j[5] * t161);
+    jac_phi_q_t_lambda_geometry[89] = -(A_j[6] * t157 + A_j[7] * t160 + A_j[8] * t161);
     const jg_real t162 = A_j[1] * lambda[2];
     const jg_real t163 = A_j[2] * lambda[2];
     const jg_real t164 = f_i_world_2 * t162 - f_i_world_1 * t163;
@@ -1291,9 +1286,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[90] = -(A_i[0] * t164 + A_i[1] * t166 + A_i[2] * t167);
     jac_phi_q_t_lambda_geometry[91] = -(A_i[3] * t164 + A_i[4] * t166 + A_i[5] * t167);
     jac_phi_q_t_lambda_geometry[92] = -(A_i[6] * t164 + A_i[7] * t166 + A_i[8] * t167);
-    jac_phi_q_t_lambda_geometry[93] = t164 * A_j[0] + A_j[1] * t166 + A_j[2] * t167;
-    jac_phi_q_t_lambda_geometry[94] = t164 * A_j[3] + A_j[4] * t166 + A_j[5] * t167;
-    jac_phi_q_t_lambda_geometry[95] = t164 * A_j[6] + A_j[7] * t166 + A_j[8] * t167;
+    jac_phi_q_t_lambda_geometry[93] = A_j[0] * t164 + A_j[1] * t166 + A_j[2] * t167;
+    jac_phi_q_t_lambda_geometry[94] = A_j[3] * t164 + A_j[4] * t166 + A_j[5] * t167;
+    jac_phi_q_t_lambda_geometry[95] = A_j[6] * t164 + A_j[7] * t166 + A_j[8] * t167;
     const jg_real t168 = A_j[4] * lambda[2];
     const jg_real t169 = A_j[5] * lambda[2];
     const jg_real t170 = f_i_world_2 * t168 - f_i_world_1 * t169;
@@ -1303,9 +1298,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[96] = -(A_i[0] * t170 + A_i[1] * t172 + A_i[2] * t173);
     jac_phi_q_t_lambda_geometry[97] = -(A_i[3] * t170 + A_i[4] * t172 + A_i[5] * t173);
     jac_phi_q_t_lambda_geometry[98] = -(A_i[6] * t170 + A_i[7] * t172 + A_i[8] * t173);
-    jac_phi_q_t_lambda_geometry[99] = t170 * A_j[0] + A_j[1] * t172 + A_j[2] * t173;
-    jac_phi_q_t_lambda_geometry[100] = t170 * A_j[3] + A_j[4] * t172 + A_j[5] * t173;
-    jac_phi_q_t_lambda_geometry[101] = t170 * A_j[6] + A_j[7] * t172 + A_j[8] * t173;
+    jac_phi_q_t_lambda_geometry[99] = A_j[0] * t170 + A_j[1] * t172 + A_j[2] * t173;
+    jac_phi_q_t_lambda_geometry[100] = A_j[3] * t170 + A_j[4] * t172 + A_j[5] * t173;
+    jac_phi_q_t_lambda_geometry[101] = A_j[6] * t170 + A_j[7] * t172 + A_j[8] * t173;
     const jg_real t174 = A_j[7] * lambda[2];
     const jg_real t175 = A_j[8] * lambda[2];
     const jg_real t176 = f_i_world_2 * t174 - f_i_world_1 * t175;
@@ -1315,9 +1310,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[102] = -(A_i[0] * t176 + A_i[1] * t178 + A_i[2] * t179);
     jac_phi_q_t_lambda_geometry[103] = -(A_i[3] * t176 + A_i[4] * t178 + A_i[5] * t179);
     jac_phi_q_t_lambda_geometry[104] = -(A_i[6] * t176 + A_i[7] * t178 + A_i[8] * t179);
-    jac_phi_q_t_lambda_geometry[105] = t176 * A_j[0] + A_j[1] * t178 + A_j[2] * t179;
-    jac_phi_q_t_lambda_geometry[106] = t176 * A_j[3] + A_j[4] * t178 + A_j[5] * t179;
-    jac_phi_q_t_lambda_geometry[107] = t176 * A_j[6] + A_j[7] * t178 + A_j[8] * t179;
+    jac_phi_q_t_lambda_geometry[105] = A_j[0] * t176 + A_j[1] * t178 + A_j[2] * t179;
+    jac_phi_q_t_lambda_geometry[106] = A_j[3] * t176 + A_j[4] * t178 + A_j[5] * t179;
+    jac_phi_q_t_lambda_geometry[107] = A_j[6] * t176 + A_j[7] * t178 + A_j[8] * t179;
     const jg_real t180 = lambda[1] * A_j[2];
     const jg_real t181 = lambda[1] * A_j[1];
     const jg_real t182 = A_j[1] * lambda[0];
@@ -1330,9 +1325,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[108] = A_i[0] * t184 + A_i[1] * t187 + A_i[2] * t188;
     jac_phi_q_t_lambda_geometry[109] = A_i[3] * t184 + A_i[4] * t187 + A_i[5] * t188;
     jac_phi_q_t_lambda_geometry[110] = A_i[6] * t184 + A_i[7] * t187 + A_i[8] * t188;
-    jac_phi_q_t_lambda_geometry[111] = -(t184 * A_j[0] + A_j[1] * t187 + A_j[2] * t188);
-    jac_phi_q_t_lambda_geometry[112] = -(t184 * A_j[3] + A_j[4] * t187 + A_j[5] * t188);
-    jac_phi_q_t_lambda_geometry[113] = -(t184 * A_j[6] + A_j[7] * t187 + A_j[8] * t188);
+    jac_phi_q_t_lambda_geometry[111] = -(A_j[0] * t184 + A_j[1] * t187 + A_j[2] * t188);
+    jac_phi_q_t_lambda_geometry[112] = -(A_j[3] * t184 + A_j[4] * t187 + A_j[5] * t188);
+    jac_phi_q_t_lambda_geometry[113] = -(A_j[6] * t184 + A_j[7] * t187 + A_j[8] * t188);
     const jg_real t189 = lambda[1] * A_j[5];
     const jg_real t190 = lambda[1] * A_j[4];
     const jg_real t191 = A_j[4] * lambda[0];
@@ -1345,9 +1340,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[114] = A_i[0] * t193 + A_i[1] * t196 + A_i[2] * t197;
     jac_phi_q_t_lambda_geometry[115] = A_i[3] * t193 + A_i[4] * t196 + A_i[5] * t197;
     jac_phi_q_t_lambda_geometry[116] = A_i[6] * t193 + A_i[7] * t196 + A_i[8] * t197;
-    jac_phi_q_t_lambda_geometry[117] = -(t193 * A_j[0] + A_j[1] * t196 + A_j[2] * t197);
-    jac_phi_q_t_lambda_geometry[118] = -(t193 * A_j[3] + A_j[4] * t196 + A_j[5] * t197);
-    jac_phi_q_t_lambda_geometry[119] = -(t193 * A_j[6] + A_j[7] * t196 + A_j[8] * t197);
+    jac_phi_q_t_lambda_geometry[117] = -(A_j[0] * t193 + A_j[1] * t196 + A_j[2] * t197);
+    jac_phi_q_t_lambda_geometry[118] = -(A_j[3] * t193 + A_j[4] * t196 + A_j[5] * t197);
+    jac_phi_q_t_lambda_geometry[119] = -(A_j[6] * t193 + A_j[7] * t196 + A_j[8] * t197);
     const jg_real t198 = lambda[1] * A_j[8];
     const jg_real t199 = lambda[1] * A_j[7];
     const jg_real t200 = A_j[7] * lambda[0];
@@ -1360,9 +1355,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[120] = A_i[0] * t202 + A_i[1] * t205 + A_i[2] * t206;
     jac_phi_q_t_lambda_geometry[121] = A_i[3] * t202 + A_i[4] * t205 + A_i[5] * t206;
     jac_phi_q_t_lambda_geometry[122] = A_i[6] * t202 + A_i[7] * t205 + A_i[8] * t206;
-    jac_phi_q_t_lambda_geometry[123] = -(t202 * A_j[0] + A_j[1] * t205 + A_j[2] * t206);
-    jac_phi_q_t_lambda_geometry[124] = -(t202 * A_j[3] + A_j[4] * t205 + A_j[5] * t206);
-    jac_phi_q_t_lambda_geometry[125] = -(t202 * A_j[6] + A_j[7] * t205 + A_j[8] * t206);
+    jac_phi_q_t_lambda_geometry[123] = -(A_j[0] * t202 + A_j[1] * t205 + A_j[2] * t206);
+    jac_phi_q_t_lambda_geometry[124] = -(A_j[3] * t202 + A_j[4] * t205 + A_j[5] * t206);
+    jac_phi_q_t_lambda_geometry[125] = -(A_j[6] * t202 + A_j[7] * t205 + A_j[8] * t206);
     const jg_real t207 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     const jg_real t208 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real t209 = f_i_world_2 * t207 - f_i_world_1 * t208;
@@ -1372,18 +1367,18 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[0] = -(A_i[0] * t209 + A_i[1] * t211 + A_i[2] * t212);
     jac_phi_q_t_lambda_lambda[1] = -(A_i[3] * t209 + A_i[4] * t211 + A_i[5] * t212);
     jac_phi_q_t_lambda_lambda[2] = -(A_i[6] * t209 + A_i[7] * t211 + A_i[8] * t212);
-    jac_phi_q_t_lambda_lambda[3] = t209 * A_j[0] + A_j[1] * t211 + A_j[2] * t212;
-    jac_phi_q_t_lambda_lambda[4] = t209 * A_j[3] + A_j[4] * t211 + A_j[5] * t212;
-    jac_phi_q_t_lambda_lambda[5] = t209 * A_j[6] + A_j[7] * t211 + A_j[8] * t212;
+    jac_phi_q_t_lambda_lambda[3] = A_j[0] * t209 + A_j[1] * t211 + A_j[2] * t212;
+    jac_phi_q_t_lambda_lambda[4] = A_j[3] * t209 + A_j[4] * t211 + A_j[5] * t212;
+    jac_phi_q_t_lambda_lambda[5] = A_j[6] * t209 + A_j[7] * t211 + A_j[8] * t212;
     const jg_real t213 = g_i_world_1 * t208 - g_i_world_2 * t207;
     const jg_real t214 = g_i_world_2 * t210 - g_i_world_0 * t208;
     const jg_real t215 = g_i_world_0 * t207 - g_i_world_1 * t210;
     jac_phi_q_t_lambda_lambda[6] = A_i[0] * t213 + A_i[1] * t214 + A_i[2] * t215;
     jac_phi_q_t_lambda_lambda[7] = A_i[3] * t213 + A_i[4] * t214 + A_i[5] * t215;
     jac_phi_q_t_lambda_lambda[8] = A_i[6] * t213 + A_i[7] * t214 + A_i[8] * t215;
-    jac_phi_q_t_lambda_lambda[9] = -(t213 * A_j[0] + A_j[1] * t214 + A_j[2] * t215);
-    jac_phi_q_t_lambda_lambda[10] = -(t213 * A_j[3] + A_j[4] * t214 + A_j[5] * t215);
-    jac_phi_q_t_lambda_lambda[11] = -(t213 * A_j[6] + A_j[7] * t214 + A_j[8] * t215);
+    jac_phi_q_t_lambda_lambda[9] = -(A_j[0] * t213 + A_j[1] * t214 + A_j[2] * t215);
+    jac_phi_q_t_lambda_lambda[10] = -(A_j[3] * t213 + A_j[4] * t214 + A_j[5] * t215);
+    jac_phi_q_t_lambda_lambda[11] = -(A_j[6] * t213 + A_j[7] * t214 + A_j[8] * t215);
     const jg_real t216 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real t217 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t218 = f_i_world_2 * t216 - f_i_world_1 * t217;
@@ -1393,9 +1388,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[12] = -(A_i[0] * t218 + A_i[1] * t220 + A_i[2] * t221);
     jac_phi_q_t_lambda_lambda[13] = -(A_i[3] * t218 + A_i[4] * t220 + A_i[5] * t221);
     jac_phi_q_t_lambda_lambda[14] = -(A_i[6] * t218 + A_i[7] * t220 + A_i[8] * t221);
-    jac_phi_q_t_lambda_lambda[15] = t218 * A_j[0] + A_j[1] * t220 + A_j[2] * t221;
-    jac_phi_q_t_lambda_lambda[16] = t218 * A_j[3] + A_j[4] * t220 + A_j[5] * t221;
-    jac_phi_q_t_lambda_lambda[17] = t218 * A_j[6] + A_j[7] * t220 + A_j[8] * t221;
+    jac_phi_q_t_lambda_lambda[15] = A_j[0] * t218 + A_j[1] * t220 + A_j[2] * t221;
+    jac_phi_q_t_lambda_lambda[16] = A_j[3] * t218 + A_j[4] * t220 + A_j[5] * t221;
+    jac_phi_q_t_lambda_lambda[17] = A_j[6] * t218 + A_j[7] * t220 + A_j[8] * t221;
     jac_phi_q_t_lambda_lambda[18] = -f_i_world_0;
     jac_phi_q_t_lambda_lambda[19] = -f_i_world_1;
     jac_phi_q_t_lambda_lambda[20] = -f_i_world_2;
@@ -1411,9 +1406,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[21] = -(A_i[0] * t225 + A_i[1] * t228 + A_i[2] * t230);
     jac_phi_q_t_lambda_lambda[22] = -(A_i[3] * t225 + A_i[4] * t228 + A_i[5] * t230);
     jac_phi_q_t_lambda_lambda[23] = -(A_i[6] * t225 + A_i[7] * t228 + A_i[8] * t230);
-    jac_phi_q_t_lambda_lambda[27] = t224 * A_j[0] + A_j[1] * t227 + A_j[2] * t229;
-    jac_phi_q_t_lambda_lambda[28] = t224 * A_j[3] + A_j[4] * t227 + A_j[5] * t229;
-    jac_phi_q_t_lambda_lambda[29] = t224 * A_j[6] + A_j[7] * t227 + A_j[8] * t229;
+    jac_phi_q_t_lambda_lambda[27] = A_j[0] * t224 + A_j[1] * t227 + A_j[2] * t229;
+    jac_phi_q_t_lambda_lambda[28] = A_j[3] * t224 + A_j[4] * t227 + A_j[5] * t229;
+    jac_phi_q_t_lambda_lambda[29] = A_j[6] * t224 + A_j[7] * t227 + A_j[8] * t229;
     jac_phi_q_t_lambda_lambda[30] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[31] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[32] = -g_i_world_2;
@@ -1426,9 +1421,9 @@ static void jg_translational_conventional_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_lambda[33] = A_i[0] * t232 + A_i[1] * t234 + A_i[2] * t236;
     jac_phi_q_t_lambda_lambda[34] = A_i[3] * t232 + A_i[4] * t234 + A_i[5] * t236;
     jac_phi_q_t_lambda_lambda[35] = A_i[6] * t232 + A_i[7] * t234 + A_i[8] * t236;
-    jac_phi_q_t_lambda_lambda[39] = -(t231 * A_j[0] + A_j[1] * t233 + A_j[2] * t235);
-    jac_phi_q_t_lambda_lambda[40] = -(t231 * A_j[3] + A_j[4] * t233 + A_j[5] * t235);
-    jac_phi_q_t_lambda_lambda[41] = -(t231 * A_j[6] + A_j[7] * t233 + A_j[8] * t235);
+    jac_phi_q_t_lambda_lambda[39] = -(A_j[0] * t231 + A_j[1] * t233 + A_j[2] * t235);
+    jac_phi_q_t_lambda_lambda[40] = -(A_j[3] * t231 + A_j[4] * t233 + A_j[5] * t235);
+    jac_phi_q_t_lambda_lambda[41] = -(A_j[6] * t231 + A_j[7] * t233 + A_j[8] * t235);
 }
 
 JG_EXPORT int jg_translational_conventional_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

@@ -35,15 +35,15 @@ static void jg_translational_conventional_world_phi_jacobian(const jg_real *JG_R
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real f_i_in_j_0 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[21] = f_i_in_j_0;
     jac_phi_geometry[27] = f_i_in_j_0;
     jac_phi_geometry[30] = f_i_in_j_0;
-    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    const jg_real f_i_in_j_1 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[23] = f_i_in_j_1;
     jac_phi_geometry[28] = f_i_in_j_1;
     jac_phi_geometry[32] = f_i_in_j_1;
-    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real f_i_in_j_2 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[25] = f_i_in_j_2;
     jac_phi_geometry[29] = f_i_in_j_2;
     jac_phi_geometry[34] = f_i_in_j_2;
@@ -82,12 +82,12 @@ static void jg_translational_conventional_world_phi_jacobian(const jg_real *JG_R
     const jg_real t18 = C_i[0] * A_j[0];
     const jg_real t19 = C_i[0] * A_j[3];
     const jg_real t20 = C_i[0] * A_j[6];
-    jac_phi_A_i[0] = t18 * C_j[6] + t19 * C_j[7] + t20 * C_j[8];
+    jac_phi_A_i[0] = C_j[6] * t18 + C_j[7] * t19 + C_j[8] * t20;
     const jg_real t21 = A_j[0] * C_i[3];
     const jg_real t22 = A_j[3] * C_i[3];
     const jg_real t23 = A_j[6] * C_i[3];
     jac_phi_A_i[1] = C_j[6] * t21 + C_j[7] * t22 + C_j[8] * t23;
-    jac_phi_A_i[2] = t18 * C_j[3] + t19 * C_j[4] + t20 * C_j[5];
+    jac_phi_A_i[2] = C_j[3] * t18 + C_j[4] * t19 + C_j[5] * t20;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -95,146 +95,146 @@ static void jg_translational_conventional_world_phi_jacobian(const jg_real *JG_R
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
+    const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
+    const jg_real e_ij_in_j_1 = s_j[1] + v_0_in_j_1;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    const jg_real e_ij_in_j_2 = s_j[2] + v_0_in_j_2;
     jac_phi_A_i[3] = t18 * e_ij_in_j_0 + t19 * e_ij_in_j_1 + t20 * e_ij_in_j_2;
     jac_phi_A_i[4] = t21 * e_ij_in_j_0 + t22 * e_ij_in_j_1 + t23 * e_ij_in_j_2;
     const jg_real t33 = C_i[0] * A_j[1];
     const jg_real t34 = C_i[0] * A_j[4];
     const jg_real t35 = C_i[0] * A_j[7];
-    jac_phi_A_i[5] = t33 * C_j[6] + t34 * C_j[7] + t35 * C_j[8];
+    jac_phi_A_i[5] = C_j[6] * t33 + C_j[7] * t34 + C_j[8] * t35;
     const jg_real t36 = A_j[1] * C_i[3];
     const jg_real t37 = A_j[4] * C_i[3];
     const jg_real t38 = A_j[7] * C_i[3];
     jac_phi_A_i[6] = C_j[6] * t36 + C_j[7] * t37 + C_j[8] * t38;
-    jac_phi_A_i[7] = t33 * C_j[3] + t34 * C_j[4] + t35 * C_j[5];
+    jac_phi_A_i[7] = C_j[3] * t33 + C_j[4] * t34 + C_j[5] * t35;
     jac_phi_A_i[8] = t33 * e_ij_in_j_0 + t34 * e_ij_in_j_1 + t35 * e_ij_in_j_2;
     jac_phi_A_i[9] = t36 * e_ij_in_j_0 + t37 * e_ij_in_j_1 + t38 * e_ij_in_j_2;
     const jg_real t39 = C_i[0] * A_j[2];
     const jg_real t40 = C_i[0] * A_j[5];
     const jg_real t41 = C_i[0] * A_j[8];
-    jac_phi_A_i[10] = t39 * C_j[6] + t40 * C_j[7] + t41 * C_j[8];
+    jac_phi_A_i[10] = C_j[6] * t39 + C_j[7] * t40 + C_j[8] * t41;
     const jg_real t42 = A_j[2] * C_i[3];
     const jg_real t43 = A_j[5] * C_i[3];
     const jg_real t44 = A_j[8] * C_i[3];
     jac_phi_A_i[11] = C_j[6] * t42 + C_j[7] * t43 + C_j[8] * t44;
-    jac_phi_A_i[12] = t39 * C_j[3] + t40 * C_j[4] + t41 * C_j[5];
+    jac_phi_A_i[12] = C_j[3] * t39 + C_j[4] * t40 + C_j[5] * t41;
     jac_phi_A_i[13] = t39 * e_ij_in_j_0 + t40 * e_ij_in_j_1 + t41 * e_ij_in_j_2;
     jac_phi_A_i[14] = t42 * e_ij_in_j_0 + t43 * e_ij_in_j_1 + t44 * e_ij_in_j_2;
     const jg_real t45 = C_i[1] * A_j[0];
     const jg_real t46 = C_i[1] * A_j[3];
     const jg_real t47 = C_i[1] * A_j[6];
-    jac_phi_A_i[15] = t45 * C_j[6] + t46 * C_j[7] + t47 * C_j[8];
+    jac_phi_A_i[15] = C_j[6] * t45 + C_j[7] * t46 + C_j[8] * t47;
     const jg_real t48 = A_j[0] * C_i[4];
     const jg_real t49 = A_j[3] * C_i[4];
     const jg_real t50 = A_j[6] * C_i[4];
     jac_phi_A_i[16] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
-    jac_phi_A_i[17] = t45 * C_j[3] + t46 * C_j[4] + t47 * C_j[5];
+    jac_phi_A_i[17] = C_j[3] * t45 + C_j[4] * t46 + C_j[5] * t47;
     jac_phi_A_i[18] = t45 * e_ij_in_j_0 + t46 * e_ij_in_j_1 + t47 * e_ij_in_j_2;
     jac_phi_A_i[19] = t48 * e_ij_in_j_0 + t49 * e_ij_in_j_1 + t50 * e_ij_in_j_2;
     const jg_real t51 = C_i[1] * A_j[1];
     const jg_real t52 = C_i[1] * A_j[4];
     const jg_real t53 = C_i[1] * A_j[7];
-    jac_phi_A_i[20] = t51 * C_j[6] + t52 * C_j[7] + t53 * C_j[8];
+    jac_phi_A_i[20] = C_j[6] * t51 + C_j[7] * t52 + C_j[8] * t53;
     const jg_real t54 = A_j[1] * C_i[4];
     const jg_real t55 = A_j[4] * C_i[4];
     const jg_real t56 = A_j[7] * C_i[4];
     jac_phi_A_i[21] = C_j[6] * t54 + C_j[7] * t55 + C_j[8] * t56;
-    jac_phi_A_i[22] = t51 * C_j[3] + t52 * C_j[4] + t53 * C_j[5];
+    jac_phi_A_i[22] = C_j[3] * t51 + C_j[4] * t52 + C_j[5] * t53;
     jac_phi_A_i[23] = t51 * e_ij_in_j_0 + t52 * e_ij_in_j_1 + t53 * e_ij_in_j_2;
     jac_phi_A_i[24] = t54 * e_ij_in_j_0 + t55 * e_ij_in_j_1 + t56 * e_ij_in_j_2;
     const jg_real t57 = C_i[1] * A_j[2];
     const jg_real t58 = C_i[1] * A_j[5];
     const jg_real t59 = C_i[1] * A_j[8];
-    jac_phi_A_i[25] = t57 * C_j[6] + t58 * C_j[7] + t59 * C_j[8];
+    jac_phi_A_i[25] = C_j[6] * t57 + C_j[7] * t58 + C_j[8] * t59;
     const jg_real t60 = A_j[2] * C_i[4];
     const jg_real t61 = A_j[5] * C_i[4];
     const jg_real t62 = A_j[8] * C_i[4];
     jac_phi_A_i[26] = C_j[6] * t60 + C_j[7] * t61 + C_j[8] * t62;
-    jac_phi_A_i[27] = t57 * C_j[3] + t58 * C_j[4] + t59 * C_j[5];
+    jac_phi_A_i[27] = C_j[3] * t57 + C_j[4] * t58 + C_j[5] * t59;
     jac_phi_A_i[28] = t57 * e_ij_in_j_0 + t58 * e_ij_in_j_1 + t59 * e_ij_in_j_2;
     jac_phi_A_i[29] = t60 * e_ij_in_j_0 + t61 * e_ij_in_j_1 + t62 * e_ij_in_j_2;
     const jg_real t63 = C_i[2] * A_j[0];
     const jg_real t64 = C_i[2] * A_j[3];
     const jg_real t65 = C_i[2] * A_j[6];
-    jac_phi_A_i[30] = t63 * C_j[6] + t64 * C_j[7] + t65 * C_j[8];
+    jac_phi_A_i[30] = C_j[6] * t63 + C_j[7] * t64 + C_j[8] * t65;
     const jg_real t66 = A_j[0] * C_i[5];
     const jg_real t67 = A_j[3] * C_i[5];
     const jg_real t68 = A_j[6] * C_i[5];
     jac_phi_A_i[31] = C_j[6] * t66 + C_j[7] * t67 + C_j[8] * t68;
-    jac_phi_A_i[32] = t63 * C_j[3] + t64 * C_j[4] + t65 * C_j[5];
+    jac_phi_A_i[32] = C_j[3] * t63 + C_j[4] * t64 + C_j[5] * t65;
     jac_phi_A_i[33] = t63 * e_ij_in_j_0 + t64 * e_ij_in_j_1 + t65 * e_ij_in_j_2;
     jac_phi_A_i[34] = t66 * e_ij_in_j_0 + t67 * e_ij_in_j_1 + t68 * e_ij_in_j_2;
     const jg_real t69 = C_i[2] * A_j[1];
     const jg_real t70 = C_i[2] * A_j[4];
     const jg_real t71 = C_i[2] * A_j[7];
-    jac_phi_A_i[35] = t69 * C_j[6] + t70 * C_j[7] + t71 * C_j[8];
+    jac_phi_A_i[35] = C_j[6] * t69 + C_j[7] * t70 + C_j[8] * t71;
     const jg_real t72 = A_j[1] * C_i[5];
     const jg_real t73 = A_j[4] * C_i[5];
     const jg_real t74 = A_j[7] * C_i[5];
     jac_phi_A_i[36] = C_j[6] * t72 + C_j[7] * t73 + C_j[8] * t74;
-    jac_phi_A_i[37] = t69 * C_j[3] + t70 * C_j[4] + t71 * C_j[5];
+    jac_phi_A_i[37] = C_j[3] * t69 + C_j[4] * t70 + C_j[5] * t71;
     jac_phi_A_i[38] = t69 * e_ij_in_j_0 + t70 * e_ij_in_j_1 + t71 * e_ij_in_j_2;
     jac_phi_A_i[39] = t72 * e_ij_in_j_0 + t73 * e_ij_in_j_1 + t74 * e_ij_in_j_2;
     const jg_real t75 = C_i[2] * A_j[2];
     const jg_real t76 = C_i[2] * A_j[5];
     const jg_real t77 = C_i[2] * A_j[8];
-    jac_phi_A_i[40] = t75 * C_j[6] + t76 * C_j[7] + t77 * C_j[8];
+    jac_phi_A_i[40] = C_j[6] * t75 + C_j[7] * t76 + C_j[8] * t77;
     const jg_real t78 = A_j[2] * C_i[5];
     const jg_real t79 = A_j[5] * C_i[5];
     const jg_real t80 = A_j[8] * C_i[5];
     jac_phi_A_i[41] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
-    jac_phi_A_i[42] = t75 * C_j[3] + t76 * C_j[4] + t77 * C_j[5];
+    jac_phi_A_i[42] = C_j[3] * t75 + C_j[4] * t76 + C_j[5] * t77;
     jac_phi_A_i[43] = t75 * e_ij_in_j_0 + t76 * e_ij_in_j_1 + t77 * e_ij_in_j_2;
     jac_phi_A_i[44] = t78 * e_ij_in_j_0 + t79 * e_ij_in_j_1 + t80 * e_ij_in_j_2;
-    jac_phi_A_j[0] = f_i_world_0 * C_j[6];
+    jac_phi_A_j[0] = C_j[6] * f_i_world_0;
     jac_phi_A_j[1] = C_j[6] * g_i_world_0;
-    jac_phi_A_j[2] = f_i_world_0 * C_j[3];
-    jac_phi_A_j[3] = f_i_world_0 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_0;
-    jac_phi_A_j[4] = g_i_world_0 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_0;
-    jac_phi_A_j[5] = f_i_world_1 * C_j[6];
+    jac_phi_A_j[2] = C_j[3] * f_i_world_0;
+    jac_phi_A_j[3] = f_i_world_0 * e_ij_in_j_0 + v_0_world_0 * f_i_in_j_0;
+    jac_phi_A_j[4] = g_i_world_0 * e_ij_in_j_0 + v_0_world_0 * g_i_in_j_0;
+    jac_phi_A_j[5] = C_j[6] * f_i_world_1;
     jac_phi_A_j[6] = C_j[6] * g_i_world_1;
-    jac_phi_A_j[7] = f_i_world_1 * C_j[3];
-    jac_phi_A_j[8] = f_i_world_1 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_1;
-    jac_phi_A_j[9] = g_i_world_1 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_1;
-    jac_phi_A_j[10] = f_i_world_2 * C_j[6];
+    jac_phi_A_j[7] = C_j[3] * f_i_world_1;
+    jac_phi_A_j[8] = f_i_world_1 * e_ij_in_j_0 + v_0_world_1 * f_i_in_j_0;
+    jac_phi_A_j[9] = g_i_world_1 * e_ij_in_j_0 + v_0_world_1 * g_i_in_j_0;
+    jac_phi_A_j[10] = C_j[6] * f_i_world_2;
     jac_phi_A_j[11] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[12] = f_i_world_2 * C_j[3];
-    jac_phi_A_j[13] = f_i_world_2 * e_ij_in_j_0 + f_i_in_j_0 * v_0_world_2;
-    jac_phi_A_j[14] = g_i_world_2 * e_ij_in_j_0 + g_i_in_j_0 * v_0_world_2;
-    jac_phi_A_j[15] = f_i_world_0 * C_j[7];
+    jac_phi_A_j[12] = C_j[3] * f_i_world_2;
+    jac_phi_A_j[13] = f_i_world_2 * e_ij_in_j_0 + v_0_world_2 * f_i_in_j_0;
+    jac_phi_A_j[14] = g_i_world_2 * e_ij_in_j_0 + v_0_world_2 * g_i_in_j_0;
+    jac_phi_A_j[15] = C_j[7] * f_i_world_0;
     jac_phi_A_j[16] = C_j[7] * g_i_world_0;
-    jac_phi_A_j[17] = f_i_world_0 * C_j[4];
-    jac_phi_A_j[18] = f_i_world_0 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_0;
-    jac_phi_A_j[19] = g_i_world_0 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_0;
-    jac_phi_A_j[20] = f_i_world_1 * C_j[7];
+    jac_phi_A_j[17] = C_j[4] * f_i_world_0;
+    jac_phi_A_j[18] = f_i_world_0 * e_ij_in_j_1 + v_0_world_0 * f_i_in_j_1;
+    jac_phi_A_j[19] = g_i_world_0 * e_ij_in_j_1 + v_0_world_0 * g_i_in_j_1;
+    jac_phi_A_j[20] = C_j[7] * f_i_world_1;
     jac_phi_A_j[21] = C_j[7] * g_i_world_1;
-    jac_phi_A_j[22] = f_i_world_1 * C_j[4];
-    jac_phi_A_j[23] = f_i_world_1 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_1;
-    jac_phi_A_j[24] = g_i_world_1 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_1;
-    jac_phi_A_j[25] = f_i_world_2 * C_j[7];
+    jac_phi_A_j[22] = C_j[4] * f_i_world_1;
+    jac_phi_A_j[23] = f_i_world_1 * e_ij_in_j_1 + v_0_world_1 * f_i_in_j_1;
+    jac_phi_A_j[24] = g_i_world_1 * e_ij_in_j_1 + v_0_world_1 * g_i_in_j_1;
+    jac_phi_A_j[25] = C_j[7] * f_i_world_2;
     jac_phi_A_j[26] = C_j[7] * g_i_world_2;
-    jac_phi_A_j[27] = f_i_world_2 * C_j[4];
-    jac_phi_A_j[28] = f_i_world_2 * e_ij_in_j_1 + f_i_in_j_1 * v_0_world_2;
-    jac_phi_A_j[29] = g_i_world_2 * e_ij_in_j_1 + g_i_in_j_1 * v_0_world_2;
-    jac_phi_A_j[30] = f_i_world_0 * C_j[8];
+    jac_phi_A_j[27] = C_j[4] * f_i_world_2;
+    jac_phi_A_j[28] = f_i_world_2 * e_ij_in_j_1 + v_0_world_2 * f_i_in_j_1;
+    jac_phi_A_j[29] = g_i_world_2 * e_ij_in_j_1 + v_0_world_2 * g_i_in_j_1;
+    jac_phi_A_j[30] = C_j[8] * f_i_world_0;
     jac_phi_A_j[31] = C_j[8] * g_i_world_0;
-    jac_phi_A_j[32] = f_i_world_0 * C_j[5];
-    jac_phi_A_j[33] = f_i_world_0 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_0;
-    jac_phi_A_j[34] = g_i_world_0 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_0;
-    jac_phi_A_j[35] = f_i_world_1 * C_j[8];
+    jac_phi_A_j[32] = C_j[5] * f_i_world_0;
+    jac_phi_A_j[33] = f_i_world_0 * e_ij_in_j_2 + v_0_world_0 * f_i_in_j_2;
+    jac_phi_A_j[34] = g_i_world_0 * e_ij_in_j_2 + v_0_world_0 * g_i_in_j_2;
+    jac_phi_A_j[35] = C_j[8] * f_i_world_1;
     jac_phi_A_j[36] = C_j[8] * g_i_world_1;
-    jac_phi_A_j[37] = f_i_world_1 * C_j[5];
-    jac_phi_A_j[38] = f_i_world_1 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_1;
-    jac_phi_A_j[39] = g_i_world_1 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_1;
-    jac_phi_A_j[40] = f_i_world_2 * C_j[8];
+    jac_phi_A_j[37] = C_j[5] * f_i_world_1;
+    jac_phi_A_j[38] = f_i_world_1 * e_ij_in_j_2 + v_0_world_1 * f_i_in_j_2;
+    jac_phi_A_j[39] = g_i_world_1 * e_ij_in_j_2 + v_0_world_1 * g_i_in_j_2;
+    jac_phi_A_j[40] = C_j[8] * f_i_world_2;
     jac_phi_A_j[41] = C_j[8] * g_i_world_2;
-    jac_phi_A_j[42] = f_i_world_2 * C_j[5];
-    jac_phi_A_j[43] = f_i_world_2 * e_ij_in_j_2 + f_i_in_j_2 * v_0_world_2;
-    jac_phi_A_j[44] = g_i_world_2 * e_ij_in_j_2 + g_i_in_j_2 * v_0_world_2;
+    jac_phi_A_j[42] = C_j[5] * f_i_world_2;
+    jac_phi_A_j[43] = f_i_world_2 * e_ij_in_j_2 + v_0_world_2 * f_i_in_j_2;
+    jac_phi_A_j[44] = g_i_world_2 * e_ij_in_j_2 + v_0_world_2 * g_i_in_j_2;
     jac_phi_geometry[0] = -C_i[0];
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[1];
@@ -244,30 +244,30 @@ static void jg_translational_conventional_world_phi_jacobian(const jg_real *JG_R
     const jg_real t81 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real t82 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real t83 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t84 = t81 * C_j[6] + t82 * C_j[7] + t83 * C_j[8];
+    const jg_real t84 = C_j[6] * t81 + C_j[7] * t82 + C_j[8] * t83;
     jac_phi_geometry[6] = t84;
     jac_phi_geometry[15] = t84;
-    jac_phi_geometry[7] = t81 * C_j[3] + t82 * C_j[4] + t83 * C_j[5];
+    jac_phi_geometry[7] = C_j[3] * t81 + C_j[4] * t82 + C_j[5] * t83;
     const jg_real t85 = t81 * e_ij_in_j_0 + t82 * e_ij_in_j_1 + t83 * e_ij_in_j_2 - s_i[0];
     jac_phi_geometry[8] = t85;
     jac_phi_geometry[16] = t85;
     const jg_real t86 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real t87 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real t88 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t89 = t86 * C_j[6] + t87 * C_j[7] + t88 * C_j[8];
+    const jg_real t89 = C_j[6] * t86 + C_j[7] * t87 + C_j[8] * t88;
     jac_phi_geometry[9] = t89;
     jac_phi_geometry[17] = t89;
-    jac_phi_geometry[10] = t86 * C_j[3] + t87 * C_j[4] + t88 * C_j[5];
+    jac_phi_geometry[10] = C_j[3] * t86 + C_j[4] * t87 + C_j[5] * t88;
     const jg_real t90 = t86 * e_ij_in_j_0 + t87 * e_ij_in_j_1 + t88 * e_ij_in_j_2 - s_i[1];
     jac_phi_geometry[11] = t90;
     jac_phi_geometry[18] = t90;
     const jg_real t91 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real t92 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real t93 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t94 = t91 * C_j[6] + t92 * C_j[7] + t93 * C_j[8];
+    const jg_real t94 = C_j[6] * t91 + C_j[7] * t92 + C_j[8] * t93;
     jac_phi_geometry[12] = t94;
     jac_phi_geometry[19] = t94;
-    jac_phi_geometry[13] = t91 * C_j[3] + t92 * C_j[4] + t93 * C_j[5];
+    jac_phi_geometry[13] = C_j[3] * t91 + C_j[4] * t92 + C_j[5] * t93;
     const jg_real t95 = t91 * e_ij_in_j_0 + t92 * e_ij_in_j_1 + t93 * e_ij_in_j_2 - s_i[2];
     jac_phi_geometry[14] = t95;
     jac_phi_geometry[20] = t95;
@@ -293,7 +293,7 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     jac_phi_q_v_velocity[23] = f_i_world_1;
     /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
-    const jg_real omega_i_cross_f_i_world_0 = f_i_world_2 * omega_i[1] - f_i_world_1 * omega_i[2];
+    const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
     jac_phi_q_v_r_j[0] = omega_i_cross_f_i_world_0;
     jac_phi_q_v_r_i[0] = -omega_i_cross_f_i_world_0;
     /* g_i_world = g_i, world axes */
@@ -307,7 +307,7 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_r_i[1] = -omega_i_cross_g_i_world_0;
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     jac_phi_q_v_velocity[21] = f_i_world_0;
-    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - f_i_world_2 * omega_i[0];
+    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     jac_phi_q_v_r_j[2] = omega_i_cross_f_i_world_1;
     jac_phi_q_v_r_i[2] = -omega_i_cross_f_i_world_1;
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -315,7 +315,7 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
     jac_phi_q_v_r_j[3] = omega_i_cross_g_i_world_1;
     jac_phi_q_v_r_i[3] = -omega_i_cross_g_i_world_1;
-    const jg_real omega_i_cross_f_i_world_2 = f_i_world_1 * omega_i[0] - omega_i[1] * f_i_world_0;
+    const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
     jac_phi_q_v_r_j[4] = omega_i_cross_f_i_world_2;
     jac_phi_q_v_r_i[4] = -omega_i_cross_f_i_world_2;
     const jg_real omega_i_cross_g_i_world_2 = omega_i[0] * g_i_world_1 - omega_i[1] * g_i_world_0;
@@ -328,7 +328,7 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real t15 = C_i[0] * omega_i[1];
     const jg_real t16 = C_i[0] * omega_j[1];
     const jg_real t17 = C_i[0] * omega_j[2];
-    jac_phi_q_v_A_i[0] = t13 * h_j_world_1 - t15 * h_j_world_2 + (h_j_world_2 * t16 - h_j_world_1 * t17);
+    jac_phi_q_v_A_i[0] = h_j_world_1 * t13 - h_j_world_2 * t15 + (h_j_world_2 * t16 - h_j_world_1 * t17);
     const jg_real t18 = omega_i[2] * C_i[3];
     const jg_real t19 = omega_i[1] * C_i[3];
     const jg_real t20 = omega_j[1] * C_i[3];
@@ -341,148 +341,148 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    jac_phi_q_v_A_i[3] = C_i[0] * v_j[0] - (C_i[0] * v_i[0] - (t13 * r_j[1] - t15 * r_j[2]) - (t13 * s_j_world_1 -
-        t15 * s_j_world_2) + (t13 * r_i[1] - t15 * r_i[2]) - (t16 * s_j_world_2 - t17 * s_j_world_1));
-    jac_phi_q_v_A_i[4] = C_i[3] * v_j[0] - (C_i[3] * v_i[0] - (t18 * r_j[1] - t19 * r_j[2]) - (t18 * s_j_world_1 -
-        t19 * s_j_world_2) + (t18 * r_i[1] - t19 * r_i[2]) - (t20 * s_j_world_2 - t21 * s_j_world_1));
+    jac_phi_q_v_A_i[3] = C_i[0] * v_j[0] - (t13 * r_i[1] - t15 * r_i[2] + (C_i[0] * v_i[0] - (t13 * r_j[1] - t15 *
+        r_j[2]) - (t13 * s_j_world_1 - t15 * s_j_world_2)) - (t16 * s_j_world_2 - t17 * s_j_world_1));
+    jac_phi_q_v_A_i[4] = C_i[3] * v_j[0] - (t18 * r_i[1] - t19 * r_i[2] + (C_i[3] * v_i[0] - (r_j[1] * t18 - r_j[2]
+        * t19) - (t18 * s_j_world_1 - t19 * s_j_world_2)) - (t20 * s_j_world_2 - t21 * s_j_world_1));
     const jg_real t26 = C_i[0] * omega_i[0];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real t28 = C_i[0] * omega_j[0];
-    jac_phi_q_v_A_i[5] = t26 * h_j_world_2 - t13 * h_j_world_0 + (h_j_world_0 * t17 - h_j_world_2 * t28);
+    jac_phi_q_v_A_i[5] = h_j_world_2 * t26 - h_j_world_0 * t13 + (h_j_world_0 * t17 - h_j_world_2 * t28);
     const jg_real t29 = omega_i[0] * C_i[3];
     const jg_real t30 = omega_j[0] * C_i[3];
     jac_phi_q_v_A_i[6] = h_j_world_2 * t29 - h_j_world_0 * t18 + (h_j_world_0 * t21 - h_j_world_2 * t30);
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     jac_phi_q_v_A_i[7] = t26 * g_j_world_2 - t13 * g_j_world_0 + (t17 * g_j_world_0 - t28 * g_j_world_2);
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    jac_phi_q_v_A_i[8] = C_i[0] * v_j[1] - (C_i[0] * v_i[1] - (t26 * r_j[2] - t13 * r_j[0]) - (t26 * s_j_world_2 -
-        t13 * s_j_world_0) + (t26 * r_i[2] - t13 * r_i[0]) - (t17 * s_j_world_0 - t28 * s_j_world_2));
-    jac_phi_q_v_A_i[9] = C_i[3] * v_j[1] - (C_i[3] * v_i[1] - (t29 * r_j[2] - t18 * r_j[0]) - (t29 * s_j_world_2 -
-        t18 * s_j_world_0) + (t29 * r_i[2] - t18 * r_i[0]) - (t21 * s_j_world_0 - t30 * s_j_world_2));
-    jac_phi_q_v_A_i[10] = t15 * h_j_world_0 - t26 * h_j_world_1 + (h_j_world_1 * t28 - h_j_world_0 * t16);
+    jac_phi_q_v_A_i[8] = C_i[0] * v_j[1] - (t26 * r_i[2] - t13 * r_i[0] + (C_i[0] * v_i[1] - (t26 * r_j[2] - t13 *
+        r_j[0]) - (t26 * s_j_world_2 - t13 * s_j_world_0)) - (t17 * s_j_world_0 - t28 * s_j_world_2));
+    jac_phi_q_v_A_i[9] = C_i[3] * v_j[1] - (t29 * r_i[2] - t18 * r_i[0] + (C_i[3] * v_i[1] - (r_j[2] * t29 - r_j[0]
+        * t18) - (t29 * s_j_world_2 - t18 * s_j_world_0)) - (t21 * s_j_world_0 - t30 * s_j_world_2));
+    jac_phi_q_v_A_i[10] = h_j_world_0 * t15 - h_j_world_1 * t26 + (h_j_world_1 * t28 - h_j_world_0 * t16);
     jac_phi_q_v_A_i[11] = h_j_world_0 * t19 - h_j_world_1 * t29 + (h_j_world_1 * t30 - h_j_world_0 * t20);
     jac_phi_q_v_A_i[12] = t15 * g_j_world_0 - t26 * g_j_world_1 + (t28 * g_j_world_1 - t16 * g_j_world_0);
-    jac_phi_q_v_A_i[13] = C_i[0] * v_j[2] - (C_i[0] * v_i[2] - (t15 * r_j[0] - t26 * r_j[1]) - (t15 * s_j_world_0 -
-        t26 * s_j_world_1) + (t15 * r_i[0] - t26 * r_i[1]) - (t28 * s_j_world_1 - t16 * s_j_world_0));
-    jac_phi_q_v_A_i[14] = C_i[3] * v_j[2] - (C_i[3] * v_i[2] - (t19 * r_j[0] - t29 * r_j[1]) - (t19 * s_j_world_0 -
-        t29 * s_j_world_1) + (t19 * r_i[0] - t29 * r_i[1]) - (t30 * s_j_world_1 - t20 * s_j_world_0));
+    jac_phi_q_v_A_i[13] = C_i[0] * v_j[2] - (t15 * r_i[0] - t26 * r_i[1] + (C_i[0] * v_i[2] - (t15 * r_j[0] - t26 *
+        r_j[1]) - (t15 * s_j_world_0 - t26 * s_j_world_1)) - (t28 * s_j_world_1 - t16 * s_j_world_0));
+    jac_phi_q_v_A_i[14] = C_i[3] * v_j[2] - (t19 * r_i[0] - t29 * r_i[1] + (C_i[3] * v_i[2] - (r_j[0] * t19 - r_j[1]
+        * t29) - (t19 * s_j_world_0 - t29 * s_j_world_1)) - (t30 * s_j_world_1 - t20 * s_j_world_0));
     const jg_real t33 = C_i[1] * omega_i[2];
     const jg_real t34 = C_i[1] * omega_i[1];
     const jg_real t35 = C_i[1] * omega_j[1];
     const jg_real t36 = C_i[1] * omega_j[2];
-    jac_phi_q_v_A_i[15] = t33 * h_j_world_1 - t34 * h_j_world_2 + (h_j_world_2 * t35 - h_j_world_1 * t36);
+    jac_phi_q_v_A_i[15] = h_j_world_1 * t33 - h_j_world_2 * t34 + (h_j_world_2 * t35 - h_j_world_1 * t36);
     const jg_real t37 = omega_i[2] * C_i[4];
     const jg_real t38 = omega_i[1] * C_i[4];
     const jg_real t39 = omega_j[1] * C_i[4];
     const jg_real t40 = omega_j[2] * C_i[4];
     jac_phi_q_v_A_i[16] = h_j_world_1 * t37 - h_j_world_2 * t38 + (h_j_world_2 * t39 - h_j_world_1 * t40);
     jac_phi_q_v_A_i[17] = t33 * g_j_world_1 - t34 * g_j_world_2 + (t35 * g_j_world_2 - t36 * g_j_world_1);
-    jac_phi_q_v_A_i[18] = C_i[1] * v_j[0] - (C_i[1] * v_i[0] - (t33 * r_j[1] - t34 * r_j[2]) - (t33 * s_j_world_1 -
-        t34 * s_j_world_2) + (t33 * r_i[1] - t34 * r_i[2]) - (t35 * s_j_world_2 - t36 * s_j_world_1));
-    jac_phi_q_v_A_i[19] = C_i[4] * v_j[0] - (C_i[4] * v_i[0] - (t37 * r_j[1] - t38 * r_j[2]) - (t37 * s_j_world_1 -
-        t38 * s_j_world_2) + (t37 * r_i[1] - t38 * r_i[2]) - (t39 * s_j_world_2 - t40 * s_j_world_1));
+    jac_phi_q_v_A_i[18] = C_i[1] * v_j[0] - (t33 * r_i[1] - t34 * r_i[2] + (C_i[1] * v_i[0] - (t33 * r_j[1] - t34 *
+        r_j[2]) - (t33 * s_j_world_1 - t34 * s_j_world_2)) - (t35 * s_j_world_2 - t36 * s_j_world_1));
+    jac_phi_q_v_A_i[19] = C_i[4] * v_j[0] - (t37 * r_i[1] - t38 * r_i[2] + (C_i[4] * v_i[0] - (r_j[1] * t37 - r_j[2]
+        * t38) - (t37 * s_j_world_1 - t38 * s_j_world_2)) - (t39 * s_j_world_2 - t40 * s_j_world_1));
     const jg_real t41 = C_i[1] * omega_i[0];
     const jg_real t42 = C_i[1] * omega_j[0];
-    jac_phi_q_v_A_i[20] = t41 * h_j_world_2 - t33 * h_j_world_0 + (h_j_world_0 * t36 - h_j_world_2 * t42);
+    jac_phi_q_v_A_i[20] = h_j_world_2 * t41 - h_j_world_0 * t33 + (h_j_world_0 * t36 - h_j_world_2 * t42);
     const jg_real t43 = omega_i[0] * C_i[4];
     const jg_real t44 = omega_j[0] * C_i[4];
     jac_phi_q_v_A_i[21] = h_j_world_2 * t43 - h_j_world_0 * t37 + (h_j_world_0 * t40 - h_j_world_2 * t44);
     jac_phi_q_v_A_i[22] = t41 * g_j_world_2 - t33 * g_j_world_0 + (t36 * g_j_world_0 - t42 * g_j_world_2);
-    jac_phi_q_v_A_i[23] = C_i[1] * v_j[1] - (C_i[1] * v_i[1] - (t41 * r_j[2] - t33 * r_j[0]) - (t41 * s_j_world_2 -
-        t33 * s_j_world_0) + (t41 * r_i[2] - t33 * r_i[0]) - (t36 * s_j_world_0 - t42 * s_j_world_2));
-    jac_phi_q_v_A_i[24] = C_i[4] * v_j[1] - (C_i[4] * v_i[1] - (t43 * r_j[2] - t37 * r_j[0]) - (t43 * s_j_world_2 -
-        t37 * s_j_world_0) + (t43 * r_i[2] - t37 * r_i[0]) - (t40 * s_j_world_0 - t44 * s_j_world_2));
-    jac_phi_q_v_A_i[25] = t34 * h_j_world_0 - t41 * h_j_world_1 + (h_j_world_1 * t42 - h_j_world_0 * t35);
+    jac_phi_q_v_A_i[23] = C_i[1] * v_j[1] - (t41 * r_i[2] - t33 * r_i[0] + (C_i[1] * v_i[1] - (t41 * r_j[2] - t33 *
+        r_j[0]) - (t41 * s_j_world_2 - t33 * s_j_world_0)) - (t36 * s_j_world_0 - t42 * s_j_world_2));
+    jac_phi_q_v_A_i[24] = C_i[4] * v_j[1] - (t43 * r_i[2] - t37 * r_i[0] + (C_i[4] * v_i[1] - (r_j[2] * t43 - r_j[0]
+        * t37) - (t43 * s_j_world_2 - t37 * s_j_world_0)) - (t40 * s_j_world_0 - t44 * s_j_world_2));
+    jac_phi_q_v_A_i[25] = h_j_world_0 * t34 - h_j_world_1 * t41 + (h_j_world_1 * t42 - h_j_world_0 * t35);
     jac_phi_q_v_A_i[26] = h_j_world_0 * t38 - h_j_world_1 * t43 + (h_j_world_1 * t44 - h_j_world_0 * t39);
     jac_phi_q_v_A_i[27] = t34 * g_j_world_0 - t41 * g_j_world_1 + (t42 * g_j_world_1 - t35 * g_j_world_0);
-    jac_phi_q_v_A_i[28] = C_i[1] * v_j[2] - (C_i[1] * v_i[2] - (t34 * r_j[0] - t41 * r_j[1]) - (t34 * s_j_world_0 -
-        t41 * s_j_world_1) + (t34 * r_i[0] - t41 * r_i[1]) - (t42 * s_j_world_1 - t35 * s_j_world_0));
-    jac_phi_q_v_A_i[29] = C_i[4] * v_j[2] - (C_i[4] * v_i[2] - (t38 * r_j[0] - t43 * r_j[1]) - (t38 * s_j_world_0 -
-        t43 * s_j_world_1) + (t38 * r_i[0] - t43 * r_i[1]) - (t44 * s_j_world_1 - t39 * s_j_world_0));
+    jac_phi_q_v_A_i[28] = C_i[1] * v_j[2] - (t34 * r_i[0] - t41 * r_i[1] + (C_i[1] * v_i[2] - (t34 * r_j[0] - t41 *
+        r_j[1]) - (t34 * s_j_world_0 - t41 * s_j_world_1)) - (t42 * s_j_world_1 - t35 * s_j_world_0));
+    jac_phi_q_v_A_i[29] = C_i[4] * v_j[2] - (t38 * r_i[0] - t43 * r_i[1] + (C_i[4] * v_i[2] - (r_j[0] * t38 - r_j[1]
+        * t43) - (t38 * s_j_world_0 - t43 * s_j_world_1)) - (t44 * s_j_world_1 - t39 * s_j_world_0));
     const jg_real t45 = C_i[2] * omega_i[2];
     const jg_real t46 = C_i[2] * omega_i[1];
     const jg_real t47 = C_i[2] * omega_j[1];
     const jg_real t48 = C_i[2] * omega_j[2];
-    jac_phi_q_v_A_i[30] = t45 * h_j_world_1 - t46 * h_j_world_2 + (h_j_world_2 * t47 - h_j_world_1 * t48);
+    jac_phi_q_v_A_i[30] = h_j_world_1 * t45 - h_j_world_2 * t46 + (h_j_world_2 * t47 - h_j_world_1 * t48);
     const jg_real t49 = omega_i[2] * C_i[5];
     const jg_real t50 = omega_i[1] * C_i[5];
     const jg_real t51 = omega_j[1] * C_i[5];
     const jg_real t52 = omega_j[2] * C_i[5];
     jac_phi_q_v_A_i[31] = h_j_world_1 * t49 - h_j_world_2 * t50 + (h_j_world_2 * t51 - h_j_world_1 * t52);
     jac_phi_q_v_A_i[32] = t45 * g_j_world_1 - t46 * g_j_world_2 + (t47 * g_j_world_2 - t48 * g_j_world_1);
-    jac_phi_q_v_A_i[33] = C_i[2] * v_j[0] - (C_i[2] * v_i[0] - (t45 * r_j[1] - t46 * r_j[2]) - (t45 * s_j_world_1 -
-        t46 * s_j_world_2) + (t45 * r_i[1] - t46 * r_i[2]) - (t47 * s_j_world_2 - t48 * s_j_world_1));
-    jac_phi_q_v_A_i[34] = C_i[5] * v_j[0] - (C_i[5] * v_i[0] - (t49 * r_j[1] - t50 * r_j[2]) - (t49 * s_j_world_1 -
-        t50 * s_j_world_2) + (t49 * r_i[1] - t50 * r_i[2]) - (t51 * s_j_world_2 - t52 * s_j_world_1));
+    jac_phi_q_v_A_i[33] = C_i[2] * v_j[0] - (t45 * r_i[1] - t46 * r_i[2] + (C_i[2] * v_i[0] - (t45 * r_j[1] - t46 *
+        r_j[2]) - (t45 * s_j_world_1 - t46 * s_j_world_2)) - (t47 * s_j_world_2 - t48 * s_j_world_1));
+    jac_phi_q_v_A_i[34] = C_i[5] * v_j[0] - (t49 * r_i[1] - t50 * r_i[2] + (C_i[5] * v_i[0] - (r_j[1] * t49 - r_j[2]
+        * t50) - (t49 * s_j_world_1 - t50 * s_j_world_2)) - (t51 * s_j_world_2 - t52 * s_j_world_1));
     const jg_real t53 = C_i[2] * omega_i[0];
     const jg_real t54 = C_i[2] * omega_j[0];
-    jac_phi_q_v_A_i[35] = t53 * h_j_world_2 - t45 * h_j_world_0 + (h_j_world_0 * t48 - h_j_world_2 * t54);
+    jac_phi_q_v_A_i[35] = h_j_world_2 * t53 - h_j_world_0 * t45 + (h_j_world_0 * t48 - h_j_world_2 * t54);
     const jg_real t55 = omega_i[0] * C_i[5];
     const jg_real t56 = omega_j[0] * C_i[5];
     jac_phi_q_v_A_i[36] = h_j_world_2 * t55 - h_j_world_0 * t49 + (h_j_world_0 * t52 - h_j_world_2 * t56);
     jac_phi_q_v_A_i[37] = t53 * g_j_world_2 - t45 * g_j_world_0 + (t48 * g_j_world_0 - t54 * g_j_world_2);
-    jac_phi_q_v_A_i[38] = C_i[2] * v_j[1] - (C_i[2] * v_i[1] - (t53 * r_j[2] - t45 * r_j[0]) - (t53 * s_j_world_2 -
-        t45 * s_j_world_0) + (t53 * r_i[2] - t45 * r_i[0]) - (t48 * s_j_world_0 - t54 * s_j_world_2));
-    jac_phi_q_v_A_i[39] = C_i[5] * v_j[1] - (C_i[5] * v_i[1] - (t55 * r_j[2] - t49 * r_j[0]) - (t55 * s_j_world_2 -
-        t49 * s_j_world_0) + (t55 * r_i[2] - t49 * r_i[0]) - (t52 * s_j_world_0 - t56 * s_j_world_2));
-    jac_phi_q_v_A_i[40] = t46 * h_j_world_0 - t53 * h_j_world_1 + (h_j_world_1 * t54 - h_j_world_0 * t47);
+    jac_phi_q_v_A_i[38] = C_i[2] * v_j[1] - (t53 * r_i[2] - t45 * r_i[0] + (C_i[2] * v_i[1] - (t53 * r_j[2] - t45 *
+        r_j[0]) - (t53 * s_j_world_2 - t45 * s_j_world_0)) - (t48 * s_j_world_0 - t54 * s_j_world_2));
+    jac_phi_q_v_A_i[39] = C_i[5] * v_j[1] - (t55 * r_i[2] - t49 * r_i[0] + (C_i[5] * v_i[1] - (r_j[2] * t55 - r_j[0]
+        * t49) - (t55 * s_j_world_2 - t49 * s_j_world_0)) - (t52 * s_j_world_0 - t56 * s_j_world_2));
+    jac_phi_q_v_A_i[40] = h_j_world_0 * t46 - h_j_world_1 * t53 + (h_j_world_1 * t54 - h_j_world_0 * t47);
     jac_phi_q_v_A_i[41] = h_j_world_0 * t50 - h_j_world_1 * t55 + (h_j_world_1 * t56 - h_j_world_0 * t51);
     jac_phi_q_v_A_i[42] = t46 * g_j_world_0 - t53 * g_j_world_1 + (t54 * g_j_world_1 - t47 * g_j_world_0);
-    jac_phi_q_v_A_i[43] = C_i[2] * v_j[2] - (C_i[2] * v_i[2] - (t46 * r_j[0] - t53 * r_j[1]) - (t46 * s_j_world_0 -
-        t53 * s_j_world_1) + (t46 * r_i[0] - t53 * r_i[1]) - (t54 * s_j_world_1 - t47 * s_j_world_0));
-    jac_phi_q_v_A_i[44] = C_i[5] * v_j[2] - (C_i[5] * v_i[2] - (t50 * r_j[0] - t55 * r_j[1]) - (t50 * s_j_world_0 -
-        t55 * s_j_world_1) + (t50 * r_i[0] - t55 * r_i[1]) - (t56 * s_j_world_1 - t51 * s_j_world_0));
+    jac_phi_q_v_A_i[43] = C_i[2] * v_j[2] - (t46 * r_i[0] - t53 * r_i[1] + (C_i[2] * v_i[2] - (t46 * r_j[0] - t53 *
+        r_j[1]) - (t46 * s_j_world_0 - t53 * s_j_world_1)) - (t54 * s_j_world_1 - t47 * s_j_world_0));
+    jac_phi_q_v_A_i[44] = C_i[5] * v_j[2] - (t50 * r_i[0] - t55 * r_i[1] + (C_i[5] * v_i[2] - (r_j[0] * t50 - r_j[1]
+        * t55) - (t50 * s_j_world_0 - t55 * s_j_world_1)) - (t56 * s_j_world_1 - t51 * s_j_world_0));
     /* f_i_cross_omega_j_world = f_i x omega_j, world axes */
-    const jg_real f_i_cross_omega_j_world_0 = f_i_world_1 * omega_j[2] - f_i_world_2 * omega_j[1];
-    jac_phi_q_v_A_j[0] = omega_i_cross_f_i_world_0 * C_j[6] + C_j[6] * f_i_cross_omega_j_world_0;
+    const jg_real f_i_cross_omega_j_world_0 = omega_j[2] * f_i_world_1 - omega_j[1] * f_i_world_2;
+    jac_phi_q_v_A_j[0] = C_j[6] * omega_i_cross_f_i_world_0 + C_j[6] * f_i_cross_omega_j_world_0;
     /* g_i_cross_omega_j_world = g_i x omega_j, world axes */
     const jg_real g_i_cross_omega_j_world_0 = omega_j[2] * g_i_world_1 - omega_j[1] * g_i_world_2;
     jac_phi_q_v_A_j[1] = C_j[6] * omega_i_cross_g_i_world_0 + C_j[6] * g_i_cross_omega_j_world_0;
-    jac_phi_q_v_A_j[2] = omega_i_cross_f_i_world_0 * C_j[3] + f_i_cross_omega_j_world_0 * C_j[3];
+    jac_phi_q_v_A_j[2] = C_j[3] * omega_i_cross_f_i_world_0 + C_j[3] * f_i_cross_omega_j_world_0;
     jac_phi_q_v_A_j[3] = omega_i_cross_f_i_world_0 * s_j[0] + f_i_cross_omega_j_world_0 * s_j[0];
     jac_phi_q_v_A_j[4] = omega_i_cross_g_i_world_0 * s_j[0] + g_i_cross_omega_j_world_0 * s_j[0];
-    const jg_real f_i_cross_omega_j_world_1 = f_i_world_2 * omega_j[0] - f_i_world_0 * omega_j[2];
+    const jg_real f_i_cross_omega_j_world_1 = omega_j[0] * f_i_world_2 - omega_j[2] * f_i_world_0;
     jac_phi_q_v_A_j[5] = C_j[6] * omega_i_cross_f_i_world_1 + C_j[6] * f_i_cross_omega_j_world_1;
     const jg_real g_i_cross_omega_j_world_1 = omega_j[0] * g_i_world_2 - omega_j[2] * g_i_world_0;
     jac_phi_q_v_A_j[6] = C_j[6] * omega_i_cross_g_i_world_1 + C_j[6] * g_i_cross_omega_j_world_1;
-    jac_phi_q_v_A_j[7] = omega_i_cross_f_i_world_1 * C_j[3] + f_i_cross_omega_j_world_1 * C_j[3];
+    jac_phi_q_v_A_j[7] = C_j[3] * omega_i_cross_f_i_world_1 + C_j[3] * f_i_cross_omega_j_world_1;
     jac_phi_q_v_A_j[8] = omega_i_cross_f_i_world_1 * s_j[0] + f_i_cross_omega_j_world_1 * s_j[0];
     jac_phi_q_v_A_j[9] = omega_i_cross_g_i_world_1 * s_j[0] + g_i_cross_omega_j_world_1 * s_j[0];
-    const jg_real f_i_cross_omega_j_world_2 = f_i_world_0 * omega_j[1] - f_i_world_1 * omega_j[0];
+    const jg_real f_i_cross_omega_j_world_2 = omega_j[1] * f_i_world_0 - omega_j[0] * f_i_world_1;
     jac_phi_q_v_A_j[10] = C_j[6] * omega_i_cross_f_i_world_2 + C_j[6] * f_i_cross_omega_j_world_2;
     const jg_real g_i_cross_omega_j_world_2 = omega_j[1] * g_i_world_0 - omega_j[0] * g_i_world_1;
     jac_phi_q_v_A_j[11] = C_j[6] * omega_i_cross_g_i_world_2 + C_j[6] * g_i_cross_omega_j_world_2;
-    jac_phi_q_v_A_j[12] = omega_i_cross_f_i_world_2 * C_j[3] + f_i_cross_omega_j_world_2 * C_j[3];
+    jac_phi_q_v_A_j[12] = C_j[3] * omega_i_cross_f_i_world_2 + C_j[3] * f_i_cross_omega_j_world_2;
     jac_phi_q_v_A_j[13] = omega_i_cross_f_i_world_2 * s_j[0] + f_i_cross_omega_j_world_2 * s_j[0];
-    jac_phi_q_v_A_j[14] = omega_i_cross_g_i_world_2 * s_j[0] + g_i_cross_omega_j_world_2 * s_j[0];
-    jac_phi_q_v_A_j[15] = omega_i_cross_f_i_world_0 * C_j[7] + C_j[7] * f_i_cross_omega_j_world_0;
+    jac_phi_q_v_A_j[14] = omega_i_cross_g_i_world_2 * s_j[0] + s_j[0] * g_i_cross_omega_j_world_2;
+    jac_phi_q_v_A_j[15] = C_j[7] * omega_i_cross_f_i_world_0 + C_j[7] * f_i_cross_omega_j_world_0;
     jac_phi_q_v_A_j[16] = C_j[7] * omega_i_cross_g_i_world_0 + C_j[7] * g_i_cross_omega_j_world_0;
-    jac_phi_q_v_A_j[17] = omega_i_cross_f_i_world_0 * C_j[4] + f_i_cross_omega_j_world_0 * C_j[4];
+    jac_phi_q_v_A_j[17] = C_j[4] * omega_i_cross_f_i_world_0 + C_j[4] * f_i_cross_omega_j_world_0;
     jac_phi_q_v_A_j[18] = omega_i_cross_f_i_world_0 * s_j[1] + f_i_cross_omega_j_world_0 * s_j[1];
     jac_phi_q_v_A_j[19] = omega_i_cross_g_i_world_0 * s_j[1] + g_i_cross_omega_j_world_0 * s_j[1];
     jac_phi_q_v_A_j[20] = C_j[7] * omega_i_cross_f_i_world_1 + C_j[7] * f_i_cross_omega_j_world_1;
     jac_phi_q_v_A_j[21] = C_j[7] * omega_i_cross_g_i_world_1 + C_j[7] * g_i_cross_omega_j_world_1;
-    jac_phi_q_v_A_j[22] = omega_i_cross_f_i_world_1 * C_j[4] + f_i_cross_omega_j_world_1 * C_j[4];
+    jac_phi_q_v_A_j[22] = C_j[4] * omega_i_cross_f_i_world_1 + C_j[4] * f_i_cross_omega_j_world_1;
     jac_phi_q_v_A_j[23] = omega_i_cross_f_i_world_1 * s_j[1] + f_i_cross_omega_j_world_1 * s_j[1];
     jac_phi_q_v_A_j[24] = omega_i_cross_g_i_world_1 * s_j[1] + g_i_cross_omega_j_world_1 * s_j[1];
     jac_phi_q_v_A_j[25] = C_j[7] * omega_i_cross_f_i_world_2 + C_j[7] * f_i_cross_omega_j_world_2;
     jac_phi_q_v_A_j[26] = C_j[7] * omega_i_cross_g_i_world_2 + C_j[7] * g_i_cross_omega_j_world_2;
-    jac_phi_q_v_A_j[27] = omega_i_cross_f_i_world_2 * C_j[4] + f_i_cross_omega_j_world_2 * C_j[4];
+    jac_phi_q_v_A_j[27] = C_j[4] * omega_i_cross_f_i_world_2 + C_j[4] * f_i_cross_omega_j_world_2;
     jac_phi_q_v_A_j[28] = omega_i_cross_f_i_world_2 * s_j[1] + f_i_cross_omega_j_world_2 * s_j[1];
     jac_phi_q_v_A_j[29] = omega_i_cross_g_i_world_2 * s_j[1] + g_i_cross_omega_j_world_2 * s_j[1];
-    jac_phi_q_v_A_j[30] = omega_i_cross_f_i_world_0 * C_j[8] + C_j[8] * f_i_cross_omega_j_world_0;
+    jac_phi_q_v_A_j[30] = C_j[8] * omega_i_cross_f_i_world_0 + C_j[8] * f_i_cross_omega_j_world_0;
     jac_phi_q_v_A_j[31] = C_j[8] * omega_i_cross_g_i_world_0 + C_j[8] * g_i_cross_omega_j_world_0;
-    jac_phi_q_v_A_j[32] = omega_i_cross_f_i_world_0 * C_j[5] + f_i_cross_omega_j_world_0 * C_j[5];
+    jac_phi_q_v_A_j[32] = C_j[5] * omega_i_cross_f_i_world_0 + C_j[5] * f_i_cross_omega_j_world_0;
     jac_phi_q_v_A_j[33] = omega_i_cross_f_i_world_0 * s_j[2] + f_i_cross_omega_j_world_0 * s_j[2];
     jac_phi_q_v_A_j[34] = omega_i_cross_g_i_world_0 * s_j[2] + g_i_cross_omega_j_world_0 * s_j[2];
     jac_phi_q_v_A_j[35] = C_j[8] * omega_i_cross_f_i_world_1 + C_j[8] * f_i_cross_omega_j_world_1;
     jac_phi_q_v_A_j[36] = C_j[8] * omega_i_cross_g_i_world_1 + C_j[8] * g_i_cross_omega_j_world_1;
-    jac_phi_q_v_A_j[37] = omega_i_cross_f_i_world_1 * C_j[5] + f_i_cross_omega_j_world_1 * C_j[5];
+    jac_phi_q_v_A_j[37] = C_j[5] * omega_i_cross_f_i_world_1 + C_j[5] * f_i_cross_omega_j_world_1;
     jac_phi_q_v_A_j[38] = omega_i_cross_f_i_world_1 * s_j[2] + f_i_cross_omega_j_world_1 * s_j[2];
     jac_phi_q_v_A_j[39] = omega_i_cross_g_i_world_1 * s_j[2] + g_i_cross_omega_j_world_1 * s_j[2];
     jac_phi_q_v_A_j[40] = C_j[8] * omega_i_cross_f_i_world_2 + C_j[8] * f_i_cross_omega_j_world_2;
     jac_phi_q_v_A_j[41] = C_j[8] * omega_i_cross_g_i_world_2 + C_j[8] * g_i_cross_omega_j_world_2;
-    jac_phi_q_v_A_j[42] = omega_i_cross_f_i_world_2 * C_j[5] + f_i_cross_omega_j_world_2 * C_j[5];
+    jac_phi_q_v_A_j[42] = C_j[5] * omega_i_cross_f_i_world_2 + C_j[5] * f_i_cross_omega_j_world_2;
     jac_phi_q_v_A_j[43] = omega_i_cross_f_i_world_2 * s_j[2] + f_i_cross_omega_j_world_2 * s_j[2];
     jac_phi_q_v_A_j[44] = omega_i_cross_g_i_world_2 * s_j[2] + g_i_cross_omega_j_world_2 * s_j[2];
     const jg_real t63 = A_i[2] * omega_i[1] - A_i[1] * omega_i[2];
@@ -491,15 +491,15 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real t66 = A_i[1] * omega_j[2] - A_i[2] * omega_j[1];
     const jg_real t67 = A_i[2] * omega_j[0] - A_i[0] * omega_j[2];
     const jg_real t68 = A_i[0] * omega_j[1] - A_i[1] * omega_j[0];
-    const jg_real t69 = t63 * h_j_world_0 + t64 * h_j_world_1 + t65 * h_j_world_2 + (h_j_world_0 * t66 + h_j_world_1
+    const jg_real t69 = h_j_world_0 * t63 + h_j_world_1 * t64 + h_j_world_2 * t65 + (h_j_world_0 * t66 + h_j_world_1
         * t67 + h_j_world_2 * t68);
     jac_phi_q_v_geometry[0] = t69;
     jac_phi_q_v_geometry[9] = t69;
     jac_phi_q_v_geometry[1] = t63 * g_j_world_0 + t64 * g_j_world_1 + t65 * g_j_world_2 + (t66 * g_j_world_0 + t67 *
         g_j_world_1 + t68 * g_j_world_2);
-    const jg_real t70 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (A_i[0] * v_i[0] + A_i[1] * v_i[1] +
-        A_i[2] * v_i[2] - (t63 * r_j[0] + t64 * r_j[1] + t65 * r_j[2]) - (t63 * s_j_world_0 + t64 * s_j_world_1 +
-        t65 * s_j_world_2) + (t63 * r_i[0] + t64 * r_i[1] + t65 * r_i[2]) - (t66 * s_j_world_0 + t67 * s_j_world_1 +
+    const jg_real t70 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (t63 * r_i[0] + t64 * r_i[1] + t65 *
+        r_i[2] + (A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2] - (t63 * r_j[0] + r_j[1] * t64 + r_j[2] * t65)
+        - (t63 * s_j_world_0 + t64 * s_j_world_1 + t65 * s_j_world_2)) - (t66 * s_j_world_0 + t67 * s_j_world_1 +
         t68 * s_j_world_2));
     jac_phi_q_v_geometry[2] = t70;
     jac_phi_q_v_geometry[10] = t70;
@@ -509,15 +509,15 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real t74 = A_i[4] * omega_j[2] - A_i[5] * omega_j[1];
     const jg_real t75 = A_i[5] * omega_j[0] - A_i[3] * omega_j[2];
     const jg_real t76 = A_i[3] * omega_j[1] - A_i[4] * omega_j[0];
-    const jg_real t77 = t71 * h_j_world_0 + t72 * h_j_world_1 + t73 * h_j_world_2 + (h_j_world_0 * t74 + h_j_world_1
+    const jg_real t77 = h_j_world_0 * t71 + h_j_world_1 * t72 + h_j_world_2 * t73 + (h_j_world_0 * t74 + h_j_world_1
         * t75 + h_j_world_2 * t76);
     jac_phi_q_v_geometry[3] = t77;
     jac_phi_q_v_geometry[11] = t77;
     jac_phi_q_v_geometry[4] = t71 * g_j_world_0 + t72 * g_j_world_1 + t73 * g_j_world_2 + (t74 * g_j_world_0 + t75 *
         g_j_world_1 + t76 * g_j_world_2);
-    const jg_real t78 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (A_i[3] * v_i[0] + A_i[4] * v_i[1] +
-        A_i[5] * v_i[2] - (t71 * r_j[0] + t72 * r_j[1] + t73 * r_j[2]) - (t71 * s_j_world_0 + t72 * s_j_world_1 +
-        t73 * s_j_world_2) + (t71 * r_i[0] + t72 * r_i[1] + t73 * r_i[2]) - (t74 * s_j_world_0 + t75 * s_j_world_1 +
+    const jg_real t78 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (t71 * r_i[0] + t72 * r_i[1] + t73 *
+        r_i[2] + (A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2] - (t71 * r_j[0] + r_j[1] * t72 + r_j[2] * t73)
+        - (t71 * s_j_world_0 + t72 * s_j_world_1 + t73 * s_j_world_2)) - (t74 * s_j_world_0 + t75 * s_j_world_1 +
         t76 * s_j_world_2));
     jac_phi_q_v_geometry[5] = t78;
     jac_phi_q_v_geometry[12] = t78;
@@ -527,21 +527,21 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
     const jg_real t82 = A_i[7] * omega_j[2] - A_i[8] * omega_j[1];
     const jg_real t83 = A_i[8] * omega_j[0] - A_i[6] * omega_j[2];
     const jg_real t84 = A_i[6] * omega_j[1] - A_i[7] * omega_j[0];
-    const jg_real t85 = t79 * h_j_world_0 + t80 * h_j_world_1 + t81 * h_j_world_2 + (h_j_world_0 * t82 + h_j_world_1
+    const jg_real t85 = h_j_world_0 * t79 + h_j_world_1 * t80 + h_j_world_2 * t81 + (h_j_world_0 * t82 + h_j_world_1
         * t83 + h_j_world_2 * t84);
     jac_phi_q_v_geometry[6] = t85;
     jac_phi_q_v_geometry[13] = t85;
     jac_phi_q_v_geometry[7] = t79 * g_j_world_0 + t80 * g_j_world_1 + t81 * g_j_world_2 + (t82 * g_j_world_0 + t83 *
         g_j_world_1 + t84 * g_j_world_2);
-    const jg_real t86 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (A_i[6] * v_i[0] + A_i[7] * v_i[1] +
-        A_i[8] * v_i[2] - (t79 * r_j[0] + t80 * r_j[1] + t81 * r_j[2]) - (t79 * s_j_world_0 + t80 * s_j_world_1 +
-        t81 * s_j_world_2) + (t79 * r_i[0] + t80 * r_i[1] + t81 * r_i[2]) - (t82 * s_j_world_0 + t83 * s_j_world_1 +
+    const jg_real t86 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (t79 * r_i[0] + t80 * r_i[1] + t81 *
+        r_i[2] + (A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2] - (t79 * r_j[0] + r_j[1] * t80 + r_j[2] * t81)
+        - (t79 * s_j_world_0 + t80 * s_j_world_1 + t81 * s_j_world_2)) - (t82 * s_j_world_0 + t83 * s_j_world_1 +
         t84 * s_j_world_2));
     jac_phi_q_v_geometry[8] = t86;
     jac_phi_q_v_geometry[14] = t86;
-    const jg_real t87 = omega_i_cross_f_i_world_0 * A_j[0] + omega_i_cross_f_i_world_1 * A_j[1] +
-        omega_i_cross_f_i_world_2 * A_j[2] + (A_j[0] * f_i_cross_omega_j_world_0 + A_j[1] *
-        f_i_cross_omega_j_world_1 + A_j[2] * f_i_cross_omega_j_world_2);
+    const jg_real t87 = A_j[0] * omega_i_cross_f_i_world_0 + A_j[1] * omega_i_cross_f_i_world_1 + A_j[2] *
+        omega_i_cross_f_i_world_2 + (A_j[0] * f_i_cross_omega_j_world_0 + A_j[1] * f_i_cross_omega_j_world_1 +
+        A_j[2] * f_i_cross_omega_j_world_2);
     jac_phi_q_v_geometry[15] = t87;
     jac_phi_q_v_geometry[21] = t87;
     jac_phi_q_v_geometry[24] = t87;
@@ -550,9 +550,9 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
         A_j[2] * g_i_cross_omega_j_world_2);
     jac_phi_q_v_geometry[16] = t88;
     jac_phi_q_v_geometry[25] = t88;
-    const jg_real t89 = omega_i_cross_f_i_world_0 * A_j[3] + omega_i_cross_f_i_world_1 * A_j[4] +
-        omega_i_cross_f_i_world_2 * A_j[5] + (A_j[3] * f_i_cross_omega_j_world_0 + A_j[4] *
-        f_i_cross_omega_j_world_1 + A_j[5] * f_i_cross_omega_j_world_2);
+    const jg_real t89 = A_j[3] * omega_i_cross_f_i_world_0 + A_j[4] * omega_i_cross_f_i_world_1 + A_j[5] *
+        omega_i_cross_f_i_world_2 + (A_j[3] * f_i_cross_omega_j_world_0 + A_j[4] * f_i_cross_omega_j_world_1 +
+        A_j[5] * f_i_cross_omega_j_world_2);
     jac_phi_q_v_geometry[17] = t89;
     jac_phi_q_v_geometry[22] = t89;
     jac_phi_q_v_geometry[26] = t89;
@@ -561,9 +561,9 @@ static void jg_translational_conventional_world_phi_q_v_jacobian(const jg_real *
         A_j[5] * g_i_cross_omega_j_world_2);
     jac_phi_q_v_geometry[18] = t90;
     jac_phi_q_v_geometry[27] = t90;
-    const jg_real t91 = omega_i_cross_f_i_world_0 * A_j[6] + omega_i_cross_f_i_world_1 * A_j[7] +
-        omega_i_cross_f_i_world_2 * A_j[8] + (A_j[6] * f_i_cross_omega_j_world_0 + A_j[7] *
-        f_i_cross_omega_j_world_1 + A_j[8] * f_i_cross_omega_j_world_2);
+    const jg_real t91 = A_j[6] * omega_i_cross_f_i_world_0 + A_j[7] * omega_i_cross_f_i_world_1 + A_j[8] *
+        omega_i_cross_f_i_world_2 + (A_j[6] * f_i_cross_omega_j_world_0 + A_j[7] * f_i_cross_omega_j_world_1 +
+        A_j[8] * f_i_cross_omega_j_world_2);
     jac_phi_q_v_geometry[19] = t91;
     jac_phi_q_v_geometry[23] = t91;
     jac_phi_q_v_geometry[28] = t91;
@@ -665,7 +665,7 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_lambda[24] = f_i_world_0;
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_q_t_lambda_lambda[36] = g_i_world_0;
-    const jg_real v_0_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
+    const jg_real v_0_world_0 = lambda[3] * f_i_world_0 + lambda[4] * g_i_world_0;
     jac_phi_q_t_lambda_r_i[5] = v_0_world_0;
     jac_phi_q_t_lambda_r_j[3] = v_0_world_0;
     const jg_real t10 = -v_0_world_0;
@@ -682,39 +682,39 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_A_i[0] = t13;
     jac_phi_q_t_lambda_A_i[6] = t13;
     jac_phi_q_t_lambda_A_i[12] = t13;
-    /* v_1_in_j = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, axes of body j */
-    const jg_real v_1_in_j_0 = lambda[3] * s_j[0] + lambda[2] * C_j[3] + lambda[0] * C_j[6];
-    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
-    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
-    /* v_1_world = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
-    const jg_real v_1_world_2 = v_1_in_j_0 * A_j[2] + v_1_in_j_1 * A_j[5] + v_1_in_j_2 * A_j[8];
     /* v_3_in_j = lambda_4 s_j + lambda_1 h_j, axes of body j */
     const jg_real v_3_in_j_0 = lambda[4] * s_j[0] + C_j[6] * lambda[1];
     const jg_real v_3_in_j_1 = lambda[4] * s_j[1] + C_j[7] * lambda[1];
     const jg_real v_3_in_j_2 = lambda[4] * s_j[2] + C_j[8] * lambda[1];
     /* v_3_world = lambda_4 s_j + lambda_1 h_j, world axes */
     const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
-    const jg_real t22 = C_i[0] * v_1_world_2 + C_i[3] * v_3_world_2;
+    /* v_1_in_j = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, axes of body j */
+    const jg_real v_1_in_j_0 = lambda[3] * s_j[0] + lambda[2] * C_j[3] + lambda[0] * C_j[6];
+    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
+    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
+    /* v_1_world = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
+    const jg_real v_1_world_2 = A_j[2] * v_1_in_j_0 + A_j[5] * v_1_in_j_1 + A_j[8] * v_1_in_j_2;
+    const jg_real t22 = C_i[3] * v_3_world_2 + C_i[0] * v_1_world_2;
     jac_phi_q_t_lambda_A_i[4] = t22;
     /* v_6_world = r_j - r_i, world axes */
     const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    const jg_real t24 = t22 + t12 * v_6_world_2;
+    const jg_real t24 = v_6_world_2 * t12 + t22;
     jac_phi_q_t_lambda_A_i[7] = t24;
     jac_phi_q_t_lambda_A_i[1] = -t24;
-    const jg_real v_1_world_1 = v_1_in_j_0 * A_j[1] + v_1_in_j_1 * A_j[4] + v_1_in_j_2 * A_j[7];
+    const jg_real v_1_world_1 = A_j[1] * v_1_in_j_0 + A_j[4] * v_1_in_j_1 + A_j[7] * v_1_in_j_2;
     const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
     const jg_real t27 = C_i[0] * v_1_world_1 + C_i[3] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[16] = t27;
     const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real t29 = t27 + t12 * v_6_world_1;
+    const jg_real t29 = v_6_world_1 * t12 + t27;
     jac_phi_q_t_lambda_A_i[2] = t29;
     jac_phi_q_t_lambda_A_i[5] = -t27;
-    const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
-    const jg_real v_3_world_0 = v_3_in_j_0 * A_j[0] + v_3_in_j_1 * A_j[3] + v_3_in_j_2 * A_j[6];
+    const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + A_j[3] * v_1_in_j_1 + A_j[6] * v_1_in_j_2;
+    const jg_real v_3_world_0 = v_3_in_j_0 * A_j[0] + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
     const jg_real t32 = C_i[0] * v_1_world_0 + C_i[3] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[11] = t32;
     const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t34 = t32 + t12 * v_6_world_0;
+    const jg_real t34 = v_6_world_0 * t12 + t32;
     jac_phi_q_t_lambda_A_i[14] = t34;
     jac_phi_q_t_lambda_A_i[8] = -t34;
     jac_phi_q_t_lambda_A_i[10] = -t22;
@@ -728,19 +728,19 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_A_i[18] = t36;
     jac_phi_q_t_lambda_A_i[24] = t36;
     jac_phi_q_t_lambda_A_i[30] = t36;
-    const jg_real t37 = C_i[1] * v_1_world_2 + C_i[4] * v_3_world_2;
+    const jg_real t37 = C_i[4] * v_3_world_2 + C_i[1] * v_1_world_2;
     jac_phi_q_t_lambda_A_i[22] = t37;
-    const jg_real t38 = t37 + t35 * v_6_world_2;
+    const jg_real t38 = v_6_world_2 * t35 + t37;
     jac_phi_q_t_lambda_A_i[25] = t38;
     jac_phi_q_t_lambda_A_i[19] = -t38;
     const jg_real t39 = C_i[1] * v_1_world_1 + C_i[4] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[34] = t39;
-    const jg_real t40 = t39 + t35 * v_6_world_1;
+    const jg_real t40 = v_6_world_1 * t35 + t39;
     jac_phi_q_t_lambda_A_i[20] = t40;
     jac_phi_q_t_lambda_A_i[23] = -t39;
     const jg_real t41 = C_i[1] * v_1_world_0 + C_i[4] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[29] = t41;
-    const jg_real t42 = t41 + t35 * v_6_world_0;
+    const jg_real t42 = v_6_world_0 * t35 + t41;
     jac_phi_q_t_lambda_A_i[32] = t42;
     jac_phi_q_t_lambda_A_i[26] = -t42;
     jac_phi_q_t_lambda_A_i[28] = -t37;
@@ -754,19 +754,19 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_A_i[36] = t44;
     jac_phi_q_t_lambda_A_i[42] = t44;
     jac_phi_q_t_lambda_A_i[48] = t44;
-    const jg_real t45 = C_i[2] * v_1_world_2 + C_i[5] * v_3_world_2;
+    const jg_real t45 = C_i[5] * v_3_world_2 + C_i[2] * v_1_world_2;
     jac_phi_q_t_lambda_A_i[40] = t45;
-    const jg_real t46 = t45 + t43 * v_6_world_2;
+    const jg_real t46 = v_6_world_2 * t43 + t45;
     jac_phi_q_t_lambda_A_i[43] = t46;
     jac_phi_q_t_lambda_A_i[37] = -t46;
     const jg_real t47 = C_i[2] * v_1_world_1 + C_i[5] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[52] = t47;
-    const jg_real t48 = t47 + t43 * v_6_world_1;
+    const jg_real t48 = v_6_world_1 * t43 + t47;
     jac_phi_q_t_lambda_A_i[38] = t48;
     jac_phi_q_t_lambda_A_i[41] = -t47;
     const jg_real t49 = C_i[2] * v_1_world_0 + C_i[5] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[47] = t49;
-    const jg_real t50 = t49 + t43 * v_6_world_0;
+    const jg_real t50 = v_6_world_0 * t43 + t49;
     jac_phi_q_t_lambda_A_i[50] = t50;
     jac_phi_q_t_lambda_A_i[44] = -t50;
     jac_phi_q_t_lambda_A_i[46] = -t45;
@@ -775,7 +775,7 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     const jg_real t51 = f_i_world_2 * v_1_in_j_0 + g_i_world_2 * v_3_in_j_0;
     jac_phi_q_t_lambda_A_j[0] = t51;
     jac_phi_q_t_lambda_A_j[6] = t51;
-    const jg_real t52 = f_i_world_1 * v_1_in_j_0 + g_i_world_1 * v_3_in_j_0;
+    const jg_real t52 = g_i_world_1 * v_3_in_j_0 + f_i_world_1 * v_1_in_j_0;
     jac_phi_q_t_lambda_A_j[3] = t52;
     jac_phi_q_t_lambda_A_j[8] = t52;
     const jg_real t53 = -t52;
@@ -793,7 +793,7 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     const jg_real t57 = f_i_world_2 * v_1_in_j_1 + g_i_world_2 * v_3_in_j_1;
     jac_phi_q_t_lambda_A_j[12] = t57;
     jac_phi_q_t_lambda_A_j[18] = t57;
-    const jg_real t58 = f_i_world_1 * v_1_in_j_1 + g_i_world_1 * v_3_in_j_1;
+    const jg_real t58 = g_i_world_1 * v_3_in_j_1 + f_i_world_1 * v_1_in_j_1;
     jac_phi_q_t_lambda_A_j[15] = t58;
     jac_phi_q_t_lambda_A_j[20] = t58;
     const jg_real t59 = -t58;
@@ -811,7 +811,7 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     const jg_real t63 = f_i_world_2 * v_1_in_j_2 + g_i_world_2 * v_3_in_j_2;
     jac_phi_q_t_lambda_A_j[24] = t63;
     jac_phi_q_t_lambda_A_j[30] = t63;
-    const jg_real t64 = f_i_world_1 * v_1_in_j_2 + g_i_world_1 * v_3_in_j_2;
+    const jg_real t64 = g_i_world_1 * v_3_in_j_2 + f_i_world_1 * v_1_in_j_2;
     jac_phi_q_t_lambda_A_j[27] = t64;
     jac_phi_q_t_lambda_A_j[32] = t64;
     const jg_real t65 = -t64;
@@ -836,11 +836,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[8] = t71;
     jac_phi_q_t_lambda_geometry[2] = -t71;
     const jg_real t72 = A_i[1] * v_1_world_2 - A_i[2] * v_1_world_1;
-    jac_phi_q_t_lambda_geometry[3] = t72 - (t71 * v_6_world_1 - t70 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[3] = t72 - (v_6_world_1 * t71 - v_6_world_2 * t70);
     const jg_real t73 = A_i[2] * v_1_world_0 - A_i[0] * v_1_world_2;
-    jac_phi_q_t_lambda_geometry[4] = t73 - (t69 * v_6_world_2 - t71 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[4] = t73 - (t69 * v_6_world_2 - v_6_world_0 * t71);
     const jg_real t74 = A_i[0] * v_1_world_1 - A_i[1] * v_1_world_0;
-    jac_phi_q_t_lambda_geometry[5] = t74 - (t70 * v_6_world_0 - t69 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[5] = t74 - (v_6_world_0 * t70 - v_6_world_1 * t69);
     jac_phi_q_t_lambda_geometry[9] = -t72;
     jac_phi_q_t_lambda_geometry[10] = -t73;
     jac_phi_q_t_lambda_geometry[11] = -t74;
@@ -854,11 +854,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[20] = t77;
     jac_phi_q_t_lambda_geometry[14] = -t77;
     const jg_real t78 = A_i[4] * v_1_world_2 - A_i[5] * v_1_world_1;
-    jac_phi_q_t_lambda_geometry[15] = t78 - (t77 * v_6_world_1 - t76 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[15] = t78 - (v_6_world_1 * t77 - v_6_world_2 * t76);
     const jg_real t79 = A_i[5] * v_1_world_0 - A_i[3] * v_1_world_2;
-    jac_phi_q_t_lambda_geometry[16] = t79 - (t75 * v_6_world_2 - t77 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[16] = t79 - (t75 * v_6_world_2 - v_6_world_0 * t77);
     const jg_real t80 = A_i[3] * v_1_world_1 - A_i[4] * v_1_world_0;
-    jac_phi_q_t_lambda_geometry[17] = t80 - (t76 * v_6_world_0 - t75 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[17] = t80 - (v_6_world_0 * t76 - v_6_world_1 * t75);
     jac_phi_q_t_lambda_geometry[21] = -t78;
     jac_phi_q_t_lambda_geometry[22] = -t79;
     jac_phi_q_t_lambda_geometry[23] = -t80;
@@ -872,11 +872,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[32] = t83;
     jac_phi_q_t_lambda_geometry[26] = -t83;
     const jg_real t84 = A_i[7] * v_1_world_2 - A_i[8] * v_1_world_1;
-    jac_phi_q_t_lambda_geometry[27] = t84 - (t83 * v_6_world_1 - t82 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[27] = t84 - (v_6_world_1 * t83 - v_6_world_2 * t82);
     const jg_real t85 = A_i[8] * v_1_world_0 - A_i[6] * v_1_world_2;
-    jac_phi_q_t_lambda_geometry[28] = t85 - (t81 * v_6_world_2 - t83 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[28] = t85 - (t81 * v_6_world_2 - v_6_world_0 * t83);
     const jg_real t86 = A_i[6] * v_1_world_1 - A_i[7] * v_1_world_0;
-    jac_phi_q_t_lambda_geometry[29] = t86 - (t82 * v_6_world_0 - t81 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[29] = t86 - (v_6_world_0 * t82 - v_6_world_1 * t81);
     jac_phi_q_t_lambda_geometry[33] = -t84;
     jac_phi_q_t_lambda_geometry[34] = -t85;
     jac_phi_q_t_lambda_geometry[35] = -t86;
@@ -890,11 +890,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[44] = t89;
     jac_phi_q_t_lambda_geometry[38] = -t89;
     const jg_real t90 = A_i[1] * v_3_world_2 - A_i[2] * v_3_world_1;
-    jac_phi_q_t_lambda_geometry[39] = t90 - (t89 * v_6_world_1 - t88 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[39] = t90 - (v_6_world_1 * t89 - v_6_world_2 * t88);
     const jg_real t91 = A_i[2] * v_3_world_0 - A_i[0] * v_3_world_2;
-    jac_phi_q_t_lambda_geometry[40] = t91 - (t87 * v_6_world_2 - t89 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[40] = t91 - (v_6_world_2 * t87 - v_6_world_0 * t89);
     const jg_real t92 = A_i[0] * v_3_world_1 - A_i[1] * v_3_world_0;
-    jac_phi_q_t_lambda_geometry[41] = t92 - (t88 * v_6_world_0 - t87 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[41] = t92 - (v_6_world_0 * t88 - v_6_world_1 * t87);
     jac_phi_q_t_lambda_geometry[45] = -t90;
     jac_phi_q_t_lambda_geometry[46] = -t91;
     jac_phi_q_t_lambda_geometry[47] = -t92;
@@ -908,11 +908,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[56] = t95;
     jac_phi_q_t_lambda_geometry[50] = -t95;
     const jg_real t96 = A_i[4] * v_3_world_2 - A_i[5] * v_3_world_1;
-    jac_phi_q_t_lambda_geometry[51] = t96 - (t95 * v_6_world_1 - t94 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[51] = t96 - (v_6_world_1 * t95 - v_6_world_2 * t94);
     const jg_real t97 = A_i[5] * v_3_world_0 - A_i[3] * v_3_world_2;
-    jac_phi_q_t_lambda_geometry[52] = t97 - (t93 * v_6_world_2 - t95 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[52] = t97 - (v_6_world_2 * t93 - v_6_world_0 * t95);
     const jg_real t98 = A_i[3] * v_3_world_1 - A_i[4] * v_3_world_0;
-    jac_phi_q_t_lambda_geometry[53] = t98 - (t94 * v_6_world_0 - t93 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[53] = t98 - (v_6_world_0 * t94 - v_6_world_1 * t93);
     jac_phi_q_t_lambda_geometry[57] = -t96;
     jac_phi_q_t_lambda_geometry[58] = -t97;
     jac_phi_q_t_lambda_geometry[59] = -t98;
@@ -926,11 +926,11 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_geometry[68] = t101;
     jac_phi_q_t_lambda_geometry[62] = -t101;
     const jg_real t102 = A_i[7] * v_3_world_2 - A_i[8] * v_3_world_1;
-    jac_phi_q_t_lambda_geometry[63] = t102 - (t101 * v_6_world_1 - t100 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[63] = t102 - (v_6_world_1 * t101 - v_6_world_2 * t100);
     const jg_real t103 = A_i[8] * v_3_world_0 - A_i[6] * v_3_world_2;
-    jac_phi_q_t_lambda_geometry[64] = t103 - (t99 * v_6_world_2 - t101 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[64] = t103 - (v_6_world_2 * t99 - v_6_world_0 * t101);
     const jg_real t104 = A_i[6] * v_3_world_1 - A_i[7] * v_3_world_0;
-    jac_phi_q_t_lambda_geometry[65] = t104 - (t100 * v_6_world_0 - t99 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[65] = t104 - (v_6_world_0 * t100 - v_6_world_1 * t99);
     jac_phi_q_t_lambda_geometry[69] = -t102;
     jac_phi_q_t_lambda_geometry[70] = -t103;
     jac_phi_q_t_lambda_geometry[71] = -t104;
@@ -1112,7 +1112,7 @@ static void jg_translational_conventional_world_phi_q_t_lambda_jacobian(const jg
     jac_phi_q_t_lambda_lambda[31] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[32] = -g_i_world_2;
     const jg_real t198 = g_i_world_1 * t192 - g_i_world_2 * t193;
-    jac_phi_q_t_lambda_lambda[33] = t198 - (g_i_world_2 * v_6_world_1 - g_i_world_1 * v_6_world_2);
+    jac_phi_q_t_lambda_lambda[33] = t198 - (v_6_world_1 * g_i_world_2 - g_i_world_1 * v_6_world_2);
     const jg_real t199 = g_i_world_2 * t195 - g_i_world_0 * t192;
     jac_phi_q_t_lambda_lambda[34] = t199 - (g_i_world_0 * v_6_world_2 - g_i_world_2 * v_6_world_0);
     const jg_real t200 = g_i_world_0 * t193 - g_i_world_1 * t195;

@@ -50,66 +50,62 @@ static void jg_universal_parametric_table4_substituted_phi_jacobian(const jg_rea
     jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[1] = C_i[6] * f_j_world_0;
-    jac_phi_A_i[2] = f_j_world_0 * C_i[0];
+    jac_phi_A_i[2] = C_i[0] * f_j_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[3] = C_i[6] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     jac_phi_A_i[5] = C_i[6] * f_j_world_1;
-    jac_phi_A_i[6] = f_j_world_1 * C_i[0];
+    jac_phi_A_i[6] = C_i[0] * f_j_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[7] = C_i[6] * h_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[9] = C_i[6] * f_j_world_2;
-    jac_phi_A_i[10] = f_j_world_2 * C_i[0];
+    jac_phi_A_i[10] = C_i[0] * f_j_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[11] = C_i[6] * h_j_world_2;
     jac_phi_A_i[13] = C_i[7] * f_j_world_0;
-    jac_phi_A_i[14] = f_j_world_0 * C_i[1];
+    jac_phi_A_i[14] = C_i[1] * f_j_world_0;
     jac_phi_A_i[15] = C_i[7] * h_j_world_0;
     jac_phi_A_i[17] = C_i[7] * f_j_world_1;
-    jac_phi_A_i[18] = f_j_world_1 * C_i[1];
+    jac_phi_A_i[18] = C_i[1] * f_j_world_1;
     jac_phi_A_i[19] = C_i[7] * h_j_world_1;
     jac_phi_A_i[21] = C_i[7] * f_j_world_2;
-    jac_phi_A_i[22] = f_j_world_2 * C_i[1];
+    jac_phi_A_i[22] = C_i[1] * f_j_world_2;
     jac_phi_A_i[23] = C_i[7] * h_j_world_2;
     jac_phi_A_i[25] = C_i[8] * f_j_world_0;
-    jac_phi_A_i[26] = f_j_world_0 * C_i[2];
+    jac_phi_A_i[26] = C_i[2] * f_j_world_0;
     jac_phi_A_i[27] = C_i[8] * h_j_world_0;
     jac_phi_A_i[29] = C_i[8] * f_j_world_1;
-    jac_phi_A_i[30] = f_j_world_1 * C_i[2];
+    jac_phi_A_i[30] = C_i[2] * f_j_world_1;
     jac_phi_A_i[31] = C_i[8] * h_j_world_1;
     jac_phi_A_i[33] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[34] = f_j_world_2 * C_i[2];
+    jac_phi_A_i[34] = C_i[2] * f_j_world_2;
     jac_phi_A_i[35] = C_i[8] * h_j_world_2;
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    jac_phi_A_j[3] = h_i_world_0 * C_j[0];
+    jac_phi_A_j[3] = C_j[0] * h_i_world_0;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_A_j[4] = C_j[0] * f_i_world_0;
@@ -133,7 +129,7 @@ static void jg_universal_parametric_table4_substituted_phi_jacobian(const jg_rea
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = h_i_world_0 * C_j[1];
+    jac_phi_A_j[21] = C_j[1] * h_i_world_0;
     jac_phi_A_j[22] = C_j[1] * f_i_world_0;
     jac_phi_A_j[23] = h_i_world_0 * C_j[7];
     jac_phi_A_j[24] = s_j[1] * A_i[1];
@@ -151,7 +147,7 @@ static void jg_universal_parametric_table4_substituted_phi_jacobian(const jg_rea
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
     jac_phi_A_j[38] = s_j[2] * A_i[6];
-    jac_phi_A_j[39] = h_i_world_0 * C_j[2];
+    jac_phi_A_j[39] = C_j[2] * h_i_world_0;
     jac_phi_A_j[40] = C_j[2] * f_i_world_0;
     jac_phi_A_j[41] = h_i_world_0 * C_j[8];
     jac_phi_A_j[42] = s_j[2] * A_i[1];
@@ -171,15 +167,15 @@ static void jg_universal_parametric_table4_substituted_phi_jacobian(const jg_rea
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    const jg_real t21 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[3] = t21;
-    jac_phi_geometry[6] = t21;
-    const jg_real t22 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[4] = t22;
-    jac_phi_geometry[8] = t22;
-    const jg_real t23 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[5] = t23;
-    jac_phi_geometry[10] = t23;
+    const jg_real t18 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    jac_phi_geometry[3] = t18;
+    jac_phi_geometry[6] = t18;
+    const jg_real t19 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    jac_phi_geometry[4] = t19;
+    jac_phi_geometry[8] = t19;
+    const jg_real t20 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    jac_phi_geometry[5] = t20;
+    jac_phi_geometry[10] = t20;
     jac_phi_geometry[7] = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[9] = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[11] = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
@@ -192,17 +188,17 @@ static void jg_universal_parametric_table4_substituted_phi_jacobian(const jg_rea
     jac_phi_geometry[18] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[19] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[20] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real t24 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
-    jac_phi_geometry[21] = t24;
-    jac_phi_geometry[27] = t24;
+    const jg_real t21 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    jac_phi_geometry[21] = t21;
+    jac_phi_geometry[27] = t21;
     jac_phi_geometry[22] = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
-    const jg_real t25 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
-    jac_phi_geometry[23] = t25;
-    jac_phi_geometry[28] = t25;
+    const jg_real t22 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    jac_phi_geometry[23] = t22;
+    jac_phi_geometry[28] = t22;
     jac_phi_geometry[24] = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
-    const jg_real t26 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
-    jac_phi_geometry[25] = t26;
-    jac_phi_geometry[29] = t26;
+    const jg_real t23 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
+    jac_phi_geometry[25] = t23;
+    jac_phi_geometry[29] = t23;
     jac_phi_geometry[26] = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
 }
 
@@ -224,21 +220,21 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
-    const jg_real s_j_cross_omega_j_in_joint_j_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
-        C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
+    const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_v_velocity[45] = sine_0;
-    const jg_real s_j_cross_omega_j_in_joint_j_1 = s_j_cross_omega_j_in_j_0 * C_j[3] + s_j_cross_omega_j_in_j_1 *
-        C_j[4] + s_j_cross_omega_j_in_j_2 * C_j[5];
+    const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
-    const jg_real s_j_cross_omega_j_in_joint_j_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
-        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
+    const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
+        s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
     jac_phi_q_v_velocity[46] = sine_1;
     const jg_real t11 = cosine_0 * sine_1;
     const jg_real t12 = s_j_cross_omega_j_in_joint_j_2 * t11 - (s_j_cross_omega_j_in_joint_j_0 * sine_0 +
@@ -248,51 +244,51 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     const jg_real H_02 = sine_0 * sine_1;
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_joint_j_0 * cosine_0 -
-        s_j_cross_omega_j_in_joint_j_1 * t13 + H_02 * s_j_cross_omega_j_in_joint_j_2;
+        s_j_cross_omega_j_in_joint_j_1 * t13 + s_j_cross_omega_j_in_joint_j_2 * H_02;
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
     const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real t19 = t11 * v_j_in_joint_j_2 - (sine_0 * v_j_in_joint_j_0 + H_11 * v_j_in_joint_j_1);
+    const jg_real t19 = v_j_in_joint_j_2 * t11 - (v_j_in_joint_j_0 * sine_0 + v_j_in_joint_j_1 * H_11);
     /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_0 = cosine_0 * v_j_in_joint_j_0 - t13 * v_j_in_joint_j_1 + H_02 * v_j_in_joint_j_2;
-    jac_phi_q_v_alpha[0] = C_i[0] * t19 + C_i[3] * v_j_in_joint_i_0 - (t12 * C_i[0] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[3]);
-    jac_phi_q_v_alpha[1] = t19 * C_i[1] + v_j_in_joint_i_0 * C_i[4] - (t12 * C_i[1] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[4]);
-    jac_phi_q_v_alpha[2] = t19 * C_i[2] + v_j_in_joint_i_0 * C_i[5] - (t12 * C_i[2] + s_j_cross_omega_j_in_joint_i_0
-        * C_i[5]);
+    const jg_real v_j_in_joint_i_0 = v_j_in_joint_j_0 * cosine_0 - v_j_in_joint_j_1 * t13 + v_j_in_joint_j_2 * H_02;
+    jac_phi_q_v_alpha[0] = C_i[0] * t19 + C_i[3] * v_j_in_joint_i_0 - (C_i[0] * t12 + C_i[3] *
+        s_j_cross_omega_j_in_joint_i_0);
+    jac_phi_q_v_alpha[1] = C_i[1] * t19 + C_i[4] * v_j_in_joint_i_0 - (C_i[1] * t12 + C_i[4] *
+        s_j_cross_omega_j_in_joint_i_0);
+    jac_phi_q_v_alpha[2] = C_i[2] * t19 + C_i[5] * v_j_in_joint_i_0 - (C_i[2] * t12 + C_i[5] *
+        s_j_cross_omega_j_in_joint_i_0);
     jac_phi_q_v_geometry[5] = omega_i[0];
     jac_phi_q_v_geometry[1] = omega_i[1];
     jac_phi_q_v_geometry[2] = omega_i[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
-    jac_phi_q_v_alpha[3] = -(sine_0 * omega_i_in_joint_i_1 + cosine_0 * omega_i_in_joint_i_0);
+    jac_phi_q_v_alpha[3] = -(omega_i_in_joint_i_1 * sine_0 + omega_i_in_joint_i_0 * cosine_0);
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    jac_phi_q_v_alpha[4] = cosine_0 * omega_i_in_joint_i_2 + cosine_0 * alphadot[0] - (H_11 * omega_j_in_joint_j_2 +
-        t11 * omega_j_in_joint_j_1);
-    jac_phi_q_v_alpha[5] = t11 * omega_i_in_joint_i_1 - H_02 * omega_i_in_joint_i_0;
-    const jg_real t26 = s_j_cross_omega_j_in_joint_j_1 * H_02 + t13 * s_j_cross_omega_j_in_joint_j_2;
-    const jg_real t27 = s_j_cross_omega_j_in_joint_j_1 * t11 + H_11 * s_j_cross_omega_j_in_joint_j_2;
-    const jg_real t28 = s_j_cross_omega_j_in_joint_j_1 * cosine_1 - sine_1 * s_j_cross_omega_j_in_joint_j_2;
-    const jg_real t29 = H_02 * v_j_in_joint_j_1 + t13 * v_j_in_joint_j_2;
-    const jg_real t30 = t11 * v_j_in_joint_j_1 + H_11 * v_j_in_joint_j_2;
-    const jg_real t31 = cosine_1 * v_j_in_joint_j_1 - sine_1 * v_j_in_joint_j_2;
-    jac_phi_q_v_alpha[6] = C_i[0] * t29 - C_i[3] * t30 + C_i[6] * t31 - (t26 * C_i[0] - t27 * C_i[3] + t28 *
-        C_i[6]);
-    jac_phi_q_v_alpha[7] = t29 * C_i[1] - t30 * C_i[4] + t31 * C_i[7] - (t26 * C_i[1] - t27 * C_i[4] + t28 *
-        C_i[7]);
-    jac_phi_q_v_alpha[8] = t29 * C_i[2] - t30 * C_i[5] + t31 * C_i[8] - (t26 * C_i[2] - t27 * C_i[5] + t28 *
-        C_i[8]);
-    jac_phi_q_v_alpha[9] = cosine_1 * omega_j_in_joint_j_2 + sine_1 * omega_j_in_joint_j_1;
-    jac_phi_q_v_alpha[10] = H_02 * omega_j_in_joint_j_2 - t13 * omega_j_in_joint_j_1;
+    jac_phi_q_v_alpha[4] = omega_i_in_joint_i_2 * cosine_0 + alphadot[0] * cosine_0 - (omega_j_in_joint_j_2 * H_11 +
+        omega_j_in_joint_j_1 * t11);
+    jac_phi_q_v_alpha[5] = omega_i_in_joint_i_1 * t11 - omega_i_in_joint_i_0 * H_02;
+    const jg_real t26 = s_j_cross_omega_j_in_joint_j_1 * H_02 + s_j_cross_omega_j_in_joint_j_2 * t13;
+    const jg_real t27 = s_j_cross_omega_j_in_joint_j_1 * t11 + s_j_cross_omega_j_in_joint_j_2 * H_11;
+    const jg_real t28 = s_j_cross_omega_j_in_joint_j_1 * cosine_1 - s_j_cross_omega_j_in_joint_j_2 * sine_1;
+    const jg_real t29 = v_j_in_joint_j_1 * H_02 + v_j_in_joint_j_2 * t13;
+    const jg_real t30 = v_j_in_joint_j_1 * t11 + v_j_in_joint_j_2 * H_11;
+    const jg_real t31 = v_j_in_joint_j_1 * cosine_1 - v_j_in_joint_j_2 * sine_1;
+    jac_phi_q_v_alpha[6] = C_i[0] * t29 - C_i[3] * t30 + C_i[6] * t31 - (C_i[0] * t26 - C_i[3] * t27 + C_i[6] *
+        t28);
+    jac_phi_q_v_alpha[7] = C_i[1] * t29 - C_i[4] * t30 + C_i[7] * t31 - (C_i[1] * t26 - C_i[4] * t27 + C_i[7] *
+        t28);
+    jac_phi_q_v_alpha[8] = C_i[2] * t29 - C_i[5] * t30 + C_i[8] * t31 - (C_i[2] * t26 - C_i[5] * t27 + C_i[8] *
+        t28);
+    jac_phi_q_v_alpha[9] = omega_j_in_joint_j_2 * cosine_1 + omega_j_in_joint_j_1 * sine_1;
+    jac_phi_q_v_alpha[10] = omega_j_in_joint_j_2 * H_02 - omega_j_in_joint_j_1 * t13;
     const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    jac_phi_q_v_alpha[11] = t13 * omega_i_in_joint_i_1 + H_11 * omega_i_in_joint_i_0 + cosine_1 * alphadot[1] -
-        cosine_1 * omega_j_in_joint_j_0;
+    jac_phi_q_v_alpha[11] = omega_i_in_joint_i_1 * t13 + omega_i_in_joint_i_0 * H_11 + alphadot[1] * cosine_1 -
+        omega_j_in_joint_j_0 * cosine_1;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
@@ -300,31 +296,31 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     jac_phi_q_v_geometry[6] = t33;
     jac_phi_q_v_geometry[9] = t33;
     jac_phi_q_v_geometry[12] = t33;
-    const jg_real t34 = sine_0 * omega_i[0];
+    const jg_real t34 = omega_i[0] * sine_0;
     jac_phi_q_v_geometry[25] = t34;
     jac_phi_q_v_geometry[7] = -t34;
-    jac_phi_q_v_geometry[8] = t11 * omega_i[0];
-    const jg_real t35 = sine_0 * omega_i[1];
+    jac_phi_q_v_geometry[8] = omega_i[0] * t11;
+    const jg_real t35 = omega_i[1] * sine_0;
     jac_phi_q_v_geometry[27] = t35;
     jac_phi_q_v_geometry[10] = -t35;
-    jac_phi_q_v_geometry[11] = t11 * omega_i[1];
-    const jg_real t36 = sine_0 * omega_i[2];
+    jac_phi_q_v_geometry[11] = omega_i[1] * t11;
+    const jg_real t36 = omega_i[2] * sine_0;
     jac_phi_q_v_geometry[29] = t36;
     jac_phi_q_v_geometry[13] = -t36;
-    jac_phi_q_v_geometry[14] = t11 * omega_i[2];
+    jac_phi_q_v_geometry[14] = omega_i[2] * t11;
     const jg_real t37 = t12 - t19;
     jac_phi_q_v_geometry[15] = t37;
     jac_phi_q_v_geometry[18] = t37;
     jac_phi_q_v_geometry[21] = t37;
-    jac_phi_q_v_geometry[16] = cosine_0 * omega_i[0];
-    jac_phi_q_v_geometry[17] = H_02 * omega_i[0];
-    jac_phi_q_v_geometry[19] = cosine_0 * omega_i[1];
-    jac_phi_q_v_geometry[20] = H_02 * omega_i[1];
-    jac_phi_q_v_geometry[22] = cosine_0 * omega_i[2];
-    jac_phi_q_v_geometry[23] = H_02 * omega_i[2];
-    const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_joint_j_1 * sine_1 + cosine_1 *
-        s_j_cross_omega_j_in_joint_j_2;
-    const jg_real v_j_in_joint_i_2 = sine_1 * v_j_in_joint_j_1 + cosine_1 * v_j_in_joint_j_2;
+    jac_phi_q_v_geometry[16] = omega_i[0] * cosine_0;
+    jac_phi_q_v_geometry[17] = omega_i[0] * H_02;
+    jac_phi_q_v_geometry[19] = omega_i[1] * cosine_0;
+    jac_phi_q_v_geometry[20] = omega_i[1] * H_02;
+    jac_phi_q_v_geometry[22] = omega_i[2] * cosine_0;
+    jac_phi_q_v_geometry[23] = omega_i[2] * H_02;
+    const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_joint_j_1 * sine_1 +
+        s_j_cross_omega_j_in_joint_j_2 * cosine_1;
+    const jg_real v_j_in_joint_i_2 = v_j_in_joint_j_1 * sine_1 + v_j_in_joint_j_2 * cosine_1;
     const jg_real t40 = v_j_in_joint_i_2 - s_j_cross_omega_j_in_joint_i_2;
     jac_phi_q_v_geometry[24] = t40;
     jac_phi_q_v_geometry[26] = t40;
@@ -332,140 +328,140 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     const jg_real t41 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
     const jg_real t42 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
     const jg_real t43 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
-    const jg_real t44 = t41 * cosine_0 - t42 * t13 + H_02 * t43;
+    const jg_real t44 = t41 * cosine_0 - t42 * t13 + t43 * H_02;
     const jg_real t45 = t41 * sine_0 + t42 * H_11 - t43 * t11;
-    const jg_real t46 = t42 * sine_1 + cosine_1 * t43;
-    jac_phi_q_v_geometry[30] = -(t44 * C_i[0] + t45 * C_i[3] + t46 * C_i[6]);
-    jac_phi_q_v_geometry[31] = -(t44 * C_i[1] + t45 * C_i[4] + t46 * C_i[7]);
-    jac_phi_q_v_geometry[32] = -(t44 * C_i[2] + t45 * C_i[5] + t46 * C_i[8]);
+    const jg_real t46 = t42 * sine_1 + t43 * cosine_1;
+    jac_phi_q_v_geometry[30] = -(C_i[0] * t44 + C_i[3] * t45 + C_i[6] * t46);
+    jac_phi_q_v_geometry[31] = -(C_i[1] * t44 + C_i[4] * t45 + C_i[7] * t46);
+    jac_phi_q_v_geometry[32] = -(C_i[2] * t44 + C_i[5] * t45 + C_i[8] * t46);
     const jg_real t47 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real t48 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real t49 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    const jg_real t50 = t47 * cosine_0 - t48 * t13 + H_02 * t49;
+    const jg_real t50 = t47 * cosine_0 - t48 * t13 + t49 * H_02;
     const jg_real t51 = t47 * sine_0 + t48 * H_11 - t49 * t11;
-    const jg_real t52 = t48 * sine_1 + cosine_1 * t49;
-    jac_phi_q_v_geometry[33] = -(t50 * C_i[0] + t51 * C_i[3] + t52 * C_i[6]);
-    jac_phi_q_v_geometry[34] = -(t50 * C_i[1] + t51 * C_i[4] + t52 * C_i[7]);
-    jac_phi_q_v_geometry[35] = -(t50 * C_i[2] + t51 * C_i[5] + t52 * C_i[8]);
+    const jg_real t52 = t48 * sine_1 + t49 * cosine_1;
+    jac_phi_q_v_geometry[33] = -(C_i[0] * t50 + C_i[3] * t51 + C_i[6] * t52);
+    jac_phi_q_v_geometry[34] = -(C_i[1] * t50 + C_i[4] * t51 + C_i[7] * t52);
+    jac_phi_q_v_geometry[35] = -(C_i[2] * t50 + C_i[5] * t51 + C_i[8] * t52);
     const jg_real t53 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real t54 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
     const jg_real t55 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    const jg_real t56 = t53 * cosine_0 - t54 * t13 + H_02 * t55;
+    const jg_real t56 = t53 * cosine_0 - t54 * t13 + t55 * H_02;
     const jg_real t57 = t53 * sine_0 + t54 * H_11 - t55 * t11;
-    const jg_real t58 = t54 * sine_1 + cosine_1 * t55;
-    jac_phi_q_v_geometry[36] = -(t56 * C_i[0] + t57 * C_i[3] + t58 * C_i[6]);
-    jac_phi_q_v_geometry[37] = -(t56 * C_i[1] + t57 * C_i[4] + t58 * C_i[7]);
-    jac_phi_q_v_geometry[38] = -(t56 * C_i[2] + t57 * C_i[5] + t58 * C_i[8]);
+    const jg_real t58 = t54 * sine_1 + t55 * cosine_1;
+    jac_phi_q_v_geometry[36] = -(C_i[0] * t56 + C_i[3] * t57 + C_i[6] * t58);
+    jac_phi_q_v_geometry[37] = -(C_i[1] * t56 + C_i[4] * t57 + C_i[7] * t58);
+    jac_phi_q_v_geometry[38] = -(C_i[2] * t56 + C_i[5] * t57 + C_i[8] * t58);
     const jg_real t59 = s_j_cross_omega_j_in_j_0 * cosine_0;
     const jg_real t60 = s_j_cross_omega_j_in_j_0 * sine_0;
-    const jg_real t61 = cosine_0 * v_j[0];
-    const jg_real t62 = sine_0 * v_j[0];
-    jac_phi_q_v_geometry[39] = C_i[0] * t61 + C_i[3] * t62 - (t59 * C_i[0] + t60 * C_i[3]);
-    jac_phi_q_v_geometry[40] = t61 * C_i[1] + t62 * C_i[4] - (t59 * C_i[1] + t60 * C_i[4]);
-    jac_phi_q_v_geometry[41] = t61 * C_i[2] + t62 * C_i[5] - (t59 * C_i[2] + t60 * C_i[5]);
+    const jg_real t61 = v_j[0] * cosine_0;
+    const jg_real t62 = v_j[0] * sine_0;
+    jac_phi_q_v_geometry[39] = C_i[0] * t61 + C_i[3] * t62 - (C_i[0] * t59 + C_i[3] * t60);
+    jac_phi_q_v_geometry[40] = C_i[1] * t61 + C_i[4] * t62 - (C_i[1] * t59 + C_i[4] * t60);
+    jac_phi_q_v_geometry[41] = C_i[2] * t61 + C_i[5] * t62 - (C_i[2] * t59 + C_i[5] * t60);
     const jg_real t63 = omega_j[0] * sine_1;
     jac_phi_q_v_geometry[69] = t63;
     jac_phi_q_v_geometry[42] = -t63;
     const jg_real t64 = s_j_cross_omega_j_in_j_1 * cosine_0;
     const jg_real t65 = s_j_cross_omega_j_in_j_1 * sine_0;
-    const jg_real t66 = cosine_0 * v_j[1];
-    const jg_real t67 = sine_0 * v_j[1];
-    jac_phi_q_v_geometry[43] = C_i[0] * t66 + C_i[3] * t67 - (t64 * C_i[0] + t65 * C_i[3]);
-    jac_phi_q_v_geometry[44] = t66 * C_i[1] + t67 * C_i[4] - (t64 * C_i[1] + t65 * C_i[4]);
-    jac_phi_q_v_geometry[45] = t66 * C_i[2] + t67 * C_i[5] - (t64 * C_i[2] + t65 * C_i[5]);
+    const jg_real t66 = v_j[1] * cosine_0;
+    const jg_real t67 = v_j[1] * sine_0;
+    jac_phi_q_v_geometry[43] = C_i[0] * t66 + C_i[3] * t67 - (C_i[0] * t64 + C_i[3] * t65);
+    jac_phi_q_v_geometry[44] = C_i[1] * t66 + C_i[4] * t67 - (C_i[1] * t64 + C_i[4] * t65);
+    jac_phi_q_v_geometry[45] = C_i[2] * t66 + C_i[5] * t67 - (C_i[2] * t64 + C_i[5] * t65);
     const jg_real t68 = omega_j[1] * sine_1;
     jac_phi_q_v_geometry[74] = t68;
     jac_phi_q_v_geometry[46] = -t68;
     const jg_real t69 = s_j_cross_omega_j_in_j_2 * cosine_0;
     const jg_real t70 = s_j_cross_omega_j_in_j_2 * sine_0;
-    const jg_real t71 = cosine_0 * v_j[2];
-    const jg_real t72 = sine_0 * v_j[2];
-    jac_phi_q_v_geometry[47] = C_i[0] * t71 + C_i[3] * t72 - (t69 * C_i[0] + t70 * C_i[3]);
-    jac_phi_q_v_geometry[48] = t71 * C_i[1] + t72 * C_i[4] - (t69 * C_i[1] + t70 * C_i[4]);
-    jac_phi_q_v_geometry[49] = t71 * C_i[2] + t72 * C_i[5] - (t69 * C_i[2] + t70 * C_i[5]);
+    const jg_real t71 = v_j[2] * cosine_0;
+    const jg_real t72 = v_j[2] * sine_0;
+    jac_phi_q_v_geometry[47] = C_i[0] * t71 + C_i[3] * t72 - (C_i[0] * t69 + C_i[3] * t70);
+    jac_phi_q_v_geometry[48] = C_i[1] * t71 + C_i[4] * t72 - (C_i[1] * t69 + C_i[4] * t70);
+    jac_phi_q_v_geometry[49] = C_i[2] * t71 + C_i[5] * t72 - (C_i[2] * t69 + C_i[5] * t70);
     const jg_real t73 = omega_j[2] * sine_1;
     jac_phi_q_v_geometry[79] = t73;
     jac_phi_q_v_geometry[50] = -t73;
     const jg_real t74 = s_j_cross_omega_j_in_j_0 * H_11;
     const jg_real t75 = s_j_cross_omega_j_in_j_0 * t13;
     const jg_real t76 = s_j_cross_omega_j_in_j_0 * sine_1;
-    const jg_real t77 = H_11 * v_j[0];
-    const jg_real t78 = t13 * v_j[0];
-    const jg_real t79 = sine_1 * v_j[0];
-    jac_phi_q_v_geometry[51] = C_i[3] * t77 - C_i[0] * t78 + C_i[6] * t79 - (t74 * C_i[3] - t75 * C_i[0] + t76 *
-        C_i[6]);
-    jac_phi_q_v_geometry[52] = t77 * C_i[4] - t78 * C_i[1] + t79 * C_i[7] - (t74 * C_i[4] - t75 * C_i[1] + t76 *
-        C_i[7]);
-    jac_phi_q_v_geometry[53] = t77 * C_i[5] - t78 * C_i[2] + t79 * C_i[8] - (t74 * C_i[5] - t75 * C_i[2] + t76 *
-        C_i[8]);
+    const jg_real t77 = v_j[0] * H_11;
+    const jg_real t78 = v_j[0] * t13;
+    const jg_real t79 = v_j[0] * sine_1;
+    jac_phi_q_v_geometry[51] = C_i[3] * t77 - C_i[0] * t78 + C_i[6] * t79 - (C_i[3] * t74 - C_i[0] * t75 + C_i[6] *
+        t76);
+    jac_phi_q_v_geometry[52] = C_i[4] * t77 - C_i[1] * t78 + C_i[7] * t79 - (C_i[4] * t74 - C_i[1] * t75 + C_i[7] *
+        t76);
+    jac_phi_q_v_geometry[53] = C_i[5] * t77 - C_i[2] * t78 + C_i[8] * t79 - (C_i[5] * t74 - C_i[2] * t75 + C_i[8] *
+        t76);
     jac_phi_q_v_geometry[54] = -(omega_j[0] * cosine_1);
     jac_phi_q_v_geometry[55] = -(omega_j[0] * H_02);
     const jg_real t80 = s_j_cross_omega_j_in_j_1 * H_11;
     const jg_real t81 = s_j_cross_omega_j_in_j_1 * t13;
     const jg_real t82 = s_j_cross_omega_j_in_j_1 * sine_1;
-    const jg_real t83 = H_11 * v_j[1];
-    const jg_real t84 = t13 * v_j[1];
-    const jg_real t85 = sine_1 * v_j[1];
-    jac_phi_q_v_geometry[56] = C_i[3] * t83 - C_i[0] * t84 + C_i[6] * t85 - (t80 * C_i[3] - t81 * C_i[0] + t82 *
-        C_i[6]);
-    jac_phi_q_v_geometry[57] = t83 * C_i[4] - t84 * C_i[1] + t85 * C_i[7] - (t80 * C_i[4] - t81 * C_i[1] + t82 *
-        C_i[7]);
-    jac_phi_q_v_geometry[58] = t83 * C_i[5] - t84 * C_i[2] + t85 * C_i[8] - (t80 * C_i[5] - t81 * C_i[2] + t82 *
-        C_i[8]);
+    const jg_real t83 = v_j[1] * H_11;
+    const jg_real t84 = v_j[1] * t13;
+    const jg_real t85 = v_j[1] * sine_1;
+    jac_phi_q_v_geometry[56] = C_i[3] * t83 - C_i[0] * t84 + C_i[6] * t85 - (C_i[3] * t80 - C_i[0] * t81 + C_i[6] *
+        t82);
+    jac_phi_q_v_geometry[57] = C_i[4] * t83 - C_i[1] * t84 + C_i[7] * t85 - (C_i[4] * t80 - C_i[1] * t81 + C_i[7] *
+        t82);
+    jac_phi_q_v_geometry[58] = C_i[5] * t83 - C_i[2] * t84 + C_i[8] * t85 - (C_i[5] * t80 - C_i[2] * t81 + C_i[8] *
+        t82);
     jac_phi_q_v_geometry[59] = -(omega_j[1] * cosine_1);
     jac_phi_q_v_geometry[60] = -(omega_j[1] * H_02);
     const jg_real t86 = s_j_cross_omega_j_in_j_2 * H_11;
     const jg_real t87 = s_j_cross_omega_j_in_j_2 * t13;
     const jg_real t88 = s_j_cross_omega_j_in_j_2 * sine_1;
-    const jg_real t89 = H_11 * v_j[2];
-    const jg_real t90 = t13 * v_j[2];
-    const jg_real t91 = sine_1 * v_j[2];
-    jac_phi_q_v_geometry[61] = C_i[3] * t89 - C_i[0] * t90 + C_i[6] * t91 - (t86 * C_i[3] - t87 * C_i[0] + t88 *
-        C_i[6]);
-    jac_phi_q_v_geometry[62] = t89 * C_i[4] - t90 * C_i[1] + t91 * C_i[7] - (t86 * C_i[4] - t87 * C_i[1] + t88 *
-        C_i[7]);
-    jac_phi_q_v_geometry[63] = t89 * C_i[5] - t90 * C_i[2] + t91 * C_i[8] - (t86 * C_i[5] - t87 * C_i[2] + t88 *
-        C_i[8]);
+    const jg_real t89 = v_j[2] * H_11;
+    const jg_real t90 = v_j[2] * t13;
+    const jg_real t91 = v_j[2] * sine_1;
+    jac_phi_q_v_geometry[61] = C_i[3] * t89 - C_i[0] * t90 + C_i[6] * t91 - (C_i[3] * t86 - C_i[0] * t87 + C_i[6] *
+        t88);
+    jac_phi_q_v_geometry[62] = C_i[4] * t89 - C_i[1] * t90 + C_i[7] * t91 - (C_i[4] * t86 - C_i[1] * t87 + C_i[7] *
+        t88);
+    jac_phi_q_v_geometry[63] = C_i[5] * t89 - C_i[2] * t90 + C_i[8] * t91 - (C_i[5] * t86 - C_i[2] * t87 + C_i[8] *
+        t88);
     jac_phi_q_v_geometry[64] = -(omega_j[2] * cosine_1);
     jac_phi_q_v_geometry[65] = -(omega_j[2] * H_02);
     const jg_real t92 = s_j_cross_omega_j_in_j_0 * H_02;
     const jg_real t93 = s_j_cross_omega_j_in_j_0 * t11;
     const jg_real t94 = s_j_cross_omega_j_in_j_0 * cosine_1;
-    const jg_real t95 = H_02 * v_j[0];
-    const jg_real t96 = t11 * v_j[0];
-    const jg_real t97 = cosine_1 * v_j[0];
-    jac_phi_q_v_geometry[66] = C_i[0] * t95 - C_i[3] * t96 + C_i[6] * t97 - (t92 * C_i[0] - t93 * C_i[3] + t94 *
-        C_i[6]);
-    jac_phi_q_v_geometry[67] = t95 * C_i[1] - t96 * C_i[4] + t97 * C_i[7] - (t92 * C_i[1] - t93 * C_i[4] + t94 *
-        C_i[7]);
-    jac_phi_q_v_geometry[68] = t95 * C_i[2] - t96 * C_i[5] + t97 * C_i[8] - (t92 * C_i[2] - t93 * C_i[5] + t94 *
-        C_i[8]);
+    const jg_real t95 = v_j[0] * H_02;
+    const jg_real t96 = v_j[0] * t11;
+    const jg_real t97 = v_j[0] * cosine_1;
+    jac_phi_q_v_geometry[66] = C_i[0] * t95 - C_i[3] * t96 + C_i[6] * t97 - (C_i[0] * t92 - C_i[3] * t93 + C_i[6] *
+        t94);
+    jac_phi_q_v_geometry[67] = C_i[1] * t95 - C_i[4] * t96 + C_i[7] * t97 - (C_i[1] * t92 - C_i[4] * t93 + C_i[7] *
+        t94);
+    jac_phi_q_v_geometry[68] = C_i[2] * t95 - C_i[5] * t96 + C_i[8] * t97 - (C_i[2] * t92 - C_i[5] * t93 + C_i[8] *
+        t94);
     jac_phi_q_v_geometry[70] = -(omega_j[0] * t13);
     const jg_real t98 = s_j_cross_omega_j_in_j_1 * H_02;
     const jg_real t99 = s_j_cross_omega_j_in_j_1 * t11;
     const jg_real t100 = s_j_cross_omega_j_in_j_1 * cosine_1;
-    const jg_real t101 = H_02 * v_j[1];
-    const jg_real t102 = t11 * v_j[1];
-    const jg_real t103 = cosine_1 * v_j[1];
-    jac_phi_q_v_geometry[71] = C_i[0] * t101 - C_i[3] * t102 + C_i[6] * t103 - (t98 * C_i[0] - t99 * C_i[3] + t100 *
-        C_i[6]);
-    jac_phi_q_v_geometry[72] = t101 * C_i[1] - t102 * C_i[4] + t103 * C_i[7] - (t98 * C_i[1] - t99 * C_i[4] + t100 *
-        C_i[7]);
-    jac_phi_q_v_geometry[73] = t101 * C_i[2] - t102 * C_i[5] + t103 * C_i[8] - (t98 * C_i[2] - t99 * C_i[5] + t100 *
-        C_i[8]);
+    const jg_real t101 = v_j[1] * H_02;
+    const jg_real t102 = v_j[1] * t11;
+    const jg_real t103 = v_j[1] * cosine_1;
+    jac_phi_q_v_geometry[71] = C_i[0] * t101 - C_i[3] * t102 + C_i[6] * t103 - (C_i[0] * t98 - C_i[3] * t99 + C_i[6]
+        * t100);
+    jac_phi_q_v_geometry[72] = C_i[1] * t101 - C_i[4] * t102 + C_i[7] * t103 - (C_i[1] * t98 - C_i[4] * t99 + C_i[7]
+        * t100);
+    jac_phi_q_v_geometry[73] = C_i[2] * t101 - C_i[5] * t102 + C_i[8] * t103 - (C_i[2] * t98 - C_i[5] * t99 + C_i[8]
+        * t100);
     jac_phi_q_v_geometry[75] = -(omega_j[1] * t13);
     const jg_real t104 = s_j_cross_omega_j_in_j_2 * H_02;
     const jg_real t105 = s_j_cross_omega_j_in_j_2 * t11;
     const jg_real t106 = s_j_cross_omega_j_in_j_2 * cosine_1;
-    const jg_real t107 = H_02 * v_j[2];
-    const jg_real t108 = t11 * v_j[2];
-    const jg_real t109 = cosine_1 * v_j[2];
-    jac_phi_q_v_geometry[76] = C_i[0] * t107 - C_i[3] * t108 + C_i[6] * t109 - (t104 * C_i[0] - t105 * C_i[3] + t106
-        * C_i[6]);
-    jac_phi_q_v_geometry[77] = t107 * C_i[1] - t108 * C_i[4] + t109 * C_i[7] - (t104 * C_i[1] - t105 * C_i[4] + t106
-        * C_i[7]);
-    jac_phi_q_v_geometry[78] = t107 * C_i[2] - t108 * C_i[5] + t109 * C_i[8] - (t104 * C_i[2] - t105 * C_i[5] + t106
-        * C_i[8]);
+    const jg_real t107 = v_j[2] * H_02;
+    const jg_real t108 = v_j[2] * t11;
+    const jg_real t109 = v_j[2] * cosine_1;
+    jac_phi_q_v_geometry[76] = C_i[0] * t107 - C_i[3] * t108 + C_i[6] * t109 - (C_i[0] * t104 - C_i[3] * t105 +
+        C_i[6] * t106);
+    jac_phi_q_v_geometry[77] = C_i[1] * t107 - C_i[4] * t108 + C_i[7] * t109 - (C_i[1] * t104 - C_i[4] * t105 +
+        C_i[7] * t106);
+    jac_phi_q_v_geometry[78] = C_i[2] * t107 - C_i[5] * t108 + C_i[8] * t109 - (C_i[2] * t104 - C_i[5] * t105 +
+        C_i[8] * t106);
     jac_phi_q_v_geometry[80] = -(omega_j[2] * t13);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
@@ -473,71 +469,71 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     jac_phi_q_v_velocity[3] = s_i[2];
     jac_phi_q_v_velocity[13] = s_i[1];
     jac_phi_q_v_velocity[4] = -s_i[1];
-    jac_phi_q_v_velocity[5] = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    jac_phi_q_v_velocity[6] = sine_0 * C_i[6];
-    jac_phi_q_v_velocity[7] = H_02 * C_i[3] + t11 * C_i[0];
+    jac_phi_q_v_velocity[5] = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    jac_phi_q_v_velocity[6] = C_i[6] * sine_0;
+    jac_phi_q_v_velocity[7] = C_i[3] * H_02 + C_i[0] * t11;
     jac_phi_q_v_velocity[8] = -s_i[2];
     jac_phi_q_v_velocity[9] = s_i[0];
-    jac_phi_q_v_velocity[10] = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    jac_phi_q_v_velocity[11] = sine_0 * C_i[7];
-    jac_phi_q_v_velocity[12] = H_02 * C_i[4] + t11 * C_i[1];
+    jac_phi_q_v_velocity[10] = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    jac_phi_q_v_velocity[11] = C_i[7] * sine_0;
+    jac_phi_q_v_velocity[12] = C_i[4] * H_02 + C_i[1] * t11;
     jac_phi_q_v_velocity[14] = -s_i[0];
-    jac_phi_q_v_velocity[15] = cosine_0 * C_i[5] - sine_0 * C_i[2];
-    jac_phi_q_v_velocity[16] = sine_0 * C_i[8];
-    jac_phi_q_v_velocity[17] = H_02 * C_i[5] + t11 * C_i[2];
-    const jg_real t110 = C_j[0] * cosine_0 - C_j[3] * t13 + H_02 * C_j[6];
+    jac_phi_q_v_velocity[15] = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    jac_phi_q_v_velocity[16] = C_i[8] * sine_0;
+    jac_phi_q_v_velocity[17] = C_i[5] * H_02 + C_i[2] * t11;
+    const jg_real t110 = C_j[0] * cosine_0 - C_j[3] * t13 + C_j[6] * H_02;
     const jg_real t111 = C_j[0] * sine_0 + C_j[3] * H_11 - C_j[6] * t11;
-    const jg_real t112 = C_j[3] * sine_1 + cosine_1 * C_j[6];
+    const jg_real t112 = C_j[3] * sine_1 + C_j[6] * cosine_1;
     jac_phi_q_v_velocity[18] = C_i[0] * t110 + C_i[3] * t111 + C_i[6] * t112;
-    jac_phi_q_v_velocity[19] = t110 * C_i[1] + t111 * C_i[4] + t112 * C_i[7];
-    jac_phi_q_v_velocity[20] = t110 * C_i[2] + t111 * C_i[5] + t112 * C_i[8];
-    const jg_real t113 = C_j[1] * cosine_0 - C_j[4] * t13 + H_02 * C_j[7];
+    jac_phi_q_v_velocity[19] = C_i[1] * t110 + C_i[4] * t111 + C_i[7] * t112;
+    jac_phi_q_v_velocity[20] = C_i[2] * t110 + C_i[5] * t111 + C_i[8] * t112;
+    const jg_real t113 = C_j[1] * cosine_0 - C_j[4] * t13 + C_j[7] * H_02;
     const jg_real t114 = C_j[1] * sine_0 + C_j[4] * H_11 - C_j[7] * t11;
-    const jg_real t115 = C_j[4] * sine_1 + cosine_1 * C_j[7];
+    const jg_real t115 = C_j[4] * sine_1 + C_j[7] * cosine_1;
     jac_phi_q_v_velocity[21] = C_i[0] * t113 + C_i[3] * t114 + C_i[6] * t115;
-    jac_phi_q_v_velocity[22] = t113 * C_i[1] + t114 * C_i[4] + t115 * C_i[7];
-    jac_phi_q_v_velocity[23] = t113 * C_i[2] + t114 * C_i[5] + t115 * C_i[8];
-    const jg_real t116 = C_j[2] * cosine_0 - C_j[5] * t13 + H_02 * C_j[8];
+    jac_phi_q_v_velocity[22] = C_i[1] * t113 + C_i[4] * t114 + C_i[7] * t115;
+    jac_phi_q_v_velocity[23] = C_i[2] * t113 + C_i[5] * t114 + C_i[8] * t115;
+    const jg_real t116 = C_j[2] * cosine_0 - C_j[5] * t13 + C_j[8] * H_02;
     const jg_real t117 = C_j[2] * sine_0 + C_j[5] * H_11 - C_j[8] * t11;
-    const jg_real t118 = C_j[5] * sine_1 + cosine_1 * C_j[8];
+    const jg_real t118 = C_j[5] * sine_1 + C_j[8] * cosine_1;
     jac_phi_q_v_velocity[24] = C_i[0] * t116 + C_i[3] * t117 + C_i[6] * t118;
-    jac_phi_q_v_velocity[25] = t116 * C_i[1] + t117 * C_i[4] + t118 * C_i[7];
-    jac_phi_q_v_velocity[26] = t116 * C_i[2] + t117 * C_i[5] + t118 * C_i[8];
+    jac_phi_q_v_velocity[25] = C_i[1] * t116 + C_i[4] * t117 + C_i[7] * t118;
+    jac_phi_q_v_velocity[26] = C_i[2] * t116 + C_i[5] * t117 + C_i[8] * t118;
     const jg_real t119 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
     const jg_real t120 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
     const jg_real t121 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
-    const jg_real t122 = t119 * cosine_0 - t120 * t13 + H_02 * t121;
+    const jg_real t122 = t119 * cosine_0 - t120 * t13 + t121 * H_02;
     const jg_real t123 = t119 * sine_0 + t120 * H_11 - t121 * t11;
-    const jg_real t124 = t120 * sine_1 + cosine_1 * t121;
-    jac_phi_q_v_velocity[27] = -(t122 * C_i[0] + t123 * C_i[3] + t124 * C_i[6]);
-    jac_phi_q_v_velocity[28] = -(t122 * C_i[1] + t123 * C_i[4] + t124 * C_i[7]);
-    jac_phi_q_v_velocity[29] = -(t122 * C_i[2] + t123 * C_i[5] + t124 * C_i[8]);
-    jac_phi_q_v_velocity[30] = sine_1 * C_j[6] - C_j[3] * cosine_1;
-    jac_phi_q_v_velocity[31] = -(t13 * C_j[6] + C_j[3] * H_02);
+    const jg_real t124 = t120 * sine_1 + t121 * cosine_1;
+    jac_phi_q_v_velocity[27] = -(C_i[0] * t122 + C_i[3] * t123 + C_i[6] * t124);
+    jac_phi_q_v_velocity[28] = -(C_i[1] * t122 + C_i[4] * t123 + C_i[7] * t124);
+    jac_phi_q_v_velocity[29] = -(C_i[2] * t122 + C_i[5] * t123 + C_i[8] * t124);
+    jac_phi_q_v_velocity[30] = C_j[6] * sine_1 - C_j[3] * cosine_1;
+    jac_phi_q_v_velocity[31] = -(C_j[6] * t13 + C_j[3] * H_02);
     jac_phi_q_v_velocity[32] = -(C_j[0] * sine_1);
     const jg_real t125 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
     const jg_real t126 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
     const jg_real t127 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
-    const jg_real t128 = t125 * cosine_0 - t126 * t13 + H_02 * t127;
+    const jg_real t128 = t125 * cosine_0 - t126 * t13 + t127 * H_02;
     const jg_real t129 = t125 * sine_0 + t126 * H_11 - t127 * t11;
-    const jg_real t130 = t126 * sine_1 + cosine_1 * t127;
-    jac_phi_q_v_velocity[33] = -(t128 * C_i[0] + t129 * C_i[3] + t130 * C_i[6]);
-    jac_phi_q_v_velocity[34] = -(t128 * C_i[1] + t129 * C_i[4] + t130 * C_i[7]);
-    jac_phi_q_v_velocity[35] = -(t128 * C_i[2] + t129 * C_i[5] + t130 * C_i[8]);
-    jac_phi_q_v_velocity[36] = sine_1 * C_j[7] - C_j[4] * cosine_1;
-    jac_phi_q_v_velocity[37] = -(t13 * C_j[7] + C_j[4] * H_02);
+    const jg_real t130 = t126 * sine_1 + t127 * cosine_1;
+    jac_phi_q_v_velocity[33] = -(C_i[0] * t128 + C_i[3] * t129 + C_i[6] * t130);
+    jac_phi_q_v_velocity[34] = -(C_i[1] * t128 + C_i[4] * t129 + C_i[7] * t130);
+    jac_phi_q_v_velocity[35] = -(C_i[2] * t128 + C_i[5] * t129 + C_i[8] * t130);
+    jac_phi_q_v_velocity[36] = C_j[7] * sine_1 - C_j[4] * cosine_1;
+    jac_phi_q_v_velocity[37] = -(C_j[7] * t13 + C_j[4] * H_02);
     jac_phi_q_v_velocity[38] = -(C_j[1] * sine_1);
     const jg_real t131 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
     const jg_real t132 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
     const jg_real t133 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
-    const jg_real t134 = t131 * cosine_0 - t132 * t13 + H_02 * t133;
+    const jg_real t134 = t131 * cosine_0 - t132 * t13 + t133 * H_02;
     const jg_real t135 = t131 * sine_0 + t132 * H_11 - t133 * t11;
-    const jg_real t136 = t132 * sine_1 + cosine_1 * t133;
-    jac_phi_q_v_velocity[39] = -(t134 * C_i[0] + t135 * C_i[3] + t136 * C_i[6]);
-    jac_phi_q_v_velocity[40] = -(t134 * C_i[1] + t135 * C_i[4] + t136 * C_i[7]);
-    jac_phi_q_v_velocity[41] = -(t134 * C_i[2] + t135 * C_i[5] + t136 * C_i[8]);
-    jac_phi_q_v_velocity[42] = sine_1 * C_j[8] - C_j[5] * cosine_1;
-    jac_phi_q_v_velocity[43] = -(t13 * C_j[8] + C_j[5] * H_02);
+    const jg_real t136 = t132 * sine_1 + t133 * cosine_1;
+    jac_phi_q_v_velocity[39] = -(C_i[0] * t134 + C_i[3] * t135 + C_i[6] * t136);
+    jac_phi_q_v_velocity[40] = -(C_i[1] * t134 + C_i[4] * t135 + C_i[7] * t136);
+    jac_phi_q_v_velocity[41] = -(C_i[2] * t134 + C_i[5] * t135 + C_i[8] * t136);
+    jac_phi_q_v_velocity[42] = C_j[8] * sine_1 - C_j[5] * cosine_1;
+    jac_phi_q_v_velocity[43] = -(C_j[8] * t13 + C_j[5] * H_02);
     jac_phi_q_v_velocity[44] = -(C_j[2] * sine_1);
 }
 
@@ -554,28 +550,28 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     jac_phi_q_t_lambda_lambda[46] = sine_0;
-    const jg_real t2 = sine_0 * lambda[5];
+    const jg_real t2 = lambda[5] * sine_0;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
     const jg_real t5 = cosine_1 * t2;
     jac_phi_q_t_lambda_lambda[39] = sine_1;
     const jg_real t6 = sine_1 * t2;
-    const jg_real t7 = cosine_1 * lambda[3];
+    const jg_real t7 = lambda[3] * cosine_1;
     /* v_0_in_joint_i = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of joint i */
-    const jg_real v_0_in_joint_i = sine_1 * lambda[3];
-    const jg_real t9 = cosine_1 * lambda[4];
+    const jg_real v_0_in_joint_i = lambda[3] * sine_1;
+    const jg_real t9 = lambda[4] * cosine_1;
     jac_phi_q_t_lambda_alpha[9] = t9;
-    jac_phi_q_t_lambda_alpha[0] = C_i[3] * t5 - C_i[0] * t6 - (t7 * C_i[0] + v_0_in_joint_i * C_i[3] - t9 * C_i[6]);
-    jac_phi_q_t_lambda_alpha[1] = t5 * C_i[4] - t6 * C_i[1] - (t7 * C_i[1] + v_0_in_joint_i * C_i[4] - t9 * C_i[7]);
-    jac_phi_q_t_lambda_alpha[2] = t5 * C_i[5] - t6 * C_i[2] - (t7 * C_i[2] + v_0_in_joint_i * C_i[5] - t9 * C_i[8]);
+    jac_phi_q_t_lambda_alpha[0] = C_i[3] * t5 - C_i[0] * t6 - (C_i[0] * t7 + C_i[3] * v_0_in_joint_i - C_i[6] * t9);
+    jac_phi_q_t_lambda_alpha[1] = C_i[4] * t5 - C_i[1] * t6 - (C_i[1] * t7 + C_i[4] * v_0_in_joint_i - C_i[7] * t9);
+    jac_phi_q_t_lambda_alpha[2] = C_i[5] * t5 - C_i[2] * t6 - (C_i[2] * t7 + C_i[5] * v_0_in_joint_i - C_i[8] * t9);
     jac_phi_q_t_lambda_geometry[3] = lambda[0];
     jac_phi_q_t_lambda_geometry[4] = lambda[1];
     jac_phi_q_t_lambda_geometry[0] = lambda[2];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
-    const jg_real t12 = cosine_1 * lambda_0_1_2_in_joint_i_1 - sine_1 * lambda_0_1_2_in_joint_i_0;
+    const jg_real t12 = lambda_0_1_2_in_joint_i_1 * cosine_1 - lambda_0_1_2_in_joint_i_0 * sine_1;
     const jg_real t13 = sine_1 * cosine_0;
     /* H_11 =  */
     const jg_real H_11 = cosine_1 * cosine_0;
@@ -583,42 +579,42 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     const jg_real t16 = cosine_1 * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_1 * sine_0;
-    const jg_real t18 = t16 * lambda_0_1_2_in_joint_i_0 + H_02 * lambda_0_1_2_in_joint_i_1;
-    const jg_real t19 = t12 * C_j[0] - t15 * C_j[3] + t18 * C_j[6];
+    const jg_real t18 = lambda_0_1_2_in_joint_i_0 * t16 + lambda_0_1_2_in_joint_i_1 * H_02;
+    const jg_real t19 = C_j[0] * t12 - C_j[3] * t15 + C_j[6] * t18;
     jac_phi_q_t_lambda_alpha[3] = t19;
-    const jg_real t20 = t12 * C_j[1] - t15 * C_j[4] + t18 * C_j[7];
+    const jg_real t20 = C_j[1] * t12 - C_j[4] * t15 + C_j[7] * t18;
     jac_phi_q_t_lambda_alpha[4] = t20;
-    const jg_real t21 = t12 * C_j[2] - t15 * C_j[5] + t18 * C_j[8];
+    const jg_real t21 = C_j[2] * t12 - C_j[5] * t15 + C_j[8] * t18;
     jac_phi_q_t_lambda_alpha[5] = t21;
     const jg_real t22 = lambda[4] * H_11;
     const jg_real t23 = lambda[4] * t16;
-    jac_phi_q_t_lambda_alpha[6] = t21 * s_j[1] - t20 * s_j[2] - (C_j[6] * t22 + C_j[3] * t23);
-    jac_phi_q_t_lambda_alpha[7] = t19 * s_j[2] - t21 * s_j[0] - (C_j[7] * t22 + C_j[4] * t23);
-    jac_phi_q_t_lambda_alpha[8] = t20 * s_j[0] - t19 * s_j[1] - (C_j[8] * t22 + C_j[5] * t23);
-    const jg_real t24 = cosine_0 * lambda[5];
+    jac_phi_q_t_lambda_alpha[6] = s_j[1] * t21 - s_j[2] * t20 - (C_j[6] * t22 + C_j[3] * t23);
+    jac_phi_q_t_lambda_alpha[7] = s_j[2] * t19 - s_j[0] * t21 - (C_j[7] * t22 + C_j[4] * t23);
+    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t20 - s_j[1] * t19 - (C_j[8] * t22 + C_j[5] * t23);
+    const jg_real t24 = lambda[5] * cosine_0;
     jac_phi_q_t_lambda_alpha[19] = t24;
     const jg_real t25 = cosine_1 * t24;
     const jg_real t26 = sine_1 * t24;
     jac_phi_q_t_lambda_alpha[10] = C_i[0] * t25 + C_i[3] * t26;
-    jac_phi_q_t_lambda_alpha[11] = t25 * C_i[1] + t26 * C_i[4];
-    jac_phi_q_t_lambda_alpha[12] = t25 * C_i[2] + t26 * C_i[5];
+    jac_phi_q_t_lambda_alpha[11] = C_i[1] * t25 + C_i[4] * t26;
+    jac_phi_q_t_lambda_alpha[12] = C_i[2] * t25 + C_i[5] * t26;
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t16 * lambda_0_1_2_in_joint_i_1 +
-        cosine_0 * lambda_0_1_2_in_joint_i_2;
+    const jg_real lambda_0_1_2_in_joint_j_2 = lambda_0_1_2_in_joint_i_0 * H_02 - lambda_0_1_2_in_joint_i_1 * t16 +
+        lambda_0_1_2_in_joint_i_2 * cosine_0;
     jac_phi_q_t_lambda_geometry[99] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_j_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_1 * H_11 - lambda_0_1_2_in_joint_i_0 * t13 +
-        sine_0 * lambda_0_1_2_in_joint_i_2;
+        lambda_0_1_2_in_joint_i_2 * sine_0;
     jac_phi_q_t_lambda_geometry[87] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[91] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_joint_j_1;
-    const jg_real t30 = lambda_0_1_2_in_joint_j_2 * C_j[3] - lambda_0_1_2_in_joint_j_1 * C_j[6];
+    const jg_real t30 = C_j[3] * lambda_0_1_2_in_joint_j_2 - C_j[6] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[13] = t30;
-    const jg_real t31 = lambda_0_1_2_in_joint_j_2 * C_j[4] - lambda_0_1_2_in_joint_j_1 * C_j[7];
+    const jg_real t31 = C_j[4] * lambda_0_1_2_in_joint_j_2 - C_j[7] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[14] = t31;
-    const jg_real t32 = lambda_0_1_2_in_joint_j_2 * C_j[5] - lambda_0_1_2_in_joint_j_1 * C_j[8];
+    const jg_real t32 = C_j[5] * lambda_0_1_2_in_joint_j_2 - C_j[8] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[15] = t32;
     const jg_real t33 = lambda[3] * cosine_0 + lambda[4] * H_02;
     /* v_0_in_joint_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of joint j */
@@ -626,12 +622,12 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     jac_phi_q_t_lambda_geometry[100] = v_0_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[105] = v_0_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[110] = v_0_in_joint_j_2;
-    jac_phi_q_t_lambda_alpha[16] = t32 * s_j[1] - t31 * s_j[2] + (C_j[6] * t33 + C_j[3] * v_0_in_joint_j_2) - t24 *
-        C_j[0];
-    jac_phi_q_t_lambda_alpha[17] = t30 * s_j[2] - t32 * s_j[0] + (C_j[7] * t33 + C_j[4] * v_0_in_joint_j_2) - t24 *
-        C_j[1];
-    jac_phi_q_t_lambda_alpha[18] = t31 * s_j[0] - t30 * s_j[1] + (C_j[8] * t33 + C_j[5] * v_0_in_joint_j_2) - t24 *
-        C_j[2];
+    jac_phi_q_t_lambda_alpha[16] = C_j[6] * t33 + C_j[3] * v_0_in_joint_j_2 + (s_j[1] * t32 - s_j[2] * t31) - C_j[0]
+        * t24;
+    jac_phi_q_t_lambda_alpha[17] = C_j[7] * t33 + C_j[4] * v_0_in_joint_j_2 + (s_j[2] * t30 - s_j[0] * t32) - C_j[1]
+        * t24;
+    jac_phi_q_t_lambda_alpha[18] = C_j[8] * t33 + C_j[5] * v_0_in_joint_j_2 + (s_j[0] * t31 - s_j[1] * t30) - C_j[2]
+        * t24;
     jac_phi_q_t_lambda_geometry[1] = -lambda[1];
     jac_phi_q_t_lambda_geometry[2] = -lambda[2];
     jac_phi_q_t_lambda_geometry[5] = -lambda[0];
@@ -642,39 +638,39 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     const jg_real t36 = lambda[0] * cosine_1;
     const jg_real t37 = lambda[0] * t13;
     const jg_real t38 = lambda[0] * H_02;
-    const jg_real t39 = t36 * C_j[0] - t37 * C_j[3] + t38 * C_j[6];
+    const jg_real t39 = C_j[0] * t36 - C_j[3] * t37 + C_j[6] * t38;
     jac_phi_q_t_lambda_geometry[7] = t39;
-    const jg_real t40 = t36 * C_j[1] - t37 * C_j[4] + t38 * C_j[7];
+    const jg_real t40 = C_j[1] * t36 - C_j[4] * t37 + C_j[7] * t38;
     jac_phi_q_t_lambda_geometry[8] = t40;
-    const jg_real t41 = t36 * C_j[2] - t37 * C_j[5] + t38 * C_j[8];
+    const jg_real t41 = C_j[2] * t36 - C_j[5] * t37 + C_j[8] * t38;
     jac_phi_q_t_lambda_geometry[9] = t41;
-    jac_phi_q_t_lambda_geometry[10] = t41 * s_j[1] - t40 * s_j[2];
-    jac_phi_q_t_lambda_geometry[11] = t39 * s_j[2] - t41 * s_j[0];
-    jac_phi_q_t_lambda_geometry[12] = t40 * s_j[0] - t39 * s_j[1];
+    jac_phi_q_t_lambda_geometry[10] = s_j[1] * t41 - s_j[2] * t40;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t39 - s_j[0] * t41;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t40 - s_j[1] * t39;
     const jg_real t42 = lambda[1] * cosine_1;
     const jg_real t43 = lambda[1] * t13;
     const jg_real t44 = lambda[1] * H_02;
-    const jg_real t45 = t42 * C_j[0] - t43 * C_j[3] + t44 * C_j[6];
+    const jg_real t45 = C_j[0] * t42 - C_j[3] * t43 + C_j[6] * t44;
     jac_phi_q_t_lambda_geometry[14] = t45;
-    const jg_real t46 = t42 * C_j[1] - t43 * C_j[4] + t44 * C_j[7];
+    const jg_real t46 = C_j[1] * t42 - C_j[4] * t43 + C_j[7] * t44;
     jac_phi_q_t_lambda_geometry[15] = t46;
-    const jg_real t47 = t42 * C_j[2] - t43 * C_j[5] + t44 * C_j[8];
+    const jg_real t47 = C_j[2] * t42 - C_j[5] * t43 + C_j[8] * t44;
     jac_phi_q_t_lambda_geometry[16] = t47;
-    jac_phi_q_t_lambda_geometry[17] = t47 * s_j[1] - t46 * s_j[2];
-    jac_phi_q_t_lambda_geometry[18] = t45 * s_j[2] - t47 * s_j[0];
-    jac_phi_q_t_lambda_geometry[19] = t46 * s_j[0] - t45 * s_j[1];
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t47 - s_j[2] * t46;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t45 - s_j[0] * t47;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t46 - s_j[1] * t45;
     const jg_real t48 = lambda[2] * cosine_1;
     const jg_real t49 = lambda[2] * t13;
     const jg_real t50 = lambda[2] * H_02;
-    const jg_real t51 = t48 * C_j[0] - t49 * C_j[3] + t50 * C_j[6];
+    const jg_real t51 = C_j[0] * t48 - C_j[3] * t49 + C_j[6] * t50;
     jac_phi_q_t_lambda_geometry[21] = t51;
-    const jg_real t52 = t48 * C_j[1] - t49 * C_j[4] + t50 * C_j[7];
+    const jg_real t52 = C_j[1] * t48 - C_j[4] * t49 + C_j[7] * t50;
     jac_phi_q_t_lambda_geometry[22] = t52;
-    const jg_real t53 = t48 * C_j[2] - t49 * C_j[5] + t50 * C_j[8];
+    const jg_real t53 = C_j[2] * t48 - C_j[5] * t49 + C_j[8] * t50;
     jac_phi_q_t_lambda_geometry[23] = t53;
-    jac_phi_q_t_lambda_geometry[24] = t53 * s_j[1] - t52 * s_j[2];
-    jac_phi_q_t_lambda_geometry[25] = t51 * s_j[2] - t53 * s_j[0];
-    jac_phi_q_t_lambda_geometry[26] = t52 * s_j[0] - t51 * s_j[1];
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t53 - s_j[2] * t52;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t51 - s_j[0] * t53;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t52 - s_j[1] * t51;
     const jg_real t54 = t7 + t6;
     jac_phi_q_t_lambda_geometry[27] = t54;
     jac_phi_q_t_lambda_geometry[34] = t54;
@@ -682,91 +678,91 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     const jg_real t55 = lambda[0] * sine_1;
     const jg_real t56 = lambda[0] * H_11;
     const jg_real t57 = lambda[0] * t16;
-    const jg_real t58 = t55 * C_j[0] + t56 * C_j[3] - t57 * C_j[6];
+    const jg_real t58 = C_j[0] * t55 + C_j[3] * t56 - C_j[6] * t57;
     jac_phi_q_t_lambda_geometry[28] = t58;
-    const jg_real t59 = t55 * C_j[1] + t56 * C_j[4] - t57 * C_j[7];
+    const jg_real t59 = C_j[1] * t55 + C_j[4] * t56 - C_j[7] * t57;
     jac_phi_q_t_lambda_geometry[29] = t59;
-    const jg_real t60 = t55 * C_j[2] + t56 * C_j[5] - t57 * C_j[8];
+    const jg_real t60 = C_j[2] * t55 + C_j[5] * t56 - C_j[8] * t57;
     jac_phi_q_t_lambda_geometry[30] = t60;
-    jac_phi_q_t_lambda_geometry[31] = t60 * s_j[1] - t59 * s_j[2];
-    jac_phi_q_t_lambda_geometry[32] = t58 * s_j[2] - t60 * s_j[0];
-    jac_phi_q_t_lambda_geometry[33] = t59 * s_j[0] - t58 * s_j[1];
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t60 - s_j[2] * t59;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t58 - s_j[0] * t60;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t59 - s_j[1] * t58;
     const jg_real t61 = lambda[1] * sine_1;
     const jg_real t62 = lambda[1] * H_11;
     const jg_real t63 = lambda[1] * t16;
-    const jg_real t64 = t61 * C_j[0] + t62 * C_j[3] - t63 * C_j[6];
+    const jg_real t64 = C_j[0] * t61 + C_j[3] * t62 - C_j[6] * t63;
     jac_phi_q_t_lambda_geometry[35] = t64;
-    const jg_real t65 = t61 * C_j[1] + t62 * C_j[4] - t63 * C_j[7];
+    const jg_real t65 = C_j[1] * t61 + C_j[4] * t62 - C_j[7] * t63;
     jac_phi_q_t_lambda_geometry[36] = t65;
-    const jg_real t66 = t61 * C_j[2] + t62 * C_j[5] - t63 * C_j[8];
+    const jg_real t66 = C_j[2] * t61 + C_j[5] * t62 - C_j[8] * t63;
     jac_phi_q_t_lambda_geometry[37] = t66;
-    jac_phi_q_t_lambda_geometry[38] = t66 * s_j[1] - t65 * s_j[2];
-    jac_phi_q_t_lambda_geometry[39] = t64 * s_j[2] - t66 * s_j[0];
-    jac_phi_q_t_lambda_geometry[40] = t65 * s_j[0] - t64 * s_j[1];
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t66 - s_j[2] * t65;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t64 - s_j[0] * t66;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t65 - s_j[1] * t64;
     const jg_real t67 = lambda[2] * sine_1;
     const jg_real t68 = lambda[2] * H_11;
     const jg_real t69 = lambda[2] * t16;
-    const jg_real t70 = t67 * C_j[0] + t68 * C_j[3] - t69 * C_j[6];
+    const jg_real t70 = C_j[0] * t67 + C_j[3] * t68 - C_j[6] * t69;
     jac_phi_q_t_lambda_geometry[42] = t70;
-    const jg_real t71 = t67 * C_j[1] + t68 * C_j[4] - t69 * C_j[7];
+    const jg_real t71 = C_j[1] * t67 + C_j[4] * t68 - C_j[7] * t69;
     jac_phi_q_t_lambda_geometry[43] = t71;
-    const jg_real t72 = t67 * C_j[2] + t68 * C_j[5] - t69 * C_j[8];
+    const jg_real t72 = C_j[2] * t67 + C_j[5] * t68 - C_j[8] * t69;
     jac_phi_q_t_lambda_geometry[44] = t72;
-    jac_phi_q_t_lambda_geometry[45] = t72 * s_j[1] - t71 * s_j[2];
-    jac_phi_q_t_lambda_geometry[46] = t70 * s_j[2] - t72 * s_j[0];
-    jac_phi_q_t_lambda_geometry[47] = t71 * s_j[0] - t70 * s_j[1];
-    const jg_real t73 = sine_1 * lambda[4];
+    jac_phi_q_t_lambda_geometry[45] = s_j[1] * t72 - s_j[2] * t71;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t70 - s_j[0] * t72;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t71 - s_j[1] * t70;
+    const jg_real t73 = lambda[4] * sine_1;
     jac_phi_q_t_lambda_geometry[48] = t73;
     jac_phi_q_t_lambda_geometry[55] = t73;
     jac_phi_q_t_lambda_geometry[62] = t73;
     const jg_real t74 = lambda[0] * sine_0;
     const jg_real t75 = lambda[0] * cosine_0;
-    const jg_real t76 = t74 * C_j[3] + t75 * C_j[6];
+    const jg_real t76 = C_j[3] * t74 + C_j[6] * t75;
     jac_phi_q_t_lambda_geometry[49] = t76;
-    const jg_real t77 = t74 * C_j[4] + t75 * C_j[7];
+    const jg_real t77 = C_j[4] * t74 + C_j[7] * t75;
     jac_phi_q_t_lambda_geometry[50] = t77;
-    const jg_real t78 = t74 * C_j[5] + t75 * C_j[8];
+    const jg_real t78 = C_j[5] * t74 + C_j[8] * t75;
     jac_phi_q_t_lambda_geometry[51] = t78;
-    jac_phi_q_t_lambda_geometry[52] = t78 * s_j[1] - t77 * s_j[2];
-    jac_phi_q_t_lambda_geometry[53] = t76 * s_j[2] - t78 * s_j[0];
-    jac_phi_q_t_lambda_geometry[54] = t77 * s_j[0] - t76 * s_j[1];
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t78 - s_j[2] * t77;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t76 - s_j[0] * t78;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t77 - s_j[1] * t76;
     const jg_real t79 = lambda[1] * sine_0;
     const jg_real t80 = lambda[1] * cosine_0;
-    const jg_real t81 = t79 * C_j[3] + t80 * C_j[6];
+    const jg_real t81 = C_j[3] * t79 + C_j[6] * t80;
     jac_phi_q_t_lambda_geometry[56] = t81;
-    const jg_real t82 = t79 * C_j[4] + t80 * C_j[7];
+    const jg_real t82 = C_j[4] * t79 + C_j[7] * t80;
     jac_phi_q_t_lambda_geometry[57] = t82;
-    const jg_real t83 = t79 * C_j[5] + t80 * C_j[8];
+    const jg_real t83 = C_j[5] * t79 + C_j[8] * t80;
     jac_phi_q_t_lambda_geometry[58] = t83;
-    jac_phi_q_t_lambda_geometry[59] = t83 * s_j[1] - t82 * s_j[2];
-    jac_phi_q_t_lambda_geometry[60] = t81 * s_j[2] - t83 * s_j[0];
-    jac_phi_q_t_lambda_geometry[61] = t82 * s_j[0] - t81 * s_j[1];
+    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t83 - s_j[2] * t82;
+    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t81 - s_j[0] * t83;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t82 - s_j[1] * t81;
     const jg_real t84 = lambda[2] * sine_0;
     const jg_real t85 = lambda[2] * cosine_0;
-    const jg_real t86 = t84 * C_j[3] + t85 * C_j[6];
+    const jg_real t86 = C_j[3] * t84 + C_j[6] * t85;
     jac_phi_q_t_lambda_geometry[63] = t86;
-    const jg_real t87 = t84 * C_j[4] + t85 * C_j[7];
+    const jg_real t87 = C_j[4] * t84 + C_j[7] * t85;
     jac_phi_q_t_lambda_geometry[64] = t87;
-    const jg_real t88 = t84 * C_j[5] + t85 * C_j[8];
+    const jg_real t88 = C_j[5] * t84 + C_j[8] * t85;
     jac_phi_q_t_lambda_geometry[65] = t88;
-    jac_phi_q_t_lambda_geometry[66] = t88 * s_j[1] - t87 * s_j[2];
-    jac_phi_q_t_lambda_geometry[67] = t86 * s_j[2] - t88 * s_j[0];
-    jac_phi_q_t_lambda_geometry[68] = t87 * s_j[0] - t86 * s_j[1];
-    const jg_real lambda_0_1_2_in_joint_j_0 = cosine_1 * lambda_0_1_2_in_joint_i_0 + sine_1 *
-        lambda_0_1_2_in_joint_i_1;
+    jac_phi_q_t_lambda_geometry[66] = s_j[1] * t88 - s_j[2] * t87;
+    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t86 - s_j[0] * t88;
+    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t87 - s_j[1] * t86;
+    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * cosine_1 + lambda_0_1_2_in_joint_i_1 *
+        sine_1;
     jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
-        lambda_0_1_2_in_joint_j_2 * C_j[8];
+    const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 + C_j[5] * lambda_0_1_2_in_joint_j_1 +
+        C_j[8] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
-        lambda_0_1_2_in_joint_j_2 * C_j[7];
+    const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 + C_j[4] * lambda_0_1_2_in_joint_j_1 +
+        C_j[7] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
-        lambda_0_1_2_in_joint_j_2 * C_j[6];
+    const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 + C_j[3] * lambda_0_1_2_in_joint_j_1 +
+        C_j[6] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
@@ -774,35 +770,35 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     jac_phi_q_t_lambda_geometry[76] = t93;
     jac_phi_q_t_lambda_geometry[81] = t93;
     jac_phi_q_t_lambda_geometry[86] = t93;
-    const jg_real t94 = lambda_0_1_2_in_joint_j_0 * s_j[2];
+    const jg_real t94 = s_j[2] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[77] = t94;
-    const jg_real t95 = lambda_0_1_2_in_joint_j_0 * s_j[1];
+    const jg_real t95 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[84] = t95;
     jac_phi_q_t_lambda_geometry[78] = -t95;
     jac_phi_q_t_lambda_geometry[80] = -t94;
-    const jg_real t96 = lambda_0_1_2_in_joint_j_0 * s_j[0];
+    const jg_real t96 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[82] = t96;
     jac_phi_q_t_lambda_geometry[85] = -t96;
     const jg_real t97 = -t33;
     jac_phi_q_t_lambda_geometry[88] = t97;
     jac_phi_q_t_lambda_geometry[93] = t97;
     jac_phi_q_t_lambda_geometry[98] = t97;
-    const jg_real t98 = lambda_0_1_2_in_joint_j_1 * s_j[2];
+    const jg_real t98 = s_j[2] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[89] = t98;
-    const jg_real t99 = lambda_0_1_2_in_joint_j_1 * s_j[1];
+    const jg_real t99 = s_j[1] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[96] = t99;
     jac_phi_q_t_lambda_geometry[90] = -t99;
     jac_phi_q_t_lambda_geometry[92] = -t98;
-    const jg_real t100 = lambda_0_1_2_in_joint_j_1 * s_j[0];
+    const jg_real t100 = s_j[0] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[94] = t100;
     jac_phi_q_t_lambda_geometry[97] = -t100;
-    const jg_real t101 = lambda_0_1_2_in_joint_j_2 * s_j[2];
+    const jg_real t101 = s_j[2] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[101] = t101;
-    const jg_real t102 = lambda_0_1_2_in_joint_j_2 * s_j[1];
+    const jg_real t102 = s_j[1] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[108] = t102;
     jac_phi_q_t_lambda_geometry[102] = -t102;
     jac_phi_q_t_lambda_geometry[104] = -t101;
-    const jg_real t103 = lambda_0_1_2_in_joint_j_2 * s_j[0];
+    const jg_real t103 = s_j[0] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[106] = t103;
     jac_phi_q_t_lambda_geometry[109] = -t103;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
@@ -811,63 +807,63 @@ static void jg_universal_parametric_table4_substituted_phi_q_t_lambda_jacobian(c
     jac_phi_q_t_lambda_lambda[10] = s_i[2];
     jac_phi_q_t_lambda_lambda[1] = -s_i[2];
     jac_phi_q_t_lambda_lambda[2] = s_i[1];
-    const jg_real t104 = cosine_1 * C_i[0] + sine_1 * C_i[3];
+    const jg_real t104 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real t105 = C_i[3] * H_11 - C_i[0] * t13 + C_i[6] * sine_0;
     const jg_real t106 = C_i[0] * H_02 - C_i[3] * t16 + C_i[6] * cosine_0;
-    const jg_real t107 = t104 * C_j[0] + t105 * C_j[3] + t106 * C_j[6];
+    const jg_real t107 = C_j[0] * t104 + C_j[3] * t105 + C_j[6] * t106;
     jac_phi_q_t_lambda_lambda[3] = t107;
-    const jg_real t108 = t104 * C_j[1] + t105 * C_j[4] + t106 * C_j[7];
+    const jg_real t108 = C_j[1] * t104 + C_j[4] * t105 + C_j[7] * t106;
     jac_phi_q_t_lambda_lambda[4] = t108;
-    const jg_real t109 = t104 * C_j[2] + t105 * C_j[5] + t106 * C_j[8];
+    const jg_real t109 = C_j[2] * t104 + C_j[5] * t105 + C_j[8] * t106;
     jac_phi_q_t_lambda_lambda[5] = t109;
-    jac_phi_q_t_lambda_lambda[6] = t109 * s_j[1] - t108 * s_j[2];
-    jac_phi_q_t_lambda_lambda[7] = t107 * s_j[2] - t109 * s_j[0];
-    jac_phi_q_t_lambda_lambda[8] = t108 * s_j[0] - t107 * s_j[1];
+    jac_phi_q_t_lambda_lambda[6] = s_j[1] * t109 - s_j[2] * t108;
+    jac_phi_q_t_lambda_lambda[7] = s_j[2] * t107 - s_j[0] * t109;
+    jac_phi_q_t_lambda_lambda[8] = s_j[0] * t108 - s_j[1] * t107;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
-    const jg_real t110 = cosine_1 * C_i[1] + sine_1 * C_i[4];
-    const jg_real t111 = C_i[4] * H_11 - C_i[1] * t13 + sine_0 * C_i[7];
-    const jg_real t112 = H_02 * C_i[1] - t16 * C_i[4] + cosine_0 * C_i[7];
-    const jg_real t113 = t110 * C_j[0] + t111 * C_j[3] + t112 * C_j[6];
+    const jg_real t110 = C_i[1] * cosine_1 + C_i[4] * sine_1;
+    const jg_real t111 = C_i[4] * H_11 - C_i[1] * t13 + C_i[7] * sine_0;
+    const jg_real t112 = C_i[1] * H_02 - C_i[4] * t16 + C_i[7] * cosine_0;
+    const jg_real t113 = C_j[0] * t110 + C_j[3] * t111 + C_j[6] * t112;
     jac_phi_q_t_lambda_lambda[12] = t113;
-    const jg_real t114 = t110 * C_j[1] + t111 * C_j[4] + t112 * C_j[7];
+    const jg_real t114 = C_j[1] * t110 + C_j[4] * t111 + C_j[7] * t112;
     jac_phi_q_t_lambda_lambda[13] = t114;
-    const jg_real t115 = t110 * C_j[2] + t111 * C_j[5] + t112 * C_j[8];
+    const jg_real t115 = C_j[2] * t110 + C_j[5] * t111 + C_j[8] * t112;
     jac_phi_q_t_lambda_lambda[14] = t115;
-    jac_phi_q_t_lambda_lambda[15] = t115 * s_j[1] - t114 * s_j[2];
-    jac_phi_q_t_lambda_lambda[16] = t113 * s_j[2] - t115 * s_j[0];
-    jac_phi_q_t_lambda_lambda[17] = t114 * s_j[0] - t113 * s_j[1];
+    jac_phi_q_t_lambda_lambda[15] = s_j[1] * t115 - s_j[2] * t114;
+    jac_phi_q_t_lambda_lambda[16] = s_j[2] * t113 - s_j[0] * t115;
+    jac_phi_q_t_lambda_lambda[17] = s_j[0] * t114 - s_j[1] * t113;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
-    const jg_real t116 = cosine_1 * C_i[2] + sine_1 * C_i[5];
-    const jg_real t117 = C_i[5] * H_11 - C_i[2] * t13 + sine_0 * C_i[8];
-    const jg_real t118 = H_02 * C_i[2] - t16 * C_i[5] + cosine_0 * C_i[8];
-    const jg_real t119 = t116 * C_j[0] + t117 * C_j[3] + t118 * C_j[6];
+    const jg_real t116 = C_i[2] * cosine_1 + C_i[5] * sine_1;
+    const jg_real t117 = C_i[5] * H_11 - C_i[2] * t13 + C_i[8] * sine_0;
+    const jg_real t118 = C_i[2] * H_02 - C_i[5] * t16 + C_i[8] * cosine_0;
+    const jg_real t119 = C_j[0] * t116 + C_j[3] * t117 + C_j[6] * t118;
     jac_phi_q_t_lambda_lambda[21] = t119;
-    const jg_real t120 = t116 * C_j[1] + t117 * C_j[4] + t118 * C_j[7];
+    const jg_real t120 = C_j[1] * t116 + C_j[4] * t117 + C_j[7] * t118;
     jac_phi_q_t_lambda_lambda[22] = t120;
-    const jg_real t121 = t116 * C_j[2] + t117 * C_j[5] + t118 * C_j[8];
+    const jg_real t121 = C_j[2] * t116 + C_j[5] * t117 + C_j[8] * t118;
     jac_phi_q_t_lambda_lambda[23] = t121;
-    jac_phi_q_t_lambda_lambda[24] = t121 * s_j[1] - t120 * s_j[2];
-    jac_phi_q_t_lambda_lambda[25] = t119 * s_j[2] - t121 * s_j[0];
-    jac_phi_q_t_lambda_lambda[26] = t120 * s_j[0] - t119 * s_j[1];
-    jac_phi_q_t_lambda_lambda[27] = cosine_1 * C_i[3] - sine_1 * C_i[0];
-    jac_phi_q_t_lambda_lambda[28] = cosine_1 * C_i[4] - sine_1 * C_i[1];
-    jac_phi_q_t_lambda_lambda[29] = cosine_1 * C_i[5] - sine_1 * C_i[2];
-    jac_phi_q_t_lambda_lambda[30] = sine_0 * C_j[6] - cosine_0 * C_j[3];
-    jac_phi_q_t_lambda_lambda[31] = sine_0 * C_j[7] - cosine_0 * C_j[4];
-    jac_phi_q_t_lambda_lambda[32] = sine_0 * C_j[8] - cosine_0 * C_j[5];
-    jac_phi_q_t_lambda_lambda[33] = sine_1 * C_i[6];
-    jac_phi_q_t_lambda_lambda[34] = sine_1 * C_i[7];
-    jac_phi_q_t_lambda_lambda[35] = sine_1 * C_i[8];
-    jac_phi_q_t_lambda_lambda[36] = -(t13 * C_j[6] + H_02 * C_j[3]);
-    jac_phi_q_t_lambda_lambda[37] = -(t13 * C_j[7] + H_02 * C_j[4]);
-    jac_phi_q_t_lambda_lambda[38] = -(t13 * C_j[8] + H_02 * C_j[5]);
+    jac_phi_q_t_lambda_lambda[24] = s_j[1] * t121 - s_j[2] * t120;
+    jac_phi_q_t_lambda_lambda[25] = s_j[2] * t119 - s_j[0] * t121;
+    jac_phi_q_t_lambda_lambda[26] = s_j[0] * t120 - s_j[1] * t119;
+    jac_phi_q_t_lambda_lambda[27] = C_i[3] * cosine_1 - C_i[0] * sine_1;
+    jac_phi_q_t_lambda_lambda[28] = C_i[4] * cosine_1 - C_i[1] * sine_1;
+    jac_phi_q_t_lambda_lambda[29] = C_i[5] * cosine_1 - C_i[2] * sine_1;
+    jac_phi_q_t_lambda_lambda[30] = C_j[6] * sine_0 - C_j[3] * cosine_0;
+    jac_phi_q_t_lambda_lambda[31] = C_j[7] * sine_0 - C_j[4] * cosine_0;
+    jac_phi_q_t_lambda_lambda[32] = C_j[8] * sine_0 - C_j[5] * cosine_0;
+    jac_phi_q_t_lambda_lambda[33] = C_i[6] * sine_1;
+    jac_phi_q_t_lambda_lambda[34] = C_i[7] * sine_1;
+    jac_phi_q_t_lambda_lambda[35] = C_i[8] * sine_1;
+    jac_phi_q_t_lambda_lambda[36] = -(C_j[6] * t13 + C_j[3] * H_02);
+    jac_phi_q_t_lambda_lambda[37] = -(C_j[7] * t13 + C_j[4] * H_02);
+    jac_phi_q_t_lambda_lambda[38] = -(C_j[8] * t13 + C_j[5] * H_02);
     jac_phi_q_t_lambda_lambda[40] = C_i[0] * t16 + C_i[3] * H_02;
-    jac_phi_q_t_lambda_lambda[41] = t16 * C_i[1] + H_02 * C_i[4];
-    jac_phi_q_t_lambda_lambda[42] = t16 * C_i[2] + H_02 * C_i[5];
-    jac_phi_q_t_lambda_lambda[43] = -(sine_0 * C_j[0]);
-    jac_phi_q_t_lambda_lambda[44] = -(sine_0 * C_j[1]);
-    jac_phi_q_t_lambda_lambda[45] = -(sine_0 * C_j[2]);
+    jac_phi_q_t_lambda_lambda[41] = C_i[1] * t16 + C_i[4] * H_02;
+    jac_phi_q_t_lambda_lambda[42] = C_i[2] * t16 + C_i[5] * H_02;
+    jac_phi_q_t_lambda_lambda[43] = -(C_j[0] * sine_0);
+    jac_phi_q_t_lambda_lambda[44] = -(C_j[1] * sine_0);
+    jac_phi_q_t_lambda_lambda[45] = -(C_j[2] * sine_0);
 }
 
 JG_EXPORT int jg_universal_parametric_table4_substituted_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

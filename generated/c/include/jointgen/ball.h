@@ -543,7 +543,7 @@ const int *jg_ball_parametric_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 167 (68 add, 96 mul, 3 sincos); temporaries: 47.
+ * @note Operations: 167 (68 add, 96 mul, 3 sincos); temporaries: 50.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -617,7 +617,7 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 735 (288 add, 444 mul, 3 sincos, 24 neg); temporaries: 211.
+ * @note Operations: 697 (269 add, 425 mul, 3 sincos, 30 neg); temporaries: 204.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -643,7 +643,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 735 (288 add, 444 mul, 3 sincos, 24 neg); temporaries: 111.
+ * @note Operations: 697 (269 add, 425 mul, 3 sincos, 30 neg); temporaries: 111.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -763,7 +763,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1193 (469 add, 721 mul, 3 sincos, 31 neg); temporaries: 282.
+ * @note Operations: 1160 (451 add, 706 mul, 3 sincos, 34 neg); temporaries: 277.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -801,7 +801,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1193 (469 add, 721 mul, 3 sincos, 31 neg); temporaries: 164.
+ * @note Operations: 1160 (451 add, 706 mul, 3 sincos, 34 neg); temporaries: 164.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -837,7 +837,7 @@ const int *jg_ball_parametric_substituted_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 167 (68 add, 96 mul, 3 sincos); temporaries: 47.
+ * @note Operations: 167 (68 add, 96 mul, 3 sincos); temporaries: 50.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1030,7 +1030,7 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 30 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 566 (223 add, 340 mul, 3 sincos, 26 neg); temporaries: 147.
+ * @note Operations: 554 (217 add, 334 mul, 3 sincos, 26 neg); temporaries: 140.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1069,7 +1069,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 566 (223 add, 340 mul, 3 sincos, 26 neg); temporaries: 81.
+ * @note Operations: 554 (217 add, 334 mul, 3 sincos, 26 neg); temporaries: 81.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1178,7 +1178,7 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 363 (147 add, 213 mul, 3 sincos, 14 neg); temporaries: 99.
+ * @note Operations: 344 (137 add, 204 mul, 3 sincos, 20 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1204,7 +1204,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 363 (147 add, 213 mul, 3 sincos, 14 neg); temporaries: 73.
+ * @note Operations: 344 (137 add, 204 mul, 3 sincos, 20 neg); temporaries: 73.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1325,7 +1325,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 661 (266 add, 392 mul, 3 sincos, 22 neg); temporaries: 170.
+ * @note Operations: 642 (256 add, 383 mul, 3 sincos, 28 neg); temporaries: 153.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1363,7 +1363,7 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 661 (266 add, 392 mul, 3 sincos, 22 neg); temporaries: 123.
+ * @note Operations: 642 (256 add, 383 mul, 3 sincos, 28 neg); temporaries: 123.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -110,7 +110,7 @@ void jg_cylindrical_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 271 (109 add, 162 mul, 15 neg); temporaries: 92.
+ * @note Operations: 270 (108 add, 162 mul, 21 neg); temporaries: 84.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -134,7 +134,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [4]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 271 (109 add, 162 mul, 15 neg); temporaries: 72.
+ * @note Operations: 270 (108 add, 162 mul, 21 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -245,7 +245,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (241 add, 370 mul, 21 neg); temporaries: 153.
+ * @note Operations: 610 (240 add, 370 mul, 27 neg); temporaries: 145.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_cylindrical_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (241 add, 370 mul, 21 neg); temporaries: 108.
+ * @note Operations: 610 (240 add, 370 mul, 27 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -658,7 +658,7 @@ void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 141.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -684,7 +684,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 79.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -805,7 +805,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 808 (328 add, 479 mul, 1 sincos, 23 neg); temporaries: 193.
+ * @note Operations: 771 (309 add, 461 mul, 1 sincos, 29 neg); temporaries: 194.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -843,7 +843,7 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 808 (328 add, 479 mul, 1 sincos, 23 neg); temporaries: 129.
+ * @note Operations: 771 (309 add, 461 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1220,7 +1220,7 @@ void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 89.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1247,7 +1247,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_REST
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1368,7 +1368,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT 
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 630 (259 add, 370 mul, 1 sincos, 22 neg); temporaries: 162.
+ * @note Operations: 611 (249 add, 361 mul, 1 sincos, 28 neg); temporaries: 145.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1406,7 +1406,7 @@ void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 630 (259 add, 370 mul, 1 sincos, 22 neg); temporaries: 116.
+ * @note Operations: 611 (249 add, 361 mul, 1 sincos, 28 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -110,7 +110,7 @@ void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 265 (106 add, 159 mul, 15 neg); temporaries: 92.
+ * @note Operations: 264 (105 add, 159 mul, 21 neg); temporaries: 84.
  * @see S1 Eq. (9), corrected
  */
 void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -134,7 +134,7 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 265 (106 add, 159 mul, 15 neg); temporaries: 72.
+ * @note Operations: 264 (105 add, 159 mul, 21 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -245,7 +245,7 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 526 (207 add, 319 mul, 18 neg); temporaries: 143.
+ * @note Operations: 525 (206 add, 319 mul, 24 neg); temporaries: 135.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 526 (207 add, 319 mul, 18 neg); temporaries: 96.
+ * @note Operations: 525 (206 add, 319 mul, 24 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -658,7 +658,7 @@ void jg_planar_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_r
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 141.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -684,7 +684,7 @@ void jg_planar_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, co
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 79.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -804,7 +804,7 @@ void jg_planar_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 814 (331 add, 482 mul, 1 sincos, 26 neg); temporaries: 211.
+ * @note Operations: 777 (312 add, 464 mul, 1 sincos, 32 neg); temporaries: 185.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -842,7 +842,7 @@ void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 814 (331 add, 482 mul, 1 sincos, 26 neg); temporaries: 132.
+ * @note Operations: 777 (312 add, 464 mul, 1 sincos, 32 neg); temporaries: 132.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1219,7 +1219,7 @@ void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 89.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1245,7 +1245,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1366,7 +1366,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (262 add, 373 mul, 1 sincos, 25 neg); temporaries: 162.
+ * @note Operations: 617 (252 add, 364 mul, 1 sincos, 31 neg); temporaries: 145.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1404,7 +1404,7 @@ void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 636 (262 add, 373 mul, 1 sincos, 25 neg); temporaries: 119.
+ * @note Operations: 617 (252 add, 364 mul, 1 sincos, 31 neg); temporaries: 119.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1551,7 +1551,7 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_rea
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 146 (57 add, 88 mul, 1 sincos, 3 neg); temporaries: 38.
+ * @note Operations: 144 (56 add, 87 mul, 1 sincos, 3 neg); temporaries: 38.
  * @see second time derivative of S1 Eq. (12); trn2 + rot1
  */
 void jg_planar_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

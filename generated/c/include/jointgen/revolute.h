@@ -618,7 +618,7 @@ void jg_revolute_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 141.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -644,7 +644,7 @@ void jg_revolute_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 79.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -764,7 +764,7 @@ void jg_revolute_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 805 (326 add, 478 mul, 1 sincos, 20 neg); temporaries: 199.
+ * @note Operations: 768 (307 add, 460 mul, 1 sincos, 26 neg); temporaries: 182.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -802,7 +802,7 @@ void jg_revolute_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 805 (326 add, 478 mul, 1 sincos, 20 neg); temporaries: 126.
+ * @note Operations: 768 (307 add, 460 mul, 1 sincos, 26 neg); temporaries: 126.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -949,7 +949,7 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 122 (47 add, 74 mul, 1 sincos, 1 neg); temporaries: 39.
+ * @note Operations: 121 (47 add, 73 mul, 1 sincos, 1 neg); temporaries: 38.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -1179,7 +1179,7 @@ void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 89.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1206,7 +1206,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1266,7 +1266,7 @@ void jg_revolute_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 240 (103 add, 136 mul, 1 sin); temporaries: 54.
+ * @note Operations: 225 (97 add, 127 mul, 1 sin); temporaries: 54.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1327,7 +1327,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 624 (256 add, 367 mul, 1 sincos, 19 neg); temporaries: 159.
+ * @note Operations: 605 (246 add, 358 mul, 1 sincos, 25 neg); temporaries: 142.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1365,7 +1365,7 @@ void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 624 (256 add, 367 mul, 1 sincos, 19 neg); temporaries: 113.
+ * @note Operations: 605 (246 add, 358 mul, 1 sincos, 25 neg); temporaries: 113.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -613,7 +613,7 @@ void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 424 (178 add, 246 mul, 12 neg); temporaries: 107.
+ * @note Operations: 387 (159 add, 228 mul, 18 neg); temporaries: 90.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -638,7 +638,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 424 (178 add, 246 mul, 12 neg); temporaries: 66.
+ * @note Operations: 387 (159 add, 228 mul, 18 neg); temporaries: 66.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -751,7 +751,7 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 707 (289 add, 418 mul, 15 neg); temporaries: 173.
+ * @note Operations: 670 (270 add, 400 mul, 21 neg); temporaries: 156.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -786,7 +786,7 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 707 (289 add, 418 mul, 15 neg); temporaries: 111.
+ * @note Operations: 670 (270 add, 400 mul, 21 neg); temporaries: 111.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

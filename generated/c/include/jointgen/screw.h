@@ -122,7 +122,7 @@ void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 551 (250 add, 300 mul, 1 div, 24 neg); temporaries: 172.
+ * @note Operations: 524 (223 add, 300 mul, 1 div, 21 neg); temporaries: 132.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -149,7 +149,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 551 (250 add, 300 mul, 1 div, 24 neg); temporaries: 72.
+ * @note Operations: 524 (223 add, 300 mul, 1 div, 21 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -272,7 +272,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1026 (438 add, 586 mul, 1 div, 1 atan2, 33 neg); temporaries: 252.
+ * @note Operations: 1000 (411 add, 587 mul, 1 div, 1 atan2, 30 neg); temporaries: 231.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -310,7 +310,7 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1026 (438 add, 586 mul, 1 div, 1 atan2, 33 neg); temporaries: 120.
+ * @note Operations: 1000 (411 add, 587 mul, 1 div, 1 atan2, 30 neg); temporaries: 120.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -422,7 +422,7 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 253 (115 add, 137 mul, 1 div, 18 neg); temporaries: 87.
+ * @note Operations: 240 (104 add, 135 mul, 1 div, 21 neg); temporaries: 86.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -449,7 +449,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 253 (115 add, 137 mul, 1 div, 18 neg); temporaries: 60.
+ * @note Operations: 240 (104 add, 135 mul, 1 div, 21 neg); temporaries: 60.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -572,7 +572,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 653 (286 add, 365 mul, 1 div, 1 atan2, 37 neg); temporaries: 173.
+ * @note Operations: 643 (278 add, 363 mul, 1 div, 1 atan2, 40 neg); temporaries: 168.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -610,7 +610,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 653 (286 add, 365 mul, 1 div, 1 atan2, 37 neg); temporaries: 108.
+ * @note Operations: 643 (278 add, 363 mul, 1 div, 1 atan2, 40 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -730,7 +730,7 @@ void jg_screw_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 141.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 127.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -759,7 +759,7 @@ void jg_screw_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 492 (201 add, 290 mul, 1 sincos, 16 neg); temporaries: 79.
+ * @note Operations: 455 (182 add, 272 mul, 1 sincos, 22 neg); temporaries: 79.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -891,7 +891,7 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 815 (330 add, 484 mul, 1 sincos, 29 neg); temporaries: 212.
+ * @note Operations: 778 (311 add, 466 mul, 1 sincos, 29 neg); temporaries: 198.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -932,7 +932,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 815 (330 add, 484 mul, 1 sincos, 29 neg); temporaries: 129.
+ * @note Operations: 778 (311 add, 466 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1351,7 +1351,7 @@ void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 89.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1380,7 +1380,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 351 (145 add, 205 mul, 1 cos, 12 neg); temporaries: 67.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 67.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1513,7 +1513,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 637 (261 add, 375 mul, 1 sincos, 22 neg); temporaries: 166.
+ * @note Operations: 618 (251 add, 366 mul, 1 sincos, 28 neg); temporaries: 149.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1554,7 +1554,7 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 637 (261 add, 375 mul, 1 sincos, 22 neg); temporaries: 116.
+ * @note Operations: 618 (251 add, 366 mul, 1 sincos, 28 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1719,7 +1719,7 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 141 (54 add, 86 mul, 1 sincos, 3 neg); temporaries: 39.
+ * @note Operations: 139 (53 add, 85 mul, 1 sincos, 3 neg); temporaries: 39.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

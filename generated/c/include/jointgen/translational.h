@@ -110,7 +110,7 @@ void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 295 (118 add, 177 mul, 15 neg); temporaries: 104.
+ * @note Operations: 294 (117 add, 177 mul, 21 neg); temporaries: 96.
  * @see S1 Eq. (9), corrected
  */
 void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -134,7 +134,7 @@ void jg_translational_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRIC
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
- * @note Operations: 295 (118 add, 177 mul, 15 neg); temporaries: 72.
+ * @note Operations: 294 (117 add, 177 mul, 21 neg); temporaries: 72.
  * @see S1 Eq. (9), corrected
  */
 void jg_translational_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -245,7 +245,7 @@ void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 691 (274 add, 417 mul, 30 neg); temporaries: 177.
+ * @note Operations: 690 (273 add, 417 mul, 30 neg); temporaries: 169.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 691 (274 add, 417 mul, 30 neg); temporaries: 114.
+ * @note Operations: 690 (273 add, 417 mul, 30 neg); temporaries: 114.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -655,7 +655,7 @@ void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 424 (178 add, 246 mul, 12 neg); temporaries: 107.
+ * @note Operations: 387 (159 add, 228 mul, 18 neg); temporaries: 90.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -680,7 +680,7 @@ void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 424 (178 add, 246 mul, 12 neg); temporaries: 66.
+ * @note Operations: 387 (159 add, 228 mul, 18 neg); temporaries: 66.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -797,7 +797,7 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 713 (292 add, 421 mul, 18 neg); temporaries: 176.
+ * @note Operations: 676 (273 add, 403 mul, 24 neg); temporaries: 159.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -835,7 +835,7 @@ void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 713 (292 add, 421 mul, 18 neg); temporaries: 114.
+ * @note Operations: 676 (273 add, 403 mul, 24 neg); temporaries: 114.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -619,7 +619,7 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 595 (234 add, 359 mul, 2 sincos, 20 neg); temporaries: 159.
+ * @note Operations: 558 (215 add, 341 mul, 2 sincos, 26 neg); temporaries: 151.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -645,7 +645,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 595 (234 add, 359 mul, 2 sincos, 20 neg); temporaries: 94.
+ * @note Operations: 558 (215 add, 341 mul, 2 sincos, 26 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -765,7 +765,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 969 (383 add, 584 mul, 2 sincos, 26 neg); temporaries: 231.
+ * @note Operations: 932 (364 add, 566 mul, 2 sincos, 32 neg); temporaries: 214.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -803,7 +803,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 969 (383 add, 584 mul, 2 sincos, 26 neg); temporaries: 144.
+ * @note Operations: 932 (364 add, 566 mul, 2 sincos, 32 neg); temporaries: 144.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1106,7 +1106,7 @@ const int *jg_universal_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 118 (53 add, 63 mul, 2 cos); temporaries: 30.
+ * @note Operations: 118 (53 add, 63 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1180,7 +1180,7 @@ void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 353 (145 add, 206 mul, 2 cos, 12 neg); temporaries: 89.
+ * @note Operations: 334 (135 add, 197 mul, 2 cos, 18 neg); temporaries: 84.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1207,7 +1207,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 353 (145 add, 206 mul, 2 cos, 12 neg); temporaries: 68.
+ * @note Operations: 334 (135 add, 197 mul, 2 cos, 18 neg); temporaries: 68.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -1328,7 +1328,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 630 (258 add, 370 mul, 2 sincos, 20 neg); temporaries: 152.
+ * @note Operations: 611 (248 add, 361 mul, 2 sincos, 26 neg); temporaries: 153.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1366,7 +1366,7 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 630 (258 add, 370 mul, 2 sincos, 20 neg); temporaries: 115.
+ * @note Operations: 611 (248 add, 361 mul, 2 sincos, 26 neg); temporaries: 115.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1402,7 +1402,7 @@ const int *jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 118 (53 add, 63 mul, 2 cos); temporaries: 30.
+ * @note Operations: 118 (53 add, 63 mul, 2 cos); temporaries: 27.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1595,7 +1595,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 565 (218 add, 345 mul, 2 sincos, 12 neg); temporaries: 126.
+ * @note Operations: 564 (217 add, 345 mul, 2 sincos, 12 neg); temporaries: 123.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1634,7 +1634,7 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 565 (218 add, 345 mul, 2 sincos, 12 neg); temporaries: 67.
+ * @note Operations: 564 (217 add, 345 mul, 2 sincos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

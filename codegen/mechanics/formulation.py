@@ -25,7 +25,7 @@ from codegen.mechanics.basic import (
     theta_variation,
 )
 from codegen.mechanics.branch import conventional_branch, parametric_branch
-from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_ij, s_i, s_j
 from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
@@ -105,7 +105,7 @@ def relative_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     """Vectors in the axes of body i: ``A_ij = A_i^T A_j`` and ``d'_ij = A_i^T d_ij`` are named."""
     stages = {
         A_ij: sympy.MatMul(sympy.Transpose(A_i), A_j),
-        e_ij: sympy.MatAdd(r_j, sympy.MatMul(A_j, s_j), sympy.MatMul(-1, r_i)),
+        e_ij: sympy.MatAdd(r_ij, sympy.MatMul(A_j, s_j)),
         d_ij: sympy.MatAdd(e_ij, sympy.MatMul(-1, A_i, s_i)),
         dp_ij: sympy.MatMul(sympy.Transpose(A_i), d_ij),
         ep_ij: sympy.MatMul(sympy.Transpose(A_i), e_ij),
@@ -137,7 +137,7 @@ def world_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     names |= attachments
     stages |= {symbol: sympy.MatMul(*chain) for chain, symbol in names.items()}
     s_i_world, s_j_world = attachments.values()
-    stages[e_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i))
+    stages[e_ij] = sympy.MatAdd(r_ij, s_j_world)
     stages[d_ij] = sympy.MatAdd(e_ij, sympy.MatMul(-1, s_i_world))
     aliases = {chain: symbol.name for chain, symbol in names.items()}
     return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, aliases
@@ -191,9 +191,9 @@ def _body_motion(bodies: tuple[Any, ...], variation: str, translations: str) -> 
         translations: axes of the translations; in ``body`` axes ``delta r = A delta r'``.
     """
     move_i, turn_i, move_j, turn_j = bodies
-    motion: dict[Any, Any] = {r_i: move_i, r_j: move_j}
+    motion: dict[Any, Any] = {r_ij: sympy.MatAdd(move_j, sympy.MatMul(-1, move_i))}
     if translations == "body":
-        motion = {r_i: sympy.MatMul(A_i, move_i), r_j: sympy.MatMul(A_j, move_j)}
+        motion = {r_ij: sympy.MatAdd(sympy.MatMul(A_j, move_j), sympy.MatMul(-1, A_i, move_i))}
     for A, turn in ((A_i, turn_i), (A_j, turn_j)):
         motion[A] = sympy.MatMul(A, Tilde(turn)) if variation == "body" else sympy.MatMul(Tilde(turn), A)
     return motion

@@ -26,8 +26,8 @@ def matrix(name: str) -> Any:
 
 r_i, r_j = vector("r_i"), vector("r_j")
 r_ij = vector("r_ij")
-"""``r_j - r_i``, m, world: what constraints know of the two positions, taken as a whole. Far from the origin the difference
-of neighbours is exact, and products with one position alone are not."""
+"""``r_j - r_i``, m, world, taken as a whole: far from the origin the difference of neighbours is exact, and products
+with one position alone are not."""
 A_i, A_j = matrix("A_i"), matrix("A_j")
 s_i, s_j = vector("s_i"), vector("s_j")
 C_i, C_j = matrix("C_i"), matrix("C_j")
@@ -62,6 +62,11 @@ def components(symbol: Any) -> tuple[Any, Any, Any]:
     """The components of a [3] vector symbol as scalars."""
     x, y, z = sympy.symbols(f"{symbol.name}_0 {symbol.name}_1 {symbol.name}_2")
     return x, y, z
+
+
+def column(symbol: Any) -> Any:
+    """A [3] vector symbol written out in its `components`."""
+    return sympy.ImmutableDenseMatrix(components(symbol))
 
 
 def alpha(count: int) -> tuple[Any, ...]:

@@ -187,7 +187,7 @@ class Placed:
         if self.ends.numbers[side] is None:
             return ORIGIN
         r = body_symbol("r", body)
-        return arrays.components(body).get(r, sympy.ImmutableDenseMatrix(frames.components(r)))
+        return arrays.components(body).get(r, frames.column(r))
 
     def _attachment(self, side: int) -> Any:
         """Numbers, and symbols where they are read at run time."""

@@ -75,7 +75,7 @@ def places(form: Formulation, variant: Variant, is_substituted: bool, translatio
         whole=frozenset({across}),
         is_raw=variant.matrices == "raw",
         vector_names={symbol: symbol.name for symbol in (d_ij, e_ij) if symbol in form.stages},
-        constants={r_ij: sympy.ImmutableDenseMatrix(frames.components(r_j)) - sympy.ImmutableDenseMatrix(frames.components(r_i))},
+        constants={r_ij: frames.column(r_j) - frames.column(r_i)},
     )
 
 

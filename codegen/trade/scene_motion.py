@@ -188,7 +188,8 @@ def _least(matrix: Array, right: Array) -> Array:
     square = matrix @ np.swapaxes(matrix, 1, 2)
     diagonal = np.arange(square.shape[1])
     square[:, diagonal, diagonal] += _SINGULAR * np.trace(square, axis1=1, axis2=2)[:, None] + _TINY
-    return np.einsum("pmn,pm->pn", matrix, np.linalg.solve(square, right[:, :, None])[:, :, 0])
+    least: Array = np.einsum("pmn,pm->pn", matrix, np.linalg.solve(square, right[:, :, None])[:, :, 0])
+    return least
 
 
 def _rows(values: Array) -> Array:

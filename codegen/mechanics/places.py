@@ -44,7 +44,9 @@ def places(form: Formulation, variant: Variant, is_substituted: bool, translatio
         translations: as in `codegen.mechanics.formulation.formulation`.
     """
     motion = displacement_frames(variant, translations)
-    homes: dict[Any, str] = {r_ij: WORLD, s_i: BODY_I, s_j: BODY_J}
+    is_together = form.stages[e_ij].has(r_ij)
+    positions = {r_ij: WORLD} if is_together else {r_i: WORLD, r_j: WORLD}
+    homes: dict[Any, str] = positions | {s_i: BODY_I, s_j: BODY_J}
     homes |= dict(zip(frames.BODY_VELOCITIES, motion, strict=True))
     rotations = {A_i: (WORLD, BODY_I), A_j: (WORLD, BODY_J), A_ij: (BODY_I, BODY_J)}
     has_rotation = H in form.stages and not isinstance(form.stages[H], sympy.Identity)
@@ -75,7 +77,7 @@ def places(form: Formulation, variant: Variant, is_substituted: bool, translatio
         whole=frozenset({across}),
         is_raw=variant.matrices == "raw",
         vector_names={symbol: symbol.name for symbol in (d_ij, e_ij) if symbol in form.stages},
-        constants={r_ij: frames.column(r_j) - frames.column(r_i)},
+        constants={r_ij: frames.column(r_j) - frames.column(r_i)} if is_together else {},
     )
 
 

@@ -81,7 +81,7 @@ def distances() -> ExtremeTable:
         tuple(rows),
         (
             "Given: against the exact value at the rounded inputs. Ideal: against geometry before rounding.",
-            "Relative position: r_j - r_i is given for r_j, and 0 for r_i. All routines begin with r_j - r_i.",
+            "Relative position: r_j - r_i is given for r_j, and 0 for r_i. Every sum begins with r_j - r_i.",
         ),
     )
 

@@ -29,20 +29,28 @@ void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    /* d_ij_world = r_j + s_j - r_i - s_i, world axes */
-    const jg_real d_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0 - s_i_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* v_0_world = r_ij - s_i, world axes */
+    const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
     phi[0] = d_ij_world_0;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    const jg_real d_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1 - s_i_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
     phi[1] = d_ij_world_1;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    const jg_real d_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2 - s_i_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     phi[2] = d_ij_world_2;
 }
 
@@ -270,20 +278,28 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real *const s_j = geometry + 12;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    /* d_ij_world = r_j + s_j - r_i - s_i, world axes */
-    const jg_real d_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0 - s_i_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* v_0_world = r_ij - s_i, world axes */
+    const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
     phi[0] = d_ij_world_0;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    const jg_real d_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1 - s_i_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
     phi[1] = d_ij_world_1;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    const jg_real d_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2 - s_i_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     phi[2] = d_ij_world_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
@@ -362,8 +378,8 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j_world_1 - s_j_world_1 * omega_j_world_0;
     const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
     const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j_world_0 - s_j_world_0 * omega_j_world_2;
-    /* v_0_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
-    const jg_real v_0_world_0 = omega_j_world_1 * s_j_cross_omega_j_world_2 - omega_j_world_2 *
+    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
+    const jg_real v_1_world_0 = omega_j_world_1 * s_j_cross_omega_j_world_2 - omega_j_world_2 *
         s_j_cross_omega_j_world_1;
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
@@ -372,26 +388,26 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real s_i_cross_omega_i_world_2 = s_i_world_0 * omega_i_world_1 - s_i_world_1 * omega_i_world_0;
     const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
     const jg_real s_i_cross_omega_i_world_1 = s_i_world_2 * omega_i_world_0 - s_i_world_0 * omega_i_world_2;
-    /* v_1_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
-    const jg_real v_1_world_0 = omega_i_world_1 * s_i_cross_omega_i_world_2 - omega_i_world_2 *
+    /* v_2_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
+    const jg_real v_2_world_0 = omega_i_world_1 * s_i_cross_omega_i_world_2 - omega_i_world_2 *
         s_i_cross_omega_i_world_1;
-    /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
-    const jg_real v_2_world_0 = v_0_world_0 - v_1_world_0;
-    gamma[0] = v_2_world_0;
+    /* v_3_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
+    const jg_real v_3_world_0 = v_1_world_0 - v_2_world_0;
+    gamma[0] = v_3_world_0;
     const jg_real s_j_cross_omega_j_world_0 = s_j_world_1 * omega_j_world_2 - s_j_world_2 * omega_j_world_1;
-    const jg_real v_0_world_1 = omega_j_world_2 * s_j_cross_omega_j_world_0 - omega_j_world_0 *
+    const jg_real v_1_world_1 = omega_j_world_2 * s_j_cross_omega_j_world_0 - omega_j_world_0 *
         s_j_cross_omega_j_world_2;
     const jg_real s_i_cross_omega_i_world_0 = s_i_world_1 * omega_i_world_2 - s_i_world_2 * omega_i_world_1;
-    const jg_real v_1_world_1 = omega_i_world_2 * s_i_cross_omega_i_world_0 - omega_i_world_0 *
+    const jg_real v_2_world_1 = omega_i_world_2 * s_i_cross_omega_i_world_0 - omega_i_world_0 *
         s_i_cross_omega_i_world_2;
-    const jg_real v_2_world_1 = v_0_world_1 - v_1_world_1;
-    gamma[1] = v_2_world_1;
-    const jg_real v_0_world_2 = omega_j_world_0 * s_j_cross_omega_j_world_1 - omega_j_world_1 *
+    const jg_real v_3_world_1 = v_1_world_1 - v_2_world_1;
+    gamma[1] = v_3_world_1;
+    const jg_real v_1_world_2 = omega_j_world_0 * s_j_cross_omega_j_world_1 - omega_j_world_1 *
         s_j_cross_omega_j_world_0;
-    const jg_real v_1_world_2 = omega_i_world_0 * s_i_cross_omega_i_world_1 - omega_i_world_1 *
+    const jg_real v_2_world_2 = omega_i_world_0 * s_i_cross_omega_i_world_1 - omega_i_world_1 *
         s_i_cross_omega_i_world_0;
-    const jg_real v_2_world_2 = v_0_world_2 - v_1_world_2;
-    gamma[2] = v_2_world_2;
+    const jg_real v_3_world_2 = v_1_world_2 - v_2_world_2;
+    gamma[2] = v_3_world_2;
 }
 
 void jg_ball_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

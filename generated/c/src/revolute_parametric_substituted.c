@@ -240,20 +240,19 @@ void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, 
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    /* v_3_in_joint_j = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint j */
+    const jg_real v_3_in_joint_j_1 = alphadot * s_j_cross_omega_j_in_joint_j_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    /* v_2_in_i = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_2_in_i_0 = g_j_in_i_0 * s_j_cross_omega_j_in_joint_j_0 - f_j_in_i_0 *
-        s_j_cross_omega_j_in_joint_j_1;
+    const jg_real t8 = alphadot * s_j_cross_omega_j_in_joint_j_1;
+    /* v_3_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
+    const jg_real v_3_in_joint_i_1 = cosine_0 * v_3_in_joint_j_1 - sine_0 * t8;
+    const jg_real t10 = cosine_0 * t8 + sine_0 * v_3_in_joint_j_1;
     /* v_3_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_3_in_i_0 = alphadot * v_2_in_i_0;
+    const jg_real v_3_in_i_0 = C_i[3] * v_3_in_joint_i_1 - C_i[0] * t10;
     /* v_0_in_j = alphadot_0 h_j - omega_j, axes of body j */
     const jg_real v_0_in_j_1 = alphadot * C_j[7] - omega_j[1];
     const jg_real v_0_in_j_2 = alphadot * C_j[8] - omega_j[2];
@@ -265,40 +264,35 @@ void jg_revolute_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, 
     /* v_1_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
     const jg_real v_1_in_joint_j_0 = v_1_in_j_0 * C_j[0] + v_1_in_j_1 * C_j[1] + v_1_in_j_2 * C_j[2];
     const jg_real v_1_in_joint_j_1 = v_1_in_j_0 * C_j[3] + v_1_in_j_1 * C_j[4] + v_1_in_j_2 * C_j[5];
+    /* v_1_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
+    const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * cosine_0 - v_1_in_joint_j_1 * sine_0;
+    const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * sine_0 + v_1_in_joint_j_1 * cosine_0;
     const jg_real v_1_in_joint_j_2 = C_j[6] * v_1_in_j_0 + C_j[7] * v_1_in_j_1 + C_j[8] * v_1_in_j_2;
     /* v_1_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_1_in_i_0 = v_1_in_joint_j_0 * f_j_in_i_0 + v_1_in_joint_j_1 * g_j_in_i_0 + v_1_in_joint_j_2 *
-        C_i[6];
+    const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_j_2 * C_i[6];
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* v_4_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 (s_j . h_j) omega_j - ... */
     const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
     gamma[0] = v_4_in_i_0;
-    const jg_real g_j_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    const jg_real v_2_in_i_1 = g_j_in_i_1 * s_j_cross_omega_j_in_joint_j_0 - f_j_in_i_1 *
-        s_j_cross_omega_j_in_joint_j_1;
-    const jg_real v_3_in_i_1 = alphadot * v_2_in_i_1;
-    const jg_real v_1_in_i_1 = v_1_in_joint_j_0 * f_j_in_i_1 + v_1_in_joint_j_1 * g_j_in_i_1 + v_1_in_joint_j_2 *
-        C_i[7];
+    const jg_real v_3_in_i_1 = C_i[4] * v_3_in_joint_i_1 - C_i[1] * t10;
+    const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_j_2 * C_i[7];
     const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
     gamma[1] = v_4_in_i_1;
-    const jg_real g_j_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
-    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    const jg_real v_2_in_i_2 = g_j_in_i_2 * s_j_cross_omega_j_in_joint_j_0 - f_j_in_i_2 *
-        s_j_cross_omega_j_in_joint_j_1;
-    const jg_real v_3_in_i_2 = alphadot * v_2_in_i_2;
-    const jg_real v_1_in_i_2 = v_1_in_joint_j_0 * f_j_in_i_2 + v_1_in_joint_j_1 * g_j_in_i_2 + v_1_in_joint_j_2 *
-        C_i[8];
+    const jg_real v_3_in_i_2 = C_i[5] * v_3_in_joint_i_1 - C_i[2] * t10;
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_j_2 * C_i[8];
     const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
     gamma[2] = v_4_in_i_2;
+    /* omega_i_in_joint_i = omega_i, axes of joint i */
+    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    const jg_real g_j_dot_omega_i = cosine_0 * omega_i_in_joint_i_1 - sine_0 * omega_i_in_joint_i_0;
     gamma[3] = -(alphadot * g_j_dot_omega_i);
     /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    const jg_real f_j_dot_omega_i = cosine_0 * omega_i_in_joint_i_0 + sine_0 * omega_i_in_joint_i_1;
     gamma[4] = alphadot * f_j_dot_omega_i;
     gamma[5] = JG_REAL(0.0);
 }

@@ -38,19 +38,19 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real revolutions = geometry[26];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
@@ -98,68 +98,73 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[24] = f_i_world_0;
-    phi_q[0] = -f_i_world_0;
     /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[25] = g_i_world_0;
-    phi_q[1] = -g_i_world_0;
-    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[27] = f_i_world_1;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[31] = g_i_world_2;
-    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[30] = f_i_world_2;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
     phi_q[28] = g_i_world_1;
     /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    phi_q[32] = h_i_world_2;
+    const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
+    phi_q[31] = g_i_world_2;
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    phi_q[29] = h_i_world_1;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    phi_q[24] = f_i_world_0;
+    phi_q[0] = -f_i_world_0;
+    const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
+    phi_q[25] = g_i_world_0;
+    phi_q[1] = -g_i_world_0;
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[26] = h_i_world_0;
     phi_q[2] = -h_i_world_0;
+    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
+    phi_q[27] = f_i_world_1;
     phi_q[3] = -f_i_world_1;
     phi_q[4] = -g_i_world_1;
-    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    phi_q[29] = h_i_world_1;
     phi_q[5] = -h_i_world_1;
+    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
+    phi_q[30] = f_i_world_2;
     phi_q[6] = -f_i_world_2;
     phi_q[7] = -g_i_world_2;
-    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    phi_q[32] = h_i_world_2;
     phi_q[8] = -h_i_world_2;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
-    /* e_ij_in_joint_i = r_j + s_j - r_i, axes of joint i */
-    const jg_real e_ij_in_joint_i_2 = e_ij_world_0 * h_i_world_0 + e_ij_world_1 * h_i_world_1 + e_ij_world_2 *
-        h_i_world_2;
-    const jg_real e_ij_in_joint_i_1 = e_ij_world_0 * g_i_world_0 + e_ij_world_1 * g_i_world_1 + e_ij_world_2 *
-        g_i_world_2;
-    phi_q[9] = e_ij_in_joint_i_1 * C_i[6] - C_i[3] * e_ij_in_joint_i_2;
-    const jg_real e_ij_in_joint_i_0 = f_i_world_0 * e_ij_world_0 + f_i_world_1 * e_ij_world_1 + f_i_world_2 *
-        e_ij_world_2;
-    phi_q[10] = C_i[0] * e_ij_in_joint_i_2 - e_ij_in_joint_i_0 * C_i[6];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
+    const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
+    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    /* s_j_in_joint_i = s_j, axes of joint i */
+    const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_1 = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
+    const jg_real t17 = r_ij_in_joint_i_1 + s_j_in_joint_i_1;
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
-    const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
-    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
-    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
+    const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
+    const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
+    const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real s_j_in_joint_i_2 = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
+    const jg_real r_ij_in_joint_i_2 = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
+    /* v_0_in_joint_i = r_ij x f_i + s_j x f_i, axes of joint i */
+    const jg_real v_0_in_joint_i_1 = r_ij_in_joint_i_2 + s_j_in_joint_i_2;
+    phi_q[9] = C_i[6] * t17 - C_i[3] * v_0_in_joint_i_1;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
+    const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    /* v_1_in_joint_i = r_ij x g_i + s_j x g_i, axes of joint i */
+    const jg_real v_1_in_joint_i_2 = r_ij_in_joint_i_0 + s_j_in_joint_i_0;
+    phi_q[10] = v_0_in_joint_i_1 * C_i[0] - C_i[6] * v_1_in_joint_i_2;
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
     const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
     /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
     const jg_real f_i_cross_h_j_in_i_0 = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
     phi_q[11] = f_i_cross_h_j_in_i_0;
@@ -167,44 +172,45 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
     const jg_real g_i_cross_h_j_in_i_0 = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
     phi_q[12] = g_i_cross_h_j_in_i_0;
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    /* f_j_in_joint_i = f_j, axes of joint i */
+    const jg_real f_j_in_joint_i_1 = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
+    const jg_real f_j_in_joint_i_2 = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    /* v_2_in_joint_i = (h_i . f_j) f_j, axes of joint i */
+    const jg_real v_2_in_joint_i_1 = f_j_in_joint_i_1 * f_j_in_joint_i_2;
+    const jg_real v_2_in_joint_i_2 = f_j_in_joint_i_2 * f_j_in_joint_i_2;
     /* across_in_joint_i = across, axes of joint i */
-    const jg_real across_in_joint_i_2 = JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j;
+    const jg_real across_in_joint_i_2 = JG_REAL(1.0) - v_2_in_joint_i_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / across_in_joint_i_2;
-    const jg_real t35 = spread * pitch;
-    /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_0 = h_i_in_j_0 - C_j[0] * h_i_dot_f_j;
-    const jg_real across_in_j_1 = h_i_in_j_1 - C_j[1] * h_i_dot_f_j;
-    const jg_real across_in_j_2 = h_i_in_j_2 - C_j[2] * h_i_dot_f_j;
-    const jg_real across_in_joint_i_0 = f_i_in_j_0 * across_in_j_0 + f_i_in_j_1 * across_in_j_1 + f_i_in_j_2 *
-        across_in_j_2;
-    /* v_3_in_joint_i = spread pitch across - r_j x h_i - s_j x h_i + r_i x h_i, axes of joint i */
-    const jg_real v_3_in_joint_i_0 = t35 * across_in_joint_i_0 - e_ij_in_joint_i_1;
-    const jg_real across_in_joint_i_1 = g_i_in_j_0 * across_in_j_0 + g_i_in_j_1 * across_in_j_1 + g_i_in_j_2 *
-        across_in_j_2;
-    const jg_real v_3_in_joint_i_1 = e_ij_in_joint_i_0 + t35 * across_in_joint_i_1;
-    const jg_real v_3_in_joint_i_2 = across_in_joint_i_2 * t35;
-    /* v_3_in_i = spread pitch across - r_j x h_i - s_j x h_i + r_i x h_i, axes of body i */
-    const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
-    phi_q[13] = v_3_in_i_0;
-    phi_q[14] = e_ij_in_joint_i_1 * C_i[7] - C_i[4] * e_ij_in_joint_i_2;
-    phi_q[15] = C_i[1] * e_ij_in_joint_i_2 - e_ij_in_joint_i_0 * C_i[7];
+    const jg_real t41 = spread * pitch;
+    /* v_3_in_joint_i = spread pitch across - s_j x h_i, axes of joint i */
+    const jg_real v_3_in_joint_i_1 = s_j_in_joint_i_0 - v_2_in_joint_i_1 * t41;
+    /* v_4_in_joint_i = spread pitch across - r_ij x h_i - s_j x h_i, axes of joint i */
+    const jg_real v_4_in_joint_i_1 = r_ij_in_joint_i_0 + v_3_in_joint_i_1;
+    const jg_real f_j_in_joint_i_0 = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
+    const jg_real v_2_in_joint_i_0 = f_j_in_joint_i_0 * f_j_in_joint_i_2;
+    const jg_real t46 = s_j_in_joint_i_1 + v_2_in_joint_i_0 * t41;
+    const jg_real t47 = r_ij_in_joint_i_1 + t46;
+    const jg_real v_3_in_joint_i_2 = across_in_joint_i_2 * t41;
+    /* v_4_in_i = spread pitch across - r_ij x h_i - s_j x h_i, axes of body i */
+    const jg_real v_4_in_i_0 = C_i[3] * v_4_in_joint_i_1 - C_i[0] * t47 + C_i[6] * v_3_in_joint_i_2;
+    phi_q[13] = v_4_in_i_0;
+    phi_q[14] = C_i[7] * t17 - C_i[4] * v_0_in_joint_i_1;
+    phi_q[15] = v_0_in_joint_i_1 * C_i[1] - C_i[7] * v_1_in_joint_i_2;
     const jg_real f_i_cross_h_j_in_i_1 = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
     phi_q[16] = f_i_cross_h_j_in_i_1;
     const jg_real g_i_cross_h_j_in_i_1 = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
     phi_q[17] = g_i_cross_h_j_in_i_1;
-    const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
-    phi_q[18] = v_3_in_i_1;
-    phi_q[19] = e_ij_in_joint_i_1 * C_i[8] - C_i[5] * e_ij_in_joint_i_2;
-    phi_q[20] = C_i[2] * e_ij_in_joint_i_2 - e_ij_in_joint_i_0 * C_i[8];
+    const jg_real v_4_in_i_1 = C_i[4] * v_4_in_joint_i_1 - C_i[1] * t47 + C_i[7] * v_3_in_joint_i_2;
+    phi_q[18] = v_4_in_i_1;
+    phi_q[19] = C_i[8] * t17 - C_i[5] * v_0_in_joint_i_1;
+    phi_q[20] = v_0_in_joint_i_1 * C_i[2] - C_i[8] * v_1_in_joint_i_2;
     const jg_real f_i_cross_h_j_in_i_2 = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
     phi_q[21] = f_i_cross_h_j_in_i_2;
     const jg_real g_i_cross_h_j_in_i_2 = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
     phi_q[22] = g_i_cross_h_j_in_i_2;
-    const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
-    phi_q[23] = v_3_in_i_2;
+    const jg_real v_4_in_i_2 = C_i[5] * v_4_in_joint_i_1 - C_i[2] * t47 + C_i[8] * v_3_in_joint_i_2;
+    phi_q[23] = v_4_in_i_2;
     /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
     const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
     phi_q[33] = s_j_cross_f_i_in_j_0;
@@ -213,25 +219,25 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     phi_q[34] = s_j_cross_g_i_in_j_0;
     phi_q[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
     phi_q[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
-    /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
-    const jg_real s_j_cross_h_i_in_j_0 = s_j[1] * h_i_in_j_2 - s_j[2] * h_i_in_j_1;
-    phi_q[37] = s_j_cross_h_i_in_j_0 - t35 * across_in_j_0;
+    /* v_3_in_j = spread pitch across - s_j x h_i, axes of body j */
+    const jg_real v_3_in_j_0 = g_i_in_j_0 * v_3_in_joint_i_1 - f_i_in_j_0 * t46 + h_i_in_j_0 * v_3_in_joint_i_2;
+    phi_q[37] = -v_3_in_j_0;
     const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
     phi_q[38] = s_j_cross_f_i_in_j_1;
     const jg_real s_j_cross_g_i_in_j_1 = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
     phi_q[39] = s_j_cross_g_i_in_j_1;
     phi_q[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
     phi_q[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
-    const jg_real s_j_cross_h_i_in_j_1 = s_j[2] * h_i_in_j_0 - s_j[0] * h_i_in_j_2;
-    phi_q[42] = s_j_cross_h_i_in_j_1 - t35 * across_in_j_1;
+    const jg_real v_3_in_j_1 = g_i_in_j_1 * v_3_in_joint_i_1 - f_i_in_j_1 * t46 + h_i_in_j_1 * v_3_in_joint_i_2;
+    phi_q[42] = -v_3_in_j_1;
     const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
     phi_q[43] = s_j_cross_f_i_in_j_2;
     const jg_real s_j_cross_g_i_in_j_2 = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
     phi_q[44] = s_j_cross_g_i_in_j_2;
     phi_q[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
     phi_q[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
-    const jg_real s_j_cross_h_i_in_j_2 = s_j[0] * h_i_in_j_1 - s_j[1] * h_i_in_j_0;
-    phi_q[47] = s_j_cross_h_i_in_j_2 - t35 * across_in_j_2;
+    const jg_real v_3_in_j_2 = g_i_in_j_2 * v_3_in_joint_i_1 - f_i_in_j_2 * t46 + h_i_in_j_2 * v_3_in_joint_i_2;
+    phi_q[47] = -v_3_in_j_2;
 }
 
 void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -339,202 +345,202 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real t42 = h_i_dot_f_j * JG_REAL(2.0) * spread;
     /* across_in_i = across, axes of body i */
     const jg_real across_in_i_1 = C_i[7] - f_j_in_i_1 * h_i_dot_f_j;
-    /* v_4_in_i = f_j - 2 (h_i . f_j) spread across, axes of body i */
-    const jg_real v_4_in_i_1 = f_j_in_i_1 - t42 * across_in_i_1;
-    /* v_5_in_i = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body i */
-    const jg_real v_5_in_i_1 = t41 * v_4_in_i_1;
+    /* v_3_in_i = f_j - 2 (h_i . f_j) spread across, axes of body i */
+    const jg_real v_3_in_i_1 = f_j_in_i_1 - t42 * across_in_i_1;
+    /* v_4_in_i = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body i */
+    const jg_real v_4_in_i_1 = t41 * v_3_in_i_1;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
     const jg_real h_i_cross_f_j_in_i_1 = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    /* v_3_world = r_j - r_i, world axes */
-    const jg_real v_3_world_0 = r_j[0] - r_i[0];
-    const jg_real v_3_world_1 = r_j[1] - r_i[1];
-    const jg_real v_3_world_2 = r_j[2] - r_i[2];
-    /* v_3_in_i = r_j - r_i, axes of body i */
-    const jg_real v_3_in_i_1 = A_i[3] * v_3_world_0 + A_i[4] * v_3_world_1 + A_i[5] * v_3_world_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_1 = v_3_in_i_1 + s_j_in_i_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_in_i = r_ij, axes of body i */
+    const jg_real r_ij_in_i_1 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
+    const jg_real e_ij_in_i_1 = r_ij_in_i_1 + s_j_in_i_1;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    /* v_6_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
-    const jg_real v_6_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    /* M_0_i_i = (lambda_0 r_j + lambda_0 s_j - lambda_0 r_i + lambda_2 h_j) f_i^T + (lambda_1 r_j + ... */
-    const jg_real M_0_i_i_4 = v_2_in_i_1 * e_ij_in_i_1 - v_5_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
-        v_6_in_i_1;
+    /* v_5_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
+    const jg_real v_5_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    /* M_0_i_i = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ... */
+    const jg_real M_0_i_i_4 = v_2_in_i_1 * e_ij_in_i_1 - v_4_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
+        v_5_in_i_1;
     const jg_real across_in_i_2 = C_i[8] - f_j_in_i_2 * h_i_dot_f_j;
-    const jg_real v_4_in_i_2 = f_j_in_i_2 - t42 * across_in_i_2;
-    const jg_real v_5_in_i_2 = t41 * v_4_in_i_2;
+    const jg_real v_3_in_i_2 = f_j_in_i_2 - t42 * across_in_i_2;
+    const jg_real v_4_in_i_2 = t41 * v_3_in_i_2;
     const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real v_3_in_i_2 = A_i[6] * v_3_world_0 + A_i[7] * v_3_world_1 + A_i[8] * v_3_world_2;
-    const jg_real e_ij_in_i_2 = v_3_in_i_2 + s_j_in_i_2;
+    const jg_real r_ij_in_i_2 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
+    const jg_real e_ij_in_i_2 = r_ij_in_i_2 + s_j_in_i_2;
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real v_6_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real M_0_i_i_8 = v_2_in_i_2 * e_ij_in_i_2 - v_5_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
-        v_6_in_i_2;
+    const jg_real v_5_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real M_0_i_i_8 = v_2_in_i_2 * e_ij_in_i_2 - v_4_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
+        v_5_in_i_2;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
     const jg_real h_i_cross_f_j_in_i_0 = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
-    const jg_real v_6_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real M_0_i_i_3 = v_2_in_i_0 * e_ij_in_i_1 - v_5_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
-        v_6_in_i_0;
+    const jg_real v_5_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real M_0_i_i_3 = v_2_in_i_0 * e_ij_in_i_1 - v_4_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
+        v_5_in_i_0;
     const jg_real t69 = h_i_dot_f_j * t41;
-    /* v_7_in_i = lambda_4 (h_i . f_j) pitch spread f_j, axes of body i */
-    const jg_real v_7_in_i_2 = f_j_in_i_2 * t69;
-    phi_q_t_lambda_q[13] = M_0_i_i_3 - v_7_in_i_2;
-    const jg_real M_0_i_i_6 = v_2_in_i_0 * e_ij_in_i_2 - v_5_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
-        v_6_in_i_0;
-    const jg_real v_7_in_i_1 = f_j_in_i_1 * t69;
-    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_7_in_i_1;
-    /* v_8_in_j = (h_i . f_j) f_j, axes of body j */
-    const jg_real v_8_in_j_2 = C_j[2] * h_i_dot_f_j;
+    /* v_6_in_i = lambda_4 (h_i . f_j) pitch spread f_j, axes of body i */
+    const jg_real v_6_in_i_2 = f_j_in_i_2 * t69;
+    phi_q_t_lambda_q[13] = M_0_i_i_3 - v_6_in_i_2;
+    const jg_real M_0_i_i_6 = v_2_in_i_0 * e_ij_in_i_2 - v_4_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
+        v_5_in_i_0;
+    const jg_real v_6_in_i_1 = f_j_in_i_1 * t69;
+    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_6_in_i_1;
+    /* v_7_in_j = (h_i . f_j) f_j, axes of body j */
+    const jg_real v_7_in_j_2 = C_j[2] * h_i_dot_f_j;
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_2 = h_i_in_j_2 - v_8_in_j_2;
-    /* v_9_in_j = (h_i . f_j) f_j + across, axes of body j */
-    const jg_real v_9_in_j_2 = v_8_in_j_2 + across_in_j_2;
-    /* v_10_in_j = lambda_4 (h_i . f_j) pitch spread f_j + lambda_4 pitch spread across, axes of body j */
-    const jg_real v_10_in_j_2 = t41 * v_9_in_j_2;
-    const jg_real v_8_in_j_1 = C_j[1] * h_i_dot_f_j;
+    const jg_real across_in_j_2 = h_i_in_j_2 - v_7_in_j_2;
+    /* v_8_in_j = (h_i . f_j) f_j + across, axes of body j */
+    const jg_real v_8_in_j_2 = v_7_in_j_2 + across_in_j_2;
+    /* v_9_in_j = lambda_4 (h_i . f_j) pitch spread f_j + lambda_4 pitch spread across, axes of body j */
+    const jg_real v_9_in_j_2 = t41 * v_8_in_j_2;
+    const jg_real v_7_in_j_1 = C_j[1] * h_i_dot_f_j;
     const jg_real h_i_in_j_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    const jg_real across_in_j_1 = h_i_in_j_1 - v_8_in_j_1;
-    const jg_real v_9_in_j_1 = v_8_in_j_1 + across_in_j_1;
-    const jg_real v_10_in_j_1 = t41 * v_9_in_j_1;
+    const jg_real across_in_j_1 = h_i_in_j_1 - v_7_in_j_1;
+    const jg_real v_8_in_j_1 = v_7_in_j_1 + across_in_j_1;
+    const jg_real v_9_in_j_1 = t41 * v_8_in_j_1;
     const jg_real h_i_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    const jg_real v_8_in_j_0 = C_j[0] * h_i_dot_f_j;
-    const jg_real across_in_j_0 = h_i_in_j_0 - v_8_in_j_0;
-    /* v_4_in_j = f_j - 2 (h_i . f_j) spread across, axes of body j */
-    const jg_real v_4_in_j_0 = C_j[0] - t42 * across_in_j_0;
-    /* v_5_in_j = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body j */
-    const jg_real v_5_in_j_0 = t41 * v_4_in_j_0;
+    const jg_real v_7_in_j_0 = C_j[0] * h_i_dot_f_j;
+    const jg_real across_in_j_0 = h_i_in_j_0 - v_7_in_j_0;
+    /* v_3_in_j = f_j - 2 (h_i . f_j) spread across, axes of body j */
+    const jg_real v_3_in_j_0 = C_j[0] - t42 * across_in_j_0;
+    /* v_4_in_j = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body j */
+    const jg_real v_4_in_j_0 = t41 * v_3_in_j_0;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
     const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
     /* v_2_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
     const jg_real v_2_in_j_0 = v_2_in_i_0 * A_ij_0 + v_2_in_i_1 * A_ij_1 + v_2_in_i_2 * A_ij_2;
-    /* v_6_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_6_in_j_0 = A_ij_0 * v_6_in_i_0 + A_ij_1 * v_6_in_i_1 + A_ij_2 * v_6_in_i_2;
+    /* v_5_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
+    const jg_real v_5_in_j_0 = A_ij_0 * v_5_in_i_0 + A_ij_1 * v_5_in_i_1 + A_ij_2 * v_5_in_i_2;
     /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_j_j_0 = s_j[0] * v_2_in_j_0 + C_j[6] * v_6_in_j_0 - h_i_cross_f_j_in_j_0 * v_5_in_j_0;
-    const jg_real v_4_in_j_1 = C_j[1] - t42 * across_in_j_1;
-    const jg_real v_5_in_j_1 = t41 * v_4_in_j_1;
+    const jg_real M_2_j_j_0 = s_j[0] * v_2_in_j_0 + C_j[6] * v_5_in_j_0 - h_i_cross_f_j_in_j_0 * v_4_in_j_0;
+    const jg_real v_3_in_j_1 = C_j[1] - t42 * across_in_j_1;
+    const jg_real v_4_in_j_1 = t41 * v_3_in_j_1;
     const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
     const jg_real v_2_in_j_1 = v_2_in_i_0 * A_ij_3 + v_2_in_i_1 * A_ij_4 + v_2_in_i_2 * A_ij_5;
-    const jg_real v_6_in_j_1 = A_ij_3 * v_6_in_i_0 + A_ij_4 * v_6_in_i_1 + A_ij_5 * v_6_in_i_2;
-    const jg_real M_2_j_j_4 = s_j[1] * v_2_in_j_1 + C_j[7] * v_6_in_j_1 - h_i_cross_f_j_in_j_1 * v_5_in_j_1;
+    const jg_real v_5_in_j_1 = A_ij_3 * v_5_in_i_0 + A_ij_4 * v_5_in_i_1 + A_ij_5 * v_5_in_i_2;
+    const jg_real M_2_j_j_4 = s_j[1] * v_2_in_j_1 + C_j[7] * v_5_in_j_1 - h_i_cross_f_j_in_j_1 * v_4_in_j_1;
     const jg_real t98 = M_2_j_j_0 + M_2_j_j_4;
-    const jg_real v_4_in_j_2 = C_j[2] - t42 * across_in_j_2;
-    const jg_real v_5_in_j_2 = t41 * v_4_in_j_2;
+    const jg_real v_3_in_j_2 = C_j[2] - t42 * across_in_j_2;
+    const jg_real v_4_in_j_2 = t41 * v_3_in_j_2;
     const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
     const jg_real v_2_in_j_2 = v_2_in_i_0 * A_ij_6 + v_2_in_i_1 * A_ij_7 + v_2_in_i_2 * A_ij_8;
-    const jg_real v_6_in_j_2 = A_ij_6 * v_6_in_i_0 + A_ij_7 * v_6_in_i_1 + A_ij_8 * v_6_in_i_2;
-    const jg_real M_2_j_j_8 = s_j[2] * v_2_in_j_2 + C_j[8] * v_6_in_j_2 - h_i_cross_f_j_in_j_2 * v_5_in_j_2;
+    const jg_real v_5_in_j_2 = A_ij_6 * v_5_in_i_0 + A_ij_7 * v_5_in_i_1 + A_ij_8 * v_5_in_i_2;
+    const jg_real M_2_j_j_8 = s_j[2] * v_2_in_j_2 + C_j[8] * v_5_in_j_2 - h_i_cross_f_j_in_j_2 * v_4_in_j_2;
     const jg_real t105 = M_2_j_j_8 + t98;
     const jg_real t106 = A_ij_0 * t105;
     const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real t108 = s_j_in_i_0 * v_2_in_j_0;
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t110 = h_j_in_i_0 * v_6_in_j_0;
+    const jg_real t110 = h_j_in_i_0 * v_5_in_j_0;
     /* M_2_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_i_j_0 = t108 + t110 - h_i_cross_f_j_in_i_0 * v_5_in_j_0;
-    phi_q_t_lambda_q[18] = -(A_ij_3 * v_10_in_j_2 - A_ij_6 * v_10_in_j_1 + (M_2_i_j_0 - t106));
-    const jg_real v_9_in_j_0 = v_8_in_j_0 + across_in_j_0;
-    const jg_real v_10_in_j_0 = t41 * v_9_in_j_0;
+    const jg_real M_2_i_j_0 = t108 + t110 - h_i_cross_f_j_in_i_0 * v_4_in_j_0;
+    phi_q_t_lambda_q[18] = -(A_ij_3 * v_9_in_j_2 - A_ij_6 * v_9_in_j_1 + (M_2_i_j_0 - t106));
+    const jg_real v_8_in_j_0 = v_7_in_j_0 + across_in_j_0;
+    const jg_real v_9_in_j_0 = t41 * v_8_in_j_0;
     const jg_real t114 = A_ij_3 * t105;
     const jg_real t115 = s_j_in_i_0 * v_2_in_j_1;
-    const jg_real t116 = h_j_in_i_0 * v_6_in_j_1;
-    const jg_real M_2_i_j_1 = t115 + t116 - h_i_cross_f_j_in_i_0 * v_5_in_j_1;
-    phi_q_t_lambda_q[19] = -(A_ij_6 * v_10_in_j_0 - A_ij_0 * v_10_in_j_2 + (M_2_i_j_1 - t114));
+    const jg_real t116 = h_j_in_i_0 * v_5_in_j_1;
+    const jg_real M_2_i_j_1 = t115 + t116 - h_i_cross_f_j_in_i_0 * v_4_in_j_1;
+    phi_q_t_lambda_q[19] = -(A_ij_6 * v_9_in_j_0 - A_ij_0 * v_9_in_j_2 + (M_2_i_j_1 - t114));
     const jg_real t118 = A_ij_6 * t105;
     const jg_real t119 = s_j_in_i_0 * v_2_in_j_2;
-    const jg_real t120 = h_j_in_i_0 * v_6_in_j_2;
-    const jg_real M_2_i_j_2 = t119 + t120 - h_i_cross_f_j_in_i_0 * v_5_in_j_2;
-    phi_q_t_lambda_q[20] = -(A_ij_0 * v_10_in_j_1 - A_ij_3 * v_10_in_j_0 + (M_2_i_j_2 - t118));
+    const jg_real t120 = h_j_in_i_0 * v_5_in_j_2;
+    const jg_real M_2_i_j_2 = t119 + t120 - h_i_cross_f_j_in_i_0 * v_4_in_j_2;
+    phi_q_t_lambda_q[20] = -(A_ij_0 * v_9_in_j_1 - A_ij_3 * v_9_in_j_0 + (M_2_i_j_2 - t118));
     const jg_real across_in_i_0 = C_i[6] - f_j_in_i_0 * h_i_dot_f_j;
-    const jg_real v_4_in_i_0 = f_j_in_i_0 - t42 * across_in_i_0;
-    const jg_real v_5_in_i_0 = t41 * v_4_in_i_0;
-    const jg_real v_3_in_i_0 = A_i[0] * v_3_world_0 + A_i[1] * v_3_world_1 + A_i[2] * v_3_world_2;
-    const jg_real e_ij_in_i_0 = v_3_in_i_0 + s_j_in_i_0;
-    const jg_real M_0_i_i_1 = v_2_in_i_1 * e_ij_in_i_0 - v_5_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
-        v_6_in_i_1;
-    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_7_in_i_2;
-    const jg_real M_0_i_i_0 = v_2_in_i_0 * e_ij_in_i_0 - v_5_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
-        v_6_in_i_0;
+    const jg_real v_3_in_i_0 = f_j_in_i_0 - t42 * across_in_i_0;
+    const jg_real v_4_in_i_0 = t41 * v_3_in_i_0;
+    const jg_real r_ij_in_i_0 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
+    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
+    const jg_real M_0_i_i_1 = v_2_in_i_1 * e_ij_in_i_0 - v_4_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
+        v_5_in_i_1;
+    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_6_in_i_2;
+    const jg_real M_0_i_i_0 = v_2_in_i_0 * e_ij_in_i_0 - v_4_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
+        v_5_in_i_0;
     phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_7 = v_2_in_i_1 * e_ij_in_i_2 - v_5_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
-        v_6_in_i_1;
-    const jg_real v_7_in_i_0 = f_j_in_i_0 * t69;
-    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_7_in_i_0;
+    const jg_real M_0_i_i_7 = v_2_in_i_1 * e_ij_in_i_2 - v_4_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
+        v_5_in_i_1;
+    const jg_real v_6_in_i_0 = f_j_in_i_0 * t69;
+    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_6_in_i_0;
     const jg_real t131 = A_ij_1 * t105;
     const jg_real t132 = s_j_in_i_1 * v_2_in_j_0;
-    const jg_real t133 = h_j_in_i_1 * v_6_in_j_0;
-    const jg_real M_2_i_j_3 = t132 + t133 - h_i_cross_f_j_in_i_1 * v_5_in_j_0;
-    phi_q_t_lambda_q[30] = -(A_ij_4 * v_10_in_j_2 - A_ij_7 * v_10_in_j_1 + (M_2_i_j_3 - t131));
+    const jg_real t133 = h_j_in_i_1 * v_5_in_j_0;
+    const jg_real M_2_i_j_3 = t132 + t133 - h_i_cross_f_j_in_i_1 * v_4_in_j_0;
+    phi_q_t_lambda_q[30] = -(A_ij_4 * v_9_in_j_2 - A_ij_7 * v_9_in_j_1 + (M_2_i_j_3 - t131));
     const jg_real t135 = A_ij_4 * t105;
     const jg_real t136 = s_j_in_i_1 * v_2_in_j_1;
-    const jg_real t137 = h_j_in_i_1 * v_6_in_j_1;
-    const jg_real M_2_i_j_4 = t136 + t137 - h_i_cross_f_j_in_i_1 * v_5_in_j_1;
-    phi_q_t_lambda_q[31] = -(A_ij_7 * v_10_in_j_0 - A_ij_1 * v_10_in_j_2 + (M_2_i_j_4 - t135));
+    const jg_real t137 = h_j_in_i_1 * v_5_in_j_1;
+    const jg_real M_2_i_j_4 = t136 + t137 - h_i_cross_f_j_in_i_1 * v_4_in_j_1;
+    phi_q_t_lambda_q[31] = -(A_ij_7 * v_9_in_j_0 - A_ij_1 * v_9_in_j_2 + (M_2_i_j_4 - t135));
     const jg_real t139 = A_ij_7 * t105;
     const jg_real t140 = s_j_in_i_1 * v_2_in_j_2;
-    const jg_real t141 = h_j_in_i_1 * v_6_in_j_2;
-    const jg_real M_2_i_j_5 = t140 + t141 - h_i_cross_f_j_in_i_1 * v_5_in_j_2;
-    phi_q_t_lambda_q[32] = -(A_ij_1 * v_10_in_j_1 - A_ij_4 * v_10_in_j_0 + (M_2_i_j_5 - t139));
-    const jg_real M_0_i_i_2 = v_2_in_i_2 * e_ij_in_i_0 - v_5_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
-        v_6_in_i_2;
-    phi_q_t_lambda_q[36] = M_0_i_i_2 - v_7_in_i_1;
-    const jg_real M_0_i_i_5 = v_2_in_i_2 * e_ij_in_i_1 - v_5_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
-        v_6_in_i_2;
-    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_7_in_i_0;
+    const jg_real t141 = h_j_in_i_1 * v_5_in_j_2;
+    const jg_real M_2_i_j_5 = t140 + t141 - h_i_cross_f_j_in_i_1 * v_4_in_j_2;
+    phi_q_t_lambda_q[32] = -(A_ij_1 * v_9_in_j_1 - A_ij_4 * v_9_in_j_0 + (M_2_i_j_5 - t139));
+    const jg_real M_0_i_i_2 = v_2_in_i_2 * e_ij_in_i_0 - v_4_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
+        v_5_in_i_2;
+    phi_q_t_lambda_q[36] = M_0_i_i_2 - v_6_in_i_1;
+    const jg_real M_0_i_i_5 = v_2_in_i_2 * e_ij_in_i_1 - v_4_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
+        v_5_in_i_2;
+    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_6_in_i_0;
     phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
     const jg_real t145 = A_ij_2 * t105;
     const jg_real t146 = s_j_in_i_2 * v_2_in_j_0;
-    const jg_real t147 = h_j_in_i_2 * v_6_in_j_0;
-    const jg_real M_2_i_j_6 = t146 + t147 - h_i_cross_f_j_in_i_2 * v_5_in_j_0;
-    phi_q_t_lambda_q[42] = -(A_ij_5 * v_10_in_j_2 - A_ij_8 * v_10_in_j_1 + (M_2_i_j_6 - t145));
+    const jg_real t147 = h_j_in_i_2 * v_5_in_j_0;
+    const jg_real M_2_i_j_6 = t146 + t147 - h_i_cross_f_j_in_i_2 * v_4_in_j_0;
+    phi_q_t_lambda_q[42] = -(A_ij_5 * v_9_in_j_2 - A_ij_8 * v_9_in_j_1 + (M_2_i_j_6 - t145));
     const jg_real t149 = A_ij_5 * t105;
     const jg_real t150 = s_j_in_i_2 * v_2_in_j_1;
-    const jg_real t151 = h_j_in_i_2 * v_6_in_j_1;
-    const jg_real M_2_i_j_7 = t150 + t151 - h_i_cross_f_j_in_i_2 * v_5_in_j_1;
-    phi_q_t_lambda_q[43] = -(A_ij_8 * v_10_in_j_0 - A_ij_2 * v_10_in_j_2 + (M_2_i_j_7 - t149));
+    const jg_real t151 = h_j_in_i_2 * v_5_in_j_1;
+    const jg_real M_2_i_j_7 = t150 + t151 - h_i_cross_f_j_in_i_2 * v_4_in_j_1;
+    phi_q_t_lambda_q[43] = -(A_ij_8 * v_9_in_j_0 - A_ij_2 * v_9_in_j_2 + (M_2_i_j_7 - t149));
     const jg_real t153 = A_ij_8 * t105;
     const jg_real t154 = s_j_in_i_2 * v_2_in_j_2;
-    const jg_real t155 = h_j_in_i_2 * v_6_in_j_2;
-    const jg_real M_2_i_j_8 = t154 + t155 - h_i_cross_f_j_in_i_2 * v_5_in_j_2;
-    phi_q_t_lambda_q[44] = -(A_ij_2 * v_10_in_j_1 - A_ij_5 * v_10_in_j_0 + (M_2_i_j_8 - t153));
+    const jg_real t155 = h_j_in_i_2 * v_5_in_j_2;
+    const jg_real M_2_i_j_8 = t154 + t155 - h_i_cross_f_j_in_i_2 * v_4_in_j_2;
+    phi_q_t_lambda_q[44] = -(A_ij_2 * v_9_in_j_1 - A_ij_5 * v_9_in_j_0 + (M_2_i_j_8 - t153));
     /* M_1_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_1_i_j_0 = t108 - v_5_in_i_0 * h_i_cross_f_j_in_j_0 + t110;
-    phi_q_t_lambda_q[54] = A_ij_2 * v_7_in_i_1 - A_ij_1 * v_7_in_i_2 - (M_1_i_j_0 - t106);
-    const jg_real M_1_i_j_3 = t132 - v_5_in_i_1 * h_i_cross_f_j_in_j_0 + t133;
-    phi_q_t_lambda_q[55] = A_ij_0 * v_7_in_i_2 - A_ij_2 * v_7_in_i_0 - (M_1_i_j_3 - t131);
-    const jg_real M_1_i_j_6 = t146 - v_5_in_i_2 * h_i_cross_f_j_in_j_0 + t147;
-    phi_q_t_lambda_q[56] = A_ij_1 * v_7_in_i_0 - A_ij_0 * v_7_in_i_1 - (M_1_i_j_6 - t145);
+    const jg_real M_1_i_j_0 = t108 - v_4_in_i_0 * h_i_cross_f_j_in_j_0 + t110;
+    phi_q_t_lambda_q[54] = A_ij_2 * v_6_in_i_1 - A_ij_1 * v_6_in_i_2 - (M_1_i_j_0 - t106);
+    const jg_real M_1_i_j_3 = t132 - v_4_in_i_1 * h_i_cross_f_j_in_j_0 + t133;
+    phi_q_t_lambda_q[55] = A_ij_0 * v_6_in_i_2 - A_ij_2 * v_6_in_i_0 - (M_1_i_j_3 - t131);
+    const jg_real M_1_i_j_6 = t146 - v_4_in_i_2 * h_i_cross_f_j_in_j_0 + t147;
+    phi_q_t_lambda_q[56] = A_ij_1 * v_6_in_i_0 - A_ij_0 * v_6_in_i_1 - (M_1_i_j_6 - t145);
     phi_q_t_lambda_q[57] = -(M_2_j_j_4 + M_2_j_j_8);
-    const jg_real M_2_j_j_1 = s_j[0] * v_2_in_j_1 + C_j[6] * v_6_in_j_1 - h_i_cross_f_j_in_j_0 * v_5_in_j_1;
-    phi_q_t_lambda_q[58] = M_2_j_j_1 - v_10_in_j_2;
-    const jg_real M_2_j_j_2 = s_j[0] * v_2_in_j_2 + C_j[6] * v_6_in_j_2 - h_i_cross_f_j_in_j_0 * v_5_in_j_2;
-    phi_q_t_lambda_q[59] = M_2_j_j_2 + v_10_in_j_1;
-    const jg_real M_1_i_j_1 = t115 - v_5_in_i_0 * h_i_cross_f_j_in_j_1 + t116;
-    phi_q_t_lambda_q[60] = A_ij_5 * v_7_in_i_1 - A_ij_4 * v_7_in_i_2 - (M_1_i_j_1 - t114);
-    const jg_real M_1_i_j_4 = t136 - v_5_in_i_1 * h_i_cross_f_j_in_j_1 + t137;
-    phi_q_t_lambda_q[61] = A_ij_3 * v_7_in_i_2 - A_ij_5 * v_7_in_i_0 - (M_1_i_j_4 - t135);
-    const jg_real M_1_i_j_7 = t150 - v_5_in_i_2 * h_i_cross_f_j_in_j_1 + t151;
-    phi_q_t_lambda_q[62] = A_ij_4 * v_7_in_i_0 - A_ij_3 * v_7_in_i_1 - (M_1_i_j_7 - t149);
-    const jg_real M_2_j_j_3 = s_j[1] * v_2_in_j_0 + C_j[7] * v_6_in_j_0 - h_i_cross_f_j_in_j_1 * v_5_in_j_0;
-    phi_q_t_lambda_q[63] = M_2_j_j_3 + v_10_in_j_2;
+    const jg_real M_2_j_j_1 = s_j[0] * v_2_in_j_1 + C_j[6] * v_5_in_j_1 - h_i_cross_f_j_in_j_0 * v_4_in_j_1;
+    phi_q_t_lambda_q[58] = M_2_j_j_1 - v_9_in_j_2;
+    const jg_real M_2_j_j_2 = s_j[0] * v_2_in_j_2 + C_j[6] * v_5_in_j_2 - h_i_cross_f_j_in_j_0 * v_4_in_j_2;
+    phi_q_t_lambda_q[59] = M_2_j_j_2 + v_9_in_j_1;
+    const jg_real M_1_i_j_1 = t115 - v_4_in_i_0 * h_i_cross_f_j_in_j_1 + t116;
+    phi_q_t_lambda_q[60] = A_ij_5 * v_6_in_i_1 - A_ij_4 * v_6_in_i_2 - (M_1_i_j_1 - t114);
+    const jg_real M_1_i_j_4 = t136 - v_4_in_i_1 * h_i_cross_f_j_in_j_1 + t137;
+    phi_q_t_lambda_q[61] = A_ij_3 * v_6_in_i_2 - A_ij_5 * v_6_in_i_0 - (M_1_i_j_4 - t135);
+    const jg_real M_1_i_j_7 = t150 - v_4_in_i_2 * h_i_cross_f_j_in_j_1 + t151;
+    phi_q_t_lambda_q[62] = A_ij_4 * v_6_in_i_0 - A_ij_3 * v_6_in_i_1 - (M_1_i_j_7 - t149);
+    const jg_real M_2_j_j_3 = s_j[1] * v_2_in_j_0 + C_j[7] * v_5_in_j_0 - h_i_cross_f_j_in_j_1 * v_4_in_j_0;
+    phi_q_t_lambda_q[63] = M_2_j_j_3 + v_9_in_j_2;
     phi_q_t_lambda_q[64] = -(M_2_j_j_0 + M_2_j_j_8);
-    const jg_real M_2_j_j_5 = s_j[1] * v_2_in_j_2 + C_j[7] * v_6_in_j_2 - h_i_cross_f_j_in_j_1 * v_5_in_j_2;
-    phi_q_t_lambda_q[65] = M_2_j_j_5 - v_10_in_j_0;
-    const jg_real M_1_i_j_2 = t119 - v_5_in_i_0 * h_i_cross_f_j_in_j_2 + t120;
-    phi_q_t_lambda_q[66] = A_ij_8 * v_7_in_i_1 - A_ij_7 * v_7_in_i_2 - (M_1_i_j_2 - t118);
-    const jg_real M_1_i_j_5 = t140 - v_5_in_i_1 * h_i_cross_f_j_in_j_2 + t141;
-    phi_q_t_lambda_q[67] = A_ij_6 * v_7_in_i_2 - A_ij_8 * v_7_in_i_0 - (M_1_i_j_5 - t139);
-    const jg_real M_1_i_j_8 = t154 - v_5_in_i_2 * h_i_cross_f_j_in_j_2 + t155;
-    phi_q_t_lambda_q[68] = A_ij_7 * v_7_in_i_0 - A_ij_6 * v_7_in_i_1 - (M_1_i_j_8 - t153);
-    const jg_real M_2_j_j_6 = s_j[2] * v_2_in_j_0 + C_j[8] * v_6_in_j_0 - h_i_cross_f_j_in_j_2 * v_5_in_j_0;
-    phi_q_t_lambda_q[69] = M_2_j_j_6 - v_10_in_j_1;
-    const jg_real M_2_j_j_7 = s_j[2] * v_2_in_j_1 + C_j[8] * v_6_in_j_1 - h_i_cross_f_j_in_j_2 * v_5_in_j_1;
-    phi_q_t_lambda_q[70] = M_2_j_j_7 + v_10_in_j_0;
+    const jg_real M_2_j_j_5 = s_j[1] * v_2_in_j_2 + C_j[7] * v_5_in_j_2 - h_i_cross_f_j_in_j_1 * v_4_in_j_2;
+    phi_q_t_lambda_q[65] = M_2_j_j_5 - v_9_in_j_0;
+    const jg_real M_1_i_j_2 = t119 - v_4_in_i_0 * h_i_cross_f_j_in_j_2 + t120;
+    phi_q_t_lambda_q[66] = A_ij_8 * v_6_in_i_1 - A_ij_7 * v_6_in_i_2 - (M_1_i_j_2 - t118);
+    const jg_real M_1_i_j_5 = t140 - v_4_in_i_1 * h_i_cross_f_j_in_j_2 + t141;
+    phi_q_t_lambda_q[67] = A_ij_6 * v_6_in_i_2 - A_ij_8 * v_6_in_i_0 - (M_1_i_j_5 - t139);
+    const jg_real M_1_i_j_8 = t154 - v_4_in_i_2 * h_i_cross_f_j_in_j_2 + t155;
+    phi_q_t_lambda_q[68] = A_ij_7 * v_6_in_i_0 - A_ij_6 * v_6_in_i_1 - (M_1_i_j_8 - t153);
+    const jg_real M_2_j_j_6 = s_j[2] * v_2_in_j_0 + C_j[8] * v_5_in_j_0 - h_i_cross_f_j_in_j_2 * v_4_in_j_0;
+    phi_q_t_lambda_q[69] = M_2_j_j_6 - v_9_in_j_1;
+    const jg_real M_2_j_j_7 = s_j[2] * v_2_in_j_1 + C_j[8] * v_5_in_j_1 - h_i_cross_f_j_in_j_2 * v_4_in_j_1;
+    phi_q_t_lambda_q[70] = M_2_j_j_7 + v_9_in_j_0;
     phi_q_t_lambda_q[71] = -t98;
 }
 
@@ -560,161 +566,149 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    /* omega_j_world = omega_j, world axes */
-    const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + A_j[3] * omega_j[1] + A_j[6] * omega_j[2];
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
-    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
-    /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = omega_j_world_0 * h_i_world_0 + omega_j_world_1 * h_i_world_1 + omega_j_world_2
-        * h_i_world_2;
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j_world_0 + f_i_world_1 * omega_j_world_1 + f_i_world_2 *
-        omega_j_world_2;
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = omega_j_world_0 * g_i_world_0 + omega_j_world_1 * g_i_world_1 + omega_j_world_2
-        * g_i_world_2;
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
-        h_i_dot_omega_j * h_i_dot_omega_j;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j_world_0 + s_j_world_1 * omega_j_world_1 + s_j_world_2 *
-        omega_j_world_2;
-    /* omega_i_world = omega_i, world axes */
-    const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
-    const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
-    const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i_world_0 * omega_i_world_0 + omega_i_world_1 * omega_i_world_1 +
-        omega_i_world_2 * omega_i_world_2;
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
-    const jg_real t28 = omega_i_world_0 * e_ij_world_0 + omega_i_world_1 * e_ij_world_1 + omega_i_world_2 *
-        e_ij_world_2;
-    /* v_0_world = (omega_i . omega_i) r_j + (omega_i . omega_i) s_j - (omega_i . omega_i) r_i + (-(r_j . ... */
-    const jg_real v_0_world_0 = omega_i_dot_omega_i * e_ij_world_0 - omega_i_world_0 * t28;
-    const jg_real v_0_world_1 = omega_i_dot_omega_i * e_ij_world_1 - omega_i_world_1 * t28;
-    const jg_real v_0_world_2 = omega_i_dot_omega_i * e_ij_world_2 - omega_i_world_2 * t28;
-    /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
-    const jg_real f_i_cross_omega_i_world_0 = f_i_world_1 * omega_i_world_2 - f_i_world_2 * omega_i_world_1;
-    const jg_real f_i_cross_omega_i_world_1 = f_i_world_2 * omega_i_world_0 - f_i_world_0 * omega_i_world_2;
-    const jg_real f_i_cross_omega_i_world_2 = f_i_world_0 * omega_i_world_1 - f_i_world_1 * omega_i_world_0;
-    /* s_j_dot_omega_i = s_j . omega_i */
-    const jg_real s_j_dot_omega_i = omega_i_world_0 * s_j_world_0 + omega_i_world_1 * s_j_world_1 + omega_i_world_2
-        * s_j_world_2;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_world_0 * omega_j_world_0 + omega_i_world_1 * omega_j_world_1 +
-        omega_i_world_2 * omega_j_world_2;
-    gamma[0] = f_i_world_0 * v_0_world_0 + f_i_world_1 * v_0_world_1 + f_i_world_2 * v_0_world_2 + (s_j_dot_f_i *
-        omega_j_dot_omega_j - f_i_dot_omega_j * s_j_dot_omega_j) - (f_i_cross_omega_i_world_0 * v_i[0] +
-        f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 * v_i[2]) * JG_REAL(2.0) + JG_REAL(2.0) *
-        (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 * v_j[1] + f_i_cross_omega_i_world_2 *
-        v_j[2]) + JG_REAL(2.0) * (f_i_dot_omega_j * s_j_dot_omega_i - s_j_dot_f_i * omega_i_dot_omega_j);
-    /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = s_j_world_0 * g_i_world_0 + s_j_world_1 * g_i_world_1 + s_j_world_2 * g_i_world_2;
-    /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
-    const jg_real g_i_cross_omega_i_world_0 = omega_i_world_2 * g_i_world_1 - omega_i_world_1 * g_i_world_2;
-    const jg_real g_i_cross_omega_i_world_1 = omega_i_world_0 * g_i_world_2 - omega_i_world_2 * g_i_world_0;
-    const jg_real g_i_cross_omega_i_world_2 = omega_i_world_1 * g_i_world_0 - omega_i_world_0 * g_i_world_1;
-    gamma[1] = v_0_world_0 * g_i_world_0 + v_0_world_1 * g_i_world_1 + v_0_world_2 * g_i_world_2 +
-        (omega_j_dot_omega_j * s_j_dot_g_i - g_i_dot_omega_j * s_j_dot_omega_j) - JG_REAL(2.0) * (v_i[0] *
-        g_i_cross_omega_i_world_0 + v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] * g_i_cross_omega_i_world_2) +
-        JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] * g_i_cross_omega_i_world_1 + v_j[2] *
-        g_i_cross_omega_i_world_2) + JG_REAL(2.0) * (g_i_dot_omega_j * s_j_dot_omega_i - omega_i_dot_omega_j *
-        s_j_dot_g_i);
-    const jg_real t41 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i_world_0 * h_j_world_0 + omega_i_world_1 * h_j_world_1 + omega_i_world_2
-        * h_j_world_2;
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j_world_0 * h_j_world_0 + omega_j_world_1 * h_j_world_1 + omega_j_world_2
-        * h_j_world_2;
-    const jg_real t48 = JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j;
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i_world_0 + f_i_world_1 * omega_i_world_1 + f_i_world_2 *
-        omega_i_world_2;
-    gamma[2] = f_i_dot_h_j * t41 + f_i_dot_omega_j * t48 - f_i_dot_omega_i * omega_i_dot_h_j;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = omega_i_world_0 * g_i_world_0 + omega_i_world_1 * g_i_world_1 + omega_i_world_2
-        * g_i_world_2;
-    gamma[3] = t41 * g_i_dot_h_j + g_i_dot_omega_j * t48 - omega_i_dot_h_j * g_i_dot_omega_i;
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
+    const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
+    const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
+    const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
+    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
+    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
     /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 * h_i_world_2;
-    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
-    const jg_real h_i_cross_omega_i_world_0 = omega_i_world_2 * h_i_world_1 - omega_i_world_1 * h_i_world_2;
-    const jg_real h_i_cross_omega_i_world_1 = omega_i_world_0 * h_i_world_2 - omega_i_world_2 * h_i_world_0;
-    const jg_real h_i_cross_omega_i_world_2 = omega_i_world_1 * h_i_world_0 - omega_i_world_0 * h_i_world_1;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    /* g_i_dot_f_j = g_i . f_j */
-    const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
-    /* omega_i_cross_f_j_in_joint_i = omega_i x f_j, axes of joint i */
-    const jg_real omega_i_cross_f_j_in_joint_i_2 = f_i_dot_omega_i * g_i_dot_f_j - g_i_dot_omega_i * f_i_dot_f_j;
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
+    const jg_real s_j_dot_h_i = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    const jg_real omega_i_cross_f_j_in_joint_i_0 = g_i_dot_omega_i * h_i_dot_f_j - h_i_dot_omega_i * g_i_dot_f_j;
-    const jg_real omega_i_cross_f_j_in_joint_i_1 = h_i_dot_omega_i * f_i_dot_f_j - f_i_dot_omega_i * h_i_dot_f_j;
-    const jg_real t66 = f_i_dot_omega_j * omega_i_cross_f_j_in_joint_i_0 + g_i_dot_omega_j *
-        omega_i_cross_f_j_in_joint_i_1 + h_i_dot_omega_j * omega_i_cross_f_j_in_joint_i_2;
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t68 = pitch * spread;
-    const jg_real t69 = h_i_dot_f_j * t68;
-    const jg_real t70 = t66 * t69;
-    const jg_real t71 = f_i_dot_omega_j * g_i_dot_f_j - g_i_dot_omega_j * f_i_dot_f_j;
-    const jg_real t72 = t68 * t71;
-    /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i_world_0 * f_j_world_0 + omega_i_world_1 * f_j_world_1 + omega_i_world_2
-        * f_j_world_2;
-    const jg_real t74 = omega_i_cross_f_j_in_joint_i_2 * t68;
+    /* s_j_dot_f_i = s_j . f_i */
+    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    /* s_j_dot_g_i = s_j . g_i */
+    const jg_real s_j_dot_g_i = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
+    /* s_j_dot_omega_i = s_j . omega_i */
+    const jg_real s_j_dot_omega_i = f_i_dot_omega_i * s_j_dot_f_i + g_i_dot_omega_i * s_j_dot_g_i + h_i_dot_omega_i
+        * s_j_dot_h_i;
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = f_i_dot_omega_i * f_i_dot_omega_j + g_i_dot_omega_i * g_i_dot_omega_j +
+        h_i_dot_omega_i * h_i_dot_omega_j;
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
+        f_i_world_2;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = f_i_dot_omega_i * r_ij_dot_f_i + g_i_dot_omega_i * r_ij_dot_g_i +
+        h_i_dot_omega_i * r_ij_dot_h_i;
+    const jg_real t36 = r_ij_dot_omega_i + s_j_dot_omega_i;
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
+        h_i_dot_omega_i * h_i_dot_omega_i;
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
+    /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
+    const jg_real f_i_cross_omega_i_world_0 = g_i_dot_omega_i * h_i_world_0 - h_i_dot_omega_i * g_i_world_0;
+    const jg_real f_i_cross_omega_i_world_1 = g_i_dot_omega_i * h_i_world_1 - h_i_dot_omega_i * g_i_world_1;
+    const jg_real f_i_cross_omega_i_world_2 = g_i_dot_omega_i * h_i_world_2 - h_i_dot_omega_i * g_i_world_2;
+    gamma[0] = omega_i_dot_omega_i * (r_ij_dot_f_i + s_j_dot_f_i) - f_i_dot_omega_i * t36 + (s_j_dot_f_i *
+        omega_j_dot_omega_j - s_j_dot_omega_j * f_i_dot_omega_j) - JG_REAL(2.0) * (f_i_cross_omega_i_world_0 *
+        v_i[0] + f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 * v_i[2]) + JG_REAL(2.0) *
+        (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 * v_j[1] + f_i_cross_omega_i_world_2 *
+        v_j[2]) + JG_REAL(2.0) * (s_j_dot_omega_i * f_i_dot_omega_j - s_j_dot_f_i * omega_i_dot_omega_j);
+    /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
+    const jg_real g_i_cross_omega_i_world_0 = h_i_dot_omega_i * f_i_world_0 - f_i_dot_omega_i * h_i_world_0;
+    const jg_real g_i_cross_omega_i_world_1 = h_i_dot_omega_i * f_i_world_1 - f_i_dot_omega_i * h_i_world_1;
+    const jg_real g_i_cross_omega_i_world_2 = h_i_dot_omega_i * f_i_world_2 - f_i_dot_omega_i * h_i_world_2;
+    gamma[1] = omega_i_dot_omega_i * (r_ij_dot_g_i + s_j_dot_g_i) - g_i_dot_omega_i * t36 + (s_j_dot_g_i *
+        omega_j_dot_omega_j - s_j_dot_omega_j * g_i_dot_omega_j) - JG_REAL(2.0) * (v_i[0] *
+        g_i_cross_omega_i_world_0 + v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] * g_i_cross_omega_i_world_2) +
+        JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] * g_i_cross_omega_i_world_1 + v_j[2] *
+        g_i_cross_omega_i_world_2) + JG_REAL(2.0) * (s_j_dot_omega_i * g_i_dot_omega_j - s_j_dot_g_i *
+        omega_i_dot_omega_j);
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = f_i_dot_omega_j * f_i_dot_h_j + g_i_dot_omega_j * g_i_dot_h_j + h_i_dot_omega_j
+        * h_i_dot_h_j;
+    /* omega_i_dot_h_j = omega_i . h_j */
+    const jg_real omega_i_dot_h_j = f_i_dot_omega_i * f_i_dot_h_j + g_i_dot_omega_i * g_i_dot_h_j + h_i_dot_omega_i
+        * h_i_dot_h_j;
+    const jg_real t51 = JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j;
+    const jg_real t52 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    gamma[2] = f_i_dot_h_j * t52 + f_i_dot_omega_j * t51 - f_i_dot_omega_i * omega_i_dot_h_j;
+    gamma[3] = g_i_dot_h_j * t52 + g_i_dot_omega_j * t51 - g_i_dot_omega_i * omega_i_dot_h_j;
+    /* f_j_in_joint_i = f_j, axes of joint i */
+    const jg_real f_j_in_joint_i_2 = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    const jg_real f_j_in_joint_i_0 = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
+    const jg_real f_j_in_joint_i_1 = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
     /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j_world_0 * f_j_world_0 + omega_j_world_1 * f_j_world_1 + omega_j_world_2
-        * f_j_world_2;
-    const jg_real t76 = JG_REAL(2.0) * spread * t69;
-    const jg_real t77 = t71 * t76;
-    const jg_real t78 = h_i_dot_omega_i - h_i_dot_f_j * omega_i_dot_f_j;
-    const jg_real t79 = omega_i_cross_f_j_in_joint_i_2 * t76;
-    const jg_real t80 = h_i_dot_omega_j - h_i_dot_f_j * omega_j_dot_f_j;
-    gamma[4] = v_0_world_0 * h_i_world_0 + v_0_world_1 * h_i_world_1 + v_0_world_2 * h_i_world_2 +
-        (omega_j_dot_omega_j * s_j_dot_h_i - h_i_dot_omega_j * s_j_dot_omega_j) - JG_REAL(2.0) * (v_i[0] *
-        h_i_cross_omega_i_world_0 + v_i[1] * h_i_cross_omega_i_world_1 + v_i[2] * h_i_cross_omega_i_world_2) +
-        JG_REAL(2.0) * (v_j[0] * h_i_cross_omega_i_world_0 + v_j[1] * h_i_cross_omega_i_world_1 + v_j[2] *
-        h_i_cross_omega_i_world_2) + JG_REAL(2.0) * (h_i_dot_omega_j * s_j_dot_omega_i - omega_i_dot_omega_j *
-        s_j_dot_h_i) - (g_i_dot_omega_j * f_i_dot_omega_i - f_i_dot_omega_j * g_i_dot_omega_i + h_i_dot_f_j * t66) *
-        t68 - t70 + t70 + t72 * omega_i_dot_f_j + t74 * omega_j_dot_f_j - t72 * omega_j_dot_f_j - omega_i_dot_f_j *
-        t74 - t77 * t78 - t79 * t80 + t77 * t80 + t78 * t79;
+    const jg_real omega_j_dot_f_j = f_i_dot_omega_j * f_j_in_joint_i_0 + g_i_dot_omega_j * f_j_in_joint_i_1 +
+        h_i_dot_omega_j * f_j_in_joint_i_2;
+    /* omega_i_dot_f_j = omega_i . f_j */
+    const jg_real omega_i_dot_f_j = f_i_dot_omega_i * f_j_in_joint_i_0 + g_i_dot_omega_i * f_j_in_joint_i_1 +
+        h_i_dot_omega_i * f_j_in_joint_i_2;
+    const jg_real t58 = omega_i_dot_f_j - omega_j_dot_f_j;
+    const jg_real t59 = g_i_dot_omega_i * f_j_in_joint_i_0 - f_i_dot_omega_i * f_j_in_joint_i_1;
+    const jg_real t60 = t59 * t58;
+    const jg_real t61 = g_i_dot_omega_j * f_j_in_joint_i_0 - f_i_dot_omega_j * f_j_in_joint_i_1;
+    const jg_real t62 = t61 * t58;
+    const jg_real t63 = t61 - t59;
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - f_j_in_joint_i_2 * f_j_in_joint_i_2);
+    /* omega_i_cross_omega_j_in_joint_i = omega_i x omega_j, axes of joint i */
+    const jg_real omega_i_cross_omega_j_in_joint_i_0 = g_i_dot_omega_i * h_i_dot_omega_j - h_i_dot_omega_i *
+        g_i_dot_omega_j;
+    const jg_real omega_i_cross_omega_j_in_joint_i_1 = h_i_dot_omega_i * f_i_dot_omega_j - f_i_dot_omega_i *
+        h_i_dot_omega_j;
+    const jg_real omega_i_cross_omega_j_in_joint_i_2 = f_i_dot_omega_i * g_i_dot_omega_j - g_i_dot_omega_i *
+        f_i_dot_omega_j;
+    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
+    const jg_real h_i_cross_omega_i_world_0 = f_i_dot_omega_i * g_i_world_0 - g_i_dot_omega_i * f_i_world_0;
+    const jg_real h_i_cross_omega_i_world_1 = f_i_dot_omega_i * g_i_world_1 - g_i_dot_omega_i * f_i_world_1;
+    const jg_real h_i_cross_omega_i_world_2 = f_i_dot_omega_i * g_i_world_2 - g_i_dot_omega_i * f_i_world_2;
+    gamma[4] = (f_j_in_joint_i_2 * (f_j_in_joint_i_0 * omega_i_cross_omega_j_in_joint_i_0 + f_j_in_joint_i_1 *
+        omega_i_cross_omega_j_in_joint_i_1 + f_j_in_joint_i_2 * omega_i_cross_omega_j_in_joint_i_2 +
+        (f_j_in_joint_i_2 * (t60 - t62) + h_i_dot_omega_i * t63 - h_i_dot_omega_j * t63) * (JG_REAL(2.0) * spread))
+        - t62 + t60 - omega_i_cross_omega_j_in_joint_i_2) * (pitch * spread) + s_j_dot_h_i * t52 + s_j_dot_omega_i *
+        (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) + omega_i_dot_omega_i * r_ij_dot_h_i - h_i_dot_omega_i *
+        r_ij_dot_omega_i - s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (v_i[0] * h_i_cross_omega_i_world_0 +
+        v_i[1] * h_i_cross_omega_i_world_1 + v_i[2] * h_i_cross_omega_i_world_2) + JG_REAL(2.0) * (v_j[0] *
+        h_i_cross_omega_i_world_0 + v_j[1] * h_i_cross_omega_i_world_1 + v_j[2] * h_i_cross_omega_i_world_2);
 }
 
 void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -761,20 +755,22 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* r_j_in_joint_i = r_j, axes of joint i */
-    const jg_real r_j_in_joint_i_2 = r_j[0] * h_i_world_0 + r_j[1] * h_i_world_1 + r_j[2] * h_i_world_2;
-    const jg_real r_j_in_joint_i_1 = r_j[0] * g_i_world_0 + r_j[1] * g_i_world_1 + r_j[2] * g_i_world_2;
-    /* r_i_in_joint_i = r_i, axes of joint i */
-    const jg_real r_i_in_joint_i_2 = h_i_world_0 * r_i[0] + h_i_world_1 * r_i[1] + h_i_world_2 * r_i[2];
-    const jg_real r_i_in_joint_i_1 = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_2 = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     /* f_i_dot_v_j = f_i . v_j */
     const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
     phi_q_v[0] = s_j_in_joint_i_2 * omega_j_in_joint_i_1 - s_j_in_joint_i_1 * omega_j_in_joint_i_2 -
-        (r_j_in_joint_i_2 * g_i_dot_omega_i - r_j_in_joint_i_1 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1) - (g_i_dot_omega_i * r_i_in_joint_i_2 -
-        h_i_dot_omega_i * r_i_in_joint_i_1) + f_i_dot_v_i - f_i_dot_v_j);
+        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1) + f_i_dot_v_i - f_i_dot_v_j);
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
@@ -784,16 +780,15 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j[2];
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    const jg_real r_j_in_joint_i_0 = r_j[0] * f_i_world_0 + r_j[1] * f_i_world_1 + r_j[2] * f_i_world_2;
-    const jg_real r_i_in_joint_i_0 = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
+        f_i_world_2;
     /* g_i_dot_v_i = g_i . v_i */
     const jg_real g_i_dot_v_i = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     /* g_i_dot_v_j = g_i . v_j */
     const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
     phi_q_v[1] = s_j_in_joint_i_0 * omega_j_in_joint_i_2 - s_j_in_joint_i_2 * omega_j_in_joint_i_0 -
-        (r_j_in_joint_i_0 * h_i_dot_omega_i - r_j_in_joint_i_2 * f_i_dot_omega_i + (h_i_dot_omega_i *
-        s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2) - (h_i_dot_omega_i * r_i_in_joint_i_0 -
-        f_i_dot_omega_i * r_i_in_joint_i_2) + g_i_dot_v_i - g_i_dot_v_j);
+        (r_ij_in_joint_i_0 * h_i_dot_omega_i - r_ij_in_joint_i_2 * f_i_dot_omega_i + (h_i_dot_omega_i *
+        s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2) + g_i_dot_v_i - g_i_dot_v_j);
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
     const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
@@ -821,10 +816,9 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     /* h_i_dot_v_j = h_i . v_j */
     const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     phi_q_v[4] = s_j_in_joint_i_1 * omega_j_in_joint_i_0 - s_j_in_joint_i_0 * omega_j_in_joint_i_1 -
-        (f_i_dot_omega_i * s_j_in_joint_i_1 - g_i_dot_omega_i * s_j_in_joint_i_0 + (r_j_in_joint_i_1 *
-        f_i_dot_omega_i - r_j_in_joint_i_0 * g_i_dot_omega_i + (h_i_dot_f_j * (omega_i_dot_f_j - omega_j_dot_f_j) -
-        h_i_dot_omega_i + omega_j_in_joint_i_2) * (pitch * spread)) - (f_i_dot_omega_i * r_i_in_joint_i_1 -
-        g_i_dot_omega_i * r_i_in_joint_i_0) + h_i_dot_v_i - h_i_dot_v_j);
+        (f_i_dot_omega_i * s_j_in_joint_i_1 - g_i_dot_omega_i * s_j_in_joint_i_0 + (r_ij_in_joint_i_1 *
+        f_i_dot_omega_i - r_ij_in_joint_i_0 * g_i_dot_omega_i + (h_i_dot_f_j * (omega_i_dot_f_j - omega_j_dot_f_j) -
+        h_i_dot_omega_i + omega_j_in_joint_i_2) * (pitch * spread)) + h_i_dot_v_i - h_i_dot_v_j);
 }
 
 void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -857,75 +851,78 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
     phi_q_t_lambda[8] = v_0_world_2;
     phi_q_t_lambda[2] = -v_0_world_2;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* v_1_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, world axes */
+    const jg_real v_1_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
     const jg_real v_2_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    /* v_2_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_2_in_j_1 = A_j[3] * v_2_world_0 + A_j[4] * v_2_world_1 + A_j[5] * v_2_world_2;
-    const jg_real v_2_in_j_2 = A_j[6] * v_2_world_0 + A_j[7] * v_2_world_1 + A_j[8] * v_2_world_2;
-    /* v_3_in_j = lambda_2 f_i x h_j + lambda_3 g_i x h_j, axes of body j */
-    const jg_real v_3_in_j_0 = C_j[8] * v_2_in_j_1 - C_j[7] * v_2_in_j_2;
-    /* v_0_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
-    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
-    /* v_1_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, axes of body j */
-    const jg_real v_1_in_j_0 = s_j[1] * v_0_in_j_2 - s_j[2] * v_0_in_j_1;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
-    const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
-    const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* v_3_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
+    const jg_real v_3_world_0 = h_j_world_2 * v_2_world_1 - h_j_world_1 * v_2_world_2;
+    /* v_4_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i - lambda_2 f_i x h_j - ... */
+    const jg_real v_4_world_0 = v_1_world_0 - v_3_world_0;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real t26 = lambda[4] * spread * pitch;
-    /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_0 = h_i_in_j_0 - C_j[0] * h_i_dot_f_j;
-    /* v_4_in_j = lambda_4 spread pitch across, axes of body j */
-    const jg_real v_4_in_j_0 = t26 * across_in_j_0;
-    /* v_5_in_j = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ... */
-    const jg_real v_5_in_j_0 = v_3_in_j_0 - v_1_in_j_0 + v_4_in_j_0;
-    const jg_real v_2_in_j_0 = A_j[0] * v_2_world_0 + A_j[1] * v_2_world_1 + A_j[2] * v_2_world_2;
-    const jg_real v_3_in_j_1 = C_j[6] * v_2_in_j_2 - C_j[8] * v_2_in_j_0;
-    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
-    const jg_real v_1_in_j_1 = s_j[2] * v_0_in_j_0 - s_j[0] * v_0_in_j_2;
-    const jg_real across_in_j_1 = h_i_in_j_1 - C_j[1] * h_i_dot_f_j;
-    const jg_real v_4_in_j_1 = t26 * across_in_j_1;
-    const jg_real v_5_in_j_1 = v_3_in_j_1 - v_1_in_j_1 + v_4_in_j_1;
-    const jg_real v_3_in_j_2 = C_j[7] * v_2_in_j_0 - C_j[6] * v_2_in_j_1;
-    const jg_real v_1_in_j_2 = s_j[0] * v_0_in_j_1 - s_j[1] * v_0_in_j_0;
-    const jg_real across_in_j_2 = h_i_in_j_2 - C_j[2] * h_i_dot_f_j;
-    const jg_real v_4_in_j_2 = t26 * across_in_j_2;
-    const jg_real v_5_in_j_2 = v_3_in_j_2 - v_1_in_j_2 + v_4_in_j_2;
-    /* v_5_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
+    /* across_world = across, world axes */
+    const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
+    /* v_5_world = lambda_4 spread pitch across, world axes */
+    const jg_real v_5_world_0 = t26 * across_world_0;
+    /* v_6_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
         */
-    const jg_real v_5_world_0 = A_j[0] * v_5_in_j_0 + A_j[3] * v_5_in_j_1 + A_j[6] * v_5_in_j_2;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    /* v_7_world = lambda_0 r_j x f_i + lambda_1 r_j x g_i + lambda_4 r_j x h_i - lambda_0 r_i x f_i - ... */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
-    /* v_8_world = lambda_4 spread pitch across - lambda_0 r_j x f_i - lambda_1 r_j x g_i - lambda_4 r_j x h_i ...
-        */
-    const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    const jg_real v_5_world_1 = A_j[1] * v_5_in_j_0 + A_j[4] * v_5_in_j_1 + A_j[7] * v_5_in_j_2;
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
-    const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    const jg_real v_5_world_2 = A_j[2] * v_5_in_j_0 + A_j[5] * v_5_in_j_1 + A_j[8] * v_5_in_j_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
-    const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    /* v_8_in_i = lambda_4 spread pitch across - lambda_0 r_j x f_i - lambda_1 r_j x g_i - lambda_4 r_j x h_i ... */
+    const jg_real v_6_world_0 = v_5_world_0 - v_4_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_7_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_4 r_ij x h_i, world axes */
+    const jg_real v_7_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
+    /* v_8_world = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_1 r_ij x g_i - lambda_4 r_ij x ... */
+    const jg_real v_8_world_0 = v_6_world_0 - v_7_world_0;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_1_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
+    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
+    const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
+    const jg_real v_5_world_1 = t26 * across_world_1;
+    const jg_real v_6_world_1 = v_5_world_1 - v_4_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real v_7_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_8_world_1 = v_6_world_1 - v_7_world_1;
+    const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
+    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
+    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
+    const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
+    const jg_real v_5_world_2 = t26 * across_world_2;
+    const jg_real v_6_world_2 = v_5_world_2 - v_4_world_2;
+    const jg_real v_7_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_8_world_2 = v_6_world_2 - v_7_world_2;
+    /* v_8_in_i = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_1 r_ij x g_i - lambda_4 r_ij x ... */
     const jg_real v_8_in_i_0 = A_i[0] * v_8_world_0 + A_i[1] * v_8_world_1 + A_i[2] * v_8_world_2;
     phi_q_t_lambda[3] = v_8_in_i_0;
     const jg_real v_8_in_i_1 = A_i[3] * v_8_world_0 + A_i[4] * v_8_world_1 + A_i[5] * v_8_world_2;
     phi_q_t_lambda[4] = v_8_in_i_1;
     const jg_real v_8_in_i_2 = A_i[6] * v_8_world_0 + A_i[7] * v_8_world_1 + A_i[8] * v_8_world_2;
     phi_q_t_lambda[5] = v_8_in_i_2;
-    phi_q_t_lambda[9] = -v_5_in_j_0;
-    phi_q_t_lambda[10] = -v_5_in_j_1;
-    phi_q_t_lambda[11] = -v_5_in_j_2;
+    /* v_6_in_j = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ... */
+    const jg_real v_6_in_j_0 = A_j[0] * v_6_world_0 + A_j[1] * v_6_world_1 + A_j[2] * v_6_world_2;
+    phi_q_t_lambda[9] = -v_6_in_j_0;
+    const jg_real v_6_in_j_1 = A_j[3] * v_6_world_0 + A_j[4] * v_6_world_1 + A_j[5] * v_6_world_2;
+    phi_q_t_lambda[10] = -v_6_in_j_1;
+    const jg_real v_6_in_j_2 = A_j[6] * v_6_world_0 + A_j[7] * v_6_world_1 + A_j[8] * v_6_world_2;
+    phi_q_t_lambda[11] = -v_6_in_j_2;
 }
 
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -945,487 +942,493 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_j[7] * A_i[4] + A_i[5] * A_j[8];
+    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_j[1] * A_i[4] + A_i[5] * A_j[2];
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_j[4] * A_i[4] + A_i[5] * A_j[5];
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
+    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
+    const jg_real g_i_in_j_1 = A_ji_1 * C_i[3] + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
+    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
+    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
+    /* A_joint_i_world = turns world axes to joint i axes */
+    const jg_real A_joint_i_world_8 = A_j[2] * h_i_in_j_0 + A_j[5] * h_i_in_j_1 + A_j[8] * h_i_in_j_2;
+    phi_q[32] = A_joint_i_world_8;
+    const jg_real A_joint_i_world_4 = A_j[1] * g_i_in_j_0 + A_j[4] * g_i_in_j_1 + A_j[7] * g_i_in_j_2;
+    phi_q[28] = A_joint_i_world_4;
+    const jg_real A_joint_i_world_5 = A_j[1] * h_i_in_j_0 + A_j[4] * h_i_in_j_1 + A_j[7] * h_i_in_j_2;
+    phi_q[29] = A_joint_i_world_5;
+    const jg_real A_joint_i_world_7 = A_j[2] * g_i_in_j_0 + A_j[5] * g_i_in_j_1 + A_j[8] * g_i_in_j_2;
+    phi_q[31] = A_joint_i_world_7;
+    const jg_real A_joint_i_world_0 = A_joint_i_world_4 * A_joint_i_world_8 - A_joint_i_world_5 * A_joint_i_world_7;
+    phi_q[24] = A_joint_i_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real A_joint_i_world_3 = A_j[1] * f_i_in_j_0 + A_j[4] * f_i_in_j_1 + A_j[7] * f_i_in_j_2;
+    phi_q[27] = A_joint_i_world_3;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real A_joint_i_world_6 = A_j[2] * f_i_in_j_0 + A_j[5] * f_i_in_j_1 + A_j[8] * f_i_in_j_2;
+    phi_q[30] = A_joint_i_world_6;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = r_ij_world_0 * A_joint_i_world_0 + r_ij_world_1 * A_joint_i_world_3 + r_ij_world_2
+        * A_joint_i_world_6;
+    const jg_real A_joint_i_world_1 = A_joint_i_world_5 * A_joint_i_world_6 - A_joint_i_world_3 * A_joint_i_world_8;
+    phi_q[25] = A_joint_i_world_1;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * A_joint_i_world_1 + r_ij_world_1 * A_joint_i_world_4 + r_ij_world_2
+        * A_joint_i_world_7;
+    const jg_real A_joint_i_world_2 = A_joint_i_world_3 * A_joint_i_world_7 - A_joint_i_world_4 * A_joint_i_world_6;
+    phi_q[26] = A_joint_i_world_2;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * A_joint_i_world_2 + r_ij_world_1 * A_joint_i_world_5 + r_ij_world_2
+        * A_joint_i_world_8;
+    /* r_ij_in_i = r_ij, axes of body i */
+    const jg_real r_ij_in_i_0 = C_i[0] * r_ij_dot_f_i + C_i[3] * r_ij_dot_g_i + r_ij_dot_h_i * C_i[6];
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
+    /* s_j_dot_f_i = s_j . f_i */
+    const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
+    /* s_j_dot_g_i = s_j . g_i */
+    const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real s_j_in_i_0 = C_i[0] * s_j_dot_f_i + C_i[3] * s_j_dot_g_i + C_i[6] * s_j_dot_h_i;
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
+    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
+    const jg_real r_ij_in_i_1 = C_i[1] * r_ij_dot_f_i + C_i[4] * r_ij_dot_g_i + r_ij_dot_h_i * C_i[7];
+    const jg_real s_j_in_i_1 = C_i[1] * s_j_dot_f_i + C_i[4] * s_j_dot_g_i + C_i[7] * s_j_dot_h_i;
+    const jg_real e_ij_in_i_1 = r_ij_in_i_1 + s_j_in_i_1;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
+    const jg_real r_ij_in_i_2 = C_i[2] * r_ij_dot_f_i + C_i[5] * r_ij_dot_g_i + r_ij_dot_h_i * C_i[8];
+    const jg_real s_j_in_i_2 = C_i[2] * s_j_dot_f_i + C_i[5] * s_j_dot_g_i + C_i[8] * s_j_dot_h_i;
+    const jg_real e_ij_in_i_2 = r_ij_in_i_2 + s_j_in_i_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
-    phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    phi[1] = C_i[3] * d_ij_in_i_0 + C_i[4] * d_ij_in_i_1 + C_i[5] * d_ij_in_i_2;
     /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
+    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
     phi[2] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    const jg_real g_i_dot_h_j = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
     phi[3] = g_i_dot_h_j;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
-    const jg_real g_i_in_j_1 = A_ji_1 * C_i[3] + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
-    const jg_real g_i_in_j_2 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
-    const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
-    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
     /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = C_j[0] * f_i_in_j_0 + C_j[1] * f_i_in_j_1 + C_j[2] * f_i_in_j_2;
+    const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
-    phi[4] = d_ij_in_i_0 * C_i[6] + d_ij_in_i_1 * C_i[7] + d_ij_in_i_2 * C_i[8] - pitch * (theta + theta_0 +
+    phi[4] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2 - pitch * (theta + theta_0 +
         revolutions * JG_REAL(6.283185307179586));
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = g_i_in_j_2 * f_i_in_j_1 - g_i_in_j_1 * f_i_in_j_2;
-    const jg_real h_i_in_j_1 = g_i_in_j_0 * f_i_in_j_2 - g_i_in_j_2 * f_i_in_j_0;
-    const jg_real h_i_in_j_2 = g_i_in_j_1 * f_i_in_j_0 - g_i_in_j_0 * f_i_in_j_1;
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_2 = A_j[2] * h_i_in_j_0 + A_j[5] * h_i_in_j_1 + A_j[8] * h_i_in_j_2;
-    phi_q[32] = h_i_world_2;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_1 = A_j[1] * g_i_in_j_0 + A_j[4] * g_i_in_j_1 + A_j[7] * g_i_in_j_2;
-    phi_q[28] = g_i_world_1;
-    const jg_real h_i_world_1 = A_j[1] * h_i_in_j_0 + A_j[4] * h_i_in_j_1 + A_j[7] * h_i_in_j_2;
-    phi_q[29] = h_i_world_1;
-    const jg_real g_i_world_2 = A_j[2] * g_i_in_j_0 + A_j[5] * g_i_in_j_1 + A_j[8] * g_i_in_j_2;
-    phi_q[31] = g_i_world_2;
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
-    phi_q[24] = f_i_world_0;
-    phi_q[0] = -f_i_world_0;
-    const jg_real g_i_world_0 = A_j[0] * g_i_in_j_0 + A_j[3] * g_i_in_j_1 + A_j[6] * g_i_in_j_2;
-    phi_q[25] = g_i_world_0;
-    phi_q[1] = -g_i_world_0;
-    const jg_real h_i_world_0 = A_j[0] * h_i_in_j_0 + A_j[3] * h_i_in_j_1 + A_j[6] * h_i_in_j_2;
-    phi_q[26] = h_i_world_0;
-    phi_q[2] = -h_i_world_0;
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    phi_q[27] = f_i_world_1;
-    phi_q[3] = -f_i_world_1;
-    phi_q[4] = -g_i_world_1;
-    phi_q[5] = -h_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
-    phi_q[30] = f_i_world_2;
-    phi_q[6] = -f_i_world_2;
-    phi_q[7] = -g_i_world_2;
-    phi_q[8] = -h_i_world_2;
+    phi_q[0] = -A_joint_i_world_0;
+    phi_q[1] = -A_joint_i_world_1;
+    phi_q[2] = -A_joint_i_world_2;
+    phi_q[3] = -A_joint_i_world_3;
+    phi_q[4] = -A_joint_i_world_4;
+    phi_q[5] = -A_joint_i_world_5;
+    phi_q[6] = -A_joint_i_world_6;
+    phi_q[7] = -A_joint_i_world_7;
+    phi_q[8] = -A_joint_i_world_8;
     phi_q[9] = C_i[1] * e_ij_in_i_2 - C_i[2] * e_ij_in_i_1;
-    phi_q[10] = e_ij_in_i_2 * C_i[4] - e_ij_in_i_1 * C_i[5];
+    phi_q[10] = C_i[4] * e_ij_in_i_2 - C_i[5] * e_ij_in_i_1;
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
     const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
     phi_q[11] = f_i_cross_h_j_in_i_0;
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
     const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
     phi_q[12] = g_i_cross_h_j_in_i_0;
+    /* v_2_in_i = r_ij x h_i + s_j x h_i, axes of body i */
+    const jg_real v_2_in_i_0 = C_i[8] * e_ij_in_i_1 - C_i[7] * e_ij_in_i_2;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
+    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t54 = pitch * spread;
+    const jg_real t60 = pitch * spread;
     /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real f_j_in_i_0 = C_i[0] * f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] * h_i_dot_f_j;
     /* across_in_i = across, axes of body i */
     const jg_real across_in_i_0 = C_i[6] - h_i_dot_f_j * f_j_in_i_0;
-    /* v_3_in_i = r_j x h_i + s_j x h_i - r_i x h_i, axes of body i */
-    const jg_real v_3_in_i_0 = e_ij_in_i_1 * C_i[8] - e_ij_in_i_2 * C_i[7];
-    /* v_4_in_i = pitch spread across - r_j x h_i - s_j x h_i + r_i x h_i, axes of body i */
-    const jg_real v_4_in_i_0 = t54 * across_in_i_0 - v_3_in_i_0;
-    phi_q[13] = v_4_in_i_0;
+    /* v_3_in_i = pitch spread across - r_ij x h_i - s_j x h_i, axes of body i */
+    const jg_real v_3_in_i_0 = t60 * across_in_i_0 - v_2_in_i_0;
+    phi_q[13] = v_3_in_i_0;
     phi_q[14] = C_i[2] * e_ij_in_i_0 - C_i[0] * e_ij_in_i_2;
-    phi_q[15] = e_ij_in_i_0 * C_i[5] - e_ij_in_i_2 * C_i[3];
+    phi_q[15] = C_i[5] * e_ij_in_i_0 - C_i[3] * e_ij_in_i_2;
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
     phi_q[16] = f_i_cross_h_j_in_i_1;
     const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
     phi_q[17] = g_i_cross_h_j_in_i_1;
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real v_2_in_i_1 = C_i[6] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_0;
+    const jg_real f_j_in_i_1 = C_i[1] * f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] * h_i_dot_f_j;
     const jg_real across_in_i_1 = C_i[7] - h_i_dot_f_j * f_j_in_i_1;
-    const jg_real v_3_in_i_1 = e_ij_in_i_2 * C_i[6] - e_ij_in_i_0 * C_i[8];
-    const jg_real v_4_in_i_1 = t54 * across_in_i_1 - v_3_in_i_1;
-    phi_q[18] = v_4_in_i_1;
+    const jg_real v_3_in_i_1 = t60 * across_in_i_1 - v_2_in_i_1;
+    phi_q[18] = v_3_in_i_1;
     phi_q[19] = C_i[0] * e_ij_in_i_1 - C_i[1] * e_ij_in_i_0;
-    phi_q[20] = e_ij_in_i_1 * C_i[3] - e_ij_in_i_0 * C_i[4];
+    phi_q[20] = C_i[3] * e_ij_in_i_1 - C_i[4] * e_ij_in_i_0;
     const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
     phi_q[21] = f_i_cross_h_j_in_i_2;
     const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
     phi_q[22] = g_i_cross_h_j_in_i_2;
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real v_2_in_i_2 = C_i[7] * e_ij_in_i_0 - C_i[6] * e_ij_in_i_1;
+    const jg_real f_j_in_i_2 = C_i[2] * f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] * h_i_dot_f_j;
     const jg_real across_in_i_2 = C_i[8] - h_i_dot_f_j * f_j_in_i_2;
-    const jg_real v_3_in_i_2 = e_ij_in_i_0 * C_i[7] - e_ij_in_i_1 * C_i[6];
-    const jg_real v_4_in_i_2 = t54 * across_in_i_2 - v_3_in_i_2;
-    phi_q[23] = v_4_in_i_2;
+    const jg_real v_3_in_i_2 = t60 * across_in_i_2 - v_2_in_i_2;
+    phi_q[23] = v_3_in_i_2;
     /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
-    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
+    const jg_real s_j_cross_f_i_in_j_0 = f_i_in_j_2 * s_j[1] - f_i_in_j_1 * s_j[2];
     phi_q[33] = s_j_cross_f_i_in_j_0;
     /* s_j_cross_g_i_in_j = s_j x g_i, axes of body j */
-    const jg_real s_j_cross_g_i_in_j_0 = s_j[1] * g_i_in_j_2 - s_j[2] * g_i_in_j_1;
+    const jg_real s_j_cross_g_i_in_j_0 = g_i_in_j_2 * s_j[1] - g_i_in_j_1 * s_j[2];
     phi_q[34] = s_j_cross_g_i_in_j_0;
-    phi_q[35] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
-    phi_q[36] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    /* v_5_in_j = (h_i . f_j) f_j, axes of body j */
-    const jg_real v_5_in_j_0 = C_j[0] * h_i_dot_f_j;
+    phi_q[35] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
+    phi_q[36] = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
+    /* v_4_in_j = (h_i . f_j) f_j, axes of body j */
+    const jg_real v_4_in_j_0 = C_j[0] * h_i_dot_f_j;
     /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_0 = h_i_in_j_0 - v_5_in_j_0;
+    const jg_real across_in_j_0 = h_i_in_j_0 - v_4_in_j_0;
     /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
-    const jg_real s_j_cross_h_i_in_j_0 = s_j[1] * h_i_in_j_2 - s_j[2] * h_i_in_j_1;
-    phi_q[37] = s_j_cross_h_i_in_j_0 - t54 * across_in_j_0;
-    const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
+    const jg_real s_j_cross_h_i_in_j_0 = h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2];
+    phi_q[37] = s_j_cross_h_i_in_j_0 - t60 * across_in_j_0;
+    const jg_real s_j_cross_f_i_in_j_1 = f_i_in_j_0 * s_j[2] - f_i_in_j_2 * s_j[0];
     phi_q[38] = s_j_cross_f_i_in_j_1;
-    const jg_real s_j_cross_g_i_in_j_1 = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
+    const jg_real s_j_cross_g_i_in_j_1 = g_i_in_j_0 * s_j[2] - g_i_in_j_2 * s_j[0];
     phi_q[39] = s_j_cross_g_i_in_j_1;
-    phi_q[40] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
-    phi_q[41] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    const jg_real v_5_in_j_1 = C_j[1] * h_i_dot_f_j;
-    const jg_real across_in_j_1 = h_i_in_j_1 - v_5_in_j_1;
-    const jg_real s_j_cross_h_i_in_j_1 = s_j[2] * h_i_in_j_0 - s_j[0] * h_i_in_j_2;
-    phi_q[42] = s_j_cross_h_i_in_j_1 - t54 * across_in_j_1;
-    const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
+    phi_q[40] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
+    phi_q[41] = g_i_in_j_0 * C_j[8] - g_i_in_j_2 * C_j[6];
+    const jg_real v_4_in_j_1 = C_j[1] * h_i_dot_f_j;
+    const jg_real across_in_j_1 = h_i_in_j_1 - v_4_in_j_1;
+    const jg_real s_j_cross_h_i_in_j_1 = h_i_in_j_0 * s_j[2] - h_i_in_j_2 * s_j[0];
+    phi_q[42] = s_j_cross_h_i_in_j_1 - t60 * across_in_j_1;
+    const jg_real s_j_cross_f_i_in_j_2 = f_i_in_j_1 * s_j[0] - f_i_in_j_0 * s_j[1];
     phi_q[43] = s_j_cross_f_i_in_j_2;
-    const jg_real s_j_cross_g_i_in_j_2 = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
+    const jg_real s_j_cross_g_i_in_j_2 = g_i_in_j_1 * s_j[0] - g_i_in_j_0 * s_j[1];
     phi_q[44] = s_j_cross_g_i_in_j_2;
-    phi_q[45] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
-    phi_q[46] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    const jg_real v_5_in_j_2 = C_j[2] * h_i_dot_f_j;
-    const jg_real across_in_j_2 = h_i_in_j_2 - v_5_in_j_2;
-    const jg_real s_j_cross_h_i_in_j_2 = s_j[0] * h_i_in_j_1 - s_j[1] * h_i_in_j_0;
-    phi_q[47] = s_j_cross_h_i_in_j_2 - t54 * across_in_j_2;
-    /* v_7_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
-    const jg_real v_7_in_i_1 = C_i[1] * lambda[0] + C_i[4] * lambda[1] + C_i[7] * lambda[4];
-    const jg_real v_7_in_i_2 = C_i[2] * lambda[0] + C_i[5] * lambda[1] + C_i[8] * lambda[4];
-    const jg_real t88 = A_i[6] * v_7_in_i_1 - A_i[3] * v_7_in_i_2;
-    phi_q_t_lambda_q[15] = t88;
-    phi_q_t_lambda_q[45] = t88;
-    const jg_real t89 = -t88;
-    phi_q_t_lambda_q[0] = t89;
-    phi_q_t_lambda_q[9] = t89;
-    const jg_real v_7_in_i_0 = C_i[0] * lambda[0] + C_i[3] * lambda[1] + C_i[6] * lambda[4];
-    const jg_real t91 = A_i[0] * v_7_in_i_2 - A_i[6] * v_7_in_i_0;
-    phi_q_t_lambda_q[27] = t91;
-    phi_q_t_lambda_q[46] = t91;
-    const jg_real t92 = -t91;
-    phi_q_t_lambda_q[1] = t92;
-    phi_q_t_lambda_q[21] = t92;
-    const jg_real t93 = A_i[3] * v_7_in_i_0 - A_i[0] * v_7_in_i_1;
-    phi_q_t_lambda_q[39] = t93;
-    phi_q_t_lambda_q[47] = t93;
-    const jg_real t94 = -t93;
-    phi_q_t_lambda_q[2] = t94;
-    phi_q_t_lambda_q[33] = t94;
-    const jg_real t95 = A_i[7] * v_7_in_i_1 - A_i[4] * v_7_in_i_2;
-    phi_q_t_lambda_q[16] = t95;
-    phi_q_t_lambda_q[48] = t95;
-    const jg_real t96 = -t95;
-    phi_q_t_lambda_q[3] = t96;
-    phi_q_t_lambda_q[10] = t96;
-    const jg_real t97 = A_i[1] * v_7_in_i_2 - A_i[7] * v_7_in_i_0;
-    phi_q_t_lambda_q[28] = t97;
-    phi_q_t_lambda_q[49] = t97;
-    const jg_real t98 = -t97;
-    phi_q_t_lambda_q[4] = t98;
-    phi_q_t_lambda_q[22] = t98;
-    const jg_real t99 = A_i[4] * v_7_in_i_0 - A_i[1] * v_7_in_i_1;
-    phi_q_t_lambda_q[40] = t99;
-    phi_q_t_lambda_q[50] = t99;
-    const jg_real t100 = -t99;
-    phi_q_t_lambda_q[5] = t100;
-    phi_q_t_lambda_q[34] = t100;
-    const jg_real t101 = A_i[8] * v_7_in_i_1 - A_i[5] * v_7_in_i_2;
-    phi_q_t_lambda_q[17] = t101;
-    phi_q_t_lambda_q[51] = t101;
-    const jg_real t102 = -t101;
-    phi_q_t_lambda_q[6] = t102;
-    phi_q_t_lambda_q[11] = t102;
-    const jg_real t103 = A_i[2] * v_7_in_i_2 - A_i[8] * v_7_in_i_0;
-    phi_q_t_lambda_q[29] = t103;
-    phi_q_t_lambda_q[52] = t103;
+    phi_q[45] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
+    phi_q[46] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
+    const jg_real v_4_in_j_2 = C_j[2] * h_i_dot_f_j;
+    const jg_real across_in_j_2 = h_i_in_j_2 - v_4_in_j_2;
+    const jg_real s_j_cross_h_i_in_j_2 = h_i_in_j_1 * s_j[0] - h_i_in_j_0 * s_j[1];
+    phi_q[47] = s_j_cross_h_i_in_j_2 - t60 * across_in_j_2;
+    /* v_6_in_i = lambda_1 g_i + lambda_4 h_i, axes of body i */
+    const jg_real v_6_in_i_1 = C_i[4] * lambda[1] + C_i[7] * lambda[4];
+    /* v_7_in_i = lambda_0 f_i, axes of body i */
+    const jg_real v_7_in_i_1 = C_i[1] * lambda[0];
+    /* v_8_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
+    const jg_real v_8_in_i_1 = v_6_in_i_1 + v_7_in_i_1;
+    const jg_real v_6_in_i_2 = C_i[5] * lambda[1] + C_i[8] * lambda[4];
+    const jg_real v_7_in_i_2 = C_i[2] * lambda[0];
+    const jg_real v_8_in_i_2 = v_6_in_i_2 + v_7_in_i_2;
+    const jg_real t98 = A_i[6] * v_8_in_i_1 - A_i[3] * v_8_in_i_2;
+    phi_q_t_lambda_q[15] = t98;
+    phi_q_t_lambda_q[45] = t98;
+    const jg_real t99 = -t98;
+    phi_q_t_lambda_q[0] = t99;
+    phi_q_t_lambda_q[9] = t99;
+    const jg_real v_6_in_i_0 = C_i[3] * lambda[1] + C_i[6] * lambda[4];
+    const jg_real v_7_in_i_0 = C_i[0] * lambda[0];
+    const jg_real v_8_in_i_0 = v_6_in_i_0 + v_7_in_i_0;
+    const jg_real t103 = v_8_in_i_2 * A_i[0] - A_i[6] * v_8_in_i_0;
+    phi_q_t_lambda_q[27] = t103;
+    phi_q_t_lambda_q[46] = t103;
     const jg_real t104 = -t103;
-    phi_q_t_lambda_q[7] = t104;
-    phi_q_t_lambda_q[23] = t104;
-    const jg_real t105 = A_i[5] * v_7_in_i_0 - A_i[2] * v_7_in_i_1;
-    phi_q_t_lambda_q[41] = t105;
-    phi_q_t_lambda_q[53] = t105;
+    phi_q_t_lambda_q[1] = t104;
+    phi_q_t_lambda_q[21] = t104;
+    const jg_real t105 = A_i[3] * v_8_in_i_0 - v_8_in_i_1 * A_i[0];
+    phi_q_t_lambda_q[39] = t105;
+    phi_q_t_lambda_q[47] = t105;
     const jg_real t106 = -t105;
-    phi_q_t_lambda_q[8] = t106;
-    phi_q_t_lambda_q[35] = t106;
-    /* v_11_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
-    const jg_real v_11_in_joint_i_2 = t54 * lambda[4];
-    const jg_real t108 = JG_REAL(2.0) * h_i_dot_f_j * spread;
-    /* v_8_in_i = f_j - 2 (h_i . f_j) spread across, axes of body i */
-    const jg_real v_8_in_i_1 = f_j_in_i_1 - across_in_i_1 * t108;
-    /* v_9_in_i = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body i */
-    const jg_real v_9_in_i_1 = v_11_in_joint_i_2 * v_8_in_i_1;
+    phi_q_t_lambda_q[2] = t106;
+    phi_q_t_lambda_q[33] = t106;
+    const jg_real t107 = A_i[7] * v_8_in_i_1 - A_i[4] * v_8_in_i_2;
+    phi_q_t_lambda_q[16] = t107;
+    phi_q_t_lambda_q[48] = t107;
+    const jg_real t108 = -t107;
+    phi_q_t_lambda_q[3] = t108;
+    phi_q_t_lambda_q[10] = t108;
+    const jg_real t109 = v_8_in_i_2 * A_i[1] - A_i[7] * v_8_in_i_0;
+    phi_q_t_lambda_q[28] = t109;
+    phi_q_t_lambda_q[49] = t109;
+    const jg_real t110 = -t109;
+    phi_q_t_lambda_q[4] = t110;
+    phi_q_t_lambda_q[22] = t110;
+    const jg_real t111 = A_i[4] * v_8_in_i_0 - v_8_in_i_1 * A_i[1];
+    phi_q_t_lambda_q[40] = t111;
+    phi_q_t_lambda_q[50] = t111;
+    const jg_real t112 = -t111;
+    phi_q_t_lambda_q[5] = t112;
+    phi_q_t_lambda_q[34] = t112;
+    const jg_real t113 = A_i[8] * v_8_in_i_1 - A_i[5] * v_8_in_i_2;
+    phi_q_t_lambda_q[17] = t113;
+    phi_q_t_lambda_q[51] = t113;
+    const jg_real t114 = -t113;
+    phi_q_t_lambda_q[6] = t114;
+    phi_q_t_lambda_q[11] = t114;
+    const jg_real t115 = v_8_in_i_2 * A_i[2] - A_i[8] * v_8_in_i_0;
+    phi_q_t_lambda_q[29] = t115;
+    phi_q_t_lambda_q[52] = t115;
+    const jg_real t116 = -t115;
+    phi_q_t_lambda_q[7] = t116;
+    phi_q_t_lambda_q[23] = t116;
+    const jg_real t117 = A_i[5] * v_8_in_i_0 - v_8_in_i_1 * A_i[2];
+    phi_q_t_lambda_q[41] = t117;
+    phi_q_t_lambda_q[53] = t117;
+    const jg_real t118 = -t117;
+    phi_q_t_lambda_q[8] = t118;
+    phi_q_t_lambda_q[35] = t118;
+    const jg_real t119 = JG_REAL(2.0) * spread;
+    /* v_9_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
+    const jg_real v_9_in_joint_i_2 = lambda[4] * t119 * t60;
+    const jg_real t121 = h_i_dot_f_j * v_9_in_joint_i_2;
+    /* v_12_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
+    const jg_real v_12_in_joint_i_2 = t60 * lambda[4];
+    /* v_10_in_i = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body i */
+    const jg_real v_10_in_i_1 = f_j_in_i_1 * v_12_in_joint_i_2 - across_in_i_1 * t121;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
-    const jg_real h_i_cross_f_j_in_i_1 = C_i[4] * f_i_dot_f_j - C_i[1] * g_i_dot_f_j;
-    /* v_10_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
-    const jg_real v_10_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    /* M_0_i_i = (lambda_0 r_j + lambda_0 s_j - lambda_0 r_i + lambda_2 h_j) f_i^T + (lambda_1 r_j + ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * v_7_in_i_1 - v_9_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
-        v_10_in_i_1;
-    const jg_real v_8_in_i_2 = f_j_in_i_2 - across_in_i_2 * t108;
-    const jg_real v_9_in_i_2 = v_11_in_joint_i_2 * v_8_in_i_2;
-    const jg_real h_i_cross_f_j_in_i_2 = C_i[5] * f_i_dot_f_j - C_i[2] * g_i_dot_f_j;
-    const jg_real v_10_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * v_7_in_i_2 - v_9_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
-        v_10_in_i_2;
+    const jg_real h_i_cross_f_j_in_i_1 = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
+    /* v_11_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
+    const jg_real v_11_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    /* M_0_i_i = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ... */
+    const jg_real M_0_i_i_4 = e_ij_in_i_1 * v_8_in_i_1 - v_10_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
+        v_11_in_i_1;
+    const jg_real v_10_in_i_2 = f_j_in_i_2 * v_12_in_joint_i_2 - across_in_i_2 * t121;
+    const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
+    const jg_real v_11_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real M_0_i_i_8 = e_ij_in_i_2 * v_8_in_i_2 - v_10_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
+        v_11_in_i_2;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real h_i_cross_f_j_in_i_0 = C_i[3] * f_i_dot_f_j - C_i[0] * g_i_dot_f_j;
-    const jg_real v_10_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * v_7_in_i_0 - v_9_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
-        v_10_in_i_0;
-    const jg_real t122 = h_i_dot_f_j * v_11_in_joint_i_2;
-    /* v_12_in_i = pitch (h_i . f_j) spread lambda_4 f_j, axes of body i */
-    const jg_real v_12_in_i_2 = f_j_in_i_2 * t122;
-    phi_q_t_lambda_q[13] = M_0_i_i_3 - v_12_in_i_2;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * v_7_in_i_0 - v_9_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
-        v_10_in_i_0;
-    const jg_real v_12_in_i_1 = f_j_in_i_1 * t122;
-    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_12_in_i_1;
-    /* v_13_in_j = (h_i . f_j) f_j + across, axes of body j */
-    const jg_real v_13_in_j_2 = v_5_in_j_2 + across_in_j_2;
-    /* v_14_in_j = pitch (h_i . f_j) spread lambda_4 f_j + pitch spread lambda_4 across, axes of body j */
-    const jg_real v_14_in_j_2 = v_11_in_joint_i_2 * v_13_in_j_2;
-    const jg_real v_13_in_j_1 = v_5_in_j_1 + across_in_j_1;
-    const jg_real v_14_in_j_1 = v_11_in_joint_i_2 * v_13_in_j_1;
-    /* v_8_in_j = f_j - 2 (h_i . f_j) spread across, axes of body j */
-    const jg_real v_8_in_j_0 = C_j[0] - across_in_j_0 * t108;
-    /* v_9_in_j = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body j */
-    const jg_real v_9_in_j_0 = v_11_in_joint_i_2 * v_8_in_j_0;
+    const jg_real h_i_cross_f_j_in_i_0 = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
+    const jg_real v_11_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real M_0_i_i_3 = e_ij_in_i_1 * v_8_in_i_0 - v_10_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
+        v_11_in_i_0;
+    const jg_real t134 = h_i_dot_f_j * v_12_in_joint_i_2;
+    /* v_13_in_i = pitch (h_i . f_j) spread lambda_4 f_j, axes of body i */
+    const jg_real v_13_in_i_2 = f_j_in_i_2 * t134;
+    phi_q_t_lambda_q[13] = M_0_i_i_3 - v_13_in_i_2;
+    const jg_real M_0_i_i_6 = e_ij_in_i_2 * v_8_in_i_0 - v_10_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
+        v_11_in_i_0;
+    const jg_real v_13_in_i_1 = f_j_in_i_1 * t134;
+    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_13_in_i_1;
+    /* v_14_in_j = (h_i . f_j) f_j + across, axes of body j */
+    const jg_real v_14_in_j_2 = v_4_in_j_2 + across_in_j_2;
+    /* v_15_in_j = pitch (h_i . f_j) spread lambda_4 f_j + pitch spread lambda_4 across, axes of body j */
+    const jg_real v_15_in_j_2 = v_12_in_joint_i_2 * v_14_in_j_2;
+    const jg_real v_14_in_j_1 = v_4_in_j_1 + across_in_j_1;
+    const jg_real v_15_in_j_1 = v_12_in_joint_i_2 * v_14_in_j_1;
+    /* v_10_in_j = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body j */
+    const jg_real v_10_in_j_0 = C_j[0] * v_12_in_joint_i_2 - across_in_j_0 * t121;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_0 = g_i_in_j_0 * f_i_dot_f_j - g_i_dot_f_j * f_i_in_j_0;
-    /* v_7_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_7_in_j_0 = f_i_in_j_0 * lambda[0] + g_i_in_j_0 * lambda[1] + h_i_in_j_0 * lambda[4];
-    /* v_10_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_10_in_j_0 = f_i_in_j_0 * lambda[2] + g_i_in_j_0 * lambda[3];
+    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    /* v_11_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
+    const jg_real v_11_in_j_0 = f_i_in_j_0 * lambda[2] + g_i_in_j_0 * lambda[3];
+    /* v_8_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
+    const jg_real v_8_in_j_0 = A_ji_0 * v_8_in_i_0 + A_ji_3 * v_8_in_i_1 + A_ji_6 * v_8_in_i_2;
     /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_j_j_0 = s_j[0] * v_7_in_j_0 + C_j[6] * v_10_in_j_0 - h_i_cross_f_j_in_j_0 * v_9_in_j_0;
-    const jg_real v_8_in_j_1 = C_j[1] - across_in_j_1 * t108;
-    const jg_real v_9_in_j_1 = v_11_in_joint_i_2 * v_8_in_j_1;
-    const jg_real h_i_cross_f_j_in_j_1 = g_i_in_j_1 * f_i_dot_f_j - g_i_dot_f_j * f_i_in_j_1;
-    const jg_real v_7_in_j_1 = f_i_in_j_1 * lambda[0] + g_i_in_j_1 * lambda[1] + h_i_in_j_1 * lambda[4];
-    const jg_real v_10_in_j_1 = f_i_in_j_1 * lambda[2] + g_i_in_j_1 * lambda[3];
-    const jg_real M_2_j_j_4 = s_j[1] * v_7_in_j_1 + C_j[7] * v_10_in_j_1 - h_i_cross_f_j_in_j_1 * v_9_in_j_1;
-    const jg_real t142 = M_2_j_j_0 + M_2_j_j_4;
-    const jg_real v_8_in_j_2 = C_j[2] - across_in_j_2 * t108;
-    const jg_real v_9_in_j_2 = v_11_in_joint_i_2 * v_8_in_j_2;
-    const jg_real h_i_cross_f_j_in_j_2 = g_i_in_j_2 * f_i_dot_f_j - g_i_dot_f_j * f_i_in_j_2;
-    const jg_real v_7_in_j_2 = f_i_in_j_2 * lambda[0] + g_i_in_j_2 * lambda[1] + h_i_in_j_2 * lambda[4];
-    const jg_real v_10_in_j_2 = f_i_in_j_2 * lambda[2] + g_i_in_j_2 * lambda[3];
-    const jg_real M_2_j_j_8 = s_j[2] * v_7_in_j_2 + C_j[8] * v_10_in_j_2 - h_i_cross_f_j_in_j_2 * v_9_in_j_2;
-    const jg_real t149 = M_2_j_j_8 + t142;
-    const jg_real t150 = A_ji_0 * t149;
-    const jg_real t151 = s_j_in_i_0 * v_7_in_j_0;
-    const jg_real t152 = h_j_in_i_0 * v_10_in_j_0;
+    const jg_real M_2_j_j_0 = s_j[0] * v_8_in_j_0 + C_j[6] * v_11_in_j_0 - h_i_cross_f_j_in_j_0 * v_10_in_j_0;
+    const jg_real v_10_in_j_1 = C_j[1] * v_12_in_joint_i_2 - across_in_j_1 * t121;
+    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
+    const jg_real v_11_in_j_1 = f_i_in_j_1 * lambda[2] + g_i_in_j_1 * lambda[3];
+    const jg_real v_8_in_j_1 = A_ji_1 * v_8_in_i_0 + A_ji_4 * v_8_in_i_1 + A_ji_7 * v_8_in_i_2;
+    const jg_real M_2_j_j_4 = s_j[1] * v_8_in_j_1 + C_j[7] * v_11_in_j_1 - h_i_cross_f_j_in_j_1 * v_10_in_j_1;
+    const jg_real t152 = M_2_j_j_0 + M_2_j_j_4;
+    const jg_real v_10_in_j_2 = C_j[2] * v_12_in_joint_i_2 - across_in_j_2 * t121;
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    const jg_real v_11_in_j_2 = f_i_in_j_2 * lambda[2] + g_i_in_j_2 * lambda[3];
+    const jg_real v_8_in_j_2 = A_ji_2 * v_8_in_i_0 + A_ji_5 * v_8_in_i_1 + A_ji_8 * v_8_in_i_2;
+    const jg_real M_2_j_j_8 = s_j[2] * v_8_in_j_2 + C_j[8] * v_11_in_j_2 - h_i_cross_f_j_in_j_2 * v_10_in_j_2;
+    const jg_real t158 = M_2_j_j_8 + t152;
+    const jg_real t159 = A_ji_0 * t158;
+    const jg_real t160 = s_j_in_i_0 * v_8_in_j_0;
+    const jg_real t161 = h_j_in_i_0 * v_11_in_j_0;
     /* M_2_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_i_j_0 = t151 + t152 - h_i_cross_f_j_in_i_0 * v_9_in_j_0;
-    phi_q_t_lambda_q[18] = -(A_ji_1 * v_14_in_j_2 - A_ji_2 * v_14_in_j_1 + (M_2_i_j_0 - t150));
-    const jg_real v_13_in_j_0 = v_5_in_j_0 + across_in_j_0;
-    const jg_real v_14_in_j_0 = v_11_in_joint_i_2 * v_13_in_j_0;
-    const jg_real t156 = A_ji_1 * t149;
-    const jg_real t157 = s_j_in_i_0 * v_7_in_j_1;
-    const jg_real t158 = h_j_in_i_0 * v_10_in_j_1;
-    const jg_real M_2_i_j_1 = t157 + t158 - h_i_cross_f_j_in_i_0 * v_9_in_j_1;
-    phi_q_t_lambda_q[19] = -(A_ji_2 * v_14_in_j_0 - A_ji_0 * v_14_in_j_2 + (M_2_i_j_1 - t156));
-    const jg_real t160 = A_ji_2 * t149;
-    const jg_real t161 = s_j_in_i_0 * v_7_in_j_2;
-    const jg_real t162 = h_j_in_i_0 * v_10_in_j_2;
-    const jg_real M_2_i_j_2 = t161 + t162 - h_i_cross_f_j_in_i_0 * v_9_in_j_2;
-    phi_q_t_lambda_q[20] = -(A_ji_0 * v_14_in_j_1 - A_ji_1 * v_14_in_j_0 + (M_2_i_j_2 - t160));
-    const jg_real v_8_in_i_0 = f_j_in_i_0 - across_in_i_0 * t108;
-    const jg_real v_9_in_i_0 = v_11_in_joint_i_2 * v_8_in_i_0;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_7_in_i_1 - v_9_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
-        v_10_in_i_1;
-    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_12_in_i_2;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_7_in_i_0 - v_9_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
-        v_10_in_i_0;
+    const jg_real M_2_i_j_0 = t160 + t161 - h_i_cross_f_j_in_i_0 * v_10_in_j_0;
+    phi_q_t_lambda_q[18] = -(A_ji_1 * v_15_in_j_2 - A_ji_2 * v_15_in_j_1 + (M_2_i_j_0 - t159));
+    const jg_real v_14_in_j_0 = v_4_in_j_0 + across_in_j_0;
+    const jg_real v_15_in_j_0 = v_12_in_joint_i_2 * v_14_in_j_0;
+    const jg_real t165 = A_ji_1 * t158;
+    const jg_real t166 = s_j_in_i_0 * v_8_in_j_1;
+    const jg_real t167 = h_j_in_i_0 * v_11_in_j_1;
+    const jg_real M_2_i_j_1 = t166 + t167 - h_i_cross_f_j_in_i_0 * v_10_in_j_1;
+    phi_q_t_lambda_q[19] = -(A_ji_2 * v_15_in_j_0 - A_ji_0 * v_15_in_j_2 + (M_2_i_j_1 - t165));
+    const jg_real t169 = A_ji_2 * t158;
+    const jg_real t170 = s_j_in_i_0 * v_8_in_j_2;
+    const jg_real t171 = h_j_in_i_0 * v_11_in_j_2;
+    const jg_real M_2_i_j_2 = t170 + t171 - h_i_cross_f_j_in_i_0 * v_10_in_j_2;
+    phi_q_t_lambda_q[20] = -(A_ji_0 * v_15_in_j_1 - A_ji_1 * v_15_in_j_0 + (M_2_i_j_2 - t169));
+    const jg_real v_10_in_i_0 = f_j_in_i_0 * v_12_in_joint_i_2 - across_in_i_0 * t121;
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_8_in_i_1 - v_10_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
+        v_11_in_i_1;
+    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_13_in_i_2;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_8_in_i_0 - v_10_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
+        v_11_in_i_0;
     phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_7_in_i_1 - v_9_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
-        v_10_in_i_1;
-    const jg_real v_12_in_i_0 = f_j_in_i_0 * t122;
-    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_12_in_i_0;
-    const jg_real t170 = A_ji_3 * t149;
-    const jg_real t171 = s_j_in_i_1 * v_7_in_j_0;
-    const jg_real t172 = h_j_in_i_1 * v_10_in_j_0;
-    const jg_real M_2_i_j_3 = t171 + t172 - h_i_cross_f_j_in_i_1 * v_9_in_j_0;
-    phi_q_t_lambda_q[30] = -(A_ji_4 * v_14_in_j_2 - A_ji_5 * v_14_in_j_1 + (M_2_i_j_3 - t170));
-    const jg_real t174 = A_ji_4 * t149;
-    const jg_real t175 = s_j_in_i_1 * v_7_in_j_1;
-    const jg_real t176 = h_j_in_i_1 * v_10_in_j_1;
-    const jg_real M_2_i_j_4 = t175 + t176 - h_i_cross_f_j_in_i_1 * v_9_in_j_1;
-    phi_q_t_lambda_q[31] = -(A_ji_5 * v_14_in_j_0 - A_ji_3 * v_14_in_j_2 + (M_2_i_j_4 - t174));
-    const jg_real t178 = A_ji_5 * t149;
-    const jg_real t179 = s_j_in_i_1 * v_7_in_j_2;
-    const jg_real t180 = h_j_in_i_1 * v_10_in_j_2;
-    const jg_real M_2_i_j_5 = t179 + t180 - h_i_cross_f_j_in_i_1 * v_9_in_j_2;
-    phi_q_t_lambda_q[32] = -(A_ji_3 * v_14_in_j_1 - A_ji_4 * v_14_in_j_0 + (M_2_i_j_5 - t178));
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_7_in_i_2 - v_9_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
-        v_10_in_i_2;
-    phi_q_t_lambda_q[36] = M_0_i_i_2 - v_12_in_i_1;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * v_7_in_i_2 - v_9_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
-        v_10_in_i_2;
-    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_12_in_i_0;
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_8_in_i_1 - v_10_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
+        v_11_in_i_1;
+    const jg_real v_13_in_i_0 = f_j_in_i_0 * t134;
+    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_13_in_i_0;
+    const jg_real t178 = A_ji_3 * t158;
+    const jg_real t179 = s_j_in_i_1 * v_8_in_j_0;
+    const jg_real t180 = h_j_in_i_1 * v_11_in_j_0;
+    const jg_real M_2_i_j_3 = t179 + t180 - h_i_cross_f_j_in_i_1 * v_10_in_j_0;
+    phi_q_t_lambda_q[30] = -(A_ji_4 * v_15_in_j_2 - A_ji_5 * v_15_in_j_1 + (M_2_i_j_3 - t178));
+    const jg_real t182 = A_ji_4 * t158;
+    const jg_real t183 = s_j_in_i_1 * v_8_in_j_1;
+    const jg_real t184 = h_j_in_i_1 * v_11_in_j_1;
+    const jg_real M_2_i_j_4 = t183 + t184 - h_i_cross_f_j_in_i_1 * v_10_in_j_1;
+    phi_q_t_lambda_q[31] = -(A_ji_5 * v_15_in_j_0 - A_ji_3 * v_15_in_j_2 + (M_2_i_j_4 - t182));
+    const jg_real t186 = A_ji_5 * t158;
+    const jg_real t187 = s_j_in_i_1 * v_8_in_j_2;
+    const jg_real t188 = h_j_in_i_1 * v_11_in_j_2;
+    const jg_real M_2_i_j_5 = t187 + t188 - h_i_cross_f_j_in_i_1 * v_10_in_j_2;
+    phi_q_t_lambda_q[32] = -(A_ji_3 * v_15_in_j_1 - A_ji_4 * v_15_in_j_0 + (M_2_i_j_5 - t186));
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_8_in_i_2 - v_10_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
+        v_11_in_i_2;
+    phi_q_t_lambda_q[36] = M_0_i_i_2 - v_13_in_i_1;
+    const jg_real M_0_i_i_5 = e_ij_in_i_1 * v_8_in_i_2 - v_10_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
+        v_11_in_i_2;
+    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_13_in_i_0;
     phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t184 = A_ji_6 * t149;
-    const jg_real t185 = s_j_in_i_2 * v_7_in_j_0;
-    const jg_real t186 = h_j_in_i_2 * v_10_in_j_0;
-    const jg_real M_2_i_j_6 = t185 + t186 - h_i_cross_f_j_in_i_2 * v_9_in_j_0;
-    phi_q_t_lambda_q[42] = -(A_ji_7 * v_14_in_j_2 - A_ji_8 * v_14_in_j_1 + (M_2_i_j_6 - t184));
-    const jg_real t188 = A_ji_7 * t149;
-    const jg_real t189 = s_j_in_i_2 * v_7_in_j_1;
-    const jg_real t190 = h_j_in_i_2 * v_10_in_j_1;
-    const jg_real M_2_i_j_7 = t189 + t190 - h_i_cross_f_j_in_i_2 * v_9_in_j_1;
-    phi_q_t_lambda_q[43] = -(A_ji_8 * v_14_in_j_0 - A_ji_6 * v_14_in_j_2 + (M_2_i_j_7 - t188));
-    const jg_real t192 = A_ji_8 * t149;
-    const jg_real t193 = s_j_in_i_2 * v_7_in_j_2;
-    const jg_real t194 = h_j_in_i_2 * v_10_in_j_2;
-    const jg_real M_2_i_j_8 = t193 + t194 - h_i_cross_f_j_in_i_2 * v_9_in_j_2;
-    phi_q_t_lambda_q[44] = -(A_ji_6 * v_14_in_j_1 - A_ji_7 * v_14_in_j_0 + (M_2_i_j_8 - t192));
+    const jg_real t192 = A_ji_6 * t158;
+    const jg_real t193 = s_j_in_i_2 * v_8_in_j_0;
+    const jg_real t194 = h_j_in_i_2 * v_11_in_j_0;
+    const jg_real M_2_i_j_6 = t193 + t194 - h_i_cross_f_j_in_i_2 * v_10_in_j_0;
+    phi_q_t_lambda_q[42] = -(A_ji_7 * v_15_in_j_2 - A_ji_8 * v_15_in_j_1 + (M_2_i_j_6 - t192));
+    const jg_real t196 = A_ji_7 * t158;
+    const jg_real t197 = s_j_in_i_2 * v_8_in_j_1;
+    const jg_real t198 = h_j_in_i_2 * v_11_in_j_1;
+    const jg_real M_2_i_j_7 = t197 + t198 - h_i_cross_f_j_in_i_2 * v_10_in_j_1;
+    phi_q_t_lambda_q[43] = -(A_ji_8 * v_15_in_j_0 - A_ji_6 * v_15_in_j_2 + (M_2_i_j_7 - t196));
+    const jg_real t200 = A_ji_8 * t158;
+    const jg_real t201 = s_j_in_i_2 * v_8_in_j_2;
+    const jg_real t202 = h_j_in_i_2 * v_11_in_j_2;
+    const jg_real M_2_i_j_8 = t201 + t202 - h_i_cross_f_j_in_i_2 * v_10_in_j_2;
+    phi_q_t_lambda_q[44] = -(A_ji_6 * v_15_in_j_1 - A_ji_7 * v_15_in_j_0 + (M_2_i_j_8 - t200));
     /* M_1_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_1_i_j_0 = t151 - v_9_in_i_0 * h_i_cross_f_j_in_j_0 + t152;
-    phi_q_t_lambda_q[54] = A_ji_6 * v_12_in_i_1 - A_ji_3 * v_12_in_i_2 - (M_1_i_j_0 - t150);
-    const jg_real M_1_i_j_3 = t171 - v_9_in_i_1 * h_i_cross_f_j_in_j_0 + t172;
-    phi_q_t_lambda_q[55] = A_ji_0 * v_12_in_i_2 - A_ji_6 * v_12_in_i_0 - (M_1_i_j_3 - t170);
-    const jg_real M_1_i_j_6 = t185 - v_9_in_i_2 * h_i_cross_f_j_in_j_0 + t186;
-    phi_q_t_lambda_q[56] = A_ji_3 * v_12_in_i_0 - A_ji_0 * v_12_in_i_1 - (M_1_i_j_6 - t184);
+    const jg_real M_1_i_j_0 = t160 - v_10_in_i_0 * h_i_cross_f_j_in_j_0 + t161;
+    phi_q_t_lambda_q[54] = A_ji_6 * v_13_in_i_1 - A_ji_3 * v_13_in_i_2 - (M_1_i_j_0 - t159);
+    const jg_real M_1_i_j_3 = t179 - v_10_in_i_1 * h_i_cross_f_j_in_j_0 + t180;
+    phi_q_t_lambda_q[55] = A_ji_0 * v_13_in_i_2 - A_ji_6 * v_13_in_i_0 - (M_1_i_j_3 - t178);
+    const jg_real M_1_i_j_6 = t193 - v_10_in_i_2 * h_i_cross_f_j_in_j_0 + t194;
+    phi_q_t_lambda_q[56] = A_ji_3 * v_13_in_i_0 - A_ji_0 * v_13_in_i_1 - (M_1_i_j_6 - t192);
     phi_q_t_lambda_q[57] = -(M_2_j_j_4 + M_2_j_j_8);
-    const jg_real M_2_j_j_1 = s_j[0] * v_7_in_j_1 + C_j[6] * v_10_in_j_1 - h_i_cross_f_j_in_j_0 * v_9_in_j_1;
-    phi_q_t_lambda_q[58] = M_2_j_j_1 - v_14_in_j_2;
-    const jg_real M_2_j_j_2 = s_j[0] * v_7_in_j_2 + C_j[6] * v_10_in_j_2 - h_i_cross_f_j_in_j_0 * v_9_in_j_2;
-    phi_q_t_lambda_q[59] = M_2_j_j_2 + v_14_in_j_1;
-    const jg_real M_1_i_j_1 = t157 - v_9_in_i_0 * h_i_cross_f_j_in_j_1 + t158;
-    phi_q_t_lambda_q[60] = A_ji_7 * v_12_in_i_1 - A_ji_4 * v_12_in_i_2 - (M_1_i_j_1 - t156);
-    const jg_real M_1_i_j_4 = t175 - v_9_in_i_1 * h_i_cross_f_j_in_j_1 + t176;
-    phi_q_t_lambda_q[61] = A_ji_1 * v_12_in_i_2 - A_ji_7 * v_12_in_i_0 - (M_1_i_j_4 - t174);
-    const jg_real M_1_i_j_7 = t189 - v_9_in_i_2 * h_i_cross_f_j_in_j_1 + t190;
-    phi_q_t_lambda_q[62] = A_ji_4 * v_12_in_i_0 - A_ji_1 * v_12_in_i_1 - (M_1_i_j_7 - t188);
-    const jg_real M_2_j_j_3 = s_j[1] * v_7_in_j_0 + C_j[7] * v_10_in_j_0 - h_i_cross_f_j_in_j_1 * v_9_in_j_0;
-    phi_q_t_lambda_q[63] = M_2_j_j_3 + v_14_in_j_2;
+    const jg_real M_2_j_j_1 = s_j[0] * v_8_in_j_1 + C_j[6] * v_11_in_j_1 - h_i_cross_f_j_in_j_0 * v_10_in_j_1;
+    phi_q_t_lambda_q[58] = M_2_j_j_1 - v_15_in_j_2;
+    const jg_real M_2_j_j_2 = s_j[0] * v_8_in_j_2 + C_j[6] * v_11_in_j_2 - h_i_cross_f_j_in_j_0 * v_10_in_j_2;
+    phi_q_t_lambda_q[59] = M_2_j_j_2 + v_15_in_j_1;
+    const jg_real M_1_i_j_1 = t166 - v_10_in_i_0 * h_i_cross_f_j_in_j_1 + t167;
+    phi_q_t_lambda_q[60] = A_ji_7 * v_13_in_i_1 - A_ji_4 * v_13_in_i_2 - (M_1_i_j_1 - t165);
+    const jg_real M_1_i_j_4 = t183 - v_10_in_i_1 * h_i_cross_f_j_in_j_1 + t184;
+    phi_q_t_lambda_q[61] = A_ji_1 * v_13_in_i_2 - A_ji_7 * v_13_in_i_0 - (M_1_i_j_4 - t182);
+    const jg_real M_1_i_j_7 = t197 - v_10_in_i_2 * h_i_cross_f_j_in_j_1 + t198;
+    phi_q_t_lambda_q[62] = A_ji_4 * v_13_in_i_0 - A_ji_1 * v_13_in_i_1 - (M_1_i_j_7 - t196);
+    const jg_real M_2_j_j_3 = s_j[1] * v_8_in_j_0 + C_j[7] * v_11_in_j_0 - h_i_cross_f_j_in_j_1 * v_10_in_j_0;
+    phi_q_t_lambda_q[63] = M_2_j_j_3 + v_15_in_j_2;
     phi_q_t_lambda_q[64] = -(M_2_j_j_0 + M_2_j_j_8);
-    const jg_real M_2_j_j_5 = s_j[1] * v_7_in_j_2 + C_j[7] * v_10_in_j_2 - h_i_cross_f_j_in_j_1 * v_9_in_j_2;
-    phi_q_t_lambda_q[65] = M_2_j_j_5 - v_14_in_j_0;
-    const jg_real M_1_i_j_2 = t161 - v_9_in_i_0 * h_i_cross_f_j_in_j_2 + t162;
-    phi_q_t_lambda_q[66] = A_ji_8 * v_12_in_i_1 - A_ji_5 * v_12_in_i_2 - (M_1_i_j_2 - t160);
-    const jg_real M_1_i_j_5 = t179 - v_9_in_i_1 * h_i_cross_f_j_in_j_2 + t180;
-    phi_q_t_lambda_q[67] = A_ji_2 * v_12_in_i_2 - A_ji_8 * v_12_in_i_0 - (M_1_i_j_5 - t178);
-    const jg_real M_1_i_j_8 = t193 - v_9_in_i_2 * h_i_cross_f_j_in_j_2 + t194;
-    phi_q_t_lambda_q[68] = A_ji_5 * v_12_in_i_0 - A_ji_2 * v_12_in_i_1 - (M_1_i_j_8 - t192);
-    const jg_real M_2_j_j_6 = s_j[2] * v_7_in_j_0 + C_j[8] * v_10_in_j_0 - h_i_cross_f_j_in_j_2 * v_9_in_j_0;
-    phi_q_t_lambda_q[69] = M_2_j_j_6 - v_14_in_j_1;
-    const jg_real M_2_j_j_7 = s_j[2] * v_7_in_j_1 + C_j[8] * v_10_in_j_1 - h_i_cross_f_j_in_j_2 * v_9_in_j_1;
-    phi_q_t_lambda_q[70] = M_2_j_j_7 + v_14_in_j_0;
-    phi_q_t_lambda_q[71] = -t142;
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
-    const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    /* v_i_in_joint_i = v_i, axes of joint i */
-    const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
+    const jg_real M_2_j_j_5 = s_j[1] * v_8_in_j_2 + C_j[7] * v_11_in_j_2 - h_i_cross_f_j_in_j_1 * v_10_in_j_2;
+    phi_q_t_lambda_q[65] = M_2_j_j_5 - v_15_in_j_0;
+    const jg_real M_1_i_j_2 = t170 - v_10_in_i_0 * h_i_cross_f_j_in_j_2 + t171;
+    phi_q_t_lambda_q[66] = A_ji_8 * v_13_in_i_1 - A_ji_5 * v_13_in_i_2 - (M_1_i_j_2 - t169);
+    const jg_real M_1_i_j_5 = t187 - v_10_in_i_1 * h_i_cross_f_j_in_j_2 + t188;
+    phi_q_t_lambda_q[67] = A_ji_2 * v_13_in_i_2 - A_ji_8 * v_13_in_i_0 - (M_1_i_j_5 - t186);
+    const jg_real M_1_i_j_8 = t201 - v_10_in_i_2 * h_i_cross_f_j_in_j_2 + t202;
+    phi_q_t_lambda_q[68] = A_ji_5 * v_13_in_i_0 - A_ji_2 * v_13_in_i_1 - (M_1_i_j_8 - t200);
+    const jg_real M_2_j_j_6 = s_j[2] * v_8_in_j_0 + C_j[8] * v_11_in_j_0 - h_i_cross_f_j_in_j_2 * v_10_in_j_0;
+    phi_q_t_lambda_q[69] = M_2_j_j_6 - v_15_in_j_1;
+    const jg_real M_2_j_j_7 = s_j[2] * v_8_in_j_1 + C_j[8] * v_11_in_j_1 - h_i_cross_f_j_in_j_2 * v_10_in_j_1;
+    phi_q_t_lambda_q[70] = M_2_j_j_7 + v_15_in_j_0;
+    phi_q_t_lambda_q[71] = -t152;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real t218 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    /* v_15_in_i = (omega_i . omega_i) r_j + (omega_i . omega_i) s_j - (omega_i . omega_i) r_i + (-(r_j . ... */
-    const jg_real v_15_in_i_0 = e_ij_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t218;
-    const jg_real v_15_in_i_1 = e_ij_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t218;
-    const jg_real v_15_in_i_2 = e_ij_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t218;
-    /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = C_i[0] * s_j_in_i_0 + C_i[1] * s_j_in_i_1 + C_i[2] * s_j_in_i_2;
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    /* omega_j_in_joint_i = omega_j, axes of joint i */
-    const jg_real omega_j_in_joint_i_0 = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 *
-        omega_j[2];
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
-    const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
-        omega_j[2];
-    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    const jg_real omega_j_in_joint_i_1 = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 *
-        omega_j[2];
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_j_in_joint_i_0 * omega_i_in_joint_i_0 + omega_j_in_joint_i_1 *
-        omega_i_in_joint_i_1 + omega_j_in_joint_i_2 * omega_i_in_joint_i_2;
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = s_j_in_i_0 * omega_i[0] + s_j_in_i_1 * omega_i[1] + s_j_in_i_2 * omega_i[2];
-    gamma[0] = C_i[0] * v_15_in_i_0 + C_i[1] * v_15_in_i_1 + C_i[2] * v_15_in_i_2 + (s_j_dot_f_i *
-        omega_j_dot_omega_j - s_j_dot_omega_j * omega_j_in_joint_i_0) - JG_REAL(2.0) * (omega_i_in_joint_i_1 *
-        v_i_in_joint_i_2 - omega_i_in_joint_i_2 * v_i_in_joint_i_1) + JG_REAL(2.0) * (omega_i_in_joint_i_1 *
-        v_j_in_joint_i_2 - omega_i_in_joint_i_2 * v_j_in_joint_i_1) - JG_REAL(2.0) * (s_j_dot_f_i *
-        omega_i_dot_omega_j - omega_j_in_joint_i_0 * s_j_dot_omega_i);
-    const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
-    const jg_real v_i_in_joint_i_0 = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
-    /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = s_j_in_i_0 * C_i[3] + s_j_in_i_1 * C_i[4] + s_j_in_i_2 * C_i[5];
-    gamma[1] = C_i[3] * v_15_in_i_0 + C_i[4] * v_15_in_i_1 + C_i[5] * v_15_in_i_2 + (omega_j_dot_omega_j *
-        s_j_dot_g_i - s_j_dot_omega_j * omega_j_in_joint_i_1) - JG_REAL(2.0) * (omega_i_in_joint_i_2 *
-        v_i_in_joint_i_0 - omega_i_in_joint_i_0 * v_i_in_joint_i_2) + JG_REAL(2.0) * (omega_i_in_joint_i_2 *
-        v_j_in_joint_i_0 - omega_i_in_joint_i_0 * v_j_in_joint_i_2) - JG_REAL(2.0) * (omega_i_dot_omega_j *
-        s_j_dot_g_i - omega_j_in_joint_i_1 * s_j_dot_omega_i);
-    const jg_real t234 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = f_i_dot_omega_i * f_i_dot_omega_j + g_i_dot_omega_i * g_i_dot_omega_j +
+        h_i_dot_omega_i * h_i_dot_omega_j;
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    const jg_real t229 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = r_ij_dot_f_i * f_i_dot_omega_i + r_ij_dot_g_i * g_i_dot_omega_i + r_ij_dot_h_i
+        * h_i_dot_omega_i;
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
+    /* v_i_in_joint_i = v_i, axes of joint i */
+    const jg_real v_i_in_joint_i_2 = A_joint_i_world_2 * v_i[0] + A_joint_i_world_5 * v_i[1] + A_joint_i_world_8 *
+        v_i[2];
+    const jg_real v_i_in_joint_i_1 = A_joint_i_world_1 * v_i[0] + A_joint_i_world_4 * v_i[1] + A_joint_i_world_7 *
+        v_i[2];
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_1 = A_joint_i_world_1 * v_j[0] + A_joint_i_world_4 * v_j[1] + A_joint_i_world_7 *
+        v_j[2];
+    const jg_real v_j_in_joint_i_2 = A_joint_i_world_2 * v_j[0] + A_joint_i_world_5 * v_j[1] + A_joint_i_world_8 *
+        v_j[2];
+    gamma[0] = s_j_dot_f_i * t229 + s_j_dot_omega_i * (JG_REAL(2.0) * f_i_dot_omega_j - f_i_dot_omega_i) +
+        r_ij_dot_f_i * omega_i_dot_omega_i - f_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * f_i_dot_omega_j
+        - JG_REAL(2.0) * (g_i_dot_omega_i * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1) - JG_REAL(2.0) *
+        (h_i_dot_omega_i * v_j_in_joint_i_1 - g_i_dot_omega_i * v_j_in_joint_i_2);
+    const jg_real v_i_in_joint_i_0 = A_joint_i_world_0 * v_i[0] + A_joint_i_world_3 * v_i[1] + A_joint_i_world_6 *
+        v_i[2];
+    const jg_real v_j_in_joint_i_0 = A_joint_i_world_0 * v_j[0] + A_joint_i_world_3 * v_j[1] + A_joint_i_world_6 *
+        v_j[2];
+    gamma[1] = s_j_dot_g_i * t229 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
+        r_ij_dot_g_i * omega_i_dot_omega_i - g_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
+        - JG_REAL(2.0) * (h_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_2) + JG_REAL(2.0) *
+        (h_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i * v_j_in_joint_i_2);
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real t237 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
-    gamma[2] = f_i_dot_h_j * t234 + omega_j_in_joint_i_0 * t237 - omega_i_in_joint_i_0 * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t234 + omega_j_in_joint_i_1 * t237 - omega_i_in_joint_i_1 * h_j_dot_omega_i;
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = s_j_in_i_0 * C_i[6] + s_j_in_i_1 * C_i[7] + s_j_in_i_2 * C_i[8];
-    /* f_j_cross_omega_i_in_joint_i = f_j x omega_i, axes of joint i */
-    const jg_real f_j_cross_omega_i_in_joint_i_0 = g_i_dot_f_j * omega_i_in_joint_i_2 - h_i_dot_f_j *
-        omega_i_in_joint_i_1;
-    const jg_real f_j_cross_omega_i_in_joint_i_1 = h_i_dot_f_j * omega_i_in_joint_i_0 - f_i_dot_f_j *
-        omega_i_in_joint_i_2;
-    const jg_real f_j_cross_omega_i_in_joint_i_2 = f_i_dot_f_j * omega_i_in_joint_i_1 - g_i_dot_f_j *
-        omega_i_in_joint_i_0;
-    const jg_real t242 = h_i_dot_f_j * (omega_j_in_joint_i_0 * f_j_cross_omega_i_in_joint_i_0 + omega_j_in_joint_i_1
-        * f_j_cross_omega_i_in_joint_i_1 + omega_j_in_joint_i_2 * f_j_cross_omega_i_in_joint_i_2);
-    const jg_real t243 = t54 * t242;
-    const jg_real t244 = t54 * (f_i_dot_f_j * omega_j_in_joint_i_1 - g_i_dot_f_j * omega_j_in_joint_i_0);
+    const jg_real t240 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
+    gamma[2] = f_i_dot_h_j * t229 + f_i_dot_omega_j * t240 - f_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[3] = g_i_dot_h_j * t229 + g_i_dot_omega_j * t240 - g_i_dot_omega_i * h_j_dot_omega_i;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    const jg_real t246 = t54 * f_j_cross_omega_i_in_joint_i_2;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real t248 = t108 * t244;
-    const jg_real t249 = h_i_dot_f_j * f_j_dot_omega_i - omega_i_in_joint_i_2;
-    const jg_real t250 = t108 * t246;
-    const jg_real t251 = h_i_dot_f_j * f_j_dot_omega_j - omega_j_in_joint_i_2;
-    gamma[4] = t249 * t250 - (JG_REAL(2.0) * (omega_i_dot_omega_j * s_j_dot_h_i - omega_j_in_joint_i_2 *
-        s_j_dot_omega_i) - (C_i[6] * v_15_in_i_0 + C_i[7] * v_15_in_i_1 + C_i[8] * v_15_in_i_2 +
-        (omega_j_dot_omega_j * s_j_dot_h_i - s_j_dot_omega_j * omega_j_in_joint_i_2) + JG_REAL(2.0) *
-        (omega_i_in_joint_i_1 * v_i_in_joint_i_0 - omega_i_in_joint_i_0 * v_i_in_joint_i_1) + JG_REAL(2.0) *
-        (omega_i_in_joint_i_0 * v_j_in_joint_i_1 - omega_i_in_joint_i_1 * v_j_in_joint_i_0)) - t54 * (t242 -
-        (omega_j_in_joint_i_1 * omega_i_in_joint_i_0 - omega_j_in_joint_i_0 * omega_i_in_joint_i_1)) - t243 + t243 +
-        t244 * f_j_dot_omega_i + t246 * f_j_dot_omega_j - t244 * f_j_dot_omega_j - f_j_dot_omega_i * t246 + t248 *
-        t249 + t250 * t251 - t248 * t251);
+    const jg_real t243 = f_j_dot_omega_i - f_j_dot_omega_j;
+    const jg_real t244 = f_i_dot_f_j * g_i_dot_omega_j - g_i_dot_f_j * f_i_dot_omega_j;
+    const jg_real t245 = t244 * t243;
+    const jg_real t246 = f_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * f_i_dot_omega_i;
+    const jg_real t247 = t246 * t243;
+    const jg_real t248 = t246 - t244;
+    /* omega_i_cross_omega_j_in_joint_i = omega_i x omega_j, axes of joint i */
+    const jg_real omega_i_cross_omega_j_in_joint_i_2 = f_i_dot_omega_i * g_i_dot_omega_j - g_i_dot_omega_i *
+        f_i_dot_omega_j;
+    gamma[4] = JG_REAL(2.0) * (f_i_dot_omega_i * v_j_in_joint_i_1 - g_i_dot_omega_i * v_j_in_joint_i_0) - (t60 *
+        (t245 + h_i_dot_f_j * (t119 * (h_i_dot_f_j * (t245 - t247) + h_i_dot_omega_i * t248 - h_i_dot_omega_j *
+        t248) - (h_i_dot_f_j * omega_i_cross_omega_j_in_joint_i_2 - (f_i_dot_f_j * (h_i_dot_omega_i *
+        g_i_dot_omega_j - g_i_dot_omega_i * h_i_dot_omega_j) + g_i_dot_f_j * (f_i_dot_omega_i * h_i_dot_omega_j -
+        h_i_dot_omega_i * f_i_dot_omega_j)))) - t247 + omega_i_cross_omega_j_in_joint_i_2) - s_j_dot_h_i * t229 +
+        s_j_dot_omega_i * (h_i_dot_omega_i - JG_REAL(2.0) * h_i_dot_omega_j) - r_ij_dot_h_i * omega_i_dot_omega_i +
+        h_i_dot_omega_i * r_ij_dot_omega_i + s_j_dot_omega_j * h_i_dot_omega_j + JG_REAL(2.0) * (f_i_dot_omega_i *
+        v_i_in_joint_i_1 - g_i_dot_omega_i * v_i_in_joint_i_0));
 }
 
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

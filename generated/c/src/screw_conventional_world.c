@@ -38,19 +38,19 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real revolutions = geometry[26];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
@@ -130,13 +130,13 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[8] = -h_i_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[10] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
     /* h_j_world = h_j, world axes */
@@ -161,16 +161,16 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
     const jg_real s_j_cross_h_i_world_0 = s_j_world_1 * h_i_world_2 - s_j_world_2 * h_i_world_1;
-    /* v_3_world = spread pitch across - s_j x h_i, world axes */
-    const jg_real v_3_world_0 = t24 * across_world_0 - s_j_cross_h_i_world_0;
-    /* v_4_world = r_j x h_i - r_i x h_i, world axes */
-    const jg_real v_4_world_0 = v_0_world_1 * h_i_world_2 - v_0_world_2 * h_i_world_1;
-    /* v_5_world = spread pitch across - r_j x h_i - s_j x h_i + r_i x h_i, world axes */
-    const jg_real v_5_world_0 = v_3_world_0 - v_4_world_0;
-    phi_q[13] = v_5_world_0;
+    /* v_2_world = spread pitch across - s_j x h_i, world axes */
+    const jg_real v_2_world_0 = t24 * across_world_0 - s_j_cross_h_i_world_0;
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
+    /* v_3_world = spread pitch across - r_ij x h_i - s_j x h_i, world axes */
+    const jg_real v_3_world_0 = v_2_world_0 - r_ij_cross_h_i_world_0;
+    phi_q[13] = v_3_world_0;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
@@ -180,10 +180,10 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[17] = g_i_cross_h_j_world_1;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real s_j_cross_h_i_world_1 = s_j_world_2 * h_i_world_0 - s_j_world_0 * h_i_world_2;
-    const jg_real v_3_world_1 = t24 * across_world_1 - s_j_cross_h_i_world_1;
-    const jg_real v_4_world_1 = v_0_world_2 * h_i_world_0 - v_0_world_0 * h_i_world_2;
-    const jg_real v_5_world_1 = v_3_world_1 - v_4_world_1;
-    phi_q[18] = v_5_world_1;
+    const jg_real v_2_world_1 = t24 * across_world_1 - s_j_cross_h_i_world_1;
+    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
+    const jg_real v_3_world_1 = v_2_world_1 - r_ij_cross_h_i_world_1;
+    phi_q[18] = v_3_world_1;
     phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
     phi_q[20] = e_ij_world_1 * g_i_world_0 - e_ij_world_0 * g_i_world_1;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
@@ -192,10 +192,10 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[22] = g_i_cross_h_j_world_2;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
-    const jg_real v_3_world_2 = t24 * across_world_2 - s_j_cross_h_i_world_2;
-    const jg_real v_4_world_2 = v_0_world_0 * h_i_world_1 - v_0_world_1 * h_i_world_0;
-    const jg_real v_5_world_2 = v_3_world_2 - v_4_world_2;
-    phi_q[23] = v_5_world_2;
+    const jg_real v_2_world_2 = t24 * across_world_2 - s_j_cross_h_i_world_2;
+    const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
+    const jg_real v_3_world_2 = v_2_world_2 - r_ij_cross_h_i_world_2;
+    phi_q[23] = v_3_world_2;
     /* s_j_cross_f_i_world = s_j x f_i, world axes */
     const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     phi_q[33] = s_j_cross_f_i_world_0;
@@ -204,21 +204,21 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     phi_q[34] = s_j_cross_g_i_world_0;
     phi_q[35] = -f_i_cross_h_j_world_0;
     phi_q[36] = -g_i_cross_h_j_world_0;
-    phi_q[37] = -v_3_world_0;
+    phi_q[37] = -v_2_world_0;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
     phi_q[38] = s_j_cross_f_i_world_1;
     const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
     phi_q[39] = s_j_cross_g_i_world_1;
     phi_q[40] = -f_i_cross_h_j_world_1;
     phi_q[41] = -g_i_cross_h_j_world_1;
-    phi_q[42] = -v_3_world_1;
+    phi_q[42] = -v_2_world_1;
     const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
     phi_q[43] = s_j_cross_f_i_world_2;
     const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
     phi_q[44] = s_j_cross_g_i_world_2;
     phi_q[45] = -f_i_cross_h_j_world_2;
     phi_q[46] = -g_i_cross_h_j_world_2;
-    phi_q[47] = -v_3_world_2;
+    phi_q[47] = -v_2_world_2;
 }
 
 void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -238,184 +238,190 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - f_i_world_0 * h_i_world_1;
-    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
-    const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
-    phi_q_t_lambda_q[2] = v_0_world_2;
-    phi_q_t_lambda_q[6] = v_0_world_2;
-    phi_q_t_lambda_q[21] = v_0_world_2;
-    phi_q_t_lambda_q[36] = v_0_world_2;
-    const jg_real t8 = -v_0_world_2;
-    phi_q_t_lambda_q[0] = t8;
-    phi_q_t_lambda_q[11] = t8;
-    phi_q_t_lambda_q[16] = t8;
-    phi_q_t_lambda_q[38] = t8;
-    const jg_real g_i_world_1 = f_i_world_0 * h_i_world_2 - f_i_world_2 * h_i_world_0;
-    const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
-    phi_q_t_lambda_q[1] = v_0_world_1;
-    phi_q_t_lambda_q[12] = v_0_world_1;
-    phi_q_t_lambda_q[26] = v_0_world_1;
-    phi_q_t_lambda_q[40] = v_0_world_1;
-    const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
-    const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
-    phi_q_t_lambda_q[5] = v_0_world_0;
-    phi_q_t_lambda_q[17] = v_0_world_0;
-    phi_q_t_lambda_q[32] = v_0_world_0;
-    phi_q_t_lambda_q[39] = v_0_world_0;
-    const jg_real t13 = -v_0_world_0;
-    phi_q_t_lambda_q[3] = t13;
-    phi_q_t_lambda_q[22] = t13;
-    phi_q_t_lambda_q[27] = t13;
-    phi_q_t_lambda_q[41] = t13;
-    const jg_real t14 = -v_0_world_1;
-    phi_q_t_lambda_q[4] = t14;
-    phi_q_t_lambda_q[7] = t14;
-    phi_q_t_lambda_q[31] = t14;
-    phi_q_t_lambda_q[37] = t14;
+    const jg_real g_i_world_2 = h_i_world_0 * f_i_world_1 - h_i_world_1 * f_i_world_0;
+    const jg_real h_i_world_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
+    /* v_0_world = lambda_1 g_i + lambda_4 h_i, world axes */
+    const jg_real v_0_world_2 = lambda[1] * g_i_world_2 + h_i_world_2 * lambda[4];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* v_1_world = lambda_0 f_i, world axes */
+    const jg_real v_1_world_2 = f_i_world_2 * lambda[0];
+    /* v_2_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
+    const jg_real v_2_world_2 = v_0_world_2 + v_1_world_2;
+    phi_q_t_lambda_q[2] = v_2_world_2;
+    phi_q_t_lambda_q[6] = v_2_world_2;
+    phi_q_t_lambda_q[21] = v_2_world_2;
+    phi_q_t_lambda_q[36] = v_2_world_2;
+    const jg_real t10 = -v_2_world_2;
+    phi_q_t_lambda_q[0] = t10;
+    phi_q_t_lambda_q[11] = t10;
+    phi_q_t_lambda_q[16] = t10;
+    phi_q_t_lambda_q[38] = t10;
+    const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - h_i_world_0 * f_i_world_2;
+    const jg_real v_0_world_1 = lambda[1] * g_i_world_1 + h_i_world_1 * lambda[4];
+    const jg_real v_1_world_1 = f_i_world_1 * lambda[0];
+    const jg_real v_2_world_1 = v_0_world_1 + v_1_world_1;
+    phi_q_t_lambda_q[1] = v_2_world_1;
+    phi_q_t_lambda_q[12] = v_2_world_1;
+    phi_q_t_lambda_q[26] = v_2_world_1;
+    phi_q_t_lambda_q[40] = v_2_world_1;
+    const jg_real g_i_world_0 = h_i_world_1 * f_i_world_2 - h_i_world_2 * f_i_world_1;
+    const jg_real v_0_world_0 = lambda[1] * g_i_world_0 + h_i_world_0 * lambda[4];
+    const jg_real v_1_world_0 = f_i_world_0 * lambda[0];
+    const jg_real v_2_world_0 = v_0_world_0 + v_1_world_0;
+    phi_q_t_lambda_q[5] = v_2_world_0;
+    phi_q_t_lambda_q[17] = v_2_world_0;
+    phi_q_t_lambda_q[32] = v_2_world_0;
+    phi_q_t_lambda_q[39] = v_2_world_0;
+    const jg_real t19 = -v_2_world_0;
+    phi_q_t_lambda_q[3] = t19;
+    phi_q_t_lambda_q[22] = t19;
+    phi_q_t_lambda_q[27] = t19;
+    phi_q_t_lambda_q[41] = t19;
+    const jg_real t20 = -v_2_world_1;
+    phi_q_t_lambda_q[4] = t20;
+    phi_q_t_lambda_q[7] = t20;
+    phi_q_t_lambda_q[31] = t20;
+    phi_q_t_lambda_q[37] = t20;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    const jg_real t19 = JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j;
+    const jg_real t25 = JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j;
     /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / t19;
-    const jg_real t21 = lambda[4] * pitch * spread;
-    const jg_real t22 = h_i_dot_f_j * JG_REAL(2.0) * spread;
+    const jg_real spread = JG_REAL(1.0) / t25;
+    const jg_real t27 = lambda[4] * pitch * spread;
+    const jg_real t28 = h_i_dot_f_j * JG_REAL(2.0);
+    const jg_real t29 = spread * t28;
     /* across_world = across, world axes */
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    /* v_3_world = f_j - 2 (h_i . f_j) spread across, world axes */
-    const jg_real v_3_world_1 = f_j_world_1 - t22 * across_world_1;
-    /* v_4_world = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, world axes */
-    const jg_real v_4_world_1 = t21 * v_3_world_1;
+    /* v_4_world = f_j - 2 (h_i . f_j) spread across, world axes */
+    const jg_real v_4_world_1 = f_j_world_1 - t29 * across_world_1;
+    /* v_5_world = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, world axes */
+    const jg_real v_5_world_1 = t27 * v_4_world_1;
     /* h_i_cross_f_j_world = h_i x f_j, world axes */
     const jg_real h_i_cross_f_j_world_1 = h_i_world_2 * f_j_world_0 - h_i_world_0 * f_j_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_1 = v_1_world_1 + s_j_world_1;
-    /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
+    /* v_3_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_3_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* M_0_world_world = (lambda_0 r_j + lambda_0 s_j - lambda_0 r_i + lambda_2 h_j) f_i^T + (lambda_1 r_j + ... */
-    const jg_real M_0_world_world_4 = v_0_world_1 * e_ij_world_1 + h_j_world_1 * v_2_world_1 - h_i_cross_f_j_world_1
-        * v_4_world_1;
+    /* M_0_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j)
+        ... */
+    const jg_real M_0_world_world_4 = v_2_world_1 * s_j_world_1 + h_j_world_1 * v_3_world_1 - h_i_cross_f_j_world_1
+        * v_5_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    /* M_1_world_world = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ...
+        */
+    const jg_real M_1_world_world_4 = M_0_world_world_4 + v_2_world_1 * r_ij_world_1;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    const jg_real v_3_world_2 = f_j_world_2 - t22 * across_world_2;
-    const jg_real v_4_world_2 = t21 * v_3_world_2;
+    const jg_real v_4_world_2 = f_j_world_2 - t29 * across_world_2;
+    const jg_real v_5_world_2 = t27 * v_4_world_2;
     const jg_real h_i_cross_f_j_world_2 = h_i_world_0 * f_j_world_1 - h_i_world_1 * f_j_world_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_1_world_2 + s_j_world_2;
-    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    const jg_real v_3_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real M_0_world_world_8 = v_0_world_2 * e_ij_world_2 + h_j_world_2 * v_2_world_2 - h_i_cross_f_j_world_2
-        * v_4_world_2;
-    phi_q_t_lambda_q[8] = -(M_0_world_world_4 + M_0_world_world_8);
+    const jg_real M_0_world_world_8 = v_2_world_2 * s_j_world_2 + h_j_world_2 * v_3_world_2 - h_i_cross_f_j_world_2
+        * v_5_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real M_1_world_world_8 = M_0_world_world_8 + v_2_world_2 * r_ij_world_2;
+    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     const jg_real h_i_cross_f_j_world_0 = h_i_world_1 * f_j_world_2 - h_i_world_2 * f_j_world_1;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real e_ij_world_0 = v_1_world_0 + s_j_world_0;
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real M_0_world_world_1 = v_0_world_1 * e_ij_world_0 + h_j_world_0 * v_2_world_1 - h_i_cross_f_j_world_0
-        * v_4_world_1;
-    /* v_5_world = lambda_4 pitch spread h_i, world axes */
-    const jg_real v_5_world_2 = h_i_world_2 * t21;
-    phi_q_t_lambda_q[9] = M_0_world_world_1 - v_5_world_2;
-    const jg_real M_0_world_world_2 = v_0_world_2 * e_ij_world_0 + h_j_world_0 * v_2_world_2 - h_i_cross_f_j_world_0
-        * v_4_world_2;
-    const jg_real v_5_world_1 = h_i_world_1 * t21;
-    phi_q_t_lambda_q[10] = M_0_world_world_2 + v_5_world_1;
-    /* M_1_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j)
-        ... */
-    const jg_real M_1_world_world_4 = M_0_world_world_4 - v_0_world_1 * v_1_world_1;
-    const jg_real M_1_world_world_8 = M_0_world_world_8 - v_0_world_2 * v_1_world_2;
-    const jg_real t54 = M_1_world_world_4 + M_1_world_world_8;
-    phi_q_t_lambda_q[13] = t54;
-    phi_q_t_lambda_q[42] = t54;
-    const jg_real M_1_world_world_1 = M_0_world_world_1 - v_0_world_1 * v_1_world_0;
-    phi_q_t_lambda_q[14] = v_5_world_2 - M_1_world_world_1;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 - v_0_world_2 * v_1_world_0;
-    phi_q_t_lambda_q[15] = -(v_5_world_1 + M_1_world_world_2);
+    const jg_real M_0_world_world_1 = v_2_world_1 * s_j_world_0 + h_j_world_0 * v_3_world_1 - h_i_cross_f_j_world_0
+        * v_5_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_2_world_1 * r_ij_world_0;
+    /* v_6_world = lambda_4 pitch spread h_i, world axes */
+    const jg_real v_6_world_2 = h_i_world_2 * t27;
+    phi_q_t_lambda_q[9] = M_1_world_world_1 - v_6_world_2;
+    const jg_real M_0_world_world_2 = v_2_world_2 * s_j_world_0 + h_j_world_0 * v_3_world_2 - h_i_cross_f_j_world_0
+        * v_5_world_2;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_2_world_2 * r_ij_world_0;
+    const jg_real v_6_world_1 = h_i_world_1 * t27;
+    phi_q_t_lambda_q[10] = M_1_world_world_2 + v_6_world_1;
+    const jg_real t60 = M_0_world_world_4 + M_0_world_world_8;
+    phi_q_t_lambda_q[13] = t60;
+    phi_q_t_lambda_q[42] = t60;
+    phi_q_t_lambda_q[14] = v_6_world_2 - M_0_world_world_1;
+    phi_q_t_lambda_q[15] = -(M_0_world_world_2 + v_6_world_1);
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
-    const jg_real v_3_world_0 = f_j_world_0 - t22 * across_world_0;
-    const jg_real v_4_world_0 = t21 * v_3_world_0;
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
-    const jg_real M_0_world_world_3 = v_0_world_0 * e_ij_world_1 + h_j_world_1 * v_2_world_0 - h_i_cross_f_j_world_1
-        * v_4_world_0;
-    phi_q_t_lambda_q[18] = M_0_world_world_3 + v_5_world_2;
-    const jg_real M_0_world_world_0 = v_0_world_0 * e_ij_world_0 + h_j_world_0 * v_2_world_0 - h_i_cross_f_j_world_0
-        * v_4_world_0;
-    phi_q_t_lambda_q[19] = -(M_0_world_world_0 + M_0_world_world_8);
-    const jg_real M_0_world_world_5 = v_0_world_2 * e_ij_world_1 + h_j_world_1 * v_2_world_2 - h_i_cross_f_j_world_1
-        * v_4_world_2;
-    const jg_real v_5_world_0 = h_i_world_0 * t21;
-    phi_q_t_lambda_q[20] = M_0_world_world_5 - v_5_world_0;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 - v_0_world_0 * v_1_world_1;
-    phi_q_t_lambda_q[23] = -(v_5_world_2 + M_1_world_world_3);
-    const jg_real M_1_world_world_0 = M_0_world_world_0 - v_0_world_0 * v_1_world_0;
-    const jg_real t67 = M_1_world_world_0 + M_1_world_world_8;
-    phi_q_t_lambda_q[24] = t67;
-    phi_q_t_lambda_q[49] = t67;
-    const jg_real M_1_world_world_5 = M_0_world_world_5 - v_0_world_2 * v_1_world_1;
-    phi_q_t_lambda_q[25] = v_5_world_0 - M_1_world_world_5;
-    const jg_real M_0_world_world_6 = v_0_world_0 * e_ij_world_2 + h_j_world_2 * v_2_world_0 - h_i_cross_f_j_world_2
-        * v_4_world_0;
-    phi_q_t_lambda_q[28] = M_0_world_world_6 - v_5_world_1;
-    const jg_real M_0_world_world_7 = v_0_world_1 * e_ij_world_2 + h_j_world_2 * v_2_world_1 - h_i_cross_f_j_world_2
-        * v_4_world_1;
-    phi_q_t_lambda_q[29] = M_0_world_world_7 + v_5_world_0;
-    phi_q_t_lambda_q[30] = -(M_0_world_world_0 + M_0_world_world_4);
-    const jg_real M_1_world_world_6 = M_0_world_world_6 - v_0_world_0 * v_1_world_2;
-    phi_q_t_lambda_q[33] = v_5_world_1 - M_1_world_world_6;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 - v_0_world_1 * v_1_world_2;
-    phi_q_t_lambda_q[34] = -(v_5_world_0 + M_1_world_world_7);
-    const jg_real t73 = M_1_world_world_0 + M_1_world_world_4;
-    phi_q_t_lambda_q[35] = t73;
-    phi_q_t_lambda_q[56] = t73;
-    const jg_real t74 = (JG_REAL(1.0) - t19 * spread) * (lambda[4] * JG_REAL(2.0) * h_i_dot_f_j * pitch * spread);
-    /* v_6_world = (2 lambda_4 (h_i . f_j) (h_i . f_j) (h_i . f_j) pitch spread spread + 2 lambda_4 (h_i . ... */
-    const jg_real v_6_world_2 = f_j_world_2 * t74;
-    /* v_7_world = lambda_4 pitch spread h_i + (-2 lambda_4 (h_i . f_j) (h_i . f_j) (h_i . f_j) pitch spread ... */
-    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
-    const jg_real t77 = M_1_world_world_3 + v_7_world_2;
-    phi_q_t_lambda_q[46] = t77;
-    phi_q_t_lambda_q[43] = -t77;
-    const jg_real v_6_world_1 = f_j_world_1 * t74;
-    const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
-    const jg_real t80 = M_1_world_world_6 - v_7_world_1;
-    phi_q_t_lambda_q[47] = t80;
-    phi_q_t_lambda_q[44] = -t80;
-    phi_q_t_lambda_q[45] = -t54;
-    const jg_real t81 = M_1_world_world_1 - v_7_world_2;
-    phi_q_t_lambda_q[51] = t81;
-    phi_q_t_lambda_q[48] = -t81;
-    const jg_real v_6_world_0 = f_j_world_0 * t74;
-    const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
-    const jg_real t84 = M_1_world_world_7 + v_7_world_0;
-    phi_q_t_lambda_q[53] = t84;
-    phi_q_t_lambda_q[50] = -t84;
-    phi_q_t_lambda_q[52] = -t67;
-    const jg_real t85 = M_1_world_world_2 + v_7_world_1;
-    phi_q_t_lambda_q[57] = t85;
-    phi_q_t_lambda_q[54] = -t85;
-    const jg_real t86 = M_1_world_world_5 - v_7_world_0;
-    phi_q_t_lambda_q[58] = t86;
-    phi_q_t_lambda_q[55] = -t86;
-    phi_q_t_lambda_q[59] = -t73;
+    const jg_real v_4_world_0 = f_j_world_0 - t29 * across_world_0;
+    const jg_real v_5_world_0 = t27 * v_4_world_0;
+    const jg_real v_3_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real M_0_world_world_3 = v_2_world_0 * s_j_world_1 + h_j_world_1 * v_3_world_0 - h_i_cross_f_j_world_1
+        * v_5_world_0;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 + v_2_world_0 * r_ij_world_1;
+    phi_q_t_lambda_q[18] = M_1_world_world_3 + v_6_world_2;
+    const jg_real M_0_world_world_0 = v_2_world_0 * s_j_world_0 + h_j_world_0 * v_3_world_0 - h_i_cross_f_j_world_0
+        * v_5_world_0;
+    const jg_real M_1_world_world_0 = M_0_world_world_0 + v_2_world_0 * r_ij_world_0;
+    phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
+    const jg_real M_0_world_world_5 = v_2_world_2 * s_j_world_1 + h_j_world_1 * v_3_world_2 - h_i_cross_f_j_world_1
+        * v_5_world_2;
+    const jg_real M_1_world_world_5 = M_0_world_world_5 + v_2_world_2 * r_ij_world_1;
+    const jg_real v_6_world_0 = h_i_world_0 * t27;
+    phi_q_t_lambda_q[20] = M_1_world_world_5 - v_6_world_0;
+    phi_q_t_lambda_q[23] = -(M_0_world_world_3 + v_6_world_2);
+    const jg_real t72 = M_0_world_world_0 + M_0_world_world_8;
+    phi_q_t_lambda_q[24] = t72;
+    phi_q_t_lambda_q[49] = t72;
+    phi_q_t_lambda_q[25] = v_6_world_0 - M_0_world_world_5;
+    const jg_real M_0_world_world_6 = v_2_world_0 * s_j_world_2 + h_j_world_2 * v_3_world_0 - h_i_cross_f_j_world_2
+        * v_5_world_0;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_2_world_0 * r_ij_world_2;
+    phi_q_t_lambda_q[28] = M_1_world_world_6 - v_6_world_1;
+    const jg_real M_0_world_world_7 = v_2_world_1 * s_j_world_2 + h_j_world_2 * v_3_world_1 - h_i_cross_f_j_world_2
+        * v_5_world_1;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 + v_2_world_1 * r_ij_world_2;
+    phi_q_t_lambda_q[29] = M_1_world_world_7 + v_6_world_0;
+    phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
+    phi_q_t_lambda_q[33] = v_6_world_1 - M_0_world_world_6;
+    phi_q_t_lambda_q[34] = -(M_0_world_world_7 + v_6_world_0);
+    const jg_real t77 = M_0_world_world_0 + M_0_world_world_4;
+    phi_q_t_lambda_q[35] = t77;
+    phi_q_t_lambda_q[56] = t77;
+    const jg_real t78 = t28 * (JG_REAL(1.0) - t25 * spread);
+    /* v_7_world = h_i + (-2 (h_i . f_j) - 2 (h_i . f_j) (h_i . f_j) (h_i . f_j) spread + 2 (h_i . f_j) ... */
+    const jg_real v_7_world_2 = h_i_world_2 - f_j_world_2 * t78;
+    /* v_8_world = lambda_4 pitch spread h_i + (-2 lambda_4 (h_i . f_j) (h_i . f_j) (h_i . f_j) pitch spread ... */
+    const jg_real v_8_world_2 = t27 * v_7_world_2;
+    const jg_real t81 = M_0_world_world_3 + v_8_world_2;
+    phi_q_t_lambda_q[46] = t81;
+    phi_q_t_lambda_q[43] = -t81;
+    const jg_real v_7_world_1 = h_i_world_1 - f_j_world_1 * t78;
+    const jg_real v_8_world_1 = t27 * v_7_world_1;
+    const jg_real t84 = M_0_world_world_6 - v_8_world_1;
+    phi_q_t_lambda_q[47] = t84;
+    phi_q_t_lambda_q[44] = -t84;
+    phi_q_t_lambda_q[45] = -t60;
+    const jg_real t85 = M_0_world_world_1 - v_8_world_2;
+    phi_q_t_lambda_q[51] = t85;
+    phi_q_t_lambda_q[48] = -t85;
+    const jg_real v_7_world_0 = h_i_world_0 - f_j_world_0 * t78;
+    const jg_real v_8_world_0 = t27 * v_7_world_0;
+    const jg_real t88 = M_0_world_world_7 + v_8_world_0;
+    phi_q_t_lambda_q[53] = t88;
+    phi_q_t_lambda_q[50] = -t88;
+    phi_q_t_lambda_q[52] = -t72;
+    const jg_real t89 = M_0_world_world_2 + v_8_world_1;
+    phi_q_t_lambda_q[57] = t89;
+    phi_q_t_lambda_q[54] = -t89;
+    const jg_real t90 = M_0_world_world_5 - v_8_world_0;
+    phi_q_t_lambda_q[58] = t90;
+    phi_q_t_lambda_q[55] = -t90;
+    phi_q_t_lambda_q[59] = -t77;
 }
 
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -439,38 +445,28 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    /* omega_i_dot_g_i = omega_i . g_i */
-    const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
     /* omega_i_dot_h_i = omega_i . h_i */
     const jg_real omega_i_dot_h_i = omega_i[0] * h_i_world_0 + omega_i[1] * h_i_world_1 + omega_i[2] * h_i_world_2;
-    /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_dot_f_i * f_i_dot_omega_j + omega_i_dot_g_i * g_i_dot_omega_j +
-        omega_i_dot_h_i * h_i_dot_omega_j;
-    const jg_real t16 = omega_i_dot_omega_j * JG_REAL(2.0);
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
-        h_i_dot_omega_j * h_i_dot_omega_j;
-    const jg_real t18 = t16 - omega_j_dot_omega_j;
+    /* v_i_in_joint_i = v_i, axes of joint i */
+    const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
+    const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
+    /* omega_i_dot_g_i = omega_i . g_i */
+    const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
@@ -478,44 +474,47 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i_dot_f_i * omega_i_dot_f_i + omega_i_dot_g_i * omega_i_dot_g_i +
-        omega_i_dot_h_i * omega_i_dot_h_i;
-    /* r_j_dot_f_i = r_j . f_i */
-    const jg_real r_j_dot_f_i = f_i_world_0 * r_j[0] + f_i_world_1 * r_j[1] + f_i_world_2 * r_j[2];
-    /* r_i_dot_f_i = r_i . f_i */
-    const jg_real r_i_dot_f_i = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
+    const jg_real t22 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
-    /* r_j_dot_omega_i = r_j . omega_i */
-    const jg_real r_j_dot_omega_i = omega_i[0] * r_j[0] + omega_i[1] * r_j[1] + omega_i[2] * r_j[2];
-    /* r_i_dot_omega_i = r_i . omega_i */
-    const jg_real r_i_dot_omega_i = omega_i[0] * r_i[0] + omega_i[1] * r_i[1] + omega_i[2] * r_i[2];
-    const jg_real t29 = r_j_dot_omega_i + s_j_dot_omega_i - r_i_dot_omega_i;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
+        r_ij_world_2;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
-    const jg_real t31 = s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0);
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
-    /* v_i_in_joint_i = v_i, axes of joint i */
-    const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
-    const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    gamma[0] = -(omega_i_dot_f_i * t29 + omega_i_dot_omega_i * (r_i_dot_f_i - (r_j_dot_f_i + s_j_dot_f_i)) +
-        s_j_dot_f_i * t18 + f_i_dot_omega_j * t31 + JG_REAL(2.0) * (omega_i_dot_h_i * v_j_in_joint_i_1 -
-        omega_i_dot_g_i * v_j_in_joint_i_2 - (omega_i_dot_h_i * v_i_in_joint_i_1 - omega_i_dot_g_i *
-        v_i_in_joint_i_2)));
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    gamma[0] = (omega_i_dot_h_i * v_i_in_joint_i_1 - omega_i_dot_g_i * v_i_in_joint_i_2) * JG_REAL(2.0) -
+        (s_j_dot_f_i * t22 + omega_i_dot_f_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
+        (s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0)) - omega_i_dot_omega_i * r_ij_dot_f_i + (omega_i_dot_h_i *
+        v_j_in_joint_i_1 - omega_i_dot_g_i * v_j_in_joint_i_2) * JG_REAL(2.0));
     const jg_real v_i_in_joint_i_0 = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = omega_j[0] * g_i_world_0 + omega_j[1] * g_i_world_1 + omega_j[2] * g_i_world_2;
     /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    /* r_j_dot_g_i = r_j . g_i */
-    const jg_real r_j_dot_g_i = g_i_world_0 * r_j[0] + g_i_world_1 * r_j[1] + g_i_world_2 * r_j[2];
-    /* r_i_dot_g_i = r_i . g_i */
-    const jg_real r_i_dot_g_i = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
-    gamma[1] = omega_i_dot_omega_i * (r_j_dot_g_i + s_j_dot_g_i - r_i_dot_g_i) - omega_i_dot_g_i * t29 - t18 *
-        s_j_dot_g_i - g_i_dot_omega_j * t31 + JG_REAL(2.0) * (omega_i_dot_f_i * v_i_in_joint_i_2 - omega_i_dot_h_i *
-        v_i_in_joint_i_0 - (omega_i_dot_f_i * v_j_in_joint_i_2 - omega_i_dot_h_i * v_j_in_joint_i_0));
-    const jg_real t41 = t16 - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    const jg_real s_j_dot_g_i = s_j_world_0 * g_i_world_0 + s_j_world_1 * g_i_world_1 + s_j_world_2 * g_i_world_2;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
+    gamma[1] = s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t22 * s_j_dot_g_i +
+        omega_i_dot_omega_i * r_ij_dot_g_i - r_ij_dot_omega_i * omega_i_dot_g_i - s_j_dot_omega_j * g_i_dot_omega_j
+        - JG_REAL(2.0) * (omega_i_dot_f_i * v_j_in_joint_i_2 - omega_i_dot_h_i * v_j_in_joint_i_0) + JG_REAL(2.0) *
+        (omega_i_dot_f_i * v_i_in_joint_i_2 - omega_i_dot_h_i * v_i_in_joint_i_0);
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -526,56 +525,59 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real omega_j_dot_h_j = omega_j[0] * h_j_world_0 + omega_j[1] * h_j_world_1 + omega_j[2] * h_j_world_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
-    const jg_real t48 = omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j;
-    gamma[2] = -(f_i_dot_h_j * t41 + f_i_dot_omega_j * t48 + omega_i_dot_f_i * omega_i_dot_h_j);
+    const jg_real t43 = omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j;
+    gamma[2] = -(t22 * f_i_dot_h_j + f_i_dot_omega_j * t43 + omega_i_dot_f_i * omega_i_dot_h_j);
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
-    gamma[3] = -(t41 * g_i_dot_h_j + g_i_dot_omega_j * t48 + omega_i_dot_g_i * omega_i_dot_h_j);
+    gamma[3] = -(t22 * g_i_dot_h_j + g_i_dot_omega_j * t43 + omega_i_dot_g_i * omega_i_dot_h_j);
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    /* f_j_in_joint_i = f_j, axes of joint i */
-    const jg_real f_j_in_joint_i_0 = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 *
-        f_j_world_2;
-    const jg_real f_j_in_joint_i_1 = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 *
-        f_j_world_2;
-    const jg_real t55 = omega_i_dot_g_i * f_j_in_joint_i_0 - omega_i_dot_f_i * f_j_in_joint_i_1;
-    const jg_real f_j_in_joint_i_2 = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 *
-        f_j_world_2;
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = f_i_dot_omega_j * f_j_in_joint_i_0 + g_i_dot_omega_j * f_j_in_joint_i_1 +
-        h_i_dot_omega_j * f_j_in_joint_i_2;
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    /* g_i_dot_f_j = g_i . f_j */
+    const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i[0] * f_j_world_0 + omega_i[1] * f_j_world_1 + omega_i[2] * f_j_world_2;
-    const jg_real t59 = omega_i_dot_f_j - omega_j_dot_f_j;
-    const jg_real t60 = t55 * t59;
-    const jg_real t61 = g_i_dot_omega_j * f_j_in_joint_i_0 - f_i_dot_omega_j * f_j_in_joint_i_1;
-    const jg_real t62 = t61 * t59;
-    const jg_real t63 = t61 - t55;
+    const jg_real omega_i_dot_f_j = omega_i_dot_f_i * f_i_dot_f_j + omega_i_dot_g_i * g_i_dot_f_j + omega_i_dot_h_i
+        * h_i_dot_f_j;
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = omega_j[0] * h_i_world_0 + omega_j[1] * h_i_world_1 + omega_j[2] * h_i_world_2;
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = f_i_dot_omega_j * f_i_dot_f_j + g_i_dot_omega_j * g_i_dot_f_j + h_i_dot_omega_j
+        * h_i_dot_f_j;
+    const jg_real t54 = omega_i_dot_f_j - omega_j_dot_f_j;
+    const jg_real t55 = omega_i_dot_g_i * f_i_dot_f_j - omega_i_dot_f_i * g_i_dot_f_j;
+    const jg_real t56 = t55 * t54;
+    const jg_real t57 = g_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * g_i_dot_f_j;
+    const jg_real t58 = t57 * t54;
+    const jg_real t59 = t57 - t55;
     /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - f_j_in_joint_i_2 * f_j_in_joint_i_2);
-    const jg_real t65 = omega_i_dot_g_i * f_i_dot_omega_j - omega_i_dot_f_i * g_i_dot_omega_j;
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    /* omega_j_cross_f_j_in_joint_i = omega_j x f_j, axes of joint i */
+    const jg_real omega_j_cross_f_j_in_joint_i_0 = g_i_dot_omega_j * h_i_dot_f_j - h_i_dot_omega_j * g_i_dot_f_j;
+    const jg_real omega_j_cross_f_j_in_joint_i_1 = h_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * h_i_dot_f_j;
     /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
-    /* r_j_dot_h_i = r_j . h_i */
-    const jg_real r_j_dot_h_i = h_i_world_0 * r_j[0] + h_i_world_1 * r_j[1] + h_i_world_2 * r_j[2];
-    /* r_i_dot_h_i = r_i . h_i */
-    const jg_real r_i_dot_h_i = h_i_world_0 * r_i[0] + h_i_world_1 * r_i[1] + h_i_world_2 * r_i[2];
-    gamma[4] = (t60 + f_j_in_joint_i_2 * ((f_j_in_joint_i_2 * (t60 - t62) + omega_i_dot_h_i * t63 - h_i_dot_omega_j
-        * t63) * (JG_REAL(2.0) * spread) - (f_j_in_joint_i_0 * (omega_i_dot_h_i * g_i_dot_omega_j - omega_i_dot_g_i
-        * h_i_dot_omega_j) + f_j_in_joint_i_1 * (omega_i_dot_f_i * h_i_dot_omega_j - omega_i_dot_h_i *
-        f_i_dot_omega_j) + f_j_in_joint_i_2 * t65)) - t62 + t65) * (pitch * spread) + omega_i_dot_omega_i *
-        (r_j_dot_h_i + s_j_dot_h_i - r_i_dot_h_i) - omega_i_dot_h_i * t29 - t18 * s_j_dot_h_i - h_i_dot_omega_j *
-        t31 + JG_REAL(2.0) * (omega_i_dot_g_i * v_i_in_joint_i_0 - omega_i_dot_f_i * v_i_in_joint_i_1 -
-        (omega_i_dot_g_i * v_j_in_joint_i_0 - omega_i_dot_f_i * v_j_in_joint_i_1));
+    const jg_real s_j_dot_h_i = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 * h_i_world_2;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    gamma[4] = (f_i_dot_omega_j * omega_i_dot_g_i - omega_i_dot_f_i * g_i_dot_omega_j + (t56 + h_i_dot_f_j *
+        (omega_i_dot_f_i * omega_j_cross_f_j_in_joint_i_0 + omega_i_dot_g_i * omega_j_cross_f_j_in_joint_i_1 -
+        omega_i_dot_h_i * t57 + (h_i_dot_f_j * (t56 - t58) + omega_i_dot_h_i * t59 - h_i_dot_omega_j * t59) *
+        (JG_REAL(2.0) * spread)) - t58)) * (pitch * spread) - t22 * s_j_dot_h_i + s_j_dot_omega_i * (JG_REAL(2.0) *
+        h_i_dot_omega_j - omega_i_dot_h_i) + omega_i_dot_omega_i * r_ij_dot_h_i - r_ij_dot_omega_i * omega_i_dot_h_i
+        - s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (omega_i_dot_g_i * v_j_in_joint_i_0 - omega_i_dot_f_i *
+        v_j_in_joint_i_1) + JG_REAL(2.0) * (omega_i_dot_g_i * v_i_in_joint_i_0 - omega_i_dot_f_i *
+        v_i_in_joint_i_1);
 }
 
 void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
     const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
     const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -584,123 +586,101 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_joint_i_world = turns world axes to joint i axes */
-    const jg_real A_joint_i_world_3 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real A_joint_i_world_7 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    const jg_real A_joint_i_world_4 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real A_joint_i_world_6 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    const jg_real A_joint_i_world_2 = A_joint_i_world_3 * A_joint_i_world_7 - A_joint_i_world_4 * A_joint_i_world_6;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real A_joint_i_world_5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real A_joint_i_world_8 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_0_in_joint_i = r_j - r_i, axes of joint i */
-    const jg_real v_0_in_joint_i_2 = A_joint_i_world_2 * v_0_world_0 + A_joint_i_world_5 * v_0_world_1 +
-        A_joint_i_world_8 * v_0_world_2;
-    /* s_i_in_joint_i = s_i, axes of joint i */
-    const jg_real s_i_in_joint_i_2 = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    /* v_1_in_joint_i = r_j - r_i - s_i, axes of joint i */
-    const jg_real v_1_in_joint_i_2 = v_0_in_joint_i_2 - s_i_in_joint_i_2;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_j_in_joint_i = s_j, axes of joint i */
-    const jg_real s_j_in_joint_i_2 = A_joint_i_world_2 * s_j_world_0 + A_joint_i_world_5 * s_j_world_1 +
-        A_joint_i_world_8 * s_j_world_2;
-    /* d_ij_in_joint_i = r_j + s_j - r_i - s_i, axes of joint i */
-    const jg_real d_ij_in_joint_i_2 = v_1_in_joint_i_2 + s_j_in_joint_i_2;
-    const jg_real A_joint_i_world_1 = A_joint_i_world_5 * A_joint_i_world_6 - A_joint_i_world_3 * A_joint_i_world_8;
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = omega_i[0] * A_joint_i_world_1 + omega_i[1] * A_joint_i_world_4 +
-        omega_i[2] * A_joint_i_world_7;
-    const jg_real v_0_in_joint_i_1 = A_joint_i_world_1 * v_0_world_0 + A_joint_i_world_4 * v_0_world_1 +
-        A_joint_i_world_7 * v_0_world_2;
-    const jg_real s_i_in_joint_i_1 = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    const jg_real v_1_in_joint_i_1 = v_0_in_joint_i_1 - s_i_in_joint_i_1;
-    const jg_real s_j_in_joint_i_1 = A_joint_i_world_1 * s_j_world_0 + A_joint_i_world_4 * s_j_world_1 +
-        A_joint_i_world_7 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_1 = v_1_in_joint_i_1 + s_j_in_joint_i_1;
-    const jg_real omega_i_in_joint_i_2 = omega_i[0] * A_joint_i_world_2 + omega_i[1] * A_joint_i_world_5 +
-        omega_i[2] * A_joint_i_world_8;
-    const jg_real A_joint_i_world_0 = A_joint_i_world_4 * A_joint_i_world_8 - A_joint_i_world_5 * A_joint_i_world_7;
+    const jg_real s_j_in_joint_i_2 = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 *
+        s_j_world_2;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
+    const jg_real s_j_in_joint_i_1 = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 *
+        s_j_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_2 = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
     /* f_i_dot_v_i = f_i . v_i */
-    const jg_real f_i_dot_v_i = A_joint_i_world_0 * v_i[0] + A_joint_i_world_3 * v_i[1] + A_joint_i_world_6 *
-        v_i[2];
+    const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = A_joint_i_world_1 * omega_j[0] + A_joint_i_world_4 * omega_j[1] +
-        A_joint_i_world_7 * omega_j[2];
+    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
     /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = A_joint_i_world_2 * omega_j[0] + A_joint_i_world_5 * omega_j[1] +
-        A_joint_i_world_8 * omega_j[2];
+    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
     /* f_i_dot_v_j = f_i . v_j */
-    const jg_real f_i_dot_v_j = A_joint_i_world_0 * v_j[0] + A_joint_i_world_3 * v_j[1] + A_joint_i_world_6 *
-        v_j[2];
-    phi_q_v[0] = f_i_dot_v_j - (omega_i_in_joint_i_1 * d_ij_in_joint_i_2 - omega_i_in_joint_i_2 * d_ij_in_joint_i_1
-        + (omega_i_in_joint_i_1 * s_i_in_joint_i_2 - omega_i_in_joint_i_2 * s_i_in_joint_i_1 + f_i_dot_v_i) -
+    const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
+    phi_q_v[0] = f_i_dot_v_j - (g_i_dot_omega_i * s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1 +
+        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + f_i_dot_v_i) -
         (s_j_in_joint_i_2 * g_i_dot_omega_j - s_j_in_joint_i_1 * h_i_dot_omega_j));
-    const jg_real v_0_in_joint_i_0 = A_joint_i_world_0 * v_0_world_0 + A_joint_i_world_3 * v_0_world_1 +
-        A_joint_i_world_6 * v_0_world_2;
-    const jg_real s_i_in_joint_i_0 = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    const jg_real v_1_in_joint_i_0 = v_0_in_joint_i_0 - s_i_in_joint_i_0;
-    const jg_real s_j_in_joint_i_0 = A_joint_i_world_0 * s_j_world_0 + A_joint_i_world_3 * s_j_world_1 +
-        A_joint_i_world_6 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_0 = v_1_in_joint_i_0 + s_j_in_joint_i_0;
-    const jg_real omega_i_in_joint_i_0 = omega_i[0] * A_joint_i_world_0 + omega_i[1] * A_joint_i_world_3 +
-        omega_i[2] * A_joint_i_world_6;
+    const jg_real s_j_in_joint_i_0 = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 *
+        s_j_world_2;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
+    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     /* g_i_dot_v_i = g_i . v_i */
-    const jg_real g_i_dot_v_i = A_joint_i_world_1 * v_i[0] + A_joint_i_world_4 * v_i[1] + A_joint_i_world_7 *
-        v_i[2];
+    const jg_real g_i_dot_v_i = v_i[0] * g_i_world_0 + v_i[1] * g_i_world_1 + v_i[2] * g_i_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = A_joint_i_world_0 * omega_j[0] + A_joint_i_world_3 * omega_j[1] +
-        A_joint_i_world_6 * omega_j[2];
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* g_i_dot_v_j = g_i . v_j */
-    const jg_real g_i_dot_v_j = A_joint_i_world_1 * v_j[0] + A_joint_i_world_4 * v_j[1] + A_joint_i_world_7 *
-        v_j[2];
-    phi_q_v[1] = g_i_dot_v_j - (omega_i_in_joint_i_2 * d_ij_in_joint_i_0 - omega_i_in_joint_i_0 * d_ij_in_joint_i_2
-        + (omega_i_in_joint_i_2 * s_i_in_joint_i_0 - omega_i_in_joint_i_0 * s_i_in_joint_i_2 + g_i_dot_v_i) -
+    const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    phi_q_v[1] = g_i_dot_v_j - (h_i_dot_omega_i * s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2 +
+        (r_ij_in_joint_i_0 * h_i_dot_omega_i - r_ij_in_joint_i_2 * f_i_dot_omega_i + g_i_dot_v_i) -
         (s_j_in_joint_i_0 * h_i_dot_omega_j - s_j_in_joint_i_2 * f_i_dot_omega_j));
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = A_joint_i_world_2 * h_j_world_0 + A_joint_i_world_5 * h_j_world_1 +
-        A_joint_i_world_8 * h_j_world_2;
-    const jg_real h_j_in_joint_i_1 = A_joint_i_world_1 * h_j_world_0 + A_joint_i_world_4 * h_j_world_1 +
-        A_joint_i_world_7 * h_j_world_2;
-    phi_q_v[2] = g_i_dot_omega_j * h_j_in_joint_i_2 - h_i_dot_omega_j * h_j_in_joint_i_1 - (omega_i_in_joint_i_1 *
-        h_j_in_joint_i_2 - omega_i_in_joint_i_2 * h_j_in_joint_i_1);
-    const jg_real h_j_in_joint_i_0 = A_joint_i_world_0 * h_j_world_0 + A_joint_i_world_3 * h_j_world_1 +
-        A_joint_i_world_6 * h_j_world_2;
-    phi_q_v[3] = h_i_dot_omega_j * h_j_in_joint_i_0 - f_i_dot_omega_j * h_j_in_joint_i_2 - (omega_i_in_joint_i_2 *
-        h_j_in_joint_i_0 - omega_i_in_joint_i_0 * h_j_in_joint_i_2);
+    const jg_real h_j_in_joint_i_2 = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 *
+        h_j_world_2;
+    const jg_real h_j_in_joint_i_1 = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 *
+        h_j_world_2;
+    phi_q_v[2] = g_i_dot_omega_j * h_j_in_joint_i_2 - h_i_dot_omega_j * h_j_in_joint_i_1 - (g_i_dot_omega_i *
+        h_j_in_joint_i_2 - h_i_dot_omega_i * h_j_in_joint_i_1);
+    const jg_real h_j_in_joint_i_0 = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 *
+        h_j_world_2;
+    phi_q_v[3] = h_i_dot_omega_j * h_j_in_joint_i_0 - f_i_dot_omega_j * h_j_in_joint_i_2 - (h_i_dot_omega_i *
+        h_j_in_joint_i_0 - f_i_dot_omega_i * h_j_in_joint_i_2);
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = A_joint_i_world_2 * f_j_world_0 + A_joint_i_world_5 * f_j_world_1 +
-        A_joint_i_world_8 * f_j_world_2;
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = omega_i[0] * f_j_world_0 + omega_i[1] * f_j_world_1 + omega_i[2] * f_j_world_2;
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t52 = pitch * spread;
-    /* h_i_dot_v_i = h_i . v_i */
-    const jg_real h_i_dot_v_i = A_joint_i_world_2 * v_i[0] + A_joint_i_world_5 * v_i[1] + A_joint_i_world_8 *
-        v_i[2];
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j[0] * f_j_world_0 + omega_j[1] * f_j_world_1 + omega_j[2] * f_j_world_2;
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    /* h_i_dot_v_i = h_i . v_i */
+    const jg_real h_i_dot_v_i = v_i[0] * h_i_world_0 + v_i[1] * h_i_world_1 + v_i[2] * h_i_world_2;
     /* h_i_dot_v_j = h_i . v_j */
-    const jg_real h_i_dot_v_j = A_joint_i_world_2 * v_j[0] + A_joint_i_world_5 * v_j[1] + A_joint_i_world_8 *
-        v_j[2];
-    phi_q_v[4] = h_i_dot_v_j - (omega_i_in_joint_i_0 * d_ij_in_joint_i_1 - omega_i_in_joint_i_1 * d_ij_in_joint_i_0
-        + (omega_i_in_joint_i_0 * s_i_in_joint_i_1 - omega_i_in_joint_i_1 * s_i_in_joint_i_0 + h_i_dot_v_i +
-        (h_i_dot_f_j * omega_i_dot_f_j - omega_i_in_joint_i_2) * t52 - t52 * (h_i_dot_f_j * omega_j_dot_f_j -
-        h_i_dot_omega_j)) - (s_j_in_joint_i_1 * f_i_dot_omega_j - s_j_in_joint_i_0 * g_i_dot_omega_j));
+    const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    phi_q_v[4] = h_i_dot_v_j - (f_i_dot_omega_i * s_j_in_joint_i_1 - g_i_dot_omega_i * s_j_in_joint_i_0 +
+        (r_ij_in_joint_i_1 * f_i_dot_omega_i - r_ij_in_joint_i_0 * g_i_dot_omega_i + (h_i_dot_v_i + (h_i_dot_f_j *
+        (omega_i_dot_f_j - omega_j_dot_f_j) - h_i_dot_omega_i + h_i_dot_omega_j) * (pitch * spread))) -
+        (s_j_in_joint_i_1 * f_i_dot_omega_j - s_j_in_joint_i_0 * g_i_dot_omega_j));
 }
 
 void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -762,15 +742,14 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     /* v_5_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
         */
     const jg_real v_5_world_0 = v_3_world_0 - v_1_world_0 + v_4_world_0;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    /* v_7_world = lambda_0 r_j x f_i - lambda_0 r_i x f_i + lambda_1 r_j x g_i - lambda_1 r_i x g_i + ... */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
-    /* v_8_world = lambda_4 spread pitch across - lambda_0 r_j x f_i - lambda_0 s_j x f_i + lambda_0 r_i x f_i ...
-        */
-    const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    phi_q_t_lambda[3] = v_8_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_6_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_4 r_ij x h_i, world axes */
+    const jg_real v_6_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
+    /* v_7_world = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_0 s_j x f_i - lambda_1 r_ij x ... */
+    const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    phi_q_t_lambda[3] = v_7_world_0;
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
     const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
@@ -779,18 +758,18 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real v_4_world_1 = t25 * across_world_1;
     const jg_real v_5_world_1 = v_3_world_1 - v_1_world_1 + v_4_world_1;
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
-    const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    phi_q_t_lambda[4] = v_8_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real v_6_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
+    phi_q_t_lambda[4] = v_7_world_1;
     const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
     const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     const jg_real v_4_world_2 = t25 * across_world_2;
     const jg_real v_5_world_2 = v_3_world_2 - v_1_world_2 + v_4_world_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
-    const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    phi_q_t_lambda[5] = v_8_world_2;
+    const jg_real v_6_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    phi_q_t_lambda[5] = v_7_world_2;
     phi_q_t_lambda[9] = -v_5_world_0;
     phi_q_t_lambda[10] = -v_5_world_1;
     phi_q_t_lambda[11] = -v_5_world_2;
@@ -812,49 +791,44 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    phi_q[28] = g_i_world_1;
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    phi_q[32] = h_i_world_2;
-    const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    phi_q[31] = g_i_world_2;
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    phi_q[29] = h_i_world_1;
     /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     phi_q[24] = f_i_world_0;
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    phi_q[26] = h_i_world_0;
-    const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    phi_q[25] = g_i_world_0;
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    phi_q[27] = f_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
-    phi_q[30] = f_i_world_2;
-    /* r_j_dot_f_i = r_j . f_i */
-    const jg_real r_j_dot_f_i = r_j[0] * f_i_world_0 + r_j[1] * f_i_world_1 + r_j[2] * f_i_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    phi_q[27] = f_i_world_1;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    phi_q[30] = f_i_world_2;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    /* r_i_dot_f_i = r_i . f_i */
-    const jg_real r_i_dot_f_i = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
+        f_i_world_2;
     /* s_i_dot_f_i = s_i . f_i */
-    const jg_real s_i_dot_f_i = s_i[0] * C_i[0] + s_i[1] * C_i[1] + s_i[2] * C_i[2];
-    phi[0] = r_j_dot_f_i + s_j_dot_f_i - r_i_dot_f_i - s_i_dot_f_i;
+    const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
+    phi[0] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    phi_q[25] = g_i_world_0;
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    phi_q[28] = g_i_world_1;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    phi_q[31] = g_i_world_2;
     /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    /* r_j_dot_g_i = r_j . g_i */
-    const jg_real r_j_dot_g_i = r_j[0] * g_i_world_0 + r_j[1] * g_i_world_1 + r_j[2] * g_i_world_2;
-    /* r_i_dot_g_i = r_i . g_i */
-    const jg_real r_i_dot_g_i = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
+    const jg_real s_j_dot_g_i = s_j_world_0 * g_i_world_0 + s_j_world_1 * g_i_world_1 + s_j_world_2 * g_i_world_2;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
     /* s_i_dot_g_i = s_i . g_i */
-    const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    phi[1] = r_j_dot_g_i + s_j_dot_g_i - r_i_dot_g_i - s_i_dot_g_i;
+    const jg_real s_i_dot_g_i = s_i[0] * C_i[3] + s_i[1] * C_i[4] + s_i[2] * C_i[5];
+    phi[1] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -865,26 +839,32 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
     phi[3] = g_i_dot_h_j;
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    phi_q[26] = h_i_world_0;
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
+    phi_q[29] = h_i_world_1;
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
+    phi_q[32] = h_i_world_2;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 * h_i_world_2;
+    /* s_i_dot_h_i = s_i . h_i */
+    const jg_real s_i_dot_h_i = s_i[0] * C_i[6] + s_i[1] * C_i[7] + s_i[2] * C_i[8];
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
-    /* r_j_dot_h_i = r_j . h_i */
-    const jg_real r_j_dot_h_i = r_j[0] * h_i_world_0 + r_j[1] * h_i_world_1 + r_j[2] * h_i_world_2;
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
-    /* r_i_dot_h_i = r_i . h_i */
-    const jg_real r_i_dot_h_i = h_i_world_0 * r_i[0] + h_i_world_1 * r_i[1] + h_i_world_2 * r_i[2];
-    /* s_i_dot_h_i = s_i . h_i */
-    const jg_real s_i_dot_h_i = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    phi[4] = -(pitch * (theta + theta_0 + revolutions * JG_REAL(6.283185307179586)) - r_j_dot_h_i - s_j_dot_h_i +
-        r_i_dot_h_i + s_i_dot_h_i);
+    phi[4] = r_ij_dot_h_i + s_j_dot_h_i - s_i_dot_h_i - pitch * (theta + theta_0 + revolutions *
+        JG_REAL(6.283185307179586));
     phi_q[0] = -f_i_world_0;
     phi_q[1] = -g_i_world_0;
     phi_q[2] = -h_i_world_0;
@@ -894,12 +874,9 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[6] = -f_i_world_2;
     phi_q[7] = -g_i_world_2;
     phi_q[8] = -h_i_world_2;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
@@ -909,24 +886,23 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
     phi_q[12] = g_i_cross_h_j_world_0;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    const jg_real t42 = JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j;
+    const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
+    const jg_real t40 = JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j;
     /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / t42;
-    const jg_real t44 = pitch * spread;
+    const jg_real spread = JG_REAL(1.0) / t40;
+    const jg_real t42 = pitch * spread;
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
-    const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
-    /* v_3_world = pitch spread across - s_j x h_i, world axes */
-    const jg_real v_3_world_0 = t44 * across_world_0 - s_j_cross_h_i_world_0;
-    /* v_4_world = r_j x h_i - r_i x h_i, world axes */
-    const jg_real v_4_world_0 = h_i_world_2 * v_0_world_1 - h_i_world_1 * v_0_world_2;
-    /* v_5_world = pitch spread across - r_j x h_i - s_j x h_i + r_i x h_i, world axes */
-    const jg_real v_5_world_0 = v_3_world_0 - v_4_world_0;
-    phi_q[13] = v_5_world_0;
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real s_j_cross_h_i_world_0 = s_j_world_1 * h_i_world_2 - s_j_world_2 * h_i_world_1;
+    /* v_2_world = pitch spread across - s_j x h_i, world axes */
+    const jg_real v_2_world_0 = t42 * across_world_0 - s_j_cross_h_i_world_0;
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
+    /* v_3_world = pitch spread across - r_ij x h_i - s_j x h_i, world axes */
+    const jg_real v_3_world_0 = v_2_world_0 - r_ij_cross_h_i_world_0;
+    phi_q[13] = v_3_world_0;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
@@ -934,11 +910,11 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
     phi_q[17] = g_i_cross_h_j_world_1;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    const jg_real v_3_world_1 = t44 * across_world_1 - s_j_cross_h_i_world_1;
-    const jg_real v_4_world_1 = h_i_world_0 * v_0_world_2 - h_i_world_2 * v_0_world_0;
-    const jg_real v_5_world_1 = v_3_world_1 - v_4_world_1;
-    phi_q[18] = v_5_world_1;
+    const jg_real s_j_cross_h_i_world_1 = s_j_world_2 * h_i_world_0 - s_j_world_0 * h_i_world_2;
+    const jg_real v_2_world_1 = t42 * across_world_1 - s_j_cross_h_i_world_1;
+    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
+    const jg_real v_3_world_1 = v_2_world_1 - r_ij_cross_h_i_world_1;
+    phi_q[18] = v_3_world_1;
     phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
     phi_q[20] = g_i_world_0 * e_ij_world_1 - g_i_world_1 * e_ij_world_0;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
@@ -946,261 +922,247 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
     phi_q[22] = g_i_cross_h_j_world_2;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
-    const jg_real v_3_world_2 = t44 * across_world_2 - s_j_cross_h_i_world_2;
-    const jg_real v_4_world_2 = h_i_world_1 * v_0_world_0 - h_i_world_0 * v_0_world_1;
-    const jg_real v_5_world_2 = v_3_world_2 - v_4_world_2;
-    phi_q[23] = v_5_world_2;
+    const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
+    const jg_real v_2_world_2 = t42 * across_world_2 - s_j_cross_h_i_world_2;
+    const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
+    const jg_real v_3_world_2 = v_2_world_2 - r_ij_cross_h_i_world_2;
+    phi_q[23] = v_3_world_2;
     /* s_j_cross_f_i_world = s_j x f_i, world axes */
     const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     phi_q[33] = s_j_cross_f_i_world_0;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
-    const jg_real s_j_cross_g_i_world_0 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
+    const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
     phi_q[34] = s_j_cross_g_i_world_0;
     phi_q[35] = -f_i_cross_h_j_world_0;
     phi_q[36] = -g_i_cross_h_j_world_0;
-    phi_q[37] = -v_3_world_0;
+    phi_q[37] = -v_2_world_0;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
     phi_q[38] = s_j_cross_f_i_world_1;
-    const jg_real s_j_cross_g_i_world_1 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
+    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
     phi_q[39] = s_j_cross_g_i_world_1;
     phi_q[40] = -f_i_cross_h_j_world_1;
     phi_q[41] = -g_i_cross_h_j_world_1;
-    phi_q[42] = -v_3_world_1;
+    phi_q[42] = -v_2_world_1;
     const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
     phi_q[43] = s_j_cross_f_i_world_2;
-    const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
+    const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
     phi_q[44] = s_j_cross_g_i_world_2;
     phi_q[45] = -f_i_cross_h_j_world_2;
     phi_q[46] = -g_i_cross_h_j_world_2;
-    phi_q[47] = -v_3_world_2;
-    /* v_6_world = lambda_0 f_i + lambda_1 g_i, world axes */
-    const jg_real v_6_world_2 = f_i_world_2 * lambda[0] + g_i_world_2 * lambda[1];
-    /* v_7_world = lambda_4 h_i, world axes */
-    const jg_real v_7_world_2 = h_i_world_2 * lambda[4];
-    /* v_8_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
-    const jg_real v_8_world_2 = v_6_world_2 + v_7_world_2;
-    phi_q_t_lambda_q[2] = v_8_world_2;
-    phi_q_t_lambda_q[6] = v_8_world_2;
-    phi_q_t_lambda_q[21] = v_8_world_2;
-    phi_q_t_lambda_q[36] = v_8_world_2;
-    const jg_real t75 = -v_8_world_2;
-    phi_q_t_lambda_q[0] = t75;
-    phi_q_t_lambda_q[11] = t75;
-    phi_q_t_lambda_q[16] = t75;
-    phi_q_t_lambda_q[38] = t75;
-    const jg_real v_6_world_1 = f_i_world_1 * lambda[0] + g_i_world_1 * lambda[1];
-    const jg_real v_7_world_1 = h_i_world_1 * lambda[4];
-    const jg_real v_8_world_1 = v_6_world_1 + v_7_world_1;
-    phi_q_t_lambda_q[1] = v_8_world_1;
-    phi_q_t_lambda_q[12] = v_8_world_1;
-    phi_q_t_lambda_q[26] = v_8_world_1;
-    phi_q_t_lambda_q[40] = v_8_world_1;
-    const jg_real v_6_world_0 = f_i_world_0 * lambda[0] + g_i_world_0 * lambda[1];
-    const jg_real v_7_world_0 = h_i_world_0 * lambda[4];
-    const jg_real v_8_world_0 = v_6_world_0 + v_7_world_0;
-    phi_q_t_lambda_q[5] = v_8_world_0;
-    phi_q_t_lambda_q[17] = v_8_world_0;
-    phi_q_t_lambda_q[32] = v_8_world_0;
-    phi_q_t_lambda_q[39] = v_8_world_0;
-    const jg_real t82 = -v_8_world_0;
-    phi_q_t_lambda_q[3] = t82;
-    phi_q_t_lambda_q[22] = t82;
-    phi_q_t_lambda_q[27] = t82;
-    phi_q_t_lambda_q[41] = t82;
-    const jg_real t83 = -v_8_world_1;
-    phi_q_t_lambda_q[4] = t83;
-    phi_q_t_lambda_q[7] = t83;
-    phi_q_t_lambda_q[31] = t83;
-    phi_q_t_lambda_q[37] = t83;
+    phi_q[47] = -v_2_world_2;
+    /* v_4_world = lambda_1 g_i + lambda_4 h_i, world axes */
+    const jg_real v_4_world_2 = g_i_world_2 * lambda[1] + h_i_world_2 * lambda[4];
+    /* v_5_world = lambda_0 f_i, world axes */
+    const jg_real v_5_world_2 = f_i_world_2 * lambda[0];
+    /* v_6_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
+    const jg_real v_6_world_2 = v_4_world_2 + v_5_world_2;
+    phi_q_t_lambda_q[2] = v_6_world_2;
+    phi_q_t_lambda_q[6] = v_6_world_2;
+    phi_q_t_lambda_q[21] = v_6_world_2;
+    phi_q_t_lambda_q[36] = v_6_world_2;
+    const jg_real t72 = -v_6_world_2;
+    phi_q_t_lambda_q[0] = t72;
+    phi_q_t_lambda_q[11] = t72;
+    phi_q_t_lambda_q[16] = t72;
+    phi_q_t_lambda_q[38] = t72;
+    const jg_real v_4_world_1 = g_i_world_1 * lambda[1] + h_i_world_1 * lambda[4];
+    const jg_real v_5_world_1 = f_i_world_1 * lambda[0];
+    const jg_real v_6_world_1 = v_4_world_1 + v_5_world_1;
+    phi_q_t_lambda_q[1] = v_6_world_1;
+    phi_q_t_lambda_q[12] = v_6_world_1;
+    phi_q_t_lambda_q[26] = v_6_world_1;
+    phi_q_t_lambda_q[40] = v_6_world_1;
+    const jg_real v_4_world_0 = g_i_world_0 * lambda[1] + h_i_world_0 * lambda[4];
+    const jg_real v_5_world_0 = f_i_world_0 * lambda[0];
+    const jg_real v_6_world_0 = v_4_world_0 + v_5_world_0;
+    phi_q_t_lambda_q[5] = v_6_world_0;
+    phi_q_t_lambda_q[17] = v_6_world_0;
+    phi_q_t_lambda_q[32] = v_6_world_0;
+    phi_q_t_lambda_q[39] = v_6_world_0;
+    const jg_real t79 = -v_6_world_0;
+    phi_q_t_lambda_q[3] = t79;
+    phi_q_t_lambda_q[22] = t79;
+    phi_q_t_lambda_q[27] = t79;
+    phi_q_t_lambda_q[41] = t79;
+    const jg_real t80 = -v_6_world_1;
+    phi_q_t_lambda_q[4] = t80;
+    phi_q_t_lambda_q[7] = t80;
+    phi_q_t_lambda_q[31] = t80;
+    phi_q_t_lambda_q[37] = t80;
+    const jg_real t81 = t42 * lambda[4];
+    const jg_real t82 = JG_REAL(2.0) * h_i_dot_f_j * spread;
+    /* v_8_world = f_j - 2 (h_i . f_j) spread across, world axes */
+    const jg_real v_8_world_1 = f_j_world_1 - across_world_1 * t82;
+    /* v_9_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
+    const jg_real v_9_world_1 = t81 * v_8_world_1;
     /* h_i_cross_f_j_world = h_i x f_j, world axes */
     const jg_real h_i_cross_f_j_world_1 = g_i_world_1 * f_i_dot_f_j - f_i_world_1 * g_i_dot_f_j;
-    /* v_12_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
-    const jg_real v_12_in_joint_i_2 = t44 * lambda[4];
-    const jg_real t86 = JG_REAL(2.0) * h_i_dot_f_j * spread;
-    /* v_10_world = f_j - 2 (h_i . f_j) spread across, world axes */
-    const jg_real v_10_world_1 = f_j_world_1 - across_world_1 * t86;
-    /* v_11_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
-    const jg_real v_11_world_1 = v_12_in_joint_i_2 * v_10_world_1;
-    /* v_9_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_9_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
-    /* M_0_world_world = (lambda_0 r_j + lambda_0 s_j - lambda_0 r_i + lambda_2 h_j) f_i^T + (lambda_1 r_j + ... */
-    const jg_real M_0_world_world_4 = e_ij_world_1 * v_8_world_1 + h_j_world_1 * v_9_world_1 - h_i_cross_f_j_world_1
-        * v_11_world_1;
+    /* v_7_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_7_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
+    /* M_0_world_world = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ...
+        */
+    const jg_real M_0_world_world_4 = e_ij_world_1 * v_6_world_1 + h_j_world_1 * v_7_world_1 - h_i_cross_f_j_world_1
+        * v_9_world_1;
+    const jg_real v_8_world_2 = f_j_world_2 - across_world_2 * t82;
+    const jg_real v_9_world_2 = t81 * v_8_world_2;
     const jg_real h_i_cross_f_j_world_2 = g_i_world_2 * f_i_dot_f_j - f_i_world_2 * g_i_dot_f_j;
-    const jg_real v_10_world_2 = f_j_world_2 - across_world_2 * t86;
-    const jg_real v_11_world_2 = v_12_in_joint_i_2 * v_10_world_2;
-    const jg_real v_9_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    const jg_real M_0_world_world_8 = e_ij_world_2 * v_8_world_2 + h_j_world_2 * v_9_world_2 - h_i_cross_f_j_world_2
-        * v_11_world_2;
+    const jg_real v_7_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    const jg_real M_0_world_world_8 = e_ij_world_2 * v_6_world_2 + h_j_world_2 * v_7_world_2 - h_i_cross_f_j_world_2
+        * v_9_world_2;
     phi_q_t_lambda_q[8] = -(M_0_world_world_4 + M_0_world_world_8);
     const jg_real h_i_cross_f_j_world_0 = g_i_world_0 * f_i_dot_f_j - f_i_world_0 * g_i_dot_f_j;
-    const jg_real M_0_world_world_1 = e_ij_world_0 * v_8_world_1 + h_j_world_0 * v_9_world_1 - h_i_cross_f_j_world_0
-        * v_11_world_1;
-    /* v_12_world = pitch spread lambda_4 h_i, world axes */
-    const jg_real v_12_world_2 = h_i_world_2 * v_12_in_joint_i_2;
-    phi_q_t_lambda_q[9] = M_0_world_world_1 - v_12_world_2;
-    const jg_real M_0_world_world_2 = e_ij_world_0 * v_8_world_2 + h_j_world_0 * v_9_world_2 - h_i_cross_f_j_world_0
-        * v_11_world_2;
-    const jg_real v_12_world_1 = h_i_world_1 * v_12_in_joint_i_2;
-    phi_q_t_lambda_q[10] = M_0_world_world_2 + v_12_world_1;
+    const jg_real M_0_world_world_1 = e_ij_world_0 * v_6_world_1 + h_j_world_0 * v_7_world_1 - h_i_cross_f_j_world_0
+        * v_9_world_1;
+    /* v_10_world = pitch spread lambda_4 h_i, world axes */
+    const jg_real v_10_world_2 = h_i_world_2 * t81;
+    phi_q_t_lambda_q[9] = M_0_world_world_1 - v_10_world_2;
+    const jg_real M_0_world_world_2 = e_ij_world_0 * v_6_world_2 + h_j_world_0 * v_7_world_2 - h_i_cross_f_j_world_0
+        * v_9_world_2;
+    const jg_real v_10_world_1 = h_i_world_1 * t81;
+    phi_q_t_lambda_q[10] = M_0_world_world_2 + v_10_world_1;
     /* M_1_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j)
         ... */
-    const jg_real M_1_world_world_4 = M_0_world_world_4 - v_0_world_1 * v_8_world_1;
-    const jg_real M_1_world_world_8 = M_0_world_world_8 - v_0_world_2 * v_8_world_2;
-    const jg_real t103 = M_1_world_world_4 + M_1_world_world_8;
-    phi_q_t_lambda_q[13] = t103;
-    phi_q_t_lambda_q[42] = t103;
-    const jg_real M_1_world_world_1 = M_0_world_world_1 - v_0_world_0 * v_8_world_1;
-    phi_q_t_lambda_q[14] = v_12_world_2 - M_1_world_world_1;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 - v_0_world_0 * v_8_world_2;
-    phi_q_t_lambda_q[15] = -(v_12_world_1 + M_1_world_world_2);
-    const jg_real v_10_world_0 = f_j_world_0 - across_world_0 * t86;
-    const jg_real v_11_world_0 = v_12_in_joint_i_2 * v_10_world_0;
-    const jg_real v_9_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
-    const jg_real M_0_world_world_3 = e_ij_world_1 * v_8_world_0 + h_j_world_1 * v_9_world_0 - h_i_cross_f_j_world_1
-        * v_11_world_0;
-    phi_q_t_lambda_q[18] = M_0_world_world_3 + v_12_world_2;
-    const jg_real M_0_world_world_0 = e_ij_world_0 * v_8_world_0 + h_j_world_0 * v_9_world_0 - h_i_cross_f_j_world_0
-        * v_11_world_0;
+    const jg_real M_1_world_world_4 = M_0_world_world_4 - r_ij_world_1 * v_6_world_1;
+    const jg_real M_1_world_world_8 = M_0_world_world_8 - r_ij_world_2 * v_6_world_2;
+    const jg_real t100 = M_1_world_world_4 + M_1_world_world_8;
+    phi_q_t_lambda_q[13] = t100;
+    phi_q_t_lambda_q[42] = t100;
+    const jg_real M_1_world_world_1 = M_0_world_world_1 - r_ij_world_0 * v_6_world_1;
+    phi_q_t_lambda_q[14] = v_10_world_2 - M_1_world_world_1;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 - r_ij_world_0 * v_6_world_2;
+    phi_q_t_lambda_q[15] = -(v_10_world_1 + M_1_world_world_2);
+    const jg_real v_8_world_0 = f_j_world_0 - across_world_0 * t82;
+    const jg_real v_9_world_0 = t81 * v_8_world_0;
+    const jg_real v_7_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real M_0_world_world_3 = e_ij_world_1 * v_6_world_0 + h_j_world_1 * v_7_world_0 - h_i_cross_f_j_world_1
+        * v_9_world_0;
+    phi_q_t_lambda_q[18] = M_0_world_world_3 + v_10_world_2;
+    const jg_real M_0_world_world_0 = e_ij_world_0 * v_6_world_0 + h_j_world_0 * v_7_world_0 - h_i_cross_f_j_world_0
+        * v_9_world_0;
     phi_q_t_lambda_q[19] = -(M_0_world_world_0 + M_0_world_world_8);
-    const jg_real M_0_world_world_5 = e_ij_world_1 * v_8_world_2 + h_j_world_1 * v_9_world_2 - h_i_cross_f_j_world_1
-        * v_11_world_2;
-    const jg_real v_12_world_0 = h_i_world_0 * v_12_in_joint_i_2;
-    phi_q_t_lambda_q[20] = M_0_world_world_5 - v_12_world_0;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 - v_0_world_1 * v_8_world_0;
-    phi_q_t_lambda_q[23] = -(v_12_world_2 + M_1_world_world_3);
-    const jg_real M_1_world_world_0 = M_0_world_world_0 - v_0_world_0 * v_8_world_0;
-    const jg_real t115 = M_1_world_world_0 + M_1_world_world_8;
-    phi_q_t_lambda_q[24] = t115;
-    phi_q_t_lambda_q[49] = t115;
-    const jg_real M_1_world_world_5 = M_0_world_world_5 - v_0_world_1 * v_8_world_2;
-    phi_q_t_lambda_q[25] = v_12_world_0 - M_1_world_world_5;
-    const jg_real M_0_world_world_6 = e_ij_world_2 * v_8_world_0 + h_j_world_2 * v_9_world_0 - h_i_cross_f_j_world_2
-        * v_11_world_0;
-    phi_q_t_lambda_q[28] = M_0_world_world_6 - v_12_world_1;
-    const jg_real M_0_world_world_7 = e_ij_world_2 * v_8_world_1 + h_j_world_2 * v_9_world_1 - h_i_cross_f_j_world_2
-        * v_11_world_1;
-    phi_q_t_lambda_q[29] = M_0_world_world_7 + v_12_world_0;
+    const jg_real M_0_world_world_5 = e_ij_world_1 * v_6_world_2 + h_j_world_1 * v_7_world_2 - h_i_cross_f_j_world_1
+        * v_9_world_2;
+    const jg_real v_10_world_0 = h_i_world_0 * t81;
+    phi_q_t_lambda_q[20] = M_0_world_world_5 - v_10_world_0;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 - r_ij_world_1 * v_6_world_0;
+    phi_q_t_lambda_q[23] = -(v_10_world_2 + M_1_world_world_3);
+    const jg_real M_1_world_world_0 = M_0_world_world_0 - r_ij_world_0 * v_6_world_0;
+    const jg_real t112 = M_1_world_world_0 + M_1_world_world_8;
+    phi_q_t_lambda_q[24] = t112;
+    phi_q_t_lambda_q[49] = t112;
+    const jg_real M_1_world_world_5 = M_0_world_world_5 - r_ij_world_1 * v_6_world_2;
+    phi_q_t_lambda_q[25] = v_10_world_0 - M_1_world_world_5;
+    const jg_real M_0_world_world_6 = e_ij_world_2 * v_6_world_0 + h_j_world_2 * v_7_world_0 - h_i_cross_f_j_world_2
+        * v_9_world_0;
+    phi_q_t_lambda_q[28] = M_0_world_world_6 - v_10_world_1;
+    const jg_real M_0_world_world_7 = e_ij_world_2 * v_6_world_1 + h_j_world_2 * v_7_world_1 - h_i_cross_f_j_world_2
+        * v_9_world_1;
+    phi_q_t_lambda_q[29] = M_0_world_world_7 + v_10_world_0;
     phi_q_t_lambda_q[30] = -(M_0_world_world_0 + M_0_world_world_4);
-    const jg_real M_1_world_world_6 = M_0_world_world_6 - v_0_world_2 * v_8_world_0;
-    phi_q_t_lambda_q[33] = v_12_world_1 - M_1_world_world_6;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 - v_0_world_2 * v_8_world_1;
-    phi_q_t_lambda_q[34] = -(v_12_world_0 + M_1_world_world_7);
-    const jg_real t121 = M_1_world_world_0 + M_1_world_world_4;
-    phi_q_t_lambda_q[35] = t121;
-    phi_q_t_lambda_q[56] = t121;
-    const jg_real t122 = JG_REAL(2.0) * (JG_REAL(1.0) - t42 * spread);
-    /* v_13_world = (2 + 2 (h_i . f_j) (h_i . f_j) spread - 2 spread) f_j, world axes */
-    const jg_real v_13_world_2 = f_j_world_2 * t122;
-    const jg_real t124 = h_i_dot_f_j * v_12_in_joint_i_2;
-    /* v_14_world = (2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread lambda_4 - 2 pitch (h_i . f_j) ... */
-    const jg_real v_14_world_2 = t124 * v_13_world_2;
-    /* v_15_world = pitch spread lambda_4 h_i + (-2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread ... */
-    const jg_real v_15_world_2 = v_12_world_2 - v_14_world_2;
-    const jg_real t127 = M_1_world_world_3 + v_15_world_2;
-    phi_q_t_lambda_q[46] = t127;
-    phi_q_t_lambda_q[43] = -t127;
-    const jg_real v_13_world_1 = f_j_world_1 * t122;
-    const jg_real v_14_world_1 = t124 * v_13_world_1;
-    const jg_real v_15_world_1 = v_12_world_1 - v_14_world_1;
-    const jg_real t131 = M_1_world_world_6 - v_15_world_1;
-    phi_q_t_lambda_q[47] = t131;
-    phi_q_t_lambda_q[44] = -t131;
-    phi_q_t_lambda_q[45] = -t103;
-    const jg_real t132 = M_1_world_world_1 - v_15_world_2;
-    phi_q_t_lambda_q[51] = t132;
-    phi_q_t_lambda_q[48] = -t132;
-    const jg_real v_13_world_0 = f_j_world_0 * t122;
-    const jg_real v_14_world_0 = t124 * v_13_world_0;
-    const jg_real v_15_world_0 = v_12_world_0 - v_14_world_0;
-    const jg_real t136 = M_1_world_world_7 + v_15_world_0;
-    phi_q_t_lambda_q[53] = t136;
-    phi_q_t_lambda_q[50] = -t136;
-    phi_q_t_lambda_q[52] = -t115;
-    const jg_real t137 = M_1_world_world_2 + v_15_world_1;
-    phi_q_t_lambda_q[57] = t137;
-    phi_q_t_lambda_q[54] = -t137;
-    const jg_real t138 = M_1_world_world_5 - v_15_world_0;
-    phi_q_t_lambda_q[58] = t138;
-    phi_q_t_lambda_q[55] = -t138;
-    phi_q_t_lambda_q[59] = -t121;
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_0 = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 *
-        omega_i[2];
-    const jg_real omega_i_in_joint_i_1 = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 *
-        omega_i[2];
-    const jg_real omega_i_in_joint_i_2 = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 *
-        omega_i[2];
+    const jg_real M_1_world_world_6 = M_0_world_world_6 - r_ij_world_2 * v_6_world_0;
+    phi_q_t_lambda_q[33] = v_10_world_1 - M_1_world_world_6;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 - r_ij_world_2 * v_6_world_1;
+    phi_q_t_lambda_q[34] = -(v_10_world_0 + M_1_world_world_7);
+    const jg_real t118 = M_1_world_world_0 + M_1_world_world_4;
+    phi_q_t_lambda_q[35] = t118;
+    phi_q_t_lambda_q[56] = t118;
+    const jg_real t119 = (JG_REAL(1.0) - t40 * spread) * (pitch * JG_REAL(2.0) * h_i_dot_f_j * spread * lambda[4]);
+    /* v_11_world = (2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread lambda_4 - 2 pitch (h_i . f_j) ... */
+    const jg_real v_11_world_2 = f_j_world_2 * t119;
+    /* v_12_world = pitch spread lambda_4 h_i + (-2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread ... */
+    const jg_real v_12_world_2 = v_10_world_2 - v_11_world_2;
+    const jg_real t122 = M_1_world_world_3 + v_12_world_2;
+    phi_q_t_lambda_q[46] = t122;
+    phi_q_t_lambda_q[43] = -t122;
+    const jg_real v_11_world_1 = f_j_world_1 * t119;
+    const jg_real v_12_world_1 = v_10_world_1 - v_11_world_1;
+    const jg_real t125 = M_1_world_world_6 - v_12_world_1;
+    phi_q_t_lambda_q[47] = t125;
+    phi_q_t_lambda_q[44] = -t125;
+    phi_q_t_lambda_q[45] = -t100;
+    const jg_real t126 = M_1_world_world_1 - v_12_world_2;
+    phi_q_t_lambda_q[51] = t126;
+    phi_q_t_lambda_q[48] = -t126;
+    const jg_real v_11_world_0 = f_j_world_0 * t119;
+    const jg_real v_12_world_0 = v_10_world_0 - v_11_world_0;
+    const jg_real t129 = M_1_world_world_7 + v_12_world_0;
+    phi_q_t_lambda_q[53] = t129;
+    phi_q_t_lambda_q[50] = -t129;
+    phi_q_t_lambda_q[52] = -t112;
+    const jg_real t130 = M_1_world_world_2 + v_12_world_1;
+    phi_q_t_lambda_q[57] = t130;
+    phi_q_t_lambda_q[54] = -t130;
+    const jg_real t131 = M_1_world_world_5 - v_12_world_0;
+    phi_q_t_lambda_q[58] = t131;
+    phi_q_t_lambda_q[55] = -t131;
+    phi_q_t_lambda_q[59] = -t118;
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
+    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i_in_joint_i_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 *
-        omega_i_in_joint_i_1 + omega_i_in_joint_i_2 * omega_i_in_joint_i_2;
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    const jg_real t145 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    const jg_real t139 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
-    /* r_j_dot_omega_i = r_j . omega_i */
-    const jg_real r_j_dot_omega_i = r_j[0] * omega_i[0] + r_j[1] * omega_i[1] + r_j[2] * omega_i[2];
-    /* r_i_dot_omega_i = r_i . omega_i */
-    const jg_real r_i_dot_omega_i = r_i[0] * omega_i[0] + r_i[1] * omega_i[1] + r_i[2] * omega_i[2];
-    const jg_real t149 = r_i_dot_omega_i - (r_j_dot_omega_i + s_j_dot_omega_i);
-    /* omega_j_in_joint_i = omega_j, axes of joint i */
-    const jg_real omega_j_in_joint_i_0 = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 *
-        omega_j[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
+        omega_i[2];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
-    const jg_real t152 = JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j;
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* v_i_in_joint_i = v_i, axes of joint i */
     const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
     const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
-    gamma[0] = s_j_dot_f_i * t145 + omega_i_in_joint_i_0 * t149 + omega_i_dot_omega_i * (r_j_dot_f_i - r_i_dot_f_i)
-        + omega_j_in_joint_i_0 * t152 - JG_REAL(2.0) * (omega_i_in_joint_i_2 * v_j_in_joint_i_1 -
-        omega_i_in_joint_i_1 * v_j_in_joint_i_2 + (omega_i_in_joint_i_1 * v_i_in_joint_i_2 - omega_i_in_joint_i_2 *
-        v_i_in_joint_i_1));
+    gamma[0] = s_j_dot_f_i * t139 - f_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
+        (JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j) + r_ij_dot_f_i * omega_i_dot_omega_i + JG_REAL(2.0) *
+        (g_i_dot_omega_i * v_j_in_joint_i_2 - h_i_dot_omega_i * v_j_in_joint_i_1) - JG_REAL(2.0) * (g_i_dot_omega_i
+        * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1);
     const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
     const jg_real v_i_in_joint_i_0 = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
-    const jg_real omega_j_in_joint_i_1 = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 *
-        omega_j[2];
-    gamma[1] = s_j_dot_g_i * t145 + omega_i_in_joint_i_1 * t149 + omega_i_dot_omega_i * (r_j_dot_g_i - r_i_dot_g_i)
-        + omega_j_in_joint_i_1 * t152 + JG_REAL(2.0) * (omega_i_in_joint_i_2 * v_j_in_joint_i_0 -
-        omega_i_in_joint_i_0 * v_j_in_joint_i_2 + (omega_i_in_joint_i_0 * v_i_in_joint_i_2 - omega_i_in_joint_i_2 *
-        v_i_in_joint_i_0));
+    gamma[1] = s_j_dot_g_i * t139 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
+        r_ij_dot_g_i * omega_i_dot_omega_i - r_ij_dot_omega_i * g_i_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
+        + JG_REAL(2.0) * (h_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i * v_j_in_joint_i_2) - JG_REAL(2.0) *
+        (h_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_2);
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
-    const jg_real t162 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
-    gamma[2] = f_i_dot_h_j * t145 + omega_j_in_joint_i_0 * t162 - omega_i_in_joint_i_0 * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t145 + omega_j_in_joint_i_1 * t162 - omega_i_in_joint_i_1 * h_j_dot_omega_i;
-    const jg_real t163 = f_i_dot_f_j * omega_i_in_joint_i_1 - g_i_dot_f_j * omega_i_in_joint_i_0;
+    const jg_real t152 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
+    gamma[2] = f_i_dot_h_j * t139 + f_i_dot_omega_j * t152 - f_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[3] = g_i_dot_h_j * t139 + g_i_dot_omega_j * t152 - g_i_dot_omega_i * h_j_dot_omega_i;
+    const jg_real t153 = g_i_dot_f_j * f_i_dot_omega_j - f_i_dot_f_j * g_i_dot_omega_j;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_world_0 * omega_i[0] + f_j_world_1 * omega_i[1] + f_j_world_2 * omega_i[2];
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_j_world_0 * omega_j[0] + f_j_world_1 * omega_j[1] + f_j_world_2 * omega_j[2];
-    const jg_real t166 = f_j_dot_omega_i - f_j_dot_omega_j;
-    const jg_real t167 = t163 * t166;
-    const jg_real t168 = f_i_dot_f_j * omega_j_in_joint_i_1 - g_i_dot_f_j * omega_j_in_joint_i_0;
-    const jg_real t169 = t168 * t166;
-    const jg_real t170 = t168 - t163;
-    const jg_real omega_j_in_joint_i_2 = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 *
-        omega_j[2];
-    /* omega_i_cross_omega_j_in_joint_i = omega_i x omega_j, axes of joint i */
-    const jg_real omega_i_cross_omega_j_in_joint_i_2 = omega_i_in_joint_i_0 * omega_j_in_joint_i_1 -
-        omega_i_in_joint_i_1 * omega_j_in_joint_i_0;
-    gamma[4] = t44 * (t167 + h_i_dot_f_j * (h_i_dot_f_j * omega_i_cross_omega_j_in_joint_i_2 - (f_i_dot_f_j *
-        (omega_i_in_joint_i_2 * omega_j_in_joint_i_1 - omega_i_in_joint_i_1 * omega_j_in_joint_i_2) + g_i_dot_f_j *
-        (omega_i_in_joint_i_0 * omega_j_in_joint_i_2 - omega_i_in_joint_i_2 * omega_j_in_joint_i_0)) + (h_i_dot_f_j
-        * (t167 - t169) + omega_i_in_joint_i_2 * t170 - omega_j_in_joint_i_2 * t170) * (JG_REAL(2.0) * spread)) -
-        t169 - omega_i_cross_omega_j_in_joint_i_2) + s_j_dot_h_i * t145 + omega_i_in_joint_i_2 * t149 +
-        omega_i_dot_omega_i * (r_j_dot_h_i - r_i_dot_h_i) + omega_j_in_joint_i_2 * t152 - JG_REAL(2.0) *
-        (omega_i_in_joint_i_1 * v_j_in_joint_i_0 - omega_i_in_joint_i_0 * v_j_in_joint_i_1 + (omega_i_in_joint_i_0 *
-        v_i_in_joint_i_1 - omega_i_in_joint_i_1 * v_i_in_joint_i_0));
+    const jg_real t156 = f_j_dot_omega_i - f_j_dot_omega_j;
+    const jg_real t157 = t153 * t156;
+    const jg_real t158 = g_i_dot_f_j * f_i_dot_omega_i - f_i_dot_f_j * g_i_dot_omega_i;
+    const jg_real t159 = t158 * t156;
+    const jg_real t160 = t158 - t153;
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
+    gamma[4] = t42 * (f_i_dot_omega_j * g_i_dot_omega_i - f_i_dot_omega_i * g_i_dot_omega_j + (h_i_dot_f_j *
+        ((h_i_dot_f_j * (t157 - t159) + h_i_dot_omega_i * t160 - h_i_dot_omega_j * t160) * (JG_REAL(2.0) * spread) -
+        (f_i_dot_omega_j * (h_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * h_i_dot_omega_i) + g_i_dot_omega_j *
+        (f_i_dot_f_j * h_i_dot_omega_i - h_i_dot_f_j * f_i_dot_omega_i) + h_i_dot_omega_j * t158)) - t159 + t157)) +
+        s_j_dot_h_i * t139 + s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) + r_ij_dot_h_i *
+        omega_i_dot_omega_i - r_ij_dot_omega_i * h_i_dot_omega_i - s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0)
+        * (g_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i * v_j_in_joint_i_1) + JG_REAL(2.0) *
+        (g_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_1);
 }
 
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

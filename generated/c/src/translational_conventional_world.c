@@ -58,24 +58,26 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_in_j_0 * C_j[3] + f_i_in_j_1 * C_j[4] + f_i_in_j_2 * C_j[5];
     phi[2] = f_i_dot_g_j;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_0_in_j = r_j - r_i, axes of body j */
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
-    const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    /* s_j_dot_f_i = s_j . f_i */
+    const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     /* s_i_dot_f_i = s_i . f_i */
     const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    phi[3] = f_i_in_j_0 * e_ij_in_j_0 + f_i_in_j_1 * e_ij_in_j_1 + f_i_in_j_2 * e_ij_in_j_2 - s_i_dot_f_i;
+    phi[3] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
+    /* s_j_dot_g_i = s_j . g_i */
+    const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* s_i_dot_g_i = s_i . g_i */
     const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    phi[4] = g_i_in_j_0 * e_ij_in_j_0 + g_i_in_j_1 * e_ij_in_j_1 + g_i_in_j_2 * e_ij_in_j_2 - s_i_dot_g_i;
+    phi[4] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
 }
 
 void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -122,10 +124,13 @@ void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i
     phi_q[8] = f_i_cross_g_j_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
@@ -137,7 +142,8 @@ void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i
     const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
     phi_q[13] = f_i_cross_g_j_world_1;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
@@ -243,26 +249,27 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     /* M_0_world_world = (lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 s_j + lambda_1 h_j) g_i^T;
         ... */
     const jg_real M_0_world_world_4 = f_i_world_1 * v_1_world_1 + g_i_world_1 * v_2_world_1;
-    /* v_3_world = r_j - r_i, world axes */
-    const jg_real v_3_world_1 = r_j[1] - r_i[1];
-    /* M_1_world_world = (lambda_3 r_j + lambda_3 s_j - lambda_3 r_i + lambda_2 g_j + lambda_0 h_j) f_i^T + ... */
-    const jg_real M_1_world_world_4 = M_0_world_world_4 + v_0_world_1 * v_3_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    /* M_1_world_world = (lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 r_ij + ...
+        */
+    const jg_real M_1_world_world_4 = M_0_world_world_4 + v_0_world_1 * r_ij_world_1;
     const jg_real v_1_world_2 = v_1_in_j_0 * A_j[2] + v_1_in_j_1 * A_j[5] + v_1_in_j_2 * A_j[8];
     const jg_real v_2_world_2 = A_j[2] * v_2_in_j_0 + A_j[5] * v_2_in_j_1 + A_j[8] * v_2_in_j_2;
     const jg_real M_0_world_world_8 = f_i_world_2 * v_1_world_2 + g_i_world_2 * v_2_world_2;
-    const jg_real v_3_world_2 = r_j[2] - r_i[2];
-    const jg_real M_1_world_world_8 = M_0_world_world_8 + v_0_world_2 * v_3_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real M_1_world_world_8 = M_0_world_world_8 + v_0_world_2 * r_ij_world_2;
     phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
     const jg_real v_2_world_0 = A_j[0] * v_2_in_j_0 + A_j[3] * v_2_in_j_1 + A_j[6] * v_2_in_j_2;
     const jg_real M_0_world_world_1 = f_i_world_1 * v_1_world_0 + g_i_world_1 * v_2_world_0;
     phi_q_t_lambda_q[51] = M_0_world_world_1;
-    const jg_real v_3_world_0 = r_j[0] - r_i[0];
-    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * v_3_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
     phi_q_t_lambda_q[9] = M_1_world_world_1;
     const jg_real M_0_world_world_2 = f_i_world_2 * v_1_world_0 + g_i_world_2 * v_2_world_0;
     phi_q_t_lambda_q[57] = M_0_world_world_2;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * v_3_world_0;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
     phi_q_t_lambda_q[10] = M_1_world_world_2;
     const jg_real t35 = M_0_world_world_4 + M_0_world_world_8;
     phi_q_t_lambda_q[13] = t35;
@@ -275,14 +282,14 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     phi_q_t_lambda_q[54] = t37;
     const jg_real M_0_world_world_3 = f_i_world_0 * v_1_world_1 + g_i_world_0 * v_2_world_1;
     phi_q_t_lambda_q[46] = M_0_world_world_3;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * v_3_world_1;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * r_ij_world_1;
     phi_q_t_lambda_q[18] = M_1_world_world_3;
     const jg_real M_0_world_world_0 = f_i_world_0 * v_1_world_0 + g_i_world_0 * v_2_world_0;
-    const jg_real M_1_world_world_0 = M_0_world_world_0 + v_0_world_0 * v_3_world_0;
+    const jg_real M_1_world_world_0 = M_0_world_world_0 + v_0_world_0 * r_ij_world_0;
     phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
     const jg_real M_0_world_world_5 = f_i_world_2 * v_1_world_1 + g_i_world_2 * v_2_world_1;
     phi_q_t_lambda_q[58] = M_0_world_world_5;
-    const jg_real M_1_world_world_5 = M_0_world_world_5 + v_0_world_2 * v_3_world_1;
+    const jg_real M_1_world_world_5 = M_0_world_world_5 + v_0_world_2 * r_ij_world_1;
     phi_q_t_lambda_q[20] = M_1_world_world_5;
     const jg_real t44 = -M_0_world_world_3;
     phi_q_t_lambda_q[23] = t44;
@@ -295,11 +302,11 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     phi_q_t_lambda_q[55] = t46;
     const jg_real M_0_world_world_6 = f_i_world_0 * v_1_world_2 + g_i_world_0 * v_2_world_2;
     phi_q_t_lambda_q[47] = M_0_world_world_6;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * v_3_world_2;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
     phi_q_t_lambda_q[28] = M_1_world_world_6;
     const jg_real M_0_world_world_7 = f_i_world_1 * v_1_world_2 + g_i_world_1 * v_2_world_2;
     phi_q_t_lambda_q[53] = M_0_world_world_7;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * v_3_world_2;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * r_ij_world_2;
     phi_q_t_lambda_q[29] = M_1_world_world_7;
     phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
     const jg_real t51 = -M_0_world_world_6;
@@ -353,8 +360,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    const jg_real t10 = omega_i_dot_omega_j * JG_REAL(2.0);
-    const jg_real t11 = t10 - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    const jg_real t10 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
     /* omega_i_dot_f_i = omega_i . f_i */
     const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
@@ -363,7 +369,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
-    gamma[0] = -(f_i_dot_h_j * t11 + omega_i_dot_h_j * (omega_i_dot_f_i - f_i_dot_omega_j * JG_REAL(2.0)) +
+    gamma[0] = -(f_i_dot_h_j * t10 + omega_i_dot_h_j * (omega_i_dot_f_i - f_i_dot_omega_j * JG_REAL(2.0)) +
         h_j_dot_omega_j * f_i_dot_omega_j);
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -375,7 +381,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t11 * g_i_dot_h_j -
+    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t10 * g_i_dot_h_j -
         h_j_dot_omega_j * g_i_dot_omega_j;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
@@ -387,51 +393,51 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real g_j_dot_omega_j = omega_j[0] * g_j_world_0 + omega_j[1] * g_j_world_1 + omega_j[2] * g_j_world_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i[0] * g_j_world_0 + omega_i[1] * g_j_world_1 + omega_i[2] * g_j_world_2;
-    gamma[2] = -(t11 * f_i_dot_g_j + f_i_dot_omega_j * (g_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_g_j) +
+    gamma[2] = -(t10 * f_i_dot_g_j + f_i_dot_omega_j * (g_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_g_j) +
         omega_i_dot_f_i * omega_i_dot_g_j);
-    /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
-    const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
-    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
-    const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* s_j_dot_omega_i = s_j . omega_i */
-    const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
-    /* r_j_dot_omega_i = r_j . omega_i */
-    const jg_real r_j_dot_omega_i = omega_i[0] * r_j[0] + omega_i[1] * r_j[1] + omega_i[2] * r_j[2];
-    /* r_i_dot_omega_i = r_i . omega_i */
-    const jg_real r_i_dot_omega_i = omega_i[0] * r_i[0] + omega_i[1] * r_i[1] + omega_i[2] * r_i[2];
-    const jg_real t37 = r_j_dot_omega_i + s_j_dot_omega_i - r_i_dot_omega_i;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    /* r_j_dot_f_i = r_j . f_i */
-    const jg_real r_j_dot_f_i = f_i_world_0 * r_j[0] + f_i_world_1 * r_j[1] + f_i_world_2 * r_j[2];
-    /* r_i_dot_f_i = r_i . f_i */
-    const jg_real r_i_dot_f_i = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    /* s_j_dot_omega_i = s_j . omega_i */
+    const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
+        r_ij_world_2;
+    const jg_real t36 = r_ij_dot_omega_i + s_j_dot_omega_i;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = omega_j[0] * s_j_world_0 + omega_j[1] * s_j_world_1 + omega_j[2] * s_j_world_2;
-    const jg_real t42 = s_j_dot_omega_j - JG_REAL(2.0) * s_j_dot_omega_i;
-    const jg_real t43 = t10 - omega_j_dot_omega_j;
-    gamma[3] = -(omega_i_dot_f_i * t37 + omega_i_dot_omega_i * (r_i_dot_f_i - (r_j_dot_f_i + s_j_dot_f_i)) +
-        f_i_dot_omega_j * t42 + s_j_dot_f_i * t43 + JG_REAL(2.0) * (omega_i_cross_f_i_world_0 * v_j[0] +
-        omega_i_cross_f_i_world_1 * v_j[1] + omega_i_cross_f_i_world_2 * v_j[2] - (omega_i_cross_f_i_world_0 *
-        v_i[0] + omega_i_cross_f_i_world_1 * v_i[1] + omega_i_cross_f_i_world_2 * v_i[2])));
+    const jg_real t38 = s_j_dot_omega_j - JG_REAL(2.0) * s_j_dot_omega_i;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
+    const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
+    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
+    const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
+    gamma[3] = JG_REAL(2.0) * (omega_i_cross_f_i_world_0 * v_i[0] + omega_i_cross_f_i_world_1 * v_i[1] +
+        omega_i_cross_f_i_world_2 * v_i[2]) - (t10 * s_j_dot_f_i + omega_i_dot_f_i * t36 + f_i_dot_omega_j * t38 -
+        omega_i_dot_omega_i * r_ij_dot_f_i + JG_REAL(2.0) * (omega_i_cross_f_i_world_0 * v_j[0] +
+        omega_i_cross_f_i_world_1 * v_j[1] + omega_i_cross_f_i_world_2 * v_j[2]));
+    /* s_j_dot_g_i = s_j . g_i */
+    const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* omega_i_cross_g_i_world = omega_i x g_i, world axes */
     const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
     const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
     const jg_real omega_i_cross_g_i_world_2 = omega_i[0] * g_i_world_1 - omega_i[1] * g_i_world_0;
-    /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    /* r_j_dot_g_i = r_j . g_i */
-    const jg_real r_j_dot_g_i = g_i_world_0 * r_j[0] + g_i_world_1 * r_j[1] + g_i_world_2 * r_j[2];
-    /* r_i_dot_g_i = r_i . g_i */
-    const jg_real r_i_dot_g_i = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
-    gamma[4] = omega_i_dot_omega_i * (r_j_dot_g_i + s_j_dot_g_i - r_i_dot_g_i) - omega_i_dot_g_i * t37 -
-        g_i_dot_omega_j * t42 - t43 * s_j_dot_g_i + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_world_0 + v_i[1] *
-        omega_i_cross_g_i_world_1 + v_i[2] * omega_i_cross_g_i_world_2 - (v_j[0] * omega_i_cross_g_i_world_0 +
-        v_j[1] * omega_i_cross_g_i_world_1 + v_j[2] * omega_i_cross_g_i_world_2));
+    gamma[4] = omega_i_dot_omega_i * r_ij_dot_g_i - (t10 * s_j_dot_g_i + omega_i_dot_g_i * t36 + g_i_dot_omega_j *
+        t38) - JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_world_0 + v_j[1] * omega_i_cross_g_i_world_1 + v_j[2] *
+        omega_i_cross_g_i_world_2) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_world_0 + v_i[1] *
+        omega_i_cross_g_i_world_1 + v_i[2] * omega_i_cross_g_i_world_2);
 }
 
 void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -486,6 +492,10 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     phi_q_v[2] = omega_i_cross_f_i_world_0 * g_j_world_0 + omega_i_cross_f_i_world_1 * g_j_world_1 +
         omega_i_cross_f_i_world_2 * g_j_world_2 + (f_i_cross_omega_j_world_0 * g_j_world_0 +
         f_i_cross_omega_j_world_1 * g_j_world_1 + f_i_cross_omega_j_world_2 * g_j_world_2);
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     /* s_j_world = s_j, world axes */
@@ -494,20 +504,18 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* f_i_dot_v_j = f_i . v_j */
     const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
-    phi_q_v[3] = f_i_dot_v_j - (omega_i_cross_f_i_world_0 * r_i[0] + omega_i_cross_f_i_world_1 * r_i[1] +
-        omega_i_cross_f_i_world_2 * r_i[2] + (f_i_dot_v_i - (omega_i_cross_f_i_world_0 * r_j[0] +
-        omega_i_cross_f_i_world_1 * r_j[1] + omega_i_cross_f_i_world_2 * r_j[2]) - (omega_i_cross_f_i_world_0 *
-        s_j_world_0 + omega_i_cross_f_i_world_1 * s_j_world_1 + omega_i_cross_f_i_world_2 * s_j_world_2)) -
+    phi_q_v[3] = f_i_dot_v_j - (f_i_dot_v_i - (omega_i_cross_f_i_world_0 * r_ij_world_0 + omega_i_cross_f_i_world_1
+        * r_ij_world_1 + omega_i_cross_f_i_world_2 * r_ij_world_2) - (omega_i_cross_f_i_world_0 * s_j_world_0 +
+        omega_i_cross_f_i_world_1 * s_j_world_1 + omega_i_cross_f_i_world_2 * s_j_world_2) -
         (f_i_cross_omega_j_world_0 * s_j_world_0 + f_i_cross_omega_j_world_1 * s_j_world_1 +
         f_i_cross_omega_j_world_2 * s_j_world_2));
     /* g_i_dot_v_i = g_i . v_i */
     const jg_real g_i_dot_v_i = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     /* g_i_dot_v_j = g_i . v_j */
     const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
-    phi_q_v[4] = g_i_dot_v_j - (omega_i_cross_g_i_world_0 * r_i[0] + omega_i_cross_g_i_world_1 * r_i[1] +
-        omega_i_cross_g_i_world_2 * r_i[2] + (g_i_dot_v_i - (omega_i_cross_g_i_world_0 * r_j[0] +
-        omega_i_cross_g_i_world_1 * r_j[1] + omega_i_cross_g_i_world_2 * r_j[2]) - (omega_i_cross_g_i_world_0 *
-        s_j_world_0 + omega_i_cross_g_i_world_1 * s_j_world_1 + omega_i_cross_g_i_world_2 * s_j_world_2)) -
+    phi_q_v[4] = g_i_dot_v_j - (g_i_dot_v_i - (omega_i_cross_g_i_world_0 * r_ij_world_0 + omega_i_cross_g_i_world_1
+        * r_ij_world_1 + omega_i_cross_g_i_world_2 * r_ij_world_2) - (omega_i_cross_g_i_world_0 * s_j_world_0 +
+        omega_i_cross_g_i_world_1 * s_j_world_1 + omega_i_cross_g_i_world_2 * s_j_world_2) -
         (g_i_cross_omega_j_world_0 * s_j_world_0 + g_i_cross_omega_j_world_1 * s_j_world_1 +
         g_i_cross_omega_j_world_2 * s_j_world_2));
 }
@@ -557,29 +565,29 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real v_4_world_0 = g_i_world_1 * v_3_world_2 - g_i_world_2 * v_3_world_1;
     /* v_5_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j + lambda_2 f_i x g_j - lambda_3 s_j x f_i - ... */
     const jg_real v_5_world_0 = v_2_world_0 + v_4_world_0;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    /* v_7_world = lambda_3 r_j x f_i - lambda_3 r_i x f_i + lambda_4 r_j x g_i - lambda_4 r_i x g_i, world axes */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
-    /* v_8_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j + lambda_2 f_i x g_j - lambda_3 r_j x f_i - ... */
-    const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    phi_q_t_lambda[3] = v_8_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_6_world = lambda_3 r_ij x f_i + lambda_4 r_ij x g_i, world axes */
+    const jg_real v_6_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
+    /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j + lambda_2 f_i x g_j - lambda_3 r_ij x f_i - ... */
+    const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    phi_q_t_lambda[3] = v_7_world_0;
     const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
     const jg_real v_2_world_1 = f_i_world_2 * v_1_world_0 - f_i_world_0 * v_1_world_2;
     const jg_real v_3_world_0 = A_j[0] * v_3_in_j_0 + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
     const jg_real v_4_world_1 = g_i_world_2 * v_3_world_0 - g_i_world_0 * v_3_world_2;
     const jg_real v_5_world_1 = v_2_world_1 + v_4_world_1;
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
-    const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    phi_q_t_lambda[4] = v_8_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real v_6_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
+    phi_q_t_lambda[4] = v_7_world_1;
     const jg_real v_2_world_2 = f_i_world_0 * v_1_world_1 - f_i_world_1 * v_1_world_0;
     const jg_real v_4_world_2 = g_i_world_0 * v_3_world_1 - g_i_world_1 * v_3_world_0;
     const jg_real v_5_world_2 = v_2_world_2 + v_4_world_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
-    const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    phi_q_t_lambda[5] = v_8_world_2;
+    const jg_real v_6_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    phi_q_t_lambda[5] = v_7_world_2;
     phi_q_t_lambda[9] = -v_5_world_0;
     phi_q_t_lambda[10] = -v_5_world_1;
     phi_q_t_lambda[11] = -v_5_world_2;
@@ -635,22 +643,24 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    /* r_j_dot_f_i = r_j . f_i */
-    const jg_real r_j_dot_f_i = f_i_world_0 * r_j[0] + f_i_world_1 * r_j[1] + f_i_world_2 * r_j[2];
-    /* r_i_dot_f_i = r_i . f_i */
-    const jg_real r_i_dot_f_i = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     /* s_i_dot_f_i = s_i . f_i */
     const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    phi[3] = r_j_dot_f_i + s_j_dot_f_i - r_i_dot_f_i - s_i_dot_f_i;
+    phi[3] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    /* r_j_dot_g_i = r_j . g_i */
-    const jg_real r_j_dot_g_i = g_i_world_0 * r_j[0] + g_i_world_1 * r_j[1] + g_i_world_2 * r_j[2];
-    /* r_i_dot_g_i = r_i . g_i */
-    const jg_real r_i_dot_g_i = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* s_i_dot_g_i = s_i . g_i */
     const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    phi[4] = r_j_dot_g_i + s_j_dot_g_i - r_i_dot_g_i - s_i_dot_g_i;
+    phi[4] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
     phi_q[0] = -f_i_world_0;
     phi_q[1] = -g_i_world_0;
     phi_q[2] = -f_i_world_1;
@@ -666,12 +676,9 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     /* f_i_cross_g_j_world = f_i x g_j, world axes */
     const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
     phi_q[8] = f_i_cross_g_j_world_0;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
@@ -680,8 +687,7 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[12] = g_i_cross_h_j_world_1;
     const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
     phi_q[13] = f_i_cross_g_j_world_1;
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
@@ -715,118 +721,127 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[40] = s_j_cross_f_i_world_2;
     const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
     phi_q[41] = s_j_cross_g_i_world_2;
-    /* v_3_world = lambda_3 f_i + lambda_4 g_i, world axes */
-    const jg_real v_3_world_2 = f_i_world_2 * lambda[3] + g_i_world_2 * lambda[4];
-    phi_q_t_lambda_q[2] = v_3_world_2;
-    phi_q_t_lambda_q[6] = v_3_world_2;
-    phi_q_t_lambda_q[21] = v_3_world_2;
-    phi_q_t_lambda_q[36] = v_3_world_2;
-    const jg_real t48 = -v_3_world_2;
-    phi_q_t_lambda_q[0] = t48;
-    phi_q_t_lambda_q[11] = t48;
-    phi_q_t_lambda_q[16] = t48;
-    phi_q_t_lambda_q[38] = t48;
-    const jg_real v_3_world_1 = f_i_world_1 * lambda[3] + g_i_world_1 * lambda[4];
-    phi_q_t_lambda_q[1] = v_3_world_1;
-    phi_q_t_lambda_q[12] = v_3_world_1;
-    phi_q_t_lambda_q[26] = v_3_world_1;
-    phi_q_t_lambda_q[40] = v_3_world_1;
-    const jg_real v_3_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
-    phi_q_t_lambda_q[5] = v_3_world_0;
-    phi_q_t_lambda_q[17] = v_3_world_0;
-    phi_q_t_lambda_q[32] = v_3_world_0;
-    phi_q_t_lambda_q[39] = v_3_world_0;
-    const jg_real t51 = -v_3_world_0;
-    phi_q_t_lambda_q[3] = t51;
-    phi_q_t_lambda_q[22] = t51;
-    phi_q_t_lambda_q[27] = t51;
-    phi_q_t_lambda_q[41] = t51;
-    const jg_real t52 = -v_3_world_1;
-    phi_q_t_lambda_q[4] = t52;
-    phi_q_t_lambda_q[7] = t52;
-    phi_q_t_lambda_q[31] = t52;
-    phi_q_t_lambda_q[37] = t52;
-    /* v_4_world = lambda_3 r_j + lambda_3 s_j - lambda_3 r_i + lambda_2 g_j + lambda_0 h_j, world axes */
-    const jg_real v_4_world_1 = e_ij_world_1 * lambda[3] + g_j_world_1 * lambda[2] + h_j_world_1 * lambda[0];
-    /* v_5_world = lambda_4 r_j + lambda_4 s_j - lambda_4 r_i + lambda_1 h_j, world axes */
-    const jg_real v_5_world_1 = e_ij_world_1 * lambda[4] + h_j_world_1 * lambda[1];
-    /* M_0_world_world = (lambda_3 r_j + lambda_3 s_j - lambda_3 r_i + lambda_2 g_j + lambda_0 h_j) f_i^T + ... */
-    const jg_real M_0_world_world_4 = f_i_world_1 * v_4_world_1 + g_i_world_1 * v_5_world_1;
-    const jg_real v_4_world_2 = e_ij_world_2 * lambda[3] + g_j_world_2 * lambda[2] + h_j_world_2 * lambda[0];
-    const jg_real v_5_world_2 = e_ij_world_2 * lambda[4] + h_j_world_2 * lambda[1];
-    const jg_real M_0_world_world_8 = f_i_world_2 * v_4_world_2 + g_i_world_2 * v_5_world_2;
+    /* v_2_world = lambda_3 f_i + lambda_4 g_i, world axes */
+    const jg_real v_2_world_2 = f_i_world_2 * lambda[3] + g_i_world_2 * lambda[4];
+    phi_q_t_lambda_q[2] = v_2_world_2;
+    phi_q_t_lambda_q[6] = v_2_world_2;
+    phi_q_t_lambda_q[21] = v_2_world_2;
+    phi_q_t_lambda_q[36] = v_2_world_2;
+    const jg_real t46 = -v_2_world_2;
+    phi_q_t_lambda_q[0] = t46;
+    phi_q_t_lambda_q[11] = t46;
+    phi_q_t_lambda_q[16] = t46;
+    phi_q_t_lambda_q[38] = t46;
+    const jg_real v_2_world_1 = f_i_world_1 * lambda[3] + g_i_world_1 * lambda[4];
+    phi_q_t_lambda_q[1] = v_2_world_1;
+    phi_q_t_lambda_q[12] = v_2_world_1;
+    phi_q_t_lambda_q[26] = v_2_world_1;
+    phi_q_t_lambda_q[40] = v_2_world_1;
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
+    phi_q_t_lambda_q[5] = v_2_world_0;
+    phi_q_t_lambda_q[17] = v_2_world_0;
+    phi_q_t_lambda_q[32] = v_2_world_0;
+    phi_q_t_lambda_q[39] = v_2_world_0;
+    const jg_real t49 = -v_2_world_0;
+    phi_q_t_lambda_q[3] = t49;
+    phi_q_t_lambda_q[22] = t49;
+    phi_q_t_lambda_q[27] = t49;
+    phi_q_t_lambda_q[41] = t49;
+    const jg_real t50 = -v_2_world_1;
+    phi_q_t_lambda_q[4] = t50;
+    phi_q_t_lambda_q[7] = t50;
+    phi_q_t_lambda_q[31] = t50;
+    phi_q_t_lambda_q[37] = t50;
+    /* v_3_world = lambda_3 r_ij + lambda_3 s_j + lambda_0 h_j, world axes */
+    const jg_real v_3_world_1 = e_ij_world_1 * lambda[3] + h_j_world_1 * lambda[0];
+    /* v_4_world = lambda_2 g_j, world axes */
+    const jg_real v_4_world_1 = g_j_world_1 * lambda[2];
+    /* v_5_world = lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
+    const jg_real v_5_world_1 = v_3_world_1 + v_4_world_1;
+    /* v_6_world = lambda_4 r_ij + lambda_4 s_j + lambda_1 h_j, world axes */
+    const jg_real v_6_world_1 = e_ij_world_1 * lambda[4] + h_j_world_1 * lambda[1];
+    /* M_0_world_world = (lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 r_ij + ...
+        */
+    const jg_real M_0_world_world_4 = f_i_world_1 * v_5_world_1 + g_i_world_1 * v_6_world_1;
+    const jg_real v_3_world_2 = e_ij_world_2 * lambda[3] + h_j_world_2 * lambda[0];
+    const jg_real v_4_world_2 = g_j_world_2 * lambda[2];
+    const jg_real v_5_world_2 = v_3_world_2 + v_4_world_2;
+    const jg_real v_6_world_2 = e_ij_world_2 * lambda[4] + h_j_world_2 * lambda[1];
+    const jg_real M_0_world_world_8 = f_i_world_2 * v_5_world_2 + g_i_world_2 * v_6_world_2;
     phi_q_t_lambda_q[8] = -(M_0_world_world_4 + M_0_world_world_8);
-    const jg_real v_4_world_0 = e_ij_world_0 * lambda[3] + g_j_world_0 * lambda[2] + h_j_world_0 * lambda[0];
-    const jg_real v_5_world_0 = e_ij_world_0 * lambda[4] + h_j_world_0 * lambda[1];
-    const jg_real M_0_world_world_1 = f_i_world_1 * v_4_world_0 + g_i_world_1 * v_5_world_0;
+    const jg_real v_3_world_0 = e_ij_world_0 * lambda[3] + h_j_world_0 * lambda[0];
+    const jg_real v_4_world_0 = g_j_world_0 * lambda[2];
+    const jg_real v_5_world_0 = v_3_world_0 + v_4_world_0;
+    const jg_real v_6_world_0 = e_ij_world_0 * lambda[4] + h_j_world_0 * lambda[1];
+    const jg_real M_0_world_world_1 = f_i_world_1 * v_5_world_0 + g_i_world_1 * v_6_world_0;
     phi_q_t_lambda_q[9] = M_0_world_world_1;
-    const jg_real M_0_world_world_2 = f_i_world_2 * v_4_world_0 + g_i_world_2 * v_5_world_0;
+    const jg_real M_0_world_world_2 = f_i_world_2 * v_5_world_0 + g_i_world_2 * v_6_world_0;
     phi_q_t_lambda_q[10] = M_0_world_world_2;
     /* M_1_world_world = (lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 s_j + lambda_1 h_j) g_i^T;
         ... */
-    const jg_real M_1_world_world_4 = M_0_world_world_4 - v_0_world_1 * v_3_world_1;
-    const jg_real M_1_world_world_8 = M_0_world_world_8 - v_0_world_2 * v_3_world_2;
-    const jg_real t65 = M_1_world_world_4 + M_1_world_world_8;
-    phi_q_t_lambda_q[13] = t65;
-    phi_q_t_lambda_q[42] = t65;
-    const jg_real M_1_world_world_1 = M_0_world_world_1 - v_0_world_0 * v_3_world_1;
+    const jg_real M_1_world_world_4 = M_0_world_world_4 - r_ij_world_1 * v_2_world_1;
+    const jg_real M_1_world_world_8 = M_0_world_world_8 - r_ij_world_2 * v_2_world_2;
+    const jg_real t69 = M_1_world_world_4 + M_1_world_world_8;
+    phi_q_t_lambda_q[13] = t69;
+    phi_q_t_lambda_q[42] = t69;
+    const jg_real M_1_world_world_1 = M_0_world_world_1 - r_ij_world_0 * v_2_world_1;
     phi_q_t_lambda_q[51] = M_1_world_world_1;
-    const jg_real t67 = -M_1_world_world_1;
-    phi_q_t_lambda_q[14] = t67;
-    phi_q_t_lambda_q[48] = t67;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 - v_0_world_0 * v_3_world_2;
+    const jg_real t71 = -M_1_world_world_1;
+    phi_q_t_lambda_q[14] = t71;
+    phi_q_t_lambda_q[48] = t71;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 - r_ij_world_0 * v_2_world_2;
     phi_q_t_lambda_q[57] = M_1_world_world_2;
-    const jg_real t69 = -M_1_world_world_2;
-    phi_q_t_lambda_q[15] = t69;
-    phi_q_t_lambda_q[54] = t69;
-    const jg_real M_0_world_world_3 = f_i_world_0 * v_4_world_1 + g_i_world_0 * v_5_world_1;
+    const jg_real t73 = -M_1_world_world_2;
+    phi_q_t_lambda_q[15] = t73;
+    phi_q_t_lambda_q[54] = t73;
+    const jg_real M_0_world_world_3 = f_i_world_0 * v_5_world_1 + g_i_world_0 * v_6_world_1;
     phi_q_t_lambda_q[18] = M_0_world_world_3;
-    const jg_real M_0_world_world_0 = f_i_world_0 * v_4_world_0 + g_i_world_0 * v_5_world_0;
+    const jg_real M_0_world_world_0 = f_i_world_0 * v_5_world_0 + g_i_world_0 * v_6_world_0;
     phi_q_t_lambda_q[19] = -(M_0_world_world_0 + M_0_world_world_8);
-    const jg_real M_0_world_world_5 = f_i_world_2 * v_4_world_1 + g_i_world_2 * v_5_world_1;
+    const jg_real M_0_world_world_5 = f_i_world_2 * v_5_world_1 + g_i_world_2 * v_6_world_1;
     phi_q_t_lambda_q[20] = M_0_world_world_5;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 - v_0_world_1 * v_3_world_0;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 - r_ij_world_1 * v_2_world_0;
     phi_q_t_lambda_q[46] = M_1_world_world_3;
-    const jg_real t74 = -M_1_world_world_3;
-    phi_q_t_lambda_q[23] = t74;
-    phi_q_t_lambda_q[43] = t74;
-    const jg_real M_1_world_world_0 = M_0_world_world_0 - v_0_world_0 * v_3_world_0;
-    const jg_real t76 = M_1_world_world_0 + M_1_world_world_8;
-    phi_q_t_lambda_q[24] = t76;
-    phi_q_t_lambda_q[49] = t76;
-    const jg_real M_1_world_world_5 = M_0_world_world_5 - v_0_world_1 * v_3_world_2;
+    const jg_real t78 = -M_1_world_world_3;
+    phi_q_t_lambda_q[23] = t78;
+    phi_q_t_lambda_q[43] = t78;
+    const jg_real M_1_world_world_0 = M_0_world_world_0 - r_ij_world_0 * v_2_world_0;
+    const jg_real t80 = M_1_world_world_0 + M_1_world_world_8;
+    phi_q_t_lambda_q[24] = t80;
+    phi_q_t_lambda_q[49] = t80;
+    const jg_real M_1_world_world_5 = M_0_world_world_5 - r_ij_world_1 * v_2_world_2;
     phi_q_t_lambda_q[58] = M_1_world_world_5;
-    const jg_real t78 = -M_1_world_world_5;
-    phi_q_t_lambda_q[25] = t78;
-    phi_q_t_lambda_q[55] = t78;
-    const jg_real M_0_world_world_6 = f_i_world_0 * v_4_world_2 + g_i_world_0 * v_5_world_2;
+    const jg_real t82 = -M_1_world_world_5;
+    phi_q_t_lambda_q[25] = t82;
+    phi_q_t_lambda_q[55] = t82;
+    const jg_real M_0_world_world_6 = f_i_world_0 * v_5_world_2 + g_i_world_0 * v_6_world_2;
     phi_q_t_lambda_q[28] = M_0_world_world_6;
-    const jg_real M_0_world_world_7 = f_i_world_1 * v_4_world_2 + g_i_world_1 * v_5_world_2;
+    const jg_real M_0_world_world_7 = f_i_world_1 * v_5_world_2 + g_i_world_1 * v_6_world_2;
     phi_q_t_lambda_q[29] = M_0_world_world_7;
     phi_q_t_lambda_q[30] = -(M_0_world_world_0 + M_0_world_world_4);
-    const jg_real M_1_world_world_6 = M_0_world_world_6 - v_0_world_2 * v_3_world_0;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 - r_ij_world_2 * v_2_world_0;
     phi_q_t_lambda_q[47] = M_1_world_world_6;
-    const jg_real t82 = -M_1_world_world_6;
-    phi_q_t_lambda_q[33] = t82;
-    phi_q_t_lambda_q[44] = t82;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 - v_0_world_2 * v_3_world_1;
+    const jg_real t86 = -M_1_world_world_6;
+    phi_q_t_lambda_q[33] = t86;
+    phi_q_t_lambda_q[44] = t86;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 - r_ij_world_2 * v_2_world_1;
     phi_q_t_lambda_q[53] = M_1_world_world_7;
-    const jg_real t84 = -M_1_world_world_7;
-    phi_q_t_lambda_q[34] = t84;
-    phi_q_t_lambda_q[50] = t84;
-    const jg_real t85 = M_1_world_world_0 + M_1_world_world_4;
-    phi_q_t_lambda_q[35] = t85;
-    phi_q_t_lambda_q[56] = t85;
-    phi_q_t_lambda_q[45] = -t65;
-    phi_q_t_lambda_q[52] = -t76;
-    phi_q_t_lambda_q[59] = -t85;
+    const jg_real t88 = -M_1_world_world_7;
+    phi_q_t_lambda_q[34] = t88;
+    phi_q_t_lambda_q[50] = t88;
+    const jg_real t89 = M_1_world_world_0 + M_1_world_world_4;
+    phi_q_t_lambda_q[35] = t89;
+    phi_q_t_lambda_q[56] = t89;
+    phi_q_t_lambda_q[45] = -t69;
+    phi_q_t_lambda_q[52] = -t80;
+    phi_q_t_lambda_q[59] = -t89;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    const jg_real t89 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
+    const jg_real t93 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* f_i_dot_omega_i = f_i . omega_i */
@@ -835,46 +850,45 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
-    gamma[0] = f_i_dot_h_j * t89 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
+    gamma[0] = f_i_dot_h_j * t93 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
         h_j_dot_omega_j * f_i_dot_omega_j;
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
-    gamma[1] = g_i_dot_h_j * t89 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+    gamma[1] = g_i_dot_h_j * t93 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
         h_j_dot_omega_j * g_i_dot_omega_j;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_world_0 * omega_i[0] + g_j_world_1 * omega_i[1] + g_j_world_2 * omega_i[2];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = g_j_world_0 * omega_j[0] + g_j_world_1 * omega_j[1] + g_j_world_2 * omega_j[2];
-    gamma[2] = f_i_dot_g_j * t89 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+    gamma[2] = f_i_dot_g_j * t93 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
         f_i_dot_omega_i * g_j_dot_omega_i;
+    /* s_j_dot_omega_i = s_j . omega_i */
+    const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
+        omega_i[2];
+    const jg_real t104 = r_ij_dot_omega_i + s_j_dot_omega_i;
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    const jg_real t106 = JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j;
     /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
     const jg_real f_i_cross_omega_i_world_0 = f_i_world_1 * omega_i[2] - f_i_world_2 * omega_i[1];
     const jg_real f_i_cross_omega_i_world_1 = f_i_world_2 * omega_i[0] - f_i_world_0 * omega_i[2];
     const jg_real f_i_cross_omega_i_world_2 = f_i_world_0 * omega_i[1] - f_i_world_1 * omega_i[0];
-    /* s_j_dot_omega_i = s_j . omega_i */
-    const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
-    /* r_j_dot_omega_i = r_j . omega_i */
-    const jg_real r_j_dot_omega_i = r_j[0] * omega_i[0] + r_j[1] * omega_i[1] + r_j[2] * omega_i[2];
-    /* r_i_dot_omega_i = r_i . omega_i */
-    const jg_real r_i_dot_omega_i = r_i[0] * omega_i[0] + r_i[1] * omega_i[1] + r_i[2] * omega_i[2];
-    const jg_real t104 = r_i_dot_omega_i - (r_j_dot_omega_i + s_j_dot_omega_i);
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
-    const jg_real t106 = JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j;
-    gamma[3] = s_j_dot_f_i * t89 + f_i_dot_omega_i * t104 + omega_i_dot_omega_i * (r_j_dot_f_i - r_i_dot_f_i) +
-        f_i_dot_omega_j * t106 + JG_REAL(2.0) * (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 *
-        v_j[1] + f_i_cross_omega_i_world_2 * v_j[2] - (f_i_cross_omega_i_world_0 * v_i[0] +
-        f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 * v_i[2]));
+    gamma[3] = s_j_dot_f_i * t93 - f_i_dot_omega_i * t104 + f_i_dot_omega_j * t106 + r_ij_dot_f_i *
+        omega_i_dot_omega_i + JG_REAL(2.0) * (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 *
+        v_j[1] + f_i_cross_omega_i_world_2 * v_j[2]) - JG_REAL(2.0) * (f_i_cross_omega_i_world_0 * v_i[0] +
+        f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 * v_i[2]);
     /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
     const jg_real g_i_cross_omega_i_world_0 = g_i_world_1 * omega_i[2] - g_i_world_2 * omega_i[1];
     const jg_real g_i_cross_omega_i_world_1 = g_i_world_2 * omega_i[0] - g_i_world_0 * omega_i[2];
     const jg_real g_i_cross_omega_i_world_2 = g_i_world_0 * omega_i[1] - g_i_world_1 * omega_i[0];
-    gamma[4] = s_j_dot_g_i * t89 + g_i_dot_omega_i * t104 + omega_i_dot_omega_i * (r_j_dot_g_i - r_i_dot_g_i) +
-        g_i_dot_omega_j * t106 + JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] *
-        g_i_cross_omega_i_world_1 + v_j[2] * g_i_cross_omega_i_world_2 - (v_i[0] * g_i_cross_omega_i_world_0 +
-        v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] * g_i_cross_omega_i_world_2));
+    gamma[4] = s_j_dot_g_i * t93 - g_i_dot_omega_i * t104 + g_i_dot_omega_j * t106 + r_ij_dot_g_i *
+        omega_i_dot_omega_i + JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] *
+        g_i_cross_omega_i_world_1 + v_j[2] * g_i_cross_omega_i_world_2) - JG_REAL(2.0) * (v_i[0] *
+        g_i_cross_omega_i_world_0 + v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] * g_i_cross_omega_i_world_2);
 }
 
 void jg_translational_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

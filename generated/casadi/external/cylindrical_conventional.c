@@ -50,10 +50,10 @@ static void jg_cylindrical_conventional_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_r_i[5] = -t5;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
     jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
     /* h_j_world = h_j, world axes */
@@ -61,16 +61,16 @@ static void jg_cylindrical_conventional_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_i[2] = C_i[0] * h_j_world_0;
     jac_phi_A_i[3] = C_i[3] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[4] = e_ij_world_1 * C_i[0];
     jac_phi_A_i[5] = e_ij_world_1 * C_i[3];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[6] = C_i[0] * h_j_world_1;
     jac_phi_A_i[7] = C_i[3] * h_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[8] = e_ij_world_2 * C_i[0];
     jac_phi_A_i[9] = e_ij_world_2 * C_i[3];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -196,9 +196,9 @@ static void jg_cylindrical_conventional_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[3] = -C_i[4];
     jac_phi_geometry[4] = -C_i[2];
     jac_phi_geometry[5] = -C_i[5];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[6] = d_ij_in_i_0;
     jac_phi_geometry[12] = d_ij_in_i_0;
@@ -296,407 +296,305 @@ static void jg_cylindrical_conventional_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real g_i_cross_omega_i_world_2 = omega_i_world_1 * g_i_world_0 - omega_i_world_0 * g_i_world_1;
     jac_phi_q_v_r_i[5] = g_i_cross_omega_i_world_2;
     const jg_real t15 = C_i[0] * omega_i_world_2 - omega_i[0] * f_i_world_2;
-    const jg_real t16 = f_i_world_1 * omega_i[0] - C_i[0] * omega_i_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t17 = f_i_world_1 * omega_i[0] - C_i[0] * omega_i_world_1;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t19 = C_i[0] * A_j[3];
-    const jg_real t20 = C_i[0] * A_j[6];
-    const jg_real t21 = t19 * omega_j[2] - t20 * omega_j[1];
-    const jg_real t22 = C_i[0] * A_j[0];
-    const jg_real t23 = t20 * omega_j[0] - omega_j[2] * t22;
-    const jg_real t24 = omega_j[1] * t22 - t19 * omega_j[0];
-    jac_phi_q_v_A_i[0] = s_j[0] * t21 + s_j[1] * t23 + s_j[2] * t24 - (t15 * r_i[1] + t16 * r_i[2] - (t15 * r_j[1] +
-        t16 * r_j[2] + (t15 * s_j_world_1 + t16 * s_j_world_2)) + C_i[0] * v_i[0] - C_i[0] * v_j[0]);
-    const jg_real t25 = omega_i_world_2 * C_i[3] - omega_i[0] * g_i_world_2;
-    const jg_real t26 = omega_i[0] * g_i_world_1 - omega_i_world_1 * C_i[3];
-    const jg_real t27 = A_j[3] * C_i[3];
-    const jg_real t28 = A_j[6] * C_i[3];
-    const jg_real t29 = omega_j[2] * t27 - omega_j[1] * t28;
-    const jg_real t30 = A_j[0] * C_i[3];
-    const jg_real t31 = omega_j[0] * t28 - omega_j[2] * t30;
-    const jg_real t32 = omega_j[1] * t30 - omega_j[0] * t27;
-    jac_phi_q_v_A_i[1] = s_j[0] * t29 + s_j[1] * t31 + s_j[2] * t32 - (r_i[1] * t25 + r_i[2] * t26 - (r_j[1] * t25 +
-        r_j[2] * t26 + (s_j_world_1 * t25 + s_j_world_2 * t26)) + v_i[0] * C_i[3] - v_j[0] * C_i[3]);
+    /* omega_j_world = omega_j, world axes */
+    const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
+    const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
+    /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
+    const jg_real s_j_cross_omega_j_world_0 = s_j_world_1 * omega_j_world_2 - s_j_world_2 * omega_j_world_1;
+    jac_phi_q_v_A_i[0] = -(C_i[0] * v_i[0] - (t15 * r_ij_world_1 + t17 * r_ij_world_2 + (t15 * s_j_world_1 + t17 *
+        s_j_world_2)) - C_i[0] * v_j[0] + C_i[0] * s_j_cross_omega_j_world_0);
+    const jg_real t24 = omega_i_world_2 * C_i[3] - omega_i[0] * g_i_world_2;
+    const jg_real t25 = omega_i[0] * g_i_world_1 - omega_i_world_1 * C_i[3];
+    jac_phi_q_v_A_i[1] = -(v_i[0] * C_i[3] - (r_ij_world_1 * t24 + r_ij_world_2 * t25 + (s_j_world_1 * t24 +
+        s_j_world_2 * t25)) - v_j[0] * C_i[3] + s_j_cross_omega_j_world_0 * C_i[3]);
     /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    jac_phi_q_v_A_i[2] = t21 * C_j[6] + t23 * C_j[7] + t24 * C_j[8] + (t15 * h_j_world_1 + t16 * h_j_world_2);
-    jac_phi_q_v_A_i[3] = t29 * C_j[6] + t31 * C_j[7] + t32 * C_j[8] + (t25 * h_j_world_1 + t26 * h_j_world_2);
-    const jg_real t35 = C_i[0] * omega_i_world_0 - omega_i[0] * f_i_world_0;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* omega_j_cross_h_j_world = omega_j x h_j, world axes */
+    const jg_real omega_j_cross_h_j_world_0 = omega_j_world_1 * h_j_world_2 - omega_j_world_2 * h_j_world_1;
+    jac_phi_q_v_A_i[2] = t15 * h_j_world_1 + t17 * h_j_world_2 + C_i[0] * omega_j_cross_h_j_world_0;
+    jac_phi_q_v_A_i[3] = t24 * h_j_world_1 + t25 * h_j_world_2 + C_i[3] * omega_j_cross_h_j_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t30 = C_i[0] * omega_i_world_0 - omega_i[0] * f_i_world_0;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real t37 = C_i[0] * A_j[4];
-    const jg_real t38 = C_i[0] * A_j[7];
-    const jg_real t39 = t37 * omega_j[2] - t38 * omega_j[1];
-    const jg_real t40 = C_i[0] * A_j[1];
-    const jg_real t41 = t38 * omega_j[0] - omega_j[2] * t40;
-    const jg_real t42 = omega_j[1] * t40 - t37 * omega_j[0];
-    jac_phi_q_v_A_i[4] = s_j[0] * t39 + s_j[1] * t41 + s_j[2] * t42 - (t15 * r_j[0] - t35 * r_j[2] + (t15 *
-        s_j_world_0 - t35 * s_j_world_2) - (t15 * r_i[0] - t35 * r_i[2]) + C_i[0] * v_i[1] - C_i[0] * v_j[1]);
-    const jg_real t43 = omega_i_world_0 * C_i[3] - omega_i[0] * g_i_world_0;
-    const jg_real t44 = A_j[4] * C_i[3];
-    const jg_real t45 = A_j[7] * C_i[3];
-    const jg_real t46 = omega_j[2] * t44 - omega_j[1] * t45;
-    const jg_real t47 = A_j[1] * C_i[3];
-    const jg_real t48 = omega_j[0] * t45 - omega_j[2] * t47;
-    const jg_real t49 = omega_j[1] * t47 - omega_j[0] * t44;
-    jac_phi_q_v_A_i[5] = s_j[0] * t46 + s_j[1] * t48 + s_j[2] * t49 - (r_j[0] * t25 - r_j[2] * t43 + (s_j_world_0 *
-        t25 - s_j_world_2 * t43) - (r_i[0] * t25 - r_i[2] * t43) + v_i[1] * C_i[3] - v_j[1] * C_i[3]);
+    const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + A_j[3] * omega_j[1] + A_j[6] * omega_j[2];
+    const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j_world_0 - s_j_world_0 * omega_j_world_2;
+    jac_phi_q_v_A_i[4] = -(t15 * r_ij_world_0 - t30 * r_ij_world_2 + (t15 * s_j_world_0 - t30 * s_j_world_2) +
+        C_i[0] * v_i[1] - C_i[0] * v_j[1] + C_i[0] * s_j_cross_omega_j_world_1);
+    const jg_real t34 = omega_i_world_0 * C_i[3] - omega_i[0] * g_i_world_0;
+    jac_phi_q_v_A_i[5] = -(r_ij_world_0 * t24 - r_ij_world_2 * t34 + (s_j_world_0 * t24 - s_j_world_2 * t34) +
+        v_i[1] * C_i[3] - v_j[1] * C_i[3] + s_j_cross_omega_j_world_1 * C_i[3]);
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_q_v_A_i[6] = t39 * C_j[6] + t41 * C_j[7] + t42 * C_j[8] - (t15 * h_j_world_0 - t35 * h_j_world_2);
-    jac_phi_q_v_A_i[7] = t46 * C_j[6] + t48 * C_j[7] + t49 * C_j[8] - (t25 * h_j_world_0 - t43 * h_j_world_2);
-    const jg_real t51 = C_i[0] * A_j[5];
-    const jg_real t52 = C_i[0] * A_j[8];
-    const jg_real t53 = t51 * omega_j[2] - t52 * omega_j[1];
-    const jg_real t54 = C_i[0] * A_j[2];
-    const jg_real t55 = t52 * omega_j[0] - omega_j[2] * t54;
-    const jg_real t56 = omega_j[1] * t54 - t51 * omega_j[0];
-    jac_phi_q_v_A_i[8] = s_j[0] * t53 + s_j[1] * t55 + s_j[2] * t56 - (t16 * r_j[0] + t35 * r_j[1] + (t16 *
-        s_j_world_0 + t35 * s_j_world_1) - (t16 * r_i[0] + t35 * r_i[1]) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
-    const jg_real t57 = A_j[5] * C_i[3];
-    const jg_real t58 = A_j[8] * C_i[3];
-    const jg_real t59 = omega_j[2] * t57 - omega_j[1] * t58;
-    const jg_real t60 = A_j[2] * C_i[3];
-    const jg_real t61 = omega_j[0] * t58 - omega_j[2] * t60;
-    const jg_real t62 = omega_j[1] * t60 - omega_j[0] * t57;
-    jac_phi_q_v_A_i[9] = s_j[0] * t59 + s_j[1] * t61 + s_j[2] * t62 - (r_j[0] * t26 + r_j[1] * t43 + (s_j_world_0 *
-        t26 + s_j_world_1 * t43) - (r_i[0] * t26 + r_i[1] * t43) + v_i[2] * C_i[3] - v_j[2] * C_i[3]);
-    jac_phi_q_v_A_i[10] = t53 * C_j[6] + t55 * C_j[7] + t56 * C_j[8] - (t16 * h_j_world_0 + t35 * h_j_world_1);
-    jac_phi_q_v_A_i[11] = t59 * C_j[6] + t61 * C_j[7] + t62 * C_j[8] - (t26 * h_j_world_0 + t43 * h_j_world_1);
-    const jg_real t63 = C_i[1] * omega_i_world_2 - omega_i[1] * f_i_world_2;
-    const jg_real t64 = f_i_world_1 * omega_i[1] - C_i[1] * omega_i_world_1;
-    const jg_real t65 = C_i[1] * A_j[3];
-    const jg_real t66 = C_i[1] * A_j[6];
-    const jg_real t67 = t65 * omega_j[2] - t66 * omega_j[1];
-    const jg_real t68 = C_i[1] * A_j[0];
-    const jg_real t69 = t66 * omega_j[0] - omega_j[2] * t68;
-    const jg_real t70 = omega_j[1] * t68 - t65 * omega_j[0];
-    jac_phi_q_v_A_i[12] = s_j[0] * t67 + s_j[1] * t69 + s_j[2] * t70 - (t63 * r_i[1] + t64 * r_i[2] - (t63 * r_j[1]
-        + t64 * r_j[2] + (t63 * s_j_world_1 + t64 * s_j_world_2)) + C_i[1] * v_i[0] - C_i[1] * v_j[0]);
-    const jg_real t71 = omega_i_world_2 * C_i[4] - omega_i[1] * g_i_world_2;
-    const jg_real t72 = omega_i[1] * g_i_world_1 - omega_i_world_1 * C_i[4];
-    const jg_real t73 = A_j[3] * C_i[4];
-    const jg_real t74 = A_j[6] * C_i[4];
-    const jg_real t75 = omega_j[2] * t73 - omega_j[1] * t74;
-    const jg_real t76 = A_j[0] * C_i[4];
-    const jg_real t77 = omega_j[0] * t74 - omega_j[2] * t76;
-    const jg_real t78 = omega_j[1] * t76 - omega_j[0] * t73;
-    jac_phi_q_v_A_i[13] = s_j[0] * t75 + s_j[1] * t77 + s_j[2] * t78 - (r_i[1] * t71 + r_i[2] * t72 - (r_j[1] * t71
-        + r_j[2] * t72 + (s_j_world_1 * t71 + s_j_world_2 * t72)) + v_i[0] * C_i[4] - v_j[0] * C_i[4]);
-    jac_phi_q_v_A_i[14] = t67 * C_j[6] + t69 * C_j[7] + t70 * C_j[8] + (t63 * h_j_world_1 + t64 * h_j_world_2);
-    jac_phi_q_v_A_i[15] = t75 * C_j[6] + t77 * C_j[7] + t78 * C_j[8] + (t71 * h_j_world_1 + t72 * h_j_world_2);
-    const jg_real t79 = C_i[1] * omega_i_world_0 - omega_i[1] * f_i_world_0;
-    const jg_real t80 = C_i[1] * A_j[4];
-    const jg_real t81 = C_i[1] * A_j[7];
-    const jg_real t82 = t80 * omega_j[2] - t81 * omega_j[1];
-    const jg_real t83 = C_i[1] * A_j[1];
-    const jg_real t84 = t81 * omega_j[0] - omega_j[2] * t83;
-    const jg_real t85 = omega_j[1] * t83 - t80 * omega_j[0];
-    jac_phi_q_v_A_i[16] = s_j[0] * t82 + s_j[1] * t84 + s_j[2] * t85 - (t63 * r_j[0] - t79 * r_j[2] + (t63 *
-        s_j_world_0 - t79 * s_j_world_2) - (t63 * r_i[0] - t79 * r_i[2]) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
-    const jg_real t86 = omega_i_world_0 * C_i[4] - omega_i[1] * g_i_world_0;
-    const jg_real t87 = A_j[4] * C_i[4];
-    const jg_real t88 = A_j[7] * C_i[4];
-    const jg_real t89 = omega_j[2] * t87 - omega_j[1] * t88;
-    const jg_real t90 = A_j[1] * C_i[4];
-    const jg_real t91 = omega_j[0] * t88 - omega_j[2] * t90;
-    const jg_real t92 = omega_j[1] * t90 - omega_j[0] * t87;
-    jac_phi_q_v_A_i[17] = s_j[0] * t89 + s_j[1] * t91 + s_j[2] * t92 - (r_j[0] * t71 - r_j[2] * t86 + (s_j_world_0 *
-        t71 - s_j_world_2 * t86) - (r_i[0] * t71 - r_i[2] * t86) + v_i[1] * C_i[4] - v_j[1] * C_i[4]);
-    jac_phi_q_v_A_i[18] = t82 * C_j[6] + t84 * C_j[7] + t85 * C_j[8] - (t63 * h_j_world_0 - t79 * h_j_world_2);
-    jac_phi_q_v_A_i[19] = t89 * C_j[6] + t91 * C_j[7] + t92 * C_j[8] - (t71 * h_j_world_0 - t86 * h_j_world_2);
-    const jg_real t93 = C_i[1] * A_j[5];
-    const jg_real t94 = C_i[1] * A_j[8];
-    const jg_real t95 = t93 * omega_j[2] - t94 * omega_j[1];
-    const jg_real t96 = C_i[1] * A_j[2];
-    const jg_real t97 = t94 * omega_j[0] - omega_j[2] * t96;
-    const jg_real t98 = omega_j[1] * t96 - t93 * omega_j[0];
-    jac_phi_q_v_A_i[20] = s_j[0] * t95 + s_j[1] * t97 + s_j[2] * t98 - (t64 * r_j[0] + t79 * r_j[1] + (t64 *
-        s_j_world_0 + t79 * s_j_world_1) - (t64 * r_i[0] + t79 * r_i[1]) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
-    const jg_real t99 = A_j[5] * C_i[4];
-    const jg_real t100 = A_j[8] * C_i[4];
-    const jg_real t101 = omega_j[2] * t99 - omega_j[1] * t100;
-    const jg_real t102 = A_j[2] * C_i[4];
-    const jg_real t103 = omega_j[0] * t100 - omega_j[2] * t102;
-    const jg_real t104 = omega_j[1] * t102 - omega_j[0] * t99;
-    jac_phi_q_v_A_i[21] = s_j[0] * t101 + s_j[1] * t103 + s_j[2] * t104 - (r_j[0] * t72 + r_j[1] * t86 +
-        (s_j_world_0 * t72 + s_j_world_1 * t86) - (r_i[0] * t72 + r_i[1] * t86) + v_i[2] * C_i[4] - v_j[2] *
-        C_i[4]);
-    jac_phi_q_v_A_i[22] = t95 * C_j[6] + t97 * C_j[7] + t98 * C_j[8] - (t64 * h_j_world_0 + t79 * h_j_world_1);
-    jac_phi_q_v_A_i[23] = t101 * C_j[6] + t103 * C_j[7] + t104 * C_j[8] - (t72 * h_j_world_0 + t86 * h_j_world_1);
-    const jg_real t105 = C_i[2] * omega_i_world_2 - omega_i[2] * f_i_world_2;
-    const jg_real t106 = f_i_world_1 * omega_i[2] - C_i[2] * omega_i_world_1;
-    const jg_real t107 = C_i[2] * A_j[3];
-    const jg_real t108 = C_i[2] * A_j[6];
-    const jg_real t109 = t107 * omega_j[2] - t108 * omega_j[1];
-    const jg_real t110 = C_i[2] * A_j[0];
-    const jg_real t111 = t108 * omega_j[0] - omega_j[2] * t110;
-    const jg_real t112 = omega_j[1] * t110 - t107 * omega_j[0];
-    jac_phi_q_v_A_i[24] = s_j[0] * t109 + s_j[1] * t111 + s_j[2] * t112 - (t105 * r_i[1] + t106 * r_i[2] - (t105 *
-        r_j[1] + t106 * r_j[2] + (t105 * s_j_world_1 + t106 * s_j_world_2)) + C_i[2] * v_i[0] - C_i[2] * v_j[0]);
-    const jg_real t113 = omega_i_world_2 * C_i[5] - omega_i[2] * g_i_world_2;
-    const jg_real t114 = omega_i[2] * g_i_world_1 - omega_i_world_1 * C_i[5];
-    const jg_real t115 = A_j[3] * C_i[5];
-    const jg_real t116 = A_j[6] * C_i[5];
-    const jg_real t117 = omega_j[2] * t115 - omega_j[1] * t116;
-    const jg_real t118 = A_j[0] * C_i[5];
-    const jg_real t119 = omega_j[0] * t116 - omega_j[2] * t118;
-    const jg_real t120 = omega_j[1] * t118 - omega_j[0] * t115;
-    jac_phi_q_v_A_i[25] = s_j[0] * t117 + s_j[1] * t119 + s_j[2] * t120 - (r_i[1] * t113 + r_i[2] * t114 - (r_j[1] *
-        t113 + r_j[2] * t114 + (s_j_world_1 * t113 + s_j_world_2 * t114)) + v_i[0] * C_i[5] - v_j[0] * C_i[5]);
-    jac_phi_q_v_A_i[26] = t109 * C_j[6] + t111 * C_j[7] + t112 * C_j[8] + (t105 * h_j_world_1 + t106 * h_j_world_2);
-    jac_phi_q_v_A_i[27] = t117 * C_j[6] + t119 * C_j[7] + t120 * C_j[8] + (t113 * h_j_world_1 + t114 * h_j_world_2);
-    const jg_real t121 = C_i[2] * omega_i_world_0 - omega_i[2] * f_i_world_0;
-    const jg_real t122 = C_i[2] * A_j[4];
-    const jg_real t123 = C_i[2] * A_j[7];
-    const jg_real t124 = t122 * omega_j[2] - t123 * omega_j[1];
-    const jg_real t125 = C_i[2] * A_j[1];
-    const jg_real t126 = t123 * omega_j[0] - omega_j[2] * t125;
-    const jg_real t127 = omega_j[1] * t125 - t122 * omega_j[0];
-    jac_phi_q_v_A_i[28] = s_j[0] * t124 + s_j[1] * t126 + s_j[2] * t127 - (t105 * r_j[0] - t121 * r_j[2] + (t105 *
-        s_j_world_0 - t121 * s_j_world_2) - (t105 * r_i[0] - t121 * r_i[2]) + C_i[2] * v_i[1] - C_i[2] * v_j[1]);
-    const jg_real t128 = omega_i_world_0 * C_i[5] - omega_i[2] * g_i_world_0;
-    const jg_real t129 = A_j[4] * C_i[5];
-    const jg_real t130 = A_j[7] * C_i[5];
-    const jg_real t131 = omega_j[2] * t129 - omega_j[1] * t130;
-    const jg_real t132 = A_j[1] * C_i[5];
-    const jg_real t133 = omega_j[0] * t130 - omega_j[2] * t132;
-    const jg_real t134 = omega_j[1] * t132 - omega_j[0] * t129;
-    jac_phi_q_v_A_i[29] = s_j[0] * t131 + s_j[1] * t133 + s_j[2] * t134 - (r_j[0] * t113 - r_j[2] * t128 +
-        (s_j_world_0 * t113 - s_j_world_2 * t128) - (r_i[0] * t113 - r_i[2] * t128) + v_i[1] * C_i[5] - v_j[1] *
-        C_i[5]);
-    jac_phi_q_v_A_i[30] = t124 * C_j[6] + t126 * C_j[7] + t127 * C_j[8] - (t105 * h_j_world_0 - t121 * h_j_world_2);
-    jac_phi_q_v_A_i[31] = t131 * C_j[6] + t133 * C_j[7] + t134 * C_j[8] - (t113 * h_j_world_0 - t128 * h_j_world_2);
-    const jg_real t135 = C_i[2] * A_j[5];
-    const jg_real t136 = C_i[2] * A_j[8];
-    const jg_real t137 = t135 * omega_j[2] - t136 * omega_j[1];
-    const jg_real t138 = C_i[2] * A_j[2];
-    const jg_real t139 = t136 * omega_j[0] - omega_j[2] * t138;
-    const jg_real t140 = omega_j[1] * t138 - t135 * omega_j[0];
-    jac_phi_q_v_A_i[32] = s_j[0] * t137 + s_j[1] * t139 + s_j[2] * t140 - (t106 * r_j[0] + t121 * r_j[1] + (t106 *
-        s_j_world_0 + t121 * s_j_world_1) - (t106 * r_i[0] + t121 * r_i[1]) + C_i[2] * v_i[2] - C_i[2] * v_j[2]);
-    const jg_real t141 = A_j[5] * C_i[5];
-    const jg_real t142 = A_j[8] * C_i[5];
-    const jg_real t143 = omega_j[2] * t141 - omega_j[1] * t142;
-    const jg_real t144 = A_j[2] * C_i[5];
-    const jg_real t145 = omega_j[0] * t142 - omega_j[2] * t144;
-    const jg_real t146 = omega_j[1] * t144 - omega_j[0] * t141;
-    jac_phi_q_v_A_i[33] = s_j[0] * t143 + s_j[1] * t145 + s_j[2] * t146 - (r_j[0] * t114 + r_j[1] * t128 +
-        (s_j_world_0 * t114 + s_j_world_1 * t128) - (r_i[0] * t114 + r_i[1] * t128) + v_i[2] * C_i[5] - v_j[2] *
-        C_i[5]);
-    jac_phi_q_v_A_i[34] = t137 * C_j[6] + t139 * C_j[7] + t140 * C_j[8] - (t106 * h_j_world_0 + t121 * h_j_world_1);
-    jac_phi_q_v_A_i[35] = t143 * C_j[6] + t145 * C_j[7] + t146 * C_j[8] - (t114 * h_j_world_0 + t128 * h_j_world_1);
+    const jg_real omega_j_cross_h_j_world_1 = omega_j_world_2 * h_j_world_0 - omega_j_world_0 * h_j_world_2;
+    jac_phi_q_v_A_i[6] = C_i[0] * omega_j_cross_h_j_world_1 - (t15 * h_j_world_0 - t30 * h_j_world_2);
+    jac_phi_q_v_A_i[7] = C_i[3] * omega_j_cross_h_j_world_1 - (t24 * h_j_world_0 - t34 * h_j_world_2);
+    const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j_world_1 - s_j_world_1 * omega_j_world_0;
+    jac_phi_q_v_A_i[8] = -(t17 * r_ij_world_0 + t30 * r_ij_world_1 + (t17 * s_j_world_0 + t30 * s_j_world_1) +
+        C_i[0] * v_i[2] - C_i[0] * v_j[2] + C_i[0] * s_j_cross_omega_j_world_2);
+    jac_phi_q_v_A_i[9] = -(r_ij_world_0 * t25 + r_ij_world_1 * t34 + (s_j_world_0 * t25 + s_j_world_1 * t34) +
+        v_i[2] * C_i[3] - v_j[2] * C_i[3] + s_j_cross_omega_j_world_2 * C_i[3]);
+    const jg_real omega_j_cross_h_j_world_2 = omega_j_world_0 * h_j_world_1 - omega_j_world_1 * h_j_world_0;
+    jac_phi_q_v_A_i[10] = C_i[0] * omega_j_cross_h_j_world_2 - (t17 * h_j_world_0 + t30 * h_j_world_1);
+    jac_phi_q_v_A_i[11] = C_i[3] * omega_j_cross_h_j_world_2 - (t25 * h_j_world_0 + t34 * h_j_world_1);
+    const jg_real t39 = C_i[1] * omega_i_world_2 - omega_i[1] * f_i_world_2;
+    const jg_real t40 = f_i_world_1 * omega_i[1] - C_i[1] * omega_i_world_1;
+    jac_phi_q_v_A_i[12] = -(C_i[1] * v_i[0] - (t39 * r_ij_world_1 + t40 * r_ij_world_2 + (t39 * s_j_world_1 + t40 *
+        s_j_world_2)) - C_i[1] * v_j[0] + C_i[1] * s_j_cross_omega_j_world_0);
+    const jg_real t41 = omega_i_world_2 * C_i[4] - omega_i[1] * g_i_world_2;
+    const jg_real t42 = omega_i[1] * g_i_world_1 - omega_i_world_1 * C_i[4];
+    jac_phi_q_v_A_i[13] = -(v_i[0] * C_i[4] - (r_ij_world_1 * t41 + r_ij_world_2 * t42 + (s_j_world_1 * t41 +
+        s_j_world_2 * t42)) - v_j[0] * C_i[4] + s_j_cross_omega_j_world_0 * C_i[4]);
+    jac_phi_q_v_A_i[14] = t39 * h_j_world_1 + t40 * h_j_world_2 + C_i[1] * omega_j_cross_h_j_world_0;
+    jac_phi_q_v_A_i[15] = t41 * h_j_world_1 + t42 * h_j_world_2 + C_i[4] * omega_j_cross_h_j_world_0;
+    const jg_real t43 = C_i[1] * omega_i_world_0 - omega_i[1] * f_i_world_0;
+    jac_phi_q_v_A_i[16] = -(t39 * r_ij_world_0 - t43 * r_ij_world_2 + (t39 * s_j_world_0 - t43 * s_j_world_2) +
+        C_i[1] * v_i[1] - C_i[1] * v_j[1] + C_i[1] * s_j_cross_omega_j_world_1);
+    const jg_real t44 = omega_i_world_0 * C_i[4] - omega_i[1] * g_i_world_0;
+    jac_phi_q_v_A_i[17] = -(r_ij_world_0 * t41 - r_ij_world_2 * t44 + (s_j_world_0 * t41 - s_j_world_2 * t44) +
+        v_i[1] * C_i[4] - v_j[1] * C_i[4] + s_j_cross_omega_j_world_1 * C_i[4]);
+    jac_phi_q_v_A_i[18] = C_i[1] * omega_j_cross_h_j_world_1 - (t39 * h_j_world_0 - t43 * h_j_world_2);
+    jac_phi_q_v_A_i[19] = C_i[4] * omega_j_cross_h_j_world_1 - (t41 * h_j_world_0 - t44 * h_j_world_2);
+    jac_phi_q_v_A_i[20] = -(t40 * r_ij_world_0 + t43 * r_ij_world_1 + (t40 * s_j_world_0 + t43 * s_j_world_1) +
+        C_i[1] * v_i[2] - C_i[1] * v_j[2] + C_i[1] * s_j_cross_omega_j_world_2);
+    jac_phi_q_v_A_i[21] = -(r_ij_world_0 * t42 + r_ij_world_1 * t44 + (s_j_world_0 * t42 + s_j_world_1 * t44) +
+        v_i[2] * C_i[4] - v_j[2] * C_i[4] + s_j_cross_omega_j_world_2 * C_i[4]);
+    jac_phi_q_v_A_i[22] = C_i[1] * omega_j_cross_h_j_world_2 - (t40 * h_j_world_0 + t43 * h_j_world_1);
+    jac_phi_q_v_A_i[23] = C_i[4] * omega_j_cross_h_j_world_2 - (t42 * h_j_world_0 + t44 * h_j_world_1);
+    const jg_real t45 = C_i[2] * omega_i_world_2 - omega_i[2] * f_i_world_2;
+    const jg_real t46 = f_i_world_1 * omega_i[2] - C_i[2] * omega_i_world_1;
+    jac_phi_q_v_A_i[24] = -(C_i[2] * v_i[0] - (t45 * r_ij_world_1 + t46 * r_ij_world_2 + (t45 * s_j_world_1 + t46 *
+        s_j_world_2)) - C_i[2] * v_j[0] + C_i[2] * s_j_cross_omega_j_world_0);
+    const jg_real t47 = omega_i_world_2 * C_i[5] - omega_i[2] * g_i_world_2;
+    const jg_real t48 = omega_i[2] * g_i_world_1 - omega_i_world_1 * C_i[5];
+    jac_phi_q_v_A_i[25] = -(v_i[0] * C_i[5] - (r_ij_world_1 * t47 + r_ij_world_2 * t48 + (s_j_world_1 * t47 +
+        s_j_world_2 * t48)) - v_j[0] * C_i[5] + s_j_cross_omega_j_world_0 * C_i[5]);
+    jac_phi_q_v_A_i[26] = t45 * h_j_world_1 + t46 * h_j_world_2 + C_i[2] * omega_j_cross_h_j_world_0;
+    jac_phi_q_v_A_i[27] = t47 * h_j_world_1 + t48 * h_j_world_2 + C_i[5] * omega_j_cross_h_j_world_0;
+    const jg_real t49 = C_i[2] * omega_i_world_0 - omega_i[2] * f_i_world_0;
+    jac_phi_q_v_A_i[28] = -(t45 * r_ij_world_0 - t49 * r_ij_world_2 + (t45 * s_j_world_0 - t49 * s_j_world_2) +
+        C_i[2] * v_i[1] - C_i[2] * v_j[1] + C_i[2] * s_j_cross_omega_j_world_1);
+    const jg_real t50 = omega_i_world_0 * C_i[5] - omega_i[2] * g_i_world_0;
+    jac_phi_q_v_A_i[29] = -(r_ij_world_0 * t47 - r_ij_world_2 * t50 + (s_j_world_0 * t47 - s_j_world_2 * t50) +
+        v_i[1] * C_i[5] - v_j[1] * C_i[5] + s_j_cross_omega_j_world_1 * C_i[5]);
+    jac_phi_q_v_A_i[30] = C_i[2] * omega_j_cross_h_j_world_1 - (t45 * h_j_world_0 - t49 * h_j_world_2);
+    jac_phi_q_v_A_i[31] = C_i[5] * omega_j_cross_h_j_world_1 - (t47 * h_j_world_0 - t50 * h_j_world_2);
+    jac_phi_q_v_A_i[32] = -(t46 * r_ij_world_0 + t49 * r_ij_world_1 + (t46 * s_j_world_0 + t49 * s_j_world_1) +
+        C_i[2] * v_i[2] - C_i[2] * v_j[2] + C_i[2] * s_j_cross_omega_j_world_2);
+    jac_phi_q_v_A_i[33] = -(r_ij_world_0 * t48 + r_ij_world_1 * t50 + (s_j_world_0 * t48 + s_j_world_1 * t50) +
+        v_i[2] * C_i[5] - v_j[2] * C_i[5] + s_j_cross_omega_j_world_2 * C_i[5]);
+    jac_phi_q_v_A_i[34] = C_i[2] * omega_j_cross_h_j_world_2 - (t46 * h_j_world_0 + t49 * h_j_world_1);
+    jac_phi_q_v_A_i[35] = C_i[5] * omega_j_cross_h_j_world_2 - (t48 * h_j_world_0 + t50 * h_j_world_1);
     jac_phi_q_v_r_j[0] = -f_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[1] = -g_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[2] = -f_i_cross_omega_i_world_1;
     jac_phi_q_v_r_j[3] = -g_i_cross_omega_i_world_1;
     jac_phi_q_v_r_j[4] = -f_i_cross_omega_i_world_2;
     jac_phi_q_v_r_j[5] = -g_i_cross_omega_i_world_2;
-    const jg_real t147 = f_i_world_0 * omega_j[1];
-    const jg_real t148 = f_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[0] = s_j[2] * t147 - s_j[1] * t148 - f_i_cross_omega_i_world_0 * s_j[0];
-    const jg_real t149 = omega_j[1] * g_i_world_0;
-    const jg_real t150 = omega_j[2] * g_i_world_0;
-    jac_phi_q_v_A_j[1] = s_j[2] * t149 - s_j[1] * t150 - s_j[0] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[2] = t147 * C_j[8] - t148 * C_j[7] - f_i_cross_omega_i_world_0 * C_j[6];
-    jac_phi_q_v_A_j[3] = t149 * C_j[8] - t150 * C_j[7] - g_i_cross_omega_i_world_0 * C_j[6];
-    const jg_real t151 = f_i_world_1 * omega_j[1];
-    const jg_real t152 = f_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[4] = s_j[2] * t151 - s_j[1] * t152 - f_i_cross_omega_i_world_1 * s_j[0];
-    const jg_real t153 = omega_j[1] * g_i_world_1;
-    const jg_real t154 = omega_j[2] * g_i_world_1;
-    jac_phi_q_v_A_j[5] = s_j[2] * t153 - s_j[1] * t154 - s_j[0] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[6] = t151 * C_j[8] - t152 * C_j[7] - f_i_cross_omega_i_world_1 * C_j[6];
-    jac_phi_q_v_A_j[7] = t153 * C_j[8] - t154 * C_j[7] - g_i_cross_omega_i_world_1 * C_j[6];
-    const jg_real t155 = f_i_world_2 * omega_j[1];
-    const jg_real t156 = f_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[8] = s_j[2] * t155 - s_j[1] * t156 - f_i_cross_omega_i_world_2 * s_j[0];
-    const jg_real t157 = omega_j[1] * g_i_world_2;
-    const jg_real t158 = omega_j[2] * g_i_world_2;
-    jac_phi_q_v_A_j[9] = s_j[2] * t157 - s_j[1] * t158 - s_j[0] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[10] = t155 * C_j[8] - t156 * C_j[7] - f_i_cross_omega_i_world_2 * C_j[6];
-    jac_phi_q_v_A_j[11] = t157 * C_j[8] - t158 * C_j[7] - g_i_cross_omega_i_world_2 * C_j[6];
-    const jg_real t159 = f_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[12] = s_j[0] * t148 - s_j[2] * t159 - f_i_cross_omega_i_world_0 * s_j[1];
-    const jg_real t160 = omega_j[0] * g_i_world_0;
-    jac_phi_q_v_A_j[13] = s_j[0] * t150 - s_j[2] * t160 - s_j[1] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[14] = t148 * C_j[6] - t159 * C_j[8] - f_i_cross_omega_i_world_0 * C_j[7];
-    jac_phi_q_v_A_j[15] = t150 * C_j[6] - t160 * C_j[8] - g_i_cross_omega_i_world_0 * C_j[7];
-    const jg_real t161 = f_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[16] = s_j[0] * t152 - s_j[2] * t161 - f_i_cross_omega_i_world_1 * s_j[1];
-    const jg_real t162 = omega_j[0] * g_i_world_1;
-    jac_phi_q_v_A_j[17] = s_j[0] * t154 - s_j[2] * t162 - s_j[1] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[18] = t152 * C_j[6] - t161 * C_j[8] - f_i_cross_omega_i_world_1 * C_j[7];
-    jac_phi_q_v_A_j[19] = t154 * C_j[6] - t162 * C_j[8] - g_i_cross_omega_i_world_1 * C_j[7];
-    const jg_real t163 = f_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[20] = s_j[0] * t156 - s_j[2] * t163 - f_i_cross_omega_i_world_2 * s_j[1];
-    const jg_real t164 = omega_j[0] * g_i_world_2;
-    jac_phi_q_v_A_j[21] = s_j[0] * t158 - s_j[2] * t164 - s_j[1] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[22] = t156 * C_j[6] - t163 * C_j[8] - f_i_cross_omega_i_world_2 * C_j[7];
-    jac_phi_q_v_A_j[23] = t158 * C_j[6] - t164 * C_j[8] - g_i_cross_omega_i_world_2 * C_j[7];
-    jac_phi_q_v_A_j[24] = s_j[1] * t159 - s_j[0] * t147 - f_i_cross_omega_i_world_0 * s_j[2];
-    jac_phi_q_v_A_j[25] = s_j[1] * t160 - s_j[0] * t149 - s_j[2] * g_i_cross_omega_i_world_0;
-    jac_phi_q_v_A_j[26] = t159 * C_j[7] - t147 * C_j[6] - f_i_cross_omega_i_world_0 * C_j[8];
-    jac_phi_q_v_A_j[27] = t160 * C_j[7] - t149 * C_j[6] - g_i_cross_omega_i_world_0 * C_j[8];
-    jac_phi_q_v_A_j[28] = s_j[1] * t161 - s_j[0] * t151 - f_i_cross_omega_i_world_1 * s_j[2];
-    jac_phi_q_v_A_j[29] = s_j[1] * t162 - s_j[0] * t153 - s_j[2] * g_i_cross_omega_i_world_1;
-    jac_phi_q_v_A_j[30] = t161 * C_j[7] - t151 * C_j[6] - f_i_cross_omega_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[31] = t162 * C_j[7] - t153 * C_j[6] - g_i_cross_omega_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[32] = s_j[1] * t163 - s_j[0] * t155 - f_i_cross_omega_i_world_2 * s_j[2];
-    jac_phi_q_v_A_j[33] = s_j[1] * t164 - s_j[0] * t157 - s_j[2] * g_i_cross_omega_i_world_2;
-    jac_phi_q_v_A_j[34] = t163 * C_j[7] - t155 * C_j[6] - f_i_cross_omega_i_world_2 * C_j[8];
-    jac_phi_q_v_A_j[35] = t164 * C_j[7] - t157 * C_j[6] - g_i_cross_omega_i_world_2 * C_j[8];
-    const jg_real t165 = A_i[1] * omega_i_world_2 - A_i[2] * omega_i_world_1;
-    const jg_real t166 = A_i[2] * omega_i_world_0 - omega_i_world_2 * A_i[0];
-    const jg_real t167 = omega_i_world_1 * A_i[0] - A_i[1] * omega_i_world_0;
-    const jg_real t168 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t169 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t170 = t168 * omega_j[2] - t169 * omega_j[1];
-    const jg_real t171 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t172 = t169 * omega_j[0] - omega_j[2] * t171;
-    const jg_real t173 = omega_j[1] * t171 - t168 * omega_j[0];
-    const jg_real t174 = s_j[0] * t170 + s_j[1] * t172 + s_j[2] * t173 - (t165 * r_j[0] + t166 * r_j[1] + t167 *
-        r_j[2] + (t165 * s_j_world_0 + t166 * s_j_world_1 + t167 * s_j_world_2) - (t165 * r_i[0] + t166 * r_i[1] +
-        t167 * r_i[2]) + (A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2]) - (A_i[0] * v_j[0] + A_i[1] * v_j[1]
-        + A_i[2] * v_j[2]));
-    jac_phi_q_v_geometry[0] = t174;
-    jac_phi_q_v_geometry[6] = t174;
-    const jg_real t175 = t170 * C_j[6] + t172 * C_j[7] + t173 * C_j[8] - (t165 * h_j_world_0 + t166 * h_j_world_1 +
-        t167 * h_j_world_2);
-    jac_phi_q_v_geometry[1] = t175;
-    jac_phi_q_v_geometry[7] = t175;
-    const jg_real t176 = A_i[4] * omega_i_world_2 - A_i[5] * omega_i_world_1;
-    const jg_real t177 = A_i[5] * omega_i_world_0 - omega_i_world_2 * A_i[3];
-    const jg_real t178 = omega_i_world_1 * A_i[3] - A_i[4] * omega_i_world_0;
-    const jg_real t179 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real t180 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t181 = t179 * omega_j[2] - t180 * omega_j[1];
-    const jg_real t182 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t183 = t180 * omega_j[0] - omega_j[2] * t182;
-    const jg_real t184 = omega_j[1] * t182 - t179 * omega_j[0];
-    const jg_real t185 = s_j[0] * t181 + s_j[1] * t183 + s_j[2] * t184 - (t176 * r_j[0] + t177 * r_j[1] + t178 *
-        r_j[2] + (t176 * s_j_world_0 + t177 * s_j_world_1 + t178 * s_j_world_2) - (t176 * r_i[0] + t177 * r_i[1] +
-        t178 * r_i[2]) + (A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2]) - (A_i[3] * v_j[0] + A_i[4] * v_j[1]
-        + A_i[5] * v_j[2]));
-    jac_phi_q_v_geometry[2] = t185;
-    jac_phi_q_v_geometry[8] = t185;
-    const jg_real t186 = t181 * C_j[6] + t183 * C_j[7] + t184 * C_j[8] - (t176 * h_j_world_0 + t177 * h_j_world_1 +
-        t178 * h_j_world_2);
-    jac_phi_q_v_geometry[3] = t186;
-    jac_phi_q_v_geometry[9] = t186;
-    const jg_real t187 = A_i[7] * omega_i_world_2 - A_i[8] * omega_i_world_1;
-    const jg_real t188 = A_i[8] * omega_i_world_0 - omega_i_world_2 * A_i[6];
-    const jg_real t189 = omega_i_world_1 * A_i[6] - A_i[7] * omega_i_world_0;
-    const jg_real t190 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t191 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t192 = t190 * omega_j[2] - t191 * omega_j[1];
-    const jg_real t193 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t194 = t191 * omega_j[0] - omega_j[2] * t193;
-    const jg_real t195 = omega_j[1] * t193 - t190 * omega_j[0];
-    const jg_real t196 = s_j[0] * t192 + s_j[1] * t194 + s_j[2] * t195 - (t187 * r_j[0] + t188 * r_j[1] + t189 *
-        r_j[2] + (t187 * s_j_world_0 + t188 * s_j_world_1 + t189 * s_j_world_2) - (t187 * r_i[0] + t188 * r_i[1] +
-        t189 * r_i[2]) + (A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2]) - (A_i[6] * v_j[0] + A_i[7] * v_j[1]
-        + A_i[8] * v_j[2]));
-    jac_phi_q_v_geometry[4] = t196;
-    jac_phi_q_v_geometry[10] = t196;
-    const jg_real t197 = t192 * C_j[6] + t194 * C_j[7] + t195 * C_j[8] - (t187 * h_j_world_0 + t188 * h_j_world_1 +
-        t189 * h_j_world_2);
-    jac_phi_q_v_geometry[5] = t197;
-    jac_phi_q_v_geometry[11] = t197;
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
-    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    /* f_i_cross_omega_j_in_j = f_i x omega_j, axes of body j */
-    const jg_real f_i_cross_omega_j_in_j_0 = f_i_in_j_1 * omega_j[2] - f_i_in_j_2 * omega_j[1];
-    const jg_real t201 = f_i_cross_omega_j_in_j_0 - (f_i_cross_omega_i_world_0 * A_j[0] + f_i_cross_omega_i_world_1
-        * A_j[1] + f_i_cross_omega_i_world_2 * A_j[2]);
-    jac_phi_q_v_geometry[12] = t201;
-    jac_phi_q_v_geometry[18] = t201;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
-    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    /* g_i_cross_omega_j_in_j = g_i x omega_j, axes of body j */
-    const jg_real g_i_cross_omega_j_in_j_0 = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2;
-    const jg_real t205 = g_i_cross_omega_j_in_j_0 - (A_j[0] * g_i_cross_omega_i_world_0 + A_j[1] *
-        g_i_cross_omega_i_world_1 + A_j[2] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[13] = t205;
-    jac_phi_q_v_geometry[19] = t205;
-    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    const jg_real f_i_cross_omega_j_in_j_1 = f_i_in_j_2 * omega_j[0] - omega_j[2] * f_i_in_j_0;
-    const jg_real t208 = f_i_cross_omega_j_in_j_1 - (f_i_cross_omega_i_world_0 * A_j[3] + f_i_cross_omega_i_world_1
-        * A_j[4] + f_i_cross_omega_i_world_2 * A_j[5]);
-    jac_phi_q_v_geometry[14] = t208;
-    jac_phi_q_v_geometry[20] = t208;
-    const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
-    const jg_real g_i_cross_omega_j_in_j_1 = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0;
-    const jg_real t211 = g_i_cross_omega_j_in_j_1 - (A_j[3] * g_i_cross_omega_i_world_0 + A_j[4] *
-        g_i_cross_omega_i_world_1 + A_j[5] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[15] = t211;
-    jac_phi_q_v_geometry[21] = t211;
-    const jg_real f_i_cross_omega_j_in_j_2 = omega_j[1] * f_i_in_j_0 - f_i_in_j_1 * omega_j[0];
-    const jg_real t213 = f_i_cross_omega_j_in_j_2 - (f_i_cross_omega_i_world_0 * A_j[6] + f_i_cross_omega_i_world_1
-        * A_j[7] + f_i_cross_omega_i_world_2 * A_j[8]);
-    jac_phi_q_v_geometry[16] = t213;
-    jac_phi_q_v_geometry[22] = t213;
-    const jg_real g_i_cross_omega_j_in_j_2 = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1;
-    const jg_real t215 = g_i_cross_omega_j_in_j_2 - (A_j[6] * g_i_cross_omega_i_world_0 + A_j[7] *
-        g_i_cross_omega_i_world_1 + A_j[8] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[17] = t215;
-    jac_phi_q_v_geometry[23] = t215;
+    const jg_real t51 = s_j[0] * omega_j_world_2 - s_j_world_2 * omega_j[0];
+    const jg_real t52 = s_j_world_1 * omega_j[0] - s_j[0] * omega_j_world_1;
+    jac_phi_q_v_A_j[0] = f_i_world_1 * t51 + f_i_world_2 * t52 - f_i_cross_omega_i_world_0 * s_j[0];
+    jac_phi_q_v_A_j[1] = t51 * g_i_world_1 + t52 * g_i_world_2 - s_j[0] * g_i_cross_omega_i_world_0;
+    const jg_real t53 = omega_j[0] * h_j_world_2 - omega_j_world_2 * C_j[6];
+    const jg_real t54 = omega_j_world_1 * C_j[6] - omega_j[0] * h_j_world_1;
+    jac_phi_q_v_A_j[2] = -(f_i_world_1 * t53 + f_i_world_2 * t54 + f_i_cross_omega_i_world_0 * C_j[6]);
+    jac_phi_q_v_A_j[3] = -(g_i_world_1 * t53 + g_i_world_2 * t54 + g_i_cross_omega_i_world_0 * C_j[6]);
+    const jg_real t55 = s_j[0] * omega_j_world_0 - s_j_world_0 * omega_j[0];
+    jac_phi_q_v_A_j[4] = -(f_i_world_0 * t51 - f_i_world_2 * t55 + f_i_cross_omega_i_world_1 * s_j[0]);
+    jac_phi_q_v_A_j[5] = -(t51 * g_i_world_0 - t55 * g_i_world_2 + s_j[0] * g_i_cross_omega_i_world_1);
+    const jg_real t56 = omega_j[0] * h_j_world_0 - omega_j_world_0 * C_j[6];
+    jac_phi_q_v_A_j[6] = f_i_world_0 * t53 - f_i_world_2 * t56 - f_i_cross_omega_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[7] = g_i_world_0 * t53 - g_i_world_2 * t56 - g_i_cross_omega_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[8] = -(f_i_world_0 * t52 + f_i_world_1 * t55 + f_i_cross_omega_i_world_2 * s_j[0]);
+    jac_phi_q_v_A_j[9] = -(t52 * g_i_world_0 + t55 * g_i_world_1 + s_j[0] * g_i_cross_omega_i_world_2);
+    jac_phi_q_v_A_j[10] = f_i_world_0 * t54 + f_i_world_1 * t56 - f_i_cross_omega_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[11] = g_i_world_0 * t54 + g_i_world_1 * t56 - g_i_cross_omega_i_world_2 * C_j[6];
+    const jg_real t57 = s_j[1] * omega_j_world_2 - s_j_world_2 * omega_j[1];
+    const jg_real t58 = s_j_world_1 * omega_j[1] - s_j[1] * omega_j_world_1;
+    jac_phi_q_v_A_j[12] = f_i_world_1 * t57 + f_i_world_2 * t58 - f_i_cross_omega_i_world_0 * s_j[1];
+    jac_phi_q_v_A_j[13] = t57 * g_i_world_1 + t58 * g_i_world_2 - s_j[1] * g_i_cross_omega_i_world_0;
+    const jg_real t59 = omega_j[1] * h_j_world_2 - omega_j_world_2 * C_j[7];
+    const jg_real t60 = omega_j_world_1 * C_j[7] - omega_j[1] * h_j_world_1;
+    jac_phi_q_v_A_j[14] = -(f_i_world_1 * t59 + f_i_world_2 * t60 + f_i_cross_omega_i_world_0 * C_j[7]);
+    jac_phi_q_v_A_j[15] = -(g_i_world_1 * t59 + g_i_world_2 * t60 + g_i_cross_omega_i_world_0 * C_j[7]);
+    const jg_real t61 = s_j[1] * omega_j_world_0 - s_j_world_0 * omega_j[1];
+    jac_phi_q_v_A_j[16] = -(f_i_world_0 * t57 - f_i_world_2 * t61 + f_i_cross_omega_i_world_1 * s_j[1]);
+    jac_phi_q_v_A_j[17] = -(t57 * g_i_world_0 - t61 * g_i_world_2 + s_j[1] * g_i_cross_omega_i_world_1);
+    const jg_real t62 = omega_j[1] * h_j_world_0 - omega_j_world_0 * C_j[7];
+    jac_phi_q_v_A_j[18] = f_i_world_0 * t59 - f_i_world_2 * t62 - f_i_cross_omega_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[19] = g_i_world_0 * t59 - g_i_world_2 * t62 - g_i_cross_omega_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[20] = -(f_i_world_0 * t58 + f_i_world_1 * t61 + f_i_cross_omega_i_world_2 * s_j[1]);
+    jac_phi_q_v_A_j[21] = -(t58 * g_i_world_0 + t61 * g_i_world_1 + s_j[1] * g_i_cross_omega_i_world_2);
+    jac_phi_q_v_A_j[22] = f_i_world_0 * t60 + f_i_world_1 * t62 - f_i_cross_omega_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[23] = g_i_world_0 * t60 + g_i_world_1 * t62 - g_i_cross_omega_i_world_2 * C_j[7];
+    const jg_real t63 = s_j[2] * omega_j_world_2 - s_j_world_2 * omega_j[2];
+    const jg_real t64 = s_j_world_1 * omega_j[2] - s_j[2] * omega_j_world_1;
+    jac_phi_q_v_A_j[24] = f_i_world_1 * t63 + f_i_world_2 * t64 - f_i_cross_omega_i_world_0 * s_j[2];
+    jac_phi_q_v_A_j[25] = t63 * g_i_world_1 + t64 * g_i_world_2 - s_j[2] * g_i_cross_omega_i_world_0;
+    const jg_real t65 = omega_j[2] * h_j_world_2 - omega_j_world_2 * C_j[8];
+    const jg_real t66 = omega_j_world_1 * C_j[8] - omega_j[2] * h_j_world_1;
+    jac_phi_q_v_A_j[26] = -(f_i_world_1 * t65 + f_i_world_2 * t66 + f_i_cross_omega_i_world_0 * C_j[8]);
+    jac_phi_q_v_A_j[27] = -(g_i_world_1 * t65 + g_i_world_2 * t66 + g_i_cross_omega_i_world_0 * C_j[8]);
+    const jg_real t67 = s_j[2] * omega_j_world_0 - s_j_world_0 * omega_j[2];
+    jac_phi_q_v_A_j[28] = -(f_i_world_0 * t63 - f_i_world_2 * t67 + f_i_cross_omega_i_world_1 * s_j[2]);
+    jac_phi_q_v_A_j[29] = -(t63 * g_i_world_0 - t67 * g_i_world_2 + s_j[2] * g_i_cross_omega_i_world_1);
+    const jg_real t68 = omega_j[2] * h_j_world_0 - omega_j_world_0 * C_j[8];
+    jac_phi_q_v_A_j[30] = f_i_world_0 * t65 - f_i_world_2 * t68 - f_i_cross_omega_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[31] = g_i_world_0 * t65 - g_i_world_2 * t68 - g_i_cross_omega_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[32] = -(f_i_world_0 * t64 + f_i_world_1 * t67 + f_i_cross_omega_i_world_2 * s_j[2]);
+    jac_phi_q_v_A_j[33] = -(t64 * g_i_world_0 + t67 * g_i_world_1 + s_j[2] * g_i_cross_omega_i_world_2);
+    jac_phi_q_v_A_j[34] = f_i_world_0 * t66 + f_i_world_1 * t68 - f_i_cross_omega_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[35] = g_i_world_0 * t66 + g_i_world_1 * t68 - g_i_cross_omega_i_world_2 * C_j[8];
+    const jg_real t69 = A_i[1] * omega_i_world_2 - A_i[2] * omega_i_world_1;
+    const jg_real t70 = A_i[2] * omega_i_world_0 - omega_i_world_2 * A_i[0];
+    const jg_real t71 = omega_i_world_1 * A_i[0] - A_i[1] * omega_i_world_0;
+    const jg_real t72 = -(t69 * r_ij_world_0 + t70 * r_ij_world_1 + t71 * r_ij_world_2 + (t69 * s_j_world_0 + t70 *
+        s_j_world_1 + t71 * s_j_world_2) + (A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2]) - (A_i[0] * v_j[0]
+        + A_i[1] * v_j[1] + A_i[2] * v_j[2]) + (A_i[0] * s_j_cross_omega_j_world_0 + A_i[1] *
+        s_j_cross_omega_j_world_1 + A_i[2] * s_j_cross_omega_j_world_2));
+    jac_phi_q_v_geometry[0] = t72;
+    jac_phi_q_v_geometry[6] = t72;
+    const jg_real t73 = A_i[0] * omega_j_cross_h_j_world_0 + A_i[1] * omega_j_cross_h_j_world_1 + A_i[2] *
+        omega_j_cross_h_j_world_2 - (t69 * h_j_world_0 + t70 * h_j_world_1 + t71 * h_j_world_2);
+    jac_phi_q_v_geometry[1] = t73;
+    jac_phi_q_v_geometry[7] = t73;
+    const jg_real t74 = A_i[4] * omega_i_world_2 - A_i[5] * omega_i_world_1;
+    const jg_real t75 = A_i[5] * omega_i_world_0 - omega_i_world_2 * A_i[3];
+    const jg_real t76 = omega_i_world_1 * A_i[3] - A_i[4] * omega_i_world_0;
+    const jg_real t77 = -(t74 * r_ij_world_0 + t75 * r_ij_world_1 + t76 * r_ij_world_2 + (t74 * s_j_world_0 + t75 *
+        s_j_world_1 + t76 * s_j_world_2) + (A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2]) - (A_i[3] * v_j[0]
+        + A_i[4] * v_j[1] + A_i[5] * v_j[2]) + (A_i[3] * s_j_cross_omega_j_world_0 + A_i[4] *
+        s_j_cross_omega_j_world_1 + A_i[5] * s_j_cross_omega_j_world_2));
+    jac_phi_q_v_geometry[2] = t77;
+    jac_phi_q_v_geometry[8] = t77;
+    const jg_real t78 = A_i[3] * omega_j_cross_h_j_world_0 + A_i[4] * omega_j_cross_h_j_world_1 + A_i[5] *
+        omega_j_cross_h_j_world_2 - (t74 * h_j_world_0 + t75 * h_j_world_1 + t76 * h_j_world_2);
+    jac_phi_q_v_geometry[3] = t78;
+    jac_phi_q_v_geometry[9] = t78;
+    const jg_real t79 = A_i[7] * omega_i_world_2 - A_i[8] * omega_i_world_1;
+    const jg_real t80 = A_i[8] * omega_i_world_0 - omega_i_world_2 * A_i[6];
+    const jg_real t81 = omega_i_world_1 * A_i[6] - A_i[7] * omega_i_world_0;
+    const jg_real t82 = -(t79 * r_ij_world_0 + t80 * r_ij_world_1 + t81 * r_ij_world_2 + (t79 * s_j_world_0 + t80 *
+        s_j_world_1 + t81 * s_j_world_2) + (A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2]) - (A_i[6] * v_j[0]
+        + A_i[7] * v_j[1] + A_i[8] * v_j[2]) + (A_i[6] * s_j_cross_omega_j_world_0 + A_i[7] *
+        s_j_cross_omega_j_world_1 + A_i[8] * s_j_cross_omega_j_world_2));
+    jac_phi_q_v_geometry[4] = t82;
+    jac_phi_q_v_geometry[10] = t82;
+    const jg_real t83 = A_i[6] * omega_j_cross_h_j_world_0 + A_i[7] * omega_j_cross_h_j_world_1 + A_i[8] *
+        omega_j_cross_h_j_world_2 - (t79 * h_j_world_0 + t80 * h_j_world_1 + t81 * h_j_world_2);
+    jac_phi_q_v_geometry[5] = t83;
+    jac_phi_q_v_geometry[11] = t83;
+    const jg_real t84 = A_j[1] * omega_j_world_2 - A_j[2] * omega_j_world_1;
+    const jg_real t85 = A_j[2] * omega_j_world_0 - A_j[0] * omega_j_world_2;
+    const jg_real t86 = A_j[0] * omega_j_world_1 - A_j[1] * omega_j_world_0;
+    const jg_real t87 = -(f_i_cross_omega_i_world_0 * A_j[0] + f_i_cross_omega_i_world_1 * A_j[1] +
+        f_i_cross_omega_i_world_2 * A_j[2] + (f_i_world_0 * t84 + f_i_world_1 * t85 + f_i_world_2 * t86));
+    jac_phi_q_v_geometry[12] = t87;
+    jac_phi_q_v_geometry[18] = t87;
+    const jg_real t88 = -(A_j[0] * g_i_cross_omega_i_world_0 + A_j[1] * g_i_cross_omega_i_world_1 + A_j[2] *
+        g_i_cross_omega_i_world_2 + (t84 * g_i_world_0 + t85 * g_i_world_1 + t86 * g_i_world_2));
+    jac_phi_q_v_geometry[13] = t88;
+    jac_phi_q_v_geometry[19] = t88;
+    const jg_real t89 = A_j[4] * omega_j_world_2 - A_j[5] * omega_j_world_1;
+    const jg_real t90 = A_j[5] * omega_j_world_0 - A_j[3] * omega_j_world_2;
+    const jg_real t91 = A_j[3] * omega_j_world_1 - A_j[4] * omega_j_world_0;
+    const jg_real t92 = -(f_i_cross_omega_i_world_0 * A_j[3] + f_i_cross_omega_i_world_1 * A_j[4] +
+        f_i_cross_omega_i_world_2 * A_j[5] + (f_i_world_0 * t89 + f_i_world_1 * t90 + f_i_world_2 * t91));
+    jac_phi_q_v_geometry[14] = t92;
+    jac_phi_q_v_geometry[20] = t92;
+    const jg_real t93 = -(A_j[3] * g_i_cross_omega_i_world_0 + A_j[4] * g_i_cross_omega_i_world_1 + A_j[5] *
+        g_i_cross_omega_i_world_2 + (t89 * g_i_world_0 + t90 * g_i_world_1 + t91 * g_i_world_2));
+    jac_phi_q_v_geometry[15] = t93;
+    jac_phi_q_v_geometry[21] = t93;
+    const jg_real t94 = A_j[7] * omega_j_world_2 - A_j[8] * omega_j_world_1;
+    const jg_real t95 = A_j[8] * omega_j_world_0 - A_j[6] * omega_j_world_2;
+    const jg_real t96 = A_j[6] * omega_j_world_1 - A_j[7] * omega_j_world_0;
+    const jg_real t97 = -(f_i_cross_omega_i_world_0 * A_j[6] + f_i_cross_omega_i_world_1 * A_j[7] +
+        f_i_cross_omega_i_world_2 * A_j[8] + (f_i_world_0 * t94 + f_i_world_1 * t95 + f_i_world_2 * t96));
+    jac_phi_q_v_geometry[16] = t97;
+    jac_phi_q_v_geometry[22] = t97;
+    const jg_real t98 = -(A_j[6] * g_i_cross_omega_i_world_0 + A_j[7] * g_i_cross_omega_i_world_1 + A_j[8] *
+        g_i_cross_omega_i_world_2 + (t94 * g_i_world_0 + t95 * g_i_world_1 + t96 * g_i_world_2));
+    jac_phi_q_v_geometry[17] = t98;
+    jac_phi_q_v_geometry[23] = t98;
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
     jac_phi_q_v_velocity[2] = -f_i_world_1;
     jac_phi_q_v_velocity[3] = -g_i_world_1;
     jac_phi_q_v_velocity[4] = -f_i_world_2;
     jac_phi_q_v_velocity[5] = -g_i_world_2;
-    const jg_real t216 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
-    const jg_real t217 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
-    const jg_real t218 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
-    jac_phi_q_v_velocity[6] = t216 * r_i[0] + t217 * r_i[1] + t218 * r_i[2] - (t216 * r_j[0] + t217 * r_j[1] + t218
-        * r_j[2] + (t216 * s_j_world_0 + t217 * s_j_world_1 + t218 * s_j_world_2));
-    const jg_real t219 = A_i[2] * g_i_world_1 - A_i[1] * g_i_world_2;
-    const jg_real t220 = A_i[0] * g_i_world_2 - A_i[2] * g_i_world_0;
-    const jg_real t221 = A_i[1] * g_i_world_0 - A_i[0] * g_i_world_1;
-    jac_phi_q_v_velocity[7] = r_i[0] * t219 + r_i[1] * t220 + r_i[2] * t221 - (r_j[0] * t219 + r_j[1] * t220 +
-        r_j[2] * t221 + (s_j_world_0 * t219 + s_j_world_1 * t220 + s_j_world_2 * t221));
-    jac_phi_q_v_velocity[8] = -(t216 * h_j_world_0 + t217 * h_j_world_1 + t218 * h_j_world_2);
-    jac_phi_q_v_velocity[9] = -(t219 * h_j_world_0 + t220 * h_j_world_1 + t221 * h_j_world_2);
-    const jg_real t222 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
-    const jg_real t223 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
-    const jg_real t224 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
-    jac_phi_q_v_velocity[10] = t222 * r_i[0] + t223 * r_i[1] + t224 * r_i[2] - (t222 * r_j[0] + t223 * r_j[1] + t224
-        * r_j[2] + (t222 * s_j_world_0 + t223 * s_j_world_1 + t224 * s_j_world_2));
-    const jg_real t225 = A_i[5] * g_i_world_1 - A_i[4] * g_i_world_2;
-    const jg_real t226 = A_i[3] * g_i_world_2 - A_i[5] * g_i_world_0;
-    const jg_real t227 = A_i[4] * g_i_world_0 - A_i[3] * g_i_world_1;
-    jac_phi_q_v_velocity[11] = r_i[0] * t225 + r_i[1] * t226 + r_i[2] * t227 - (r_j[0] * t225 + r_j[1] * t226 +
-        r_j[2] * t227 + (s_j_world_0 * t225 + s_j_world_1 * t226 + s_j_world_2 * t227));
-    jac_phi_q_v_velocity[12] = -(t222 * h_j_world_0 + t223 * h_j_world_1 + t224 * h_j_world_2);
-    jac_phi_q_v_velocity[13] = -(t225 * h_j_world_0 + t226 * h_j_world_1 + t227 * h_j_world_2);
-    const jg_real t228 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
-    const jg_real t229 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
-    const jg_real t230 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
-    jac_phi_q_v_velocity[14] = t228 * r_i[0] + t229 * r_i[1] + t230 * r_i[2] - (t228 * r_j[0] + t229 * r_j[1] + t230
-        * r_j[2] + (t228 * s_j_world_0 + t229 * s_j_world_1 + t230 * s_j_world_2));
-    const jg_real t231 = A_i[8] * g_i_world_1 - A_i[7] * g_i_world_2;
-    const jg_real t232 = A_i[6] * g_i_world_2 - A_i[8] * g_i_world_0;
-    const jg_real t233 = A_i[7] * g_i_world_0 - A_i[6] * g_i_world_1;
-    jac_phi_q_v_velocity[15] = r_i[0] * t231 + r_i[1] * t232 + r_i[2] * t233 - (r_j[0] * t231 + r_j[1] * t232 +
-        r_j[2] * t233 + (s_j_world_0 * t231 + s_j_world_1 * t232 + s_j_world_2 * t233));
-    jac_phi_q_v_velocity[16] = -(t228 * h_j_world_0 + t229 * h_j_world_1 + t230 * h_j_world_2);
-    jac_phi_q_v_velocity[17] = -(t231 * h_j_world_0 + t232 * h_j_world_1 + t233 * h_j_world_2);
-    jac_phi_q_v_velocity[24] = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
-    jac_phi_q_v_velocity[25] = s_j[1] * g_i_in_j_2 - s_j[2] * g_i_in_j_1;
-    jac_phi_q_v_velocity[26] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
-    jac_phi_q_v_velocity[27] = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
-    jac_phi_q_v_velocity[28] = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
-    jac_phi_q_v_velocity[29] = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
-    jac_phi_q_v_velocity[30] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
-    jac_phi_q_v_velocity[31] = g_i_in_j_0 * C_j[8] - g_i_in_j_2 * C_j[6];
-    jac_phi_q_v_velocity[32] = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
-    jac_phi_q_v_velocity[33] = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
-    jac_phi_q_v_velocity[34] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
-    jac_phi_q_v_velocity[35] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
+    const jg_real t99 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
+    const jg_real t100 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
+    const jg_real t101 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
+    jac_phi_q_v_velocity[6] = -(t99 * r_ij_world_0 + t100 * r_ij_world_1 + t101 * r_ij_world_2 + (t99 * s_j_world_0
+        + t100 * s_j_world_1 + t101 * s_j_world_2));
+    const jg_real t102 = A_i[2] * g_i_world_1 - A_i[1] * g_i_world_2;
+    const jg_real t103 = A_i[0] * g_i_world_2 - A_i[2] * g_i_world_0;
+    const jg_real t104 = A_i[1] * g_i_world_0 - A_i[0] * g_i_world_1;
+    jac_phi_q_v_velocity[7] = -(r_ij_world_0 * t102 + r_ij_world_1 * t103 + r_ij_world_2 * t104 + (s_j_world_0 *
+        t102 + s_j_world_1 * t103 + s_j_world_2 * t104));
+    jac_phi_q_v_velocity[8] = -(t99 * h_j_world_0 + t100 * h_j_world_1 + t101 * h_j_world_2);
+    jac_phi_q_v_velocity[9] = -(t102 * h_j_world_0 + t103 * h_j_world_1 + t104 * h_j_world_2);
+    const jg_real t105 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
+    const jg_real t106 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
+    const jg_real t107 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
+    jac_phi_q_v_velocity[10] = -(t105 * r_ij_world_0 + t106 * r_ij_world_1 + t107 * r_ij_world_2 + (t105 *
+        s_j_world_0 + t106 * s_j_world_1 + t107 * s_j_world_2));
+    const jg_real t108 = A_i[5] * g_i_world_1 - A_i[4] * g_i_world_2;
+    const jg_real t109 = A_i[3] * g_i_world_2 - A_i[5] * g_i_world_0;
+    const jg_real t110 = A_i[4] * g_i_world_0 - A_i[3] * g_i_world_1;
+    jac_phi_q_v_velocity[11] = -(r_ij_world_0 * t108 + r_ij_world_1 * t109 + r_ij_world_2 * t110 + (s_j_world_0 *
+        t108 + s_j_world_1 * t109 + s_j_world_2 * t110));
+    jac_phi_q_v_velocity[12] = -(t105 * h_j_world_0 + t106 * h_j_world_1 + t107 * h_j_world_2);
+    jac_phi_q_v_velocity[13] = -(t108 * h_j_world_0 + t109 * h_j_world_1 + t110 * h_j_world_2);
+    const jg_real t111 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
+    const jg_real t112 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
+    const jg_real t113 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
+    jac_phi_q_v_velocity[14] = -(t111 * r_ij_world_0 + t112 * r_ij_world_1 + t113 * r_ij_world_2 + (t111 *
+        s_j_world_0 + t112 * s_j_world_1 + t113 * s_j_world_2));
+    const jg_real t114 = A_i[8] * g_i_world_1 - A_i[7] * g_i_world_2;
+    const jg_real t115 = A_i[6] * g_i_world_2 - A_i[8] * g_i_world_0;
+    const jg_real t116 = A_i[7] * g_i_world_0 - A_i[6] * g_i_world_1;
+    jac_phi_q_v_velocity[15] = -(r_ij_world_0 * t114 + r_ij_world_1 * t115 + r_ij_world_2 * t116 + (s_j_world_0 *
+        t114 + s_j_world_1 * t115 + s_j_world_2 * t116));
+    jac_phi_q_v_velocity[16] = -(t111 * h_j_world_0 + t112 * h_j_world_1 + t113 * h_j_world_2);
+    jac_phi_q_v_velocity[17] = -(t114 * h_j_world_0 + t115 * h_j_world_1 + t116 * h_j_world_2);
+    const jg_real t117 = s_j_world_1 * A_j[2] - A_j[1] * s_j_world_2;
+    const jg_real t118 = A_j[0] * s_j_world_2 - s_j_world_0 * A_j[2];
+    const jg_real t119 = s_j_world_0 * A_j[1] - A_j[0] * s_j_world_1;
+    jac_phi_q_v_velocity[24] = -(f_i_world_0 * t117 + f_i_world_1 * t118 + f_i_world_2 * t119);
+    jac_phi_q_v_velocity[25] = -(t117 * g_i_world_0 + t118 * g_i_world_1 + t119 * g_i_world_2);
+    const jg_real t120 = A_j[1] * h_j_world_2 - A_j[2] * h_j_world_1;
+    const jg_real t121 = A_j[2] * h_j_world_0 - A_j[0] * h_j_world_2;
+    const jg_real t122 = A_j[0] * h_j_world_1 - A_j[1] * h_j_world_0;
+    jac_phi_q_v_velocity[26] = f_i_world_0 * t120 + f_i_world_1 * t121 + f_i_world_2 * t122;
+    jac_phi_q_v_velocity[27] = g_i_world_0 * t120 + g_i_world_1 * t121 + g_i_world_2 * t122;
+    const jg_real t123 = s_j_world_1 * A_j[5] - A_j[4] * s_j_world_2;
+    const jg_real t124 = A_j[3] * s_j_world_2 - s_j_world_0 * A_j[5];
+    const jg_real t125 = s_j_world_0 * A_j[4] - A_j[3] * s_j_world_1;
+    jac_phi_q_v_velocity[28] = -(f_i_world_0 * t123 + f_i_world_1 * t124 + f_i_world_2 * t125);
+    jac_phi_q_v_velocity[29] = -(t123 * g_i_world_0 + t124 * g_i_world_1 + t125 * g_i_world_2);
+    const jg_real t126 = A_j[4] * h_j_world_2 - A_j[5] * h_j_world_1;
+    const jg_real t127 = A_j[5] * h_j_world_0 - A_j[3] * h_j_world_2;
+    const jg_real t128 = A_j[3] * h_j_world_1 - A_j[4] * h_j_world_0;
+    jac_phi_q_v_velocity[30] = f_i_world_0 * t126 + f_i_world_1 * t127 + f_i_world_2 * t128;
+    jac_phi_q_v_velocity[31] = g_i_world_0 * t126 + g_i_world_1 * t127 + g_i_world_2 * t128;
+    const jg_real t129 = s_j_world_1 * A_j[8] - A_j[7] * s_j_world_2;
+    const jg_real t130 = A_j[6] * s_j_world_2 - s_j_world_0 * A_j[8];
+    const jg_real t131 = s_j_world_0 * A_j[7] - A_j[6] * s_j_world_1;
+    jac_phi_q_v_velocity[32] = -(f_i_world_0 * t129 + f_i_world_1 * t130 + f_i_world_2 * t131);
+    jac_phi_q_v_velocity[33] = -(t129 * g_i_world_0 + t130 * g_i_world_1 + t131 * g_i_world_2);
+    const jg_real t132 = A_j[7] * h_j_world_2 - A_j[8] * h_j_world_1;
+    const jg_real t133 = A_j[8] * h_j_world_0 - A_j[6] * h_j_world_2;
+    const jg_real t134 = A_j[6] * h_j_world_1 - A_j[7] * h_j_world_0;
+    jac_phi_q_v_velocity[34] = f_i_world_0 * t132 + f_i_world_1 * t133 + f_i_world_2 * t134;
+    jac_phi_q_v_velocity[35] = g_i_world_0 * t132 + g_i_world_1 * t133 + g_i_world_2 * t134;
 }
 
 static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -758,40 +656,40 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[80] = v_0_in_j_2;
     const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
     jac_phi_q_t_lambda_geometry[76] = v_0_in_j_1;
-    /* v_3_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i, axes of body j */
-    const jg_real v_3_in_j_0 = v_0_in_j_2 * s_j[1] - v_0_in_j_1 * s_j[2];
-    /* v_4_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_4_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
-    const jg_real v_4_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
-    const jg_real v_4_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    /* v_4_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_4_in_j_1 = A_j[3] * v_4_world_0 + A_j[4] * v_4_world_1 + A_j[5] * v_4_world_2;
-    jac_phi_q_t_lambda_geometry[91] = v_4_in_j_1;
-    const jg_real v_4_in_j_2 = A_j[6] * v_4_world_0 + A_j[7] * v_4_world_1 + A_j[8] * v_4_world_2;
-    jac_phi_q_t_lambda_geometry[95] = v_4_in_j_2;
-    /* v_5_in_j = lambda_2 f_i x h_j + lambda_3 g_i x h_j, axes of body j */
-    const jg_real v_5_in_j_0 = v_4_in_j_1 * C_j[8] - v_4_in_j_2 * C_j[7];
-    /* v_6_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i - lambda_2 f_i x h_j - lambda_3 g_i x h_j, axes of ... */
-    const jg_real v_6_in_j_0 = v_3_in_j_0 - v_5_in_j_0;
+    /* v_2_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i, axes of body j */
+    const jg_real v_2_in_j_0 = v_0_in_j_2 * s_j[1] - v_0_in_j_1 * s_j[2];
+    /* v_3_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_3_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real v_3_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
+    const jg_real v_3_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    /* v_3_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
+    const jg_real v_3_in_j_1 = A_j[3] * v_3_world_0 + A_j[4] * v_3_world_1 + A_j[5] * v_3_world_2;
+    jac_phi_q_t_lambda_geometry[91] = v_3_in_j_1;
+    const jg_real v_3_in_j_2 = A_j[6] * v_3_world_0 + A_j[7] * v_3_world_1 + A_j[8] * v_3_world_2;
+    jac_phi_q_t_lambda_geometry[95] = v_3_in_j_2;
+    /* v_4_in_j = lambda_2 f_i x h_j + lambda_3 g_i x h_j, axes of body j */
+    const jg_real v_4_in_j_0 = v_3_in_j_1 * C_j[8] - v_3_in_j_2 * C_j[7];
+    /* v_5_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i - lambda_2 f_i x h_j - lambda_3 g_i x h_j, axes of ... */
+    const jg_real v_5_in_j_0 = v_2_in_j_0 - v_4_in_j_0;
     const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
     jac_phi_q_t_lambda_geometry[86] = v_0_in_j_0;
-    const jg_real v_3_in_j_1 = s_j[2] * v_0_in_j_0 - v_0_in_j_2 * s_j[0];
-    const jg_real v_4_in_j_0 = v_4_world_0 * A_j[0] + v_4_world_1 * A_j[1] + v_4_world_2 * A_j[2];
-    jac_phi_q_t_lambda_geometry[101] = v_4_in_j_0;
-    const jg_real v_5_in_j_1 = v_4_in_j_2 * C_j[6] - C_j[8] * v_4_in_j_0;
-    const jg_real v_6_in_j_1 = v_3_in_j_1 - v_5_in_j_1;
-    const jg_real v_3_in_j_2 = v_0_in_j_1 * s_j[0] - s_j[1] * v_0_in_j_0;
-    const jg_real v_5_in_j_2 = C_j[7] * v_4_in_j_0 - v_4_in_j_1 * C_j[6];
-    const jg_real v_6_in_j_2 = v_3_in_j_2 - v_5_in_j_2;
-    /* v_6_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i - lambda_2 f_i x h_j - lambda_3 g_i x h_j, world axes */
-    const jg_real v_6_world_0 = v_6_in_j_0 * A_j[0] + A_j[3] * v_6_in_j_1 + A_j[6] * v_6_in_j_2;
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    /* v_2_world = lambda_0 r_j x f_i + lambda_1 r_j x g_i - lambda_0 r_i x f_i - lambda_1 r_i x g_i, world axes */
-    const jg_real v_2_world_0 = v_0_world_2 * v_1_world_1 - v_0_world_1 * v_1_world_2;
-    /* v_7_world = lambda_0 r_j x f_i + lambda_1 r_j x g_i + lambda_0 s_j x f_i + lambda_1 s_j x g_i - ... */
-    const jg_real v_7_world_0 = v_6_world_0 + v_2_world_0;
+    const jg_real v_2_in_j_1 = s_j[2] * v_0_in_j_0 - v_0_in_j_2 * s_j[0];
+    const jg_real v_3_in_j_0 = v_3_world_0 * A_j[0] + v_3_world_1 * A_j[1] + v_3_world_2 * A_j[2];
+    jac_phi_q_t_lambda_geometry[101] = v_3_in_j_0;
+    const jg_real v_4_in_j_1 = v_3_in_j_2 * C_j[6] - C_j[8] * v_3_in_j_0;
+    const jg_real v_5_in_j_1 = v_2_in_j_1 - v_4_in_j_1;
+    const jg_real v_2_in_j_2 = v_0_in_j_1 * s_j[0] - s_j[1] * v_0_in_j_0;
+    const jg_real v_4_in_j_2 = C_j[7] * v_3_in_j_0 - v_3_in_j_1 * C_j[6];
+    const jg_real v_5_in_j_2 = v_2_in_j_2 - v_4_in_j_2;
+    /* v_5_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i - lambda_2 f_i x h_j - lambda_3 g_i x h_j, world axes */
+    const jg_real v_5_world_0 = v_5_in_j_0 * A_j[0] + A_j[3] * v_5_in_j_1 + A_j[6] * v_5_in_j_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_1_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i, world axes */
+    const jg_real v_1_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
+    /* v_6_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_0 s_j x f_i + lambda_1 s_j x g_i - ... */
+    const jg_real v_6_world_0 = v_5_world_0 + v_1_world_0;
     const jg_real t43 = t18 * A_j[6];
     const jg_real t44 = t18 * A_j[3];
     const jg_real t45 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
@@ -806,17 +704,17 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t52 = t44 * s_j[0] - s_j[1] * t49 - (C_j[7] * t50 - t46 * C_j[6]);
     jac_phi_q_t_lambda_A_i[7] = t52;
     const jg_real t53 = t48 * A_j[0] + A_j[3] * t51 + A_j[6] * t52;
-    const jg_real t54 = t18 * v_1_world_2;
+    const jg_real t54 = t18 * r_ij_world_2;
     const jg_real t55 = t48 * A_j[1] + A_j[4] * t51 + A_j[7] * t52 + t54;
-    const jg_real t56 = t18 * v_1_world_1;
+    const jg_real t56 = t18 * r_ij_world_1;
     const jg_real t57 = t48 * A_j[2] + A_j[5] * t51 + A_j[8] * t52 - t56;
-    jac_phi_q_t_lambda_A_i[1] = -(v_7_world_0 + A_i[0] * t53 + A_i[1] * t55 + A_i[2] * t57);
+    jac_phi_q_t_lambda_A_i[1] = -(v_6_world_0 + A_i[0] * t53 + A_i[1] * t55 + A_i[2] * t57);
     jac_phi_q_t_lambda_A_i[2] = -(A_i[3] * t53 + A_i[4] * t55 + A_i[5] * t57);
     jac_phi_q_t_lambda_A_i[3] = -(A_i[6] * t53 + A_i[7] * t55 + A_i[8] * t57);
-    const jg_real v_6_world_1 = v_6_in_j_0 * A_j[1] + A_j[4] * v_6_in_j_1 + A_j[7] * v_6_in_j_2;
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real v_2_world_1 = v_0_world_0 * v_1_world_2 - v_0_world_2 * v_1_world_0;
-    const jg_real v_7_world_1 = v_6_world_1 + v_2_world_1;
+    const jg_real v_5_world_1 = v_5_in_j_0 * A_j[1] + A_j[4] * v_5_in_j_1 + A_j[7] * v_5_in_j_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real v_1_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_6_world_1 = v_5_world_1 + v_1_world_1;
     const jg_real t62 = t18 * A_j[7];
     const jg_real t63 = t18 * A_j[4];
     const jg_real t64 = A_j[4] * t45;
@@ -831,14 +729,14 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[15] = t70;
     const jg_real t71 = t66 * A_j[1] + A_j[4] * t69 + A_j[7] * t70;
     const jg_real t72 = t66 * A_j[0] + A_j[3] * t69 + A_j[6] * t70 - t54;
-    const jg_real t73 = t18 * v_1_world_0;
+    const jg_real t73 = t18 * r_ij_world_0;
     const jg_real t74 = t66 * A_j[2] + A_j[5] * t69 + A_j[8] * t70 + t73;
-    jac_phi_q_t_lambda_A_i[9] = -(v_7_world_1 + A_i[1] * t71 + A_i[0] * t72 + A_i[2] * t74);
+    jac_phi_q_t_lambda_A_i[9] = -(v_6_world_1 + A_i[1] * t71 + A_i[0] * t72 + A_i[2] * t74);
     jac_phi_q_t_lambda_A_i[10] = -(A_i[3] * t72 + A_i[4] * t71 + A_i[5] * t74);
     jac_phi_q_t_lambda_A_i[11] = -(A_i[6] * t72 + A_i[7] * t71 + A_i[8] * t74);
-    const jg_real v_6_world_2 = v_6_in_j_0 * A_j[2] + A_j[5] * v_6_in_j_1 + A_j[8] * v_6_in_j_2;
-    const jg_real v_2_world_2 = v_0_world_1 * v_1_world_0 - v_0_world_0 * v_1_world_1;
-    const jg_real v_7_world_2 = v_6_world_2 + v_2_world_2;
+    const jg_real v_5_world_2 = v_5_in_j_0 * A_j[2] + A_j[5] * v_5_in_j_1 + A_j[8] * v_5_in_j_2;
+    const jg_real v_1_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_6_world_2 = v_5_world_2 + v_1_world_2;
     const jg_real t78 = t18 * A_j[8];
     const jg_real t79 = t18 * A_j[5];
     const jg_real t80 = A_j[5] * t45;
@@ -854,7 +752,7 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t87 = t82 * A_j[2] + A_j[5] * t85 + A_j[8] * t86;
     const jg_real t88 = t82 * A_j[0] + A_j[3] * t85 + A_j[6] * t86 + t56;
     const jg_real t89 = t82 * A_j[1] + A_j[4] * t85 + A_j[7] * t86 - t73;
-    jac_phi_q_t_lambda_A_i[17] = -(A_i[0] * t88 + A_i[1] * t89 + (v_7_world_2 + A_i[2] * t87));
+    jac_phi_q_t_lambda_A_i[17] = -(A_i[0] * t88 + A_i[1] * t89 + (v_6_world_2 + A_i[2] * t87));
     jac_phi_q_t_lambda_A_i[18] = -(A_i[3] * t88 + A_i[4] * t89 + A_i[5] * t87);
     jac_phi_q_t_lambda_A_i[19] = -(A_i[6] * t88 + A_i[7] * t89 + A_i[8] * t87);
     const jg_real t90 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
@@ -879,12 +777,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t101 = t93 * s_j[0] - s_j[1] * t98 - (C_j[7] * t99 - t95 * C_j[6]);
     jac_phi_q_t_lambda_A_i[31] = t101;
     const jg_real t102 = t97 * A_j[0] + A_j[3] * t100 + A_j[6] * t101;
-    const jg_real t103 = t90 * v_1_world_2;
+    const jg_real t103 = t90 * r_ij_world_2;
     const jg_real t104 = t97 * A_j[1] + A_j[4] * t100 + A_j[7] * t101 + t103;
-    const jg_real t105 = t90 * v_1_world_1;
+    const jg_real t105 = t90 * r_ij_world_1;
     const jg_real t106 = t97 * A_j[2] + A_j[5] * t100 + A_j[8] * t101 - t105;
     jac_phi_q_t_lambda_A_i[25] = -(A_i[0] * t102 + A_i[1] * t104 + A_i[2] * t106);
-    jac_phi_q_t_lambda_A_i[26] = -(v_7_world_0 + A_i[3] * t102 + A_i[4] * t104 + A_i[5] * t106);
+    jac_phi_q_t_lambda_A_i[26] = -(v_6_world_0 + A_i[3] * t102 + A_i[4] * t104 + A_i[5] * t106);
     jac_phi_q_t_lambda_A_i[27] = -(A_i[6] * t102 + A_i[7] * t104 + A_i[8] * t106);
     const jg_real t107 = t90 * A_j[7];
     const jg_real t108 = t90 * A_j[4];
@@ -900,10 +798,10 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[39] = t115;
     const jg_real t116 = t111 * A_j[0] + A_j[3] * t114 + A_j[6] * t115 - t103;
     const jg_real t117 = t111 * A_j[1] + A_j[4] * t114 + A_j[7] * t115;
-    const jg_real t118 = t90 * v_1_world_0;
+    const jg_real t118 = t90 * r_ij_world_0;
     const jg_real t119 = t111 * A_j[2] + A_j[5] * t114 + A_j[8] * t115 + t118;
     jac_phi_q_t_lambda_A_i[33] = -(A_i[0] * t116 + A_i[1] * t117 + A_i[2] * t119);
-    jac_phi_q_t_lambda_A_i[34] = -(v_7_world_1 + A_i[4] * t117 + A_i[3] * t116 + A_i[5] * t119);
+    jac_phi_q_t_lambda_A_i[34] = -(v_6_world_1 + A_i[4] * t117 + A_i[3] * t116 + A_i[5] * t119);
     jac_phi_q_t_lambda_A_i[35] = -(A_i[6] * t116 + A_i[7] * t117 + A_i[8] * t119);
     const jg_real t120 = t90 * A_j[8];
     const jg_real t121 = t90 * A_j[5];
@@ -921,7 +819,7 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t130 = t124 * A_j[1] + A_j[4] * t127 + A_j[7] * t128 - t118;
     const jg_real t131 = t124 * A_j[2] + A_j[5] * t127 + A_j[8] * t128;
     jac_phi_q_t_lambda_A_i[41] = -(A_i[0] * t129 + A_i[1] * t130 + A_i[2] * t131);
-    jac_phi_q_t_lambda_A_i[42] = -(A_i[3] * t129 + A_i[4] * t130 + (v_7_world_2 + A_i[5] * t131));
+    jac_phi_q_t_lambda_A_i[42] = -(A_i[3] * t129 + A_i[4] * t130 + (v_6_world_2 + A_i[5] * t131));
     jac_phi_q_t_lambda_A_i[43] = -(A_i[6] * t129 + A_i[7] * t130 + A_i[8] * t131);
     const jg_real t132 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
     jac_phi_q_t_lambda_A_i[52] = t132;
@@ -945,13 +843,13 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t143 = t135 * s_j[0] - s_j[1] * t140 - (C_j[7] * t141 - t137 * C_j[6]);
     jac_phi_q_t_lambda_A_i[55] = t143;
     const jg_real t144 = t139 * A_j[0] + A_j[3] * t142 + A_j[6] * t143;
-    const jg_real t145 = t132 * v_1_world_2;
+    const jg_real t145 = t132 * r_ij_world_2;
     const jg_real t146 = t139 * A_j[1] + A_j[4] * t142 + A_j[7] * t143 + t145;
-    const jg_real t147 = t132 * v_1_world_1;
+    const jg_real t147 = t132 * r_ij_world_1;
     const jg_real t148 = t139 * A_j[2] + A_j[5] * t142 + A_j[8] * t143 - t147;
     jac_phi_q_t_lambda_A_i[49] = -(A_i[0] * t144 + A_i[1] * t146 + A_i[2] * t148);
     jac_phi_q_t_lambda_A_i[50] = -(A_i[3] * t144 + A_i[4] * t146 + A_i[5] * t148);
-    jac_phi_q_t_lambda_A_i[51] = -(v_7_world_0 + A_i[6] * t144 + A_i[7] * t146 + A_i[8] * t148);
+    jac_phi_q_t_lambda_A_i[51] = -(v_6_world_0 + A_i[6] * t144 + A_i[7] * t146 + A_i[8] * t148);
     const jg_real t149 = t132 * A_j[7];
     const jg_real t150 = t132 * A_j[4];
     const jg_real t151 = A_j[4] * t136;
@@ -966,11 +864,11 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_i[63] = t157;
     const jg_real t158 = t153 * A_j[0] + A_j[3] * t156 + A_j[6] * t157 - t145;
     const jg_real t159 = t153 * A_j[1] + A_j[4] * t156 + A_j[7] * t157;
-    const jg_real t160 = t132 * v_1_world_0;
+    const jg_real t160 = t132 * r_ij_world_0;
     const jg_real t161 = t153 * A_j[2] + A_j[5] * t156 + A_j[8] * t157 + t160;
     jac_phi_q_t_lambda_A_i[57] = -(A_i[0] * t158 + A_i[1] * t159 + A_i[2] * t161);
     jac_phi_q_t_lambda_A_i[58] = -(A_i[3] * t158 + A_i[4] * t159 + A_i[5] * t161);
-    jac_phi_q_t_lambda_A_i[59] = -(v_7_world_1 + A_i[7] * t159 + A_i[6] * t158 + A_i[8] * t161);
+    jac_phi_q_t_lambda_A_i[59] = -(v_6_world_1 + A_i[7] * t159 + A_i[6] * t158 + A_i[8] * t161);
     const jg_real t162 = t132 * A_j[8];
     const jg_real t163 = t132 * A_j[5];
     const jg_real t164 = A_j[5] * t136;
@@ -988,7 +886,7 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t173 = t166 * A_j[2] + A_j[5] * t169 + A_j[8] * t170;
     jac_phi_q_t_lambda_A_i[65] = -(A_i[0] * t171 + A_i[1] * t172 + A_i[2] * t173);
     jac_phi_q_t_lambda_A_i[66] = -(A_i[3] * t171 + A_i[4] * t172 + A_i[5] * t173);
-    jac_phi_q_t_lambda_A_i[67] = -(A_i[6] * t171 + A_i[7] * t172 + (v_7_world_2 + A_i[8] * t173));
+    jac_phi_q_t_lambda_A_i[67] = -(A_i[6] * t171 + A_i[7] * t172 + (v_6_world_2 + A_i[8] * t173));
     jac_phi_q_t_lambda_r_j[0] = -t6;
     jac_phi_q_t_lambda_r_j[1] = -t7;
     jac_phi_q_t_lambda_r_j[2] = -t8;
@@ -998,74 +896,74 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_r_j[6] = -t15;
     jac_phi_q_t_lambda_r_j[7] = -t16;
     jac_phi_q_t_lambda_r_j[8] = -t17;
-    const jg_real t174 = v_0_world_0 * s_j[2] + v_4_world_0 * C_j[8];
+    const jg_real t174 = v_0_world_0 * s_j[2] + v_3_world_0 * C_j[8];
     jac_phi_q_t_lambda_A_j[3] = t174;
-    const jg_real t175 = v_0_world_0 * s_j[1] + v_4_world_0 * C_j[7];
+    const jg_real t175 = v_0_world_0 * s_j[1] + v_3_world_0 * C_j[7];
     jac_phi_q_t_lambda_A_j[33] = t175;
-    const jg_real t176 = v_6_in_j_0 + A_j[3] * t174 - A_j[6] * t175;
+    const jg_real t176 = v_5_in_j_0 + A_j[3] * t174 - A_j[6] * t175;
     const jg_real t177 = A_j[4] * t174 - A_j[7] * t175;
     const jg_real t178 = A_j[5] * t174 - A_j[8] * t175;
     jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * t176 + A_i[1] * t177 + A_i[2] * t178);
     jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * t176 + A_i[4] * t177 + A_i[5] * t178);
     jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * t176 + A_i[7] * t177 + A_i[8] * t178);
     jac_phi_q_t_lambda_A_j[4] = -t175;
-    const jg_real t179 = v_0_world_1 * s_j[2] + v_4_world_1 * C_j[8];
+    const jg_real t179 = v_0_world_1 * s_j[2] + v_3_world_1 * C_j[8];
     jac_phi_q_t_lambda_A_j[8] = t179;
-    const jg_real t180 = v_0_world_1 * s_j[1] + v_4_world_1 * C_j[7];
+    const jg_real t180 = v_0_world_1 * s_j[1] + v_3_world_1 * C_j[7];
     jac_phi_q_t_lambda_A_j[38] = t180;
-    const jg_real t181 = v_6_in_j_0 + A_j[4] * t179 - A_j[7] * t180;
+    const jg_real t181 = v_5_in_j_0 + A_j[4] * t179 - A_j[7] * t180;
     const jg_real t182 = A_j[3] * t179 - A_j[6] * t180;
     const jg_real t183 = A_j[5] * t179 - A_j[8] * t180;
     jac_phi_q_t_lambda_A_j[5] = -(A_i[0] * t182 + A_i[1] * t181 + A_i[2] * t183);
     jac_phi_q_t_lambda_A_j[6] = -(A_i[3] * t182 + A_i[4] * t181 + A_i[5] * t183);
     jac_phi_q_t_lambda_A_j[7] = -(A_i[6] * t182 + A_i[7] * t181 + A_i[8] * t183);
     jac_phi_q_t_lambda_A_j[9] = -t180;
-    const jg_real t184 = v_0_world_2 * s_j[2] + v_4_world_2 * C_j[8];
+    const jg_real t184 = v_0_world_2 * s_j[2] + v_3_world_2 * C_j[8];
     jac_phi_q_t_lambda_A_j[13] = t184;
-    const jg_real t185 = v_0_world_2 * s_j[1] + v_4_world_2 * C_j[7];
+    const jg_real t185 = v_0_world_2 * s_j[1] + v_3_world_2 * C_j[7];
     jac_phi_q_t_lambda_A_j[43] = t185;
     const jg_real t186 = A_j[3] * t184 - A_j[6] * t185;
     const jg_real t187 = A_j[4] * t184 - A_j[7] * t185;
-    const jg_real t188 = v_6_in_j_0 + A_j[5] * t184 - A_j[8] * t185;
+    const jg_real t188 = v_5_in_j_0 + A_j[5] * t184 - A_j[8] * t185;
     jac_phi_q_t_lambda_A_j[10] = -(A_i[0] * t186 + A_i[1] * t187 + A_i[2] * t188);
     jac_phi_q_t_lambda_A_j[11] = -(A_i[3] * t186 + A_i[4] * t187 + A_i[5] * t188);
     jac_phi_q_t_lambda_A_j[12] = -(A_i[6] * t186 + A_i[7] * t187 + A_i[8] * t188);
     jac_phi_q_t_lambda_A_j[14] = -t185;
-    const jg_real t189 = v_0_world_0 * s_j[0] + v_4_world_0 * C_j[6];
+    const jg_real t189 = v_0_world_0 * s_j[0] + v_3_world_0 * C_j[6];
     jac_phi_q_t_lambda_A_j[19] = t189;
-    const jg_real t190 = v_6_in_j_1 - t174 * A_j[0] + A_j[6] * t189;
+    const jg_real t190 = v_5_in_j_1 - t174 * A_j[0] + A_j[6] * t189;
     const jg_real t191 = A_j[7] * t189 - t174 * A_j[1];
     const jg_real t192 = A_j[8] * t189 - t174 * A_j[2];
     jac_phi_q_t_lambda_A_j[15] = -(A_i[0] * t190 + A_i[1] * t191 + A_i[2] * t192);
     jac_phi_q_t_lambda_A_j[16] = -(A_i[3] * t190 + A_i[4] * t191 + A_i[5] * t192);
     jac_phi_q_t_lambda_A_j[17] = -(A_i[6] * t190 + A_i[7] * t191 + A_i[8] * t192);
     jac_phi_q_t_lambda_A_j[18] = -t174;
-    const jg_real t193 = v_0_world_1 * s_j[0] + v_4_world_1 * C_j[6];
+    const jg_real t193 = v_0_world_1 * s_j[0] + v_3_world_1 * C_j[6];
     jac_phi_q_t_lambda_A_j[24] = t193;
-    const jg_real t194 = v_6_in_j_1 - t179 * A_j[1] + A_j[7] * t193;
+    const jg_real t194 = v_5_in_j_1 - t179 * A_j[1] + A_j[7] * t193;
     const jg_real t195 = A_j[6] * t193 - t179 * A_j[0];
     const jg_real t196 = A_j[8] * t193 - t179 * A_j[2];
     jac_phi_q_t_lambda_A_j[20] = -(A_i[0] * t195 + A_i[1] * t194 + A_i[2] * t196);
     jac_phi_q_t_lambda_A_j[21] = -(A_i[3] * t195 + A_i[4] * t194 + A_i[5] * t196);
     jac_phi_q_t_lambda_A_j[22] = -(A_i[6] * t195 + A_i[7] * t194 + A_i[8] * t196);
     jac_phi_q_t_lambda_A_j[23] = -t179;
-    const jg_real t197 = v_0_world_2 * s_j[0] + v_4_world_2 * C_j[6];
+    const jg_real t197 = v_0_world_2 * s_j[0] + v_3_world_2 * C_j[6];
     jac_phi_q_t_lambda_A_j[29] = t197;
     const jg_real t198 = A_j[6] * t197 - t184 * A_j[0];
     const jg_real t199 = A_j[7] * t197 - t184 * A_j[1];
-    const jg_real t200 = v_6_in_j_1 - t184 * A_j[2] + A_j[8] * t197;
+    const jg_real t200 = v_5_in_j_1 - t184 * A_j[2] + A_j[8] * t197;
     jac_phi_q_t_lambda_A_j[25] = -(A_i[0] * t198 + A_i[1] * t199 + A_i[2] * t200);
     jac_phi_q_t_lambda_A_j[26] = -(A_i[3] * t198 + A_i[4] * t199 + A_i[5] * t200);
     jac_phi_q_t_lambda_A_j[27] = -(A_i[6] * t198 + A_i[7] * t199 + A_i[8] * t200);
     jac_phi_q_t_lambda_A_j[28] = -t184;
-    const jg_real t201 = t175 * A_j[0] - A_j[3] * t189 + v_6_in_j_2;
+    const jg_real t201 = t175 * A_j[0] - A_j[3] * t189 + v_5_in_j_2;
     const jg_real t202 = t175 * A_j[1] - A_j[4] * t189;
     const jg_real t203 = t175 * A_j[2] - A_j[5] * t189;
     jac_phi_q_t_lambda_A_j[30] = -(A_i[0] * t201 + A_i[1] * t202 + A_i[2] * t203);
     jac_phi_q_t_lambda_A_j[31] = -(A_i[3] * t201 + A_i[4] * t202 + A_i[5] * t203);
     jac_phi_q_t_lambda_A_j[32] = -(A_i[6] * t201 + A_i[7] * t202 + A_i[8] * t203);
     jac_phi_q_t_lambda_A_j[34] = -t189;
-    const jg_real t204 = t180 * A_j[1] - A_j[4] * t193 + v_6_in_j_2;
+    const jg_real t204 = t180 * A_j[1] - A_j[4] * t193 + v_5_in_j_2;
     const jg_real t205 = t180 * A_j[0] - A_j[3] * t193;
     const jg_real t206 = t180 * A_j[2] - A_j[5] * t193;
     jac_phi_q_t_lambda_A_j[35] = -(A_i[0] * t205 + A_i[1] * t204 + A_i[2] * t206);
@@ -1074,7 +972,7 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_j[39] = -t193;
     const jg_real t207 = t185 * A_j[0] - A_j[3] * t197;
     const jg_real t208 = t185 * A_j[1] - A_j[4] * t197;
-    const jg_real t209 = t185 * A_j[2] - A_j[5] * t197 + v_6_in_j_2;
+    const jg_real t209 = t185 * A_j[2] - A_j[5] * t197 + v_5_in_j_2;
     jac_phi_q_t_lambda_A_j[40] = -(A_i[0] * t207 + A_i[1] * t208 + A_i[2] * t209);
     jac_phi_q_t_lambda_A_j[41] = -(A_i[3] * t207 + A_i[4] * t208 + A_i[5] * t209);
     jac_phi_q_t_lambda_A_j[42] = -(A_i[6] * t207 + A_i[7] * t208 + A_i[8] * t209);
@@ -1103,9 +1001,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[10] = t223;
     const jg_real t224 = t214 * s_j[0] - s_j[1] * t221 - (C_j[7] * t222 - t218 * C_j[6]);
     jac_phi_q_t_lambda_geometry[11] = t224;
-    const jg_real t225 = t220 * A_j[0] + A_j[3] * t223 + A_j[6] * t224 + (t212 * v_1_world_1 - t211 * v_1_world_2);
-    const jg_real t226 = t220 * A_j[1] + A_j[4] * t223 + A_j[7] * t224 + (t210 * v_1_world_2 - t212 * v_1_world_0);
-    const jg_real t227 = t220 * A_j[2] + A_j[5] * t223 + A_j[8] * t224 + (t211 * v_1_world_0 - t210 * v_1_world_1);
+    const jg_real t225 = t220 * A_j[0] + A_j[3] * t223 + A_j[6] * t224 + (t212 * r_ij_world_1 - t211 *
+        r_ij_world_2);
+    const jg_real t226 = t220 * A_j[1] + A_j[4] * t223 + A_j[7] * t224 + (t210 * r_ij_world_2 - t212 *
+        r_ij_world_0);
+    const jg_real t227 = t220 * A_j[2] + A_j[5] * t223 + A_j[8] * t224 + (t211 * r_ij_world_0 - t210 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[3] = -(A_i[0] * t225 + A_i[1] * t226 + A_i[2] * t227);
     jac_phi_q_t_lambda_geometry[4] = -(A_i[3] * t225 + A_i[4] * t226 + A_i[5] * t227);
     jac_phi_q_t_lambda_geometry[5] = -(A_i[6] * t225 + A_i[7] * t226 + A_i[8] * t227);
@@ -1133,9 +1034,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[22] = t241;
     const jg_real t242 = t232 * s_j[0] - s_j[1] * t239 - (C_j[7] * t240 - t236 * C_j[6]);
     jac_phi_q_t_lambda_geometry[23] = t242;
-    const jg_real t243 = t238 * A_j[0] + A_j[3] * t241 + A_j[6] * t242 + (t230 * v_1_world_1 - t229 * v_1_world_2);
-    const jg_real t244 = t238 * A_j[1] + A_j[4] * t241 + A_j[7] * t242 + (t228 * v_1_world_2 - t230 * v_1_world_0);
-    const jg_real t245 = t238 * A_j[2] + A_j[5] * t241 + A_j[8] * t242 + (t229 * v_1_world_0 - t228 * v_1_world_1);
+    const jg_real t243 = t238 * A_j[0] + A_j[3] * t241 + A_j[6] * t242 + (t230 * r_ij_world_1 - t229 *
+        r_ij_world_2);
+    const jg_real t244 = t238 * A_j[1] + A_j[4] * t241 + A_j[7] * t242 + (t228 * r_ij_world_2 - t230 *
+        r_ij_world_0);
+    const jg_real t245 = t238 * A_j[2] + A_j[5] * t241 + A_j[8] * t242 + (t229 * r_ij_world_0 - t228 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[15] = -(A_i[0] * t243 + A_i[1] * t244 + A_i[2] * t245);
     jac_phi_q_t_lambda_geometry[16] = -(A_i[3] * t243 + A_i[4] * t244 + A_i[5] * t245);
     jac_phi_q_t_lambda_geometry[17] = -(A_i[6] * t243 + A_i[7] * t244 + A_i[8] * t245);
@@ -1163,9 +1067,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[34] = t259;
     const jg_real t260 = t250 * s_j[0] - s_j[1] * t257 - (C_j[7] * t258 - t254 * C_j[6]);
     jac_phi_q_t_lambda_geometry[35] = t260;
-    const jg_real t261 = t256 * A_j[0] + A_j[3] * t259 + A_j[6] * t260 + (t248 * v_1_world_1 - t247 * v_1_world_2);
-    const jg_real t262 = t256 * A_j[1] + A_j[4] * t259 + A_j[7] * t260 + (t246 * v_1_world_2 - t248 * v_1_world_0);
-    const jg_real t263 = t256 * A_j[2] + A_j[5] * t259 + A_j[8] * t260 + (t247 * v_1_world_0 - t246 * v_1_world_1);
+    const jg_real t261 = t256 * A_j[0] + A_j[3] * t259 + A_j[6] * t260 + (t248 * r_ij_world_1 - t247 *
+        r_ij_world_2);
+    const jg_real t262 = t256 * A_j[1] + A_j[4] * t259 + A_j[7] * t260 + (t246 * r_ij_world_2 - t248 *
+        r_ij_world_0);
+    const jg_real t263 = t256 * A_j[2] + A_j[5] * t259 + A_j[8] * t260 + (t247 * r_ij_world_0 - t246 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[27] = -(A_i[0] * t261 + A_i[1] * t262 + A_i[2] * t263);
     jac_phi_q_t_lambda_geometry[28] = -(A_i[3] * t261 + A_i[4] * t262 + A_i[5] * t263);
     jac_phi_q_t_lambda_geometry[29] = -(A_i[6] * t261 + A_i[7] * t262 + A_i[8] * t263);
@@ -1193,9 +1100,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[46] = t277;
     const jg_real t278 = t268 * s_j[0] - s_j[1] * t275 - (C_j[7] * t276 - t272 * C_j[6]);
     jac_phi_q_t_lambda_geometry[47] = t278;
-    const jg_real t279 = t274 * A_j[0] + A_j[3] * t277 + A_j[6] * t278 + (t266 * v_1_world_1 - t265 * v_1_world_2);
-    const jg_real t280 = t274 * A_j[1] + A_j[4] * t277 + A_j[7] * t278 + (t264 * v_1_world_2 - t266 * v_1_world_0);
-    const jg_real t281 = t274 * A_j[2] + A_j[5] * t277 + A_j[8] * t278 + (t265 * v_1_world_0 - t264 * v_1_world_1);
+    const jg_real t279 = t274 * A_j[0] + A_j[3] * t277 + A_j[6] * t278 + (t266 * r_ij_world_1 - t265 *
+        r_ij_world_2);
+    const jg_real t280 = t274 * A_j[1] + A_j[4] * t277 + A_j[7] * t278 + (t264 * r_ij_world_2 - t266 *
+        r_ij_world_0);
+    const jg_real t281 = t274 * A_j[2] + A_j[5] * t277 + A_j[8] * t278 + (t265 * r_ij_world_0 - t264 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[39] = -(A_i[0] * t279 + A_i[1] * t280 + A_i[2] * t281);
     jac_phi_q_t_lambda_geometry[40] = -(A_i[3] * t279 + A_i[4] * t280 + A_i[5] * t281);
     jac_phi_q_t_lambda_geometry[41] = -(A_i[6] * t279 + A_i[7] * t280 + A_i[8] * t281);
@@ -1223,9 +1133,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[58] = t295;
     const jg_real t296 = t286 * s_j[0] - s_j[1] * t293 - (C_j[7] * t294 - t290 * C_j[6]);
     jac_phi_q_t_lambda_geometry[59] = t296;
-    const jg_real t297 = t292 * A_j[0] + A_j[3] * t295 + A_j[6] * t296 + (t284 * v_1_world_1 - t283 * v_1_world_2);
-    const jg_real t298 = t292 * A_j[1] + A_j[4] * t295 + A_j[7] * t296 + (t282 * v_1_world_2 - t284 * v_1_world_0);
-    const jg_real t299 = t292 * A_j[2] + A_j[5] * t295 + A_j[8] * t296 + (t283 * v_1_world_0 - t282 * v_1_world_1);
+    const jg_real t297 = t292 * A_j[0] + A_j[3] * t295 + A_j[6] * t296 + (t284 * r_ij_world_1 - t283 *
+        r_ij_world_2);
+    const jg_real t298 = t292 * A_j[1] + A_j[4] * t295 + A_j[7] * t296 + (t282 * r_ij_world_2 - t284 *
+        r_ij_world_0);
+    const jg_real t299 = t292 * A_j[2] + A_j[5] * t295 + A_j[8] * t296 + (t283 * r_ij_world_0 - t282 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[51] = -(A_i[0] * t297 + A_i[1] * t298 + A_i[2] * t299);
     jac_phi_q_t_lambda_geometry[52] = -(A_i[3] * t297 + A_i[4] * t298 + A_i[5] * t299);
     jac_phi_q_t_lambda_geometry[53] = -(A_i[6] * t297 + A_i[7] * t298 + A_i[8] * t299);
@@ -1253,9 +1166,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[70] = t313;
     const jg_real t314 = t304 * s_j[0] - s_j[1] * t311 - (C_j[7] * t312 - t308 * C_j[6]);
     jac_phi_q_t_lambda_geometry[71] = t314;
-    const jg_real t315 = t310 * A_j[0] + A_j[3] * t313 + A_j[6] * t314 + (t302 * v_1_world_1 - t301 * v_1_world_2);
-    const jg_real t316 = t310 * A_j[1] + A_j[4] * t313 + A_j[7] * t314 + (t300 * v_1_world_2 - t302 * v_1_world_0);
-    const jg_real t317 = t310 * A_j[2] + A_j[5] * t313 + A_j[8] * t314 + (t301 * v_1_world_0 - t300 * v_1_world_1);
+    const jg_real t315 = t310 * A_j[0] + A_j[3] * t313 + A_j[6] * t314 + (t302 * r_ij_world_1 - t301 *
+        r_ij_world_2);
+    const jg_real t316 = t310 * A_j[1] + A_j[4] * t313 + A_j[7] * t314 + (t300 * r_ij_world_2 - t302 *
+        r_ij_world_0);
+    const jg_real t317 = t310 * A_j[2] + A_j[5] * t313 + A_j[8] * t314 + (t301 * r_ij_world_0 - t300 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_geometry[63] = -(A_i[0] * t315 + A_i[1] * t316 + A_i[2] * t317);
     jac_phi_q_t_lambda_geometry[64] = -(A_i[3] * t315 + A_i[4] * t316 + A_i[5] * t317);
     jac_phi_q_t_lambda_geometry[65] = -(A_i[6] * t315 + A_i[7] * t316 + A_i[8] * t317);
@@ -1280,27 +1196,27 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[83] = -(A_i[3] * t324 + A_i[4] * t325 + A_i[5] * t326);
     jac_phi_q_t_lambda_geometry[84] = -(A_i[6] * t324 + A_i[7] * t325 + A_i[8] * t326);
     jac_phi_q_t_lambda_geometry[85] = -v_0_in_j_1;
-    const jg_real t327 = A_j[6] * v_4_in_j_1 - A_j[3] * v_4_in_j_2;
-    const jg_real t328 = A_j[7] * v_4_in_j_1 - A_j[4] * v_4_in_j_2;
-    const jg_real t329 = A_j[8] * v_4_in_j_1 - A_j[5] * v_4_in_j_2;
+    const jg_real t327 = A_j[6] * v_3_in_j_1 - A_j[3] * v_3_in_j_2;
+    const jg_real t328 = A_j[7] * v_3_in_j_1 - A_j[4] * v_3_in_j_2;
+    const jg_real t329 = A_j[8] * v_3_in_j_1 - A_j[5] * v_3_in_j_2;
     jac_phi_q_t_lambda_geometry[87] = -(A_i[0] * t327 + A_i[1] * t328 + A_i[2] * t329);
     jac_phi_q_t_lambda_geometry[88] = -(A_i[3] * t327 + A_i[4] * t328 + A_i[5] * t329);
     jac_phi_q_t_lambda_geometry[89] = -(A_i[6] * t327 + A_i[7] * t328 + A_i[8] * t329);
-    jac_phi_q_t_lambda_geometry[90] = -v_4_in_j_2;
-    const jg_real t330 = v_4_in_j_2 * A_j[0] - A_j[6] * v_4_in_j_0;
-    const jg_real t331 = v_4_in_j_2 * A_j[1] - A_j[7] * v_4_in_j_0;
-    const jg_real t332 = v_4_in_j_2 * A_j[2] - A_j[8] * v_4_in_j_0;
+    jac_phi_q_t_lambda_geometry[90] = -v_3_in_j_2;
+    const jg_real t330 = v_3_in_j_2 * A_j[0] - A_j[6] * v_3_in_j_0;
+    const jg_real t331 = v_3_in_j_2 * A_j[1] - A_j[7] * v_3_in_j_0;
+    const jg_real t332 = v_3_in_j_2 * A_j[2] - A_j[8] * v_3_in_j_0;
     jac_phi_q_t_lambda_geometry[92] = -(A_i[0] * t330 + A_i[1] * t331 + A_i[2] * t332);
     jac_phi_q_t_lambda_geometry[93] = -(A_i[3] * t330 + A_i[4] * t331 + A_i[5] * t332);
     jac_phi_q_t_lambda_geometry[94] = -(A_i[6] * t330 + A_i[7] * t331 + A_i[8] * t332);
-    jac_phi_q_t_lambda_geometry[96] = -v_4_in_j_0;
-    const jg_real t333 = A_j[3] * v_4_in_j_0 - v_4_in_j_1 * A_j[0];
-    const jg_real t334 = A_j[4] * v_4_in_j_0 - v_4_in_j_1 * A_j[1];
-    const jg_real t335 = A_j[5] * v_4_in_j_0 - v_4_in_j_1 * A_j[2];
+    jac_phi_q_t_lambda_geometry[96] = -v_3_in_j_0;
+    const jg_real t333 = A_j[3] * v_3_in_j_0 - v_3_in_j_1 * A_j[0];
+    const jg_real t334 = A_j[4] * v_3_in_j_0 - v_3_in_j_1 * A_j[1];
+    const jg_real t335 = A_j[5] * v_3_in_j_0 - v_3_in_j_1 * A_j[2];
     jac_phi_q_t_lambda_geometry[97] = -(A_i[0] * t333 + A_i[1] * t334 + A_i[2] * t335);
     jac_phi_q_t_lambda_geometry[98] = -(A_i[3] * t333 + A_i[4] * t334 + A_i[5] * t335);
     jac_phi_q_t_lambda_geometry[99] = -(A_i[6] * t333 + A_i[7] * t334 + A_i[8] * t335);
-    jac_phi_q_t_lambda_geometry[100] = -v_4_in_j_1;
+    jac_phi_q_t_lambda_geometry[100] = -v_3_in_j_1;
     jac_phi_q_t_lambda_lambda[0] = -f_i_world_0;
     jac_phi_q_t_lambda_lambda[1] = -f_i_world_1;
     jac_phi_q_t_lambda_lambda[2] = -f_i_world_2;
@@ -1313,12 +1229,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[10] = t340;
     const jg_real t341 = t337 * s_j[0] - s_j[1] * t339;
     jac_phi_q_t_lambda_lambda[11] = t341;
-    const jg_real t342 = t338 * A_j[0] + A_j[3] * t340 + A_j[6] * t341 + (f_i_world_2 * v_1_world_1 - f_i_world_1 *
-        v_1_world_2);
-    const jg_real t343 = t338 * A_j[1] + A_j[4] * t340 + A_j[7] * t341 + (f_i_world_0 * v_1_world_2 - f_i_world_2 *
-        v_1_world_0);
-    const jg_real t344 = t338 * A_j[2] + A_j[5] * t340 + A_j[8] * t341 + (f_i_world_1 * v_1_world_0 - f_i_world_0 *
-        v_1_world_1);
+    const jg_real t342 = t338 * A_j[0] + A_j[3] * t340 + A_j[6] * t341 + (f_i_world_2 * r_ij_world_1 - f_i_world_1 *
+        r_ij_world_2);
+    const jg_real t343 = t338 * A_j[1] + A_j[4] * t340 + A_j[7] * t341 + (f_i_world_0 * r_ij_world_2 - f_i_world_2 *
+        r_ij_world_0);
+    const jg_real t344 = t338 * A_j[2] + A_j[5] * t340 + A_j[8] * t341 + (f_i_world_1 * r_ij_world_0 - f_i_world_0 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_lambda[3] = -(A_i[0] * t342 + A_i[1] * t343 + A_i[2] * t344);
     jac_phi_q_t_lambda_lambda[4] = -(A_i[3] * t342 + A_i[4] * t343 + A_i[5] * t344);
     jac_phi_q_t_lambda_lambda[5] = -(A_i[6] * t342 + A_i[7] * t343 + A_i[8] * t344);
@@ -1334,12 +1250,12 @@ static void jg_cylindrical_conventional_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[22] = t349;
     const jg_real t350 = t346 * s_j[0] - s_j[1] * t348;
     jac_phi_q_t_lambda_lambda[23] = t350;
-    const jg_real t351 = t347 * A_j[0] + A_j[3] * t349 + A_j[6] * t350 + (g_i_world_2 * v_1_world_1 - g_i_world_1 *
-        v_1_world_2);
-    const jg_real t352 = t347 * A_j[1] + A_j[4] * t349 + A_j[7] * t350 + (g_i_world_0 * v_1_world_2 - g_i_world_2 *
-        v_1_world_0);
-    const jg_real t353 = t347 * A_j[2] + A_j[5] * t349 + A_j[8] * t350 + (g_i_world_1 * v_1_world_0 - g_i_world_0 *
-        v_1_world_1);
+    const jg_real t351 = t347 * A_j[0] + A_j[3] * t349 + A_j[6] * t350 + (g_i_world_2 * r_ij_world_1 - g_i_world_1 *
+        r_ij_world_2);
+    const jg_real t352 = t347 * A_j[1] + A_j[4] * t349 + A_j[7] * t350 + (g_i_world_0 * r_ij_world_2 - g_i_world_2 *
+        r_ij_world_0);
+    const jg_real t353 = t347 * A_j[2] + A_j[5] * t349 + A_j[8] * t350 + (g_i_world_1 * r_ij_world_0 - g_i_world_0 *
+        r_ij_world_1);
     jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t351 + A_i[1] * t352 + A_i[2] * t353);
     jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t351 + A_i[4] * t352 + A_i[5] * t353);
     jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t351 + A_i[7] * t352 + A_i[8] * t353);

@@ -50,10 +50,10 @@ static void jg_cylindrical_conventional_world_phi_jacobian(const jg_real *JG_RES
     jac_phi_r_i[5] = -t5;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
     jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
     /* h_j_world = h_j, world axes */
@@ -61,16 +61,16 @@ static void jg_cylindrical_conventional_world_phi_jacobian(const jg_real *JG_RES
     jac_phi_A_i[2] = C_i[0] * h_j_world_0;
     jac_phi_A_i[3] = C_i[3] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[4] = e_ij_world_1 * C_i[0];
     jac_phi_A_i[5] = e_ij_world_1 * C_i[3];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[6] = C_i[0] * h_j_world_1;
     jac_phi_A_i[7] = C_i[3] * h_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[8] = e_ij_world_2 * C_i[0];
     jac_phi_A_i[9] = e_ij_world_2 * C_i[3];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -196,9 +196,9 @@ static void jg_cylindrical_conventional_world_phi_jacobian(const jg_real *JG_RES
     jac_phi_geometry[3] = -C_i[4];
     jac_phi_geometry[4] = -C_i[2];
     jac_phi_geometry[5] = -C_i[5];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[6] = d_ij_in_i_0;
     jac_phi_geometry[12] = d_ij_in_i_0;
@@ -296,99 +296,103 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     const jg_real t13 = C_i[0] * omega_i[1];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real t15 = C_i[0] * omega_i[2];
-    const jg_real t16 = C_i[0] * omega_j[1];
-    const jg_real t17 = C_i[0] * omega_j[2];
-    jac_phi_q_v_A_i[0] = C_i[0] * v_j[0] - (t13 * s_j_world_2 - t15 * s_j_world_1 + (t13 * r_j[2] - t15 * r_j[1] +
-        C_i[0] * v_i[0]) - (t13 * r_i[2] - t15 * r_i[1]) - (s_j_world_2 * t16 - s_j_world_1 * t17));
-    const jg_real t18 = omega_i[1] * C_i[3];
-    const jg_real t19 = omega_i[2] * C_i[3];
-    const jg_real t20 = omega_j[1] * C_i[3];
-    const jg_real t21 = omega_j[2] * C_i[3];
-    jac_phi_q_v_A_i[1] = v_j[0] * C_i[3] - (s_j_world_2 * t18 - s_j_world_1 * t19 + (r_j[2] * t18 - r_j[1] * t19 +
-        v_i[0] * C_i[3]) - (r_i[2] * t18 - r_i[1] * t19) - (s_j_world_2 * t20 - s_j_world_1 * t21));
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t18 = C_i[0] * omega_j[1];
+    const jg_real t19 = C_i[0] * omega_j[2];
+    jac_phi_q_v_A_i[0] = C_i[0] * v_j[0] - (t13 * s_j_world_2 - t15 * s_j_world_1 + (t13 * r_ij_world_2 - t15 *
+        r_ij_world_1 + C_i[0] * v_i[0]) - (s_j_world_2 * t18 - s_j_world_1 * t19));
+    const jg_real t20 = omega_i[1] * C_i[3];
+    const jg_real t21 = omega_i[2] * C_i[3];
+    const jg_real t22 = omega_j[1] * C_i[3];
+    const jg_real t23 = omega_j[2] * C_i[3];
+    jac_phi_q_v_A_i[1] = v_j[0] * C_i[3] - (s_j_world_2 * t20 - s_j_world_1 * t21 + (r_ij_world_2 * t20 -
+        r_ij_world_1 * t21 + v_i[0] * C_i[3]) - (s_j_world_2 * t22 - s_j_world_1 * t23));
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_q_v_A_i[2] = t16 * h_j_world_2 - t17 * h_j_world_1 - (t13 * h_j_world_2 - t15 * h_j_world_1);
-    jac_phi_q_v_A_i[3] = t20 * h_j_world_2 - t21 * h_j_world_1 - (t18 * h_j_world_2 - t19 * h_j_world_1);
+    jac_phi_q_v_A_i[2] = t18 * h_j_world_2 - t19 * h_j_world_1 - (t13 * h_j_world_2 - t15 * h_j_world_1);
+    jac_phi_q_v_A_i[3] = t22 * h_j_world_2 - t23 * h_j_world_1 - (t20 * h_j_world_2 - t21 * h_j_world_1);
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real t25 = C_i[0] * omega_i[0];
-    const jg_real t26 = C_i[0] * omega_j[0];
-    jac_phi_q_v_A_i[4] = C_i[0] * v_j[1] - (t15 * s_j_world_0 - t25 * s_j_world_2 + (t15 * r_j[0] - t25 * r_j[2] +
-        C_i[0] * v_i[1]) - (t15 * r_i[0] - t25 * r_i[2]) - (s_j_world_0 * t17 - s_j_world_2 * t26));
-    const jg_real t27 = omega_i[0] * C_i[3];
-    const jg_real t28 = omega_j[0] * C_i[3];
-    jac_phi_q_v_A_i[5] = v_j[1] * C_i[3] - (s_j_world_0 * t19 - s_j_world_2 * t27 + (r_j[0] * t19 - r_j[2] * t27 +
-        v_i[1] * C_i[3]) - (r_i[0] * t19 - r_i[2] * t27) - (s_j_world_0 * t21 - s_j_world_2 * t28));
+    const jg_real t27 = C_i[0] * omega_i[0];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t29 = C_i[0] * omega_j[0];
+    jac_phi_q_v_A_i[4] = C_i[0] * v_j[1] - (t15 * s_j_world_0 - t27 * s_j_world_2 + (t15 * r_ij_world_0 - t27 *
+        r_ij_world_2 + C_i[0] * v_i[1]) - (s_j_world_0 * t19 - s_j_world_2 * t29));
+    const jg_real t30 = omega_i[0] * C_i[3];
+    const jg_real t31 = omega_j[0] * C_i[3];
+    jac_phi_q_v_A_i[5] = v_j[1] * C_i[3] - (s_j_world_0 * t21 - s_j_world_2 * t30 + (r_ij_world_0 * t21 -
+        r_ij_world_2 * t30 + v_i[1] * C_i[3]) - (s_j_world_0 * t23 - s_j_world_2 * t31));
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_q_v_A_i[6] = t17 * h_j_world_0 - t26 * h_j_world_2 - (t15 * h_j_world_0 - t25 * h_j_world_2);
-    jac_phi_q_v_A_i[7] = t21 * h_j_world_0 - t28 * h_j_world_2 - (t19 * h_j_world_0 - t27 * h_j_world_2);
-    jac_phi_q_v_A_i[8] = C_i[0] * v_j[2] - (t25 * s_j_world_1 - t13 * s_j_world_0 + (t25 * r_j[1] - t13 * r_j[0] +
-        C_i[0] * v_i[2]) - (t25 * r_i[1] - t13 * r_i[0]) - (s_j_world_1 * t26 - s_j_world_0 * t16));
-    jac_phi_q_v_A_i[9] = v_j[2] * C_i[3] - (s_j_world_1 * t27 - s_j_world_0 * t18 + (r_j[1] * t27 - r_j[0] * t18 +
-        v_i[2] * C_i[3]) - (r_i[1] * t27 - r_i[0] * t18) - (s_j_world_1 * t28 - s_j_world_0 * t20));
-    jac_phi_q_v_A_i[10] = t26 * h_j_world_1 - t16 * h_j_world_0 - (t25 * h_j_world_1 - t13 * h_j_world_0);
-    jac_phi_q_v_A_i[11] = t28 * h_j_world_1 - t20 * h_j_world_0 - (t27 * h_j_world_1 - t18 * h_j_world_0);
-    const jg_real t30 = C_i[1] * omega_i[1];
-    const jg_real t31 = C_i[1] * omega_i[2];
-    const jg_real t32 = C_i[1] * omega_j[1];
-    const jg_real t33 = C_i[1] * omega_j[2];
-    jac_phi_q_v_A_i[12] = C_i[1] * v_j[0] - (t30 * s_j_world_2 - t31 * s_j_world_1 + (t30 * r_j[2] - t31 * r_j[1] +
-        C_i[1] * v_i[0]) - (t30 * r_i[2] - t31 * r_i[1]) - (s_j_world_2 * t32 - s_j_world_1 * t33));
-    const jg_real t34 = omega_i[1] * C_i[4];
-    const jg_real t35 = omega_i[2] * C_i[4];
-    const jg_real t36 = omega_j[1] * C_i[4];
-    const jg_real t37 = omega_j[2] * C_i[4];
-    jac_phi_q_v_A_i[13] = v_j[0] * C_i[4] - (s_j_world_2 * t34 - s_j_world_1 * t35 + (r_j[2] * t34 - r_j[1] * t35 +
-        v_i[0] * C_i[4]) - (r_i[2] * t34 - r_i[1] * t35) - (s_j_world_2 * t36 - s_j_world_1 * t37));
-    jac_phi_q_v_A_i[14] = t32 * h_j_world_2 - t33 * h_j_world_1 - (t30 * h_j_world_2 - t31 * h_j_world_1);
-    jac_phi_q_v_A_i[15] = t36 * h_j_world_2 - t37 * h_j_world_1 - (t34 * h_j_world_2 - t35 * h_j_world_1);
-    const jg_real t38 = C_i[1] * omega_i[0];
-    const jg_real t39 = C_i[1] * omega_j[0];
-    jac_phi_q_v_A_i[16] = C_i[1] * v_j[1] - (t31 * s_j_world_0 - t38 * s_j_world_2 + (t31 * r_j[0] - t38 * r_j[2] +
-        C_i[1] * v_i[1]) - (t31 * r_i[0] - t38 * r_i[2]) - (s_j_world_0 * t33 - s_j_world_2 * t39));
-    const jg_real t40 = omega_i[0] * C_i[4];
-    const jg_real t41 = omega_j[0] * C_i[4];
-    jac_phi_q_v_A_i[17] = v_j[1] * C_i[4] - (s_j_world_0 * t35 - s_j_world_2 * t40 + (r_j[0] * t35 - r_j[2] * t40 +
-        v_i[1] * C_i[4]) - (r_i[0] * t35 - r_i[2] * t40) - (s_j_world_0 * t37 - s_j_world_2 * t41));
-    jac_phi_q_v_A_i[18] = t33 * h_j_world_0 - t39 * h_j_world_2 - (t31 * h_j_world_0 - t38 * h_j_world_2);
-    jac_phi_q_v_A_i[19] = t37 * h_j_world_0 - t41 * h_j_world_2 - (t35 * h_j_world_0 - t40 * h_j_world_2);
-    jac_phi_q_v_A_i[20] = C_i[1] * v_j[2] - (t38 * s_j_world_1 - t30 * s_j_world_0 + (t38 * r_j[1] - t30 * r_j[0] +
-        C_i[1] * v_i[2]) - (t38 * r_i[1] - t30 * r_i[0]) - (s_j_world_1 * t39 - s_j_world_0 * t32));
-    jac_phi_q_v_A_i[21] = v_j[2] * C_i[4] - (s_j_world_1 * t40 - s_j_world_0 * t34 + (r_j[1] * t40 - r_j[0] * t34 +
-        v_i[2] * C_i[4]) - (r_i[1] * t40 - r_i[0] * t34) - (s_j_world_1 * t41 - s_j_world_0 * t36));
-    jac_phi_q_v_A_i[22] = t39 * h_j_world_1 - t32 * h_j_world_0 - (t38 * h_j_world_1 - t30 * h_j_world_0);
-    jac_phi_q_v_A_i[23] = t41 * h_j_world_1 - t36 * h_j_world_0 - (t40 * h_j_world_1 - t34 * h_j_world_0);
-    const jg_real t42 = C_i[2] * omega_i[1];
-    const jg_real t43 = C_i[2] * omega_i[2];
-    const jg_real t44 = C_i[2] * omega_j[1];
-    const jg_real t45 = C_i[2] * omega_j[2];
-    jac_phi_q_v_A_i[24] = C_i[2] * v_j[0] - (t42 * s_j_world_2 - t43 * s_j_world_1 + (t42 * r_j[2] - t43 * r_j[1] +
-        C_i[2] * v_i[0]) - (t42 * r_i[2] - t43 * r_i[1]) - (s_j_world_2 * t44 - s_j_world_1 * t45));
-    const jg_real t46 = omega_i[1] * C_i[5];
-    const jg_real t47 = omega_i[2] * C_i[5];
-    const jg_real t48 = omega_j[1] * C_i[5];
-    const jg_real t49 = omega_j[2] * C_i[5];
-    jac_phi_q_v_A_i[25] = v_j[0] * C_i[5] - (s_j_world_2 * t46 - s_j_world_1 * t47 + (r_j[2] * t46 - r_j[1] * t47 +
-        v_i[0] * C_i[5]) - (r_i[2] * t46 - r_i[1] * t47) - (s_j_world_2 * t48 - s_j_world_1 * t49));
-    jac_phi_q_v_A_i[26] = t44 * h_j_world_2 - t45 * h_j_world_1 - (t42 * h_j_world_2 - t43 * h_j_world_1);
-    jac_phi_q_v_A_i[27] = t48 * h_j_world_2 - t49 * h_j_world_1 - (t46 * h_j_world_2 - t47 * h_j_world_1);
-    const jg_real t50 = C_i[2] * omega_i[0];
-    const jg_real t51 = C_i[2] * omega_j[0];
-    jac_phi_q_v_A_i[28] = C_i[2] * v_j[1] - (t43 * s_j_world_0 - t50 * s_j_world_2 + (t43 * r_j[0] - t50 * r_j[2] +
-        C_i[2] * v_i[1]) - (t43 * r_i[0] - t50 * r_i[2]) - (s_j_world_0 * t45 - s_j_world_2 * t51));
-    const jg_real t52 = omega_i[0] * C_i[5];
-    const jg_real t53 = omega_j[0] * C_i[5];
-    jac_phi_q_v_A_i[29] = v_j[1] * C_i[5] - (s_j_world_0 * t47 - s_j_world_2 * t52 + (r_j[0] * t47 - r_j[2] * t52 +
-        v_i[1] * C_i[5]) - (r_i[0] * t47 - r_i[2] * t52) - (s_j_world_0 * t49 - s_j_world_2 * t53));
-    jac_phi_q_v_A_i[30] = t45 * h_j_world_0 - t51 * h_j_world_2 - (t43 * h_j_world_0 - t50 * h_j_world_2);
-    jac_phi_q_v_A_i[31] = t49 * h_j_world_0 - t53 * h_j_world_2 - (t47 * h_j_world_0 - t52 * h_j_world_2);
-    jac_phi_q_v_A_i[32] = C_i[2] * v_j[2] - (t50 * s_j_world_1 - t42 * s_j_world_0 + (t50 * r_j[1] - t42 * r_j[0] +
-        C_i[2] * v_i[2]) - (t50 * r_i[1] - t42 * r_i[0]) - (s_j_world_1 * t51 - s_j_world_0 * t44));
-    jac_phi_q_v_A_i[33] = v_j[2] * C_i[5] - (s_j_world_1 * t52 - s_j_world_0 * t46 + (r_j[1] * t52 - r_j[0] * t46 +
-        v_i[2] * C_i[5]) - (r_i[1] * t52 - r_i[0] * t46) - (s_j_world_1 * t53 - s_j_world_0 * t48));
-    jac_phi_q_v_A_i[34] = t51 * h_j_world_1 - t44 * h_j_world_0 - (t50 * h_j_world_1 - t42 * h_j_world_0);
-    jac_phi_q_v_A_i[35] = t53 * h_j_world_1 - t48 * h_j_world_0 - (t52 * h_j_world_1 - t46 * h_j_world_0);
+    jac_phi_q_v_A_i[6] = t19 * h_j_world_0 - t29 * h_j_world_2 - (t15 * h_j_world_0 - t27 * h_j_world_2);
+    jac_phi_q_v_A_i[7] = t23 * h_j_world_0 - t31 * h_j_world_2 - (t21 * h_j_world_0 - t30 * h_j_world_2);
+    jac_phi_q_v_A_i[8] = C_i[0] * v_j[2] - (t27 * s_j_world_1 - t13 * s_j_world_0 + (t27 * r_ij_world_1 - t13 *
+        r_ij_world_0 + C_i[0] * v_i[2]) - (s_j_world_1 * t29 - s_j_world_0 * t18));
+    jac_phi_q_v_A_i[9] = v_j[2] * C_i[3] - (s_j_world_1 * t30 - s_j_world_0 * t20 + (r_ij_world_1 * t30 -
+        r_ij_world_0 * t20 + v_i[2] * C_i[3]) - (s_j_world_1 * t31 - s_j_world_0 * t22));
+    jac_phi_q_v_A_i[10] = t29 * h_j_world_1 - t18 * h_j_world_0 - (t27 * h_j_world_1 - t13 * h_j_world_0);
+    jac_phi_q_v_A_i[11] = t31 * h_j_world_1 - t22 * h_j_world_0 - (t30 * h_j_world_1 - t20 * h_j_world_0);
+    const jg_real t33 = C_i[1] * omega_i[1];
+    const jg_real t34 = C_i[1] * omega_i[2];
+    const jg_real t35 = C_i[1] * omega_j[1];
+    const jg_real t36 = C_i[1] * omega_j[2];
+    jac_phi_q_v_A_i[12] = C_i[1] * v_j[0] - (t33 * s_j_world_2 - t34 * s_j_world_1 + (t33 * r_ij_world_2 - t34 *
+        r_ij_world_1 + C_i[1] * v_i[0]) - (s_j_world_2 * t35 - s_j_world_1 * t36));
+    const jg_real t37 = omega_i[1] * C_i[4];
+    const jg_real t38 = omega_i[2] * C_i[4];
+    const jg_real t39 = omega_j[1] * C_i[4];
+    const jg_real t40 = omega_j[2] * C_i[4];
+    jac_phi_q_v_A_i[13] = v_j[0] * C_i[4] - (s_j_world_2 * t37 - s_j_world_1 * t38 + (r_ij_world_2 * t37 -
+        r_ij_world_1 * t38 + v_i[0] * C_i[4]) - (s_j_world_2 * t39 - s_j_world_1 * t40));
+    jac_phi_q_v_A_i[14] = t35 * h_j_world_2 - t36 * h_j_world_1 - (t33 * h_j_world_2 - t34 * h_j_world_1);
+    jac_phi_q_v_A_i[15] = t39 * h_j_world_2 - t40 * h_j_world_1 - (t37 * h_j_world_2 - t38 * h_j_world_1);
+    const jg_real t41 = C_i[1] * omega_i[0];
+    const jg_real t42 = C_i[1] * omega_j[0];
+    jac_phi_q_v_A_i[16] = C_i[1] * v_j[1] - (t34 * s_j_world_0 - t41 * s_j_world_2 + (t34 * r_ij_world_0 - t41 *
+        r_ij_world_2 + C_i[1] * v_i[1]) - (s_j_world_0 * t36 - s_j_world_2 * t42));
+    const jg_real t43 = omega_i[0] * C_i[4];
+    const jg_real t44 = omega_j[0] * C_i[4];
+    jac_phi_q_v_A_i[17] = v_j[1] * C_i[4] - (s_j_world_0 * t38 - s_j_world_2 * t43 + (r_ij_world_0 * t38 -
+        r_ij_world_2 * t43 + v_i[1] * C_i[4]) - (s_j_world_0 * t40 - s_j_world_2 * t44));
+    jac_phi_q_v_A_i[18] = t36 * h_j_world_0 - t42 * h_j_world_2 - (t34 * h_j_world_0 - t41 * h_j_world_2);
+    jac_phi_q_v_A_i[19] = t40 * h_j_world_0 - t44 * h_j_world_2 - (t38 * h_j_world_0 - t43 * h_j_world_2);
+    jac_phi_q_v_A_i[20] = C_i[1] * v_j[2] - (t41 * s_j_world_1 - t33 * s_j_world_0 + (t41 * r_ij_world_1 - t33 *
+        r_ij_world_0 + C_i[1] * v_i[2]) - (s_j_world_1 * t42 - s_j_world_0 * t35));
+    jac_phi_q_v_A_i[21] = v_j[2] * C_i[4] - (s_j_world_1 * t43 - s_j_world_0 * t37 + (r_ij_world_1 * t43 -
+        r_ij_world_0 * t37 + v_i[2] * C_i[4]) - (s_j_world_1 * t44 - s_j_world_0 * t39));
+    jac_phi_q_v_A_i[22] = t42 * h_j_world_1 - t35 * h_j_world_0 - (t41 * h_j_world_1 - t33 * h_j_world_0);
+    jac_phi_q_v_A_i[23] = t44 * h_j_world_1 - t39 * h_j_world_0 - (t43 * h_j_world_1 - t37 * h_j_world_0);
+    const jg_real t45 = C_i[2] * omega_i[1];
+    const jg_real t46 = C_i[2] * omega_i[2];
+    const jg_real t47 = C_i[2] * omega_j[1];
+    const jg_real t48 = C_i[2] * omega_j[2];
+    jac_phi_q_v_A_i[24] = C_i[2] * v_j[0] - (t45 * s_j_world_2 - t46 * s_j_world_1 + (t45 * r_ij_world_2 - t46 *
+        r_ij_world_1 + C_i[2] * v_i[0]) - (s_j_world_2 * t47 - s_j_world_1 * t48));
+    const jg_real t49 = omega_i[1] * C_i[5];
+    const jg_real t50 = omega_i[2] * C_i[5];
+    const jg_real t51 = omega_j[1] * C_i[5];
+    const jg_real t52 = omega_j[2] * C_i[5];
+    jac_phi_q_v_A_i[25] = v_j[0] * C_i[5] - (s_j_world_2 * t49 - s_j_world_1 * t50 + (r_ij_world_2 * t49 -
+        r_ij_world_1 * t50 + v_i[0] * C_i[5]) - (s_j_world_2 * t51 - s_j_world_1 * t52));
+    jac_phi_q_v_A_i[26] = t47 * h_j_world_2 - t48 * h_j_world_1 - (t45 * h_j_world_2 - t46 * h_j_world_1);
+    jac_phi_q_v_A_i[27] = t51 * h_j_world_2 - t52 * h_j_world_1 - (t49 * h_j_world_2 - t50 * h_j_world_1);
+    const jg_real t53 = C_i[2] * omega_i[0];
+    const jg_real t54 = C_i[2] * omega_j[0];
+    jac_phi_q_v_A_i[28] = C_i[2] * v_j[1] - (t46 * s_j_world_0 - t53 * s_j_world_2 + (t46 * r_ij_world_0 - t53 *
+        r_ij_world_2 + C_i[2] * v_i[1]) - (s_j_world_0 * t48 - s_j_world_2 * t54));
+    const jg_real t55 = omega_i[0] * C_i[5];
+    const jg_real t56 = omega_j[0] * C_i[5];
+    jac_phi_q_v_A_i[29] = v_j[1] * C_i[5] - (s_j_world_0 * t50 - s_j_world_2 * t55 + (r_ij_world_0 * t50 -
+        r_ij_world_2 * t55 + v_i[1] * C_i[5]) - (s_j_world_0 * t52 - s_j_world_2 * t56));
+    jac_phi_q_v_A_i[30] = t48 * h_j_world_0 - t54 * h_j_world_2 - (t46 * h_j_world_0 - t53 * h_j_world_2);
+    jac_phi_q_v_A_i[31] = t52 * h_j_world_0 - t56 * h_j_world_2 - (t50 * h_j_world_0 - t55 * h_j_world_2);
+    jac_phi_q_v_A_i[32] = C_i[2] * v_j[2] - (t53 * s_j_world_1 - t45 * s_j_world_0 + (t53 * r_ij_world_1 - t45 *
+        r_ij_world_0 + C_i[2] * v_i[2]) - (s_j_world_1 * t54 - s_j_world_0 * t47));
+    jac_phi_q_v_A_i[33] = v_j[2] * C_i[5] - (s_j_world_1 * t55 - s_j_world_0 * t49 + (r_ij_world_1 * t55 -
+        r_ij_world_0 * t49 + v_i[2] * C_i[5]) - (s_j_world_1 * t56 - s_j_world_0 * t51));
+    jac_phi_q_v_A_i[34] = t54 * h_j_world_1 - t47 * h_j_world_0 - (t53 * h_j_world_1 - t45 * h_j_world_0);
+    jac_phi_q_v_A_i[35] = t56 * h_j_world_1 - t51 * h_j_world_0 - (t55 * h_j_world_1 - t49 * h_j_world_0);
     jac_phi_q_v_r_j[0] = -f_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[1] = -g_i_cross_omega_i_world_0;
     jac_phi_q_v_r_j[2] = -f_i_cross_omega_i_world_1;
@@ -439,132 +443,123 @@ static void jg_cylindrical_conventional_world_phi_q_v_jacobian(const jg_real *JG
     jac_phi_q_v_A_j[33] = s_j[2] * g_i_cross_omega_j_world_2 - s_j[2] * g_i_cross_omega_i_world_2;
     jac_phi_q_v_A_j[34] = f_i_cross_omega_j_world_2 * C_j[8] - f_i_cross_omega_i_world_2 * C_j[8];
     jac_phi_q_v_A_j[35] = g_i_cross_omega_j_world_2 * C_j[8] - g_i_cross_omega_i_world_2 * C_j[8];
-    const jg_real t60 = A_i[1] * omega_i[2] - A_i[2] * omega_i[1];
-    const jg_real t61 = A_i[2] * omega_i[0] - omega_i[2] * A_i[0];
-    const jg_real t62 = omega_i[1] * A_i[0] - A_i[1] * omega_i[0];
-    const jg_real t63 = A_i[1] * omega_j[2] - A_i[2] * omega_j[1];
-    const jg_real t64 = A_i[2] * omega_j[0] - A_i[0] * omega_j[2];
-    const jg_real t65 = A_i[0] * omega_j[1] - A_i[1] * omega_j[0];
-    const jg_real t66 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (t60 * s_j_world_0 + t61 * s_j_world_1
-        + t62 * s_j_world_2 + (t60 * r_j[0] + t61 * r_j[1] + t62 * r_j[2] + (A_i[0] * v_i[0] + A_i[1] * v_i[1] +
-        A_i[2] * v_i[2])) - (t60 * r_i[0] + t61 * r_i[1] + t62 * r_i[2]) - (s_j_world_0 * t63 + s_j_world_1 * t64 +
-        s_j_world_2 * t65));
-    jac_phi_q_v_geometry[0] = t66;
-    jac_phi_q_v_geometry[6] = t66;
-    const jg_real t67 = t63 * h_j_world_0 + t64 * h_j_world_1 + t65 * h_j_world_2 - (t60 * h_j_world_0 + t61 *
-        h_j_world_1 + t62 * h_j_world_2);
-    jac_phi_q_v_geometry[1] = t67;
-    jac_phi_q_v_geometry[7] = t67;
-    const jg_real t68 = A_i[4] * omega_i[2] - A_i[5] * omega_i[1];
-    const jg_real t69 = A_i[5] * omega_i[0] - omega_i[2] * A_i[3];
-    const jg_real t70 = omega_i[1] * A_i[3] - A_i[4] * omega_i[0];
-    const jg_real t71 = A_i[4] * omega_j[2] - A_i[5] * omega_j[1];
-    const jg_real t72 = A_i[5] * omega_j[0] - A_i[3] * omega_j[2];
-    const jg_real t73 = A_i[3] * omega_j[1] - A_i[4] * omega_j[0];
-    const jg_real t74 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (t68 * s_j_world_0 + t69 * s_j_world_1
-        + t70 * s_j_world_2 + (t68 * r_j[0] + t69 * r_j[1] + t70 * r_j[2] + (A_i[3] * v_i[0] + A_i[4] * v_i[1] +
-        A_i[5] * v_i[2])) - (t68 * r_i[0] + t69 * r_i[1] + t70 * r_i[2]) - (s_j_world_0 * t71 + s_j_world_1 * t72 +
-        s_j_world_2 * t73));
-    jac_phi_q_v_geometry[2] = t74;
-    jac_phi_q_v_geometry[8] = t74;
-    const jg_real t75 = t71 * h_j_world_0 + t72 * h_j_world_1 + t73 * h_j_world_2 - (t68 * h_j_world_0 + t69 *
-        h_j_world_1 + t70 * h_j_world_2);
-    jac_phi_q_v_geometry[3] = t75;
-    jac_phi_q_v_geometry[9] = t75;
-    const jg_real t76 = A_i[7] * omega_i[2] - A_i[8] * omega_i[1];
-    const jg_real t77 = A_i[8] * omega_i[0] - omega_i[2] * A_i[6];
-    const jg_real t78 = omega_i[1] * A_i[6] - A_i[7] * omega_i[0];
-    const jg_real t79 = A_i[7] * omega_j[2] - A_i[8] * omega_j[1];
-    const jg_real t80 = A_i[8] * omega_j[0] - A_i[6] * omega_j[2];
-    const jg_real t81 = A_i[6] * omega_j[1] - A_i[7] * omega_j[0];
-    const jg_real t82 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (t76 * s_j_world_0 + t77 * s_j_world_1
-        + t78 * s_j_world_2 + (t76 * r_j[0] + t77 * r_j[1] + t78 * r_j[2] + (A_i[6] * v_i[0] + A_i[7] * v_i[1] +
-        A_i[8] * v_i[2])) - (t76 * r_i[0] + t77 * r_i[1] + t78 * r_i[2]) - (s_j_world_0 * t79 + s_j_world_1 * t80 +
-        s_j_world_2 * t81));
-    jac_phi_q_v_geometry[4] = t82;
-    jac_phi_q_v_geometry[10] = t82;
-    const jg_real t83 = t79 * h_j_world_0 + t80 * h_j_world_1 + t81 * h_j_world_2 - (t76 * h_j_world_0 + t77 *
-        h_j_world_1 + t78 * h_j_world_2);
-    jac_phi_q_v_geometry[5] = t83;
-    jac_phi_q_v_geometry[11] = t83;
-    const jg_real t84 = A_j[0] * f_i_cross_omega_j_world_0 + A_j[1] * f_i_cross_omega_j_world_1 + A_j[2] *
+    const jg_real t63 = A_i[1] * omega_i[2] - A_i[2] * omega_i[1];
+    const jg_real t64 = A_i[2] * omega_i[0] - omega_i[2] * A_i[0];
+    const jg_real t65 = omega_i[1] * A_i[0] - A_i[1] * omega_i[0];
+    const jg_real t66 = A_i[1] * omega_j[2] - A_i[2] * omega_j[1];
+    const jg_real t67 = A_i[2] * omega_j[0] - A_i[0] * omega_j[2];
+    const jg_real t68 = A_i[0] * omega_j[1] - A_i[1] * omega_j[0];
+    const jg_real t69 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (t63 * s_j_world_0 + t64 * s_j_world_1
+        + t65 * s_j_world_2 + (t63 * r_ij_world_0 + t64 * r_ij_world_1 + t65 * r_ij_world_2 + (A_i[0] * v_i[0] +
+        A_i[1] * v_i[1] + A_i[2] * v_i[2])) - (s_j_world_0 * t66 + s_j_world_1 * t67 + s_j_world_2 * t68));
+    jac_phi_q_v_geometry[0] = t69;
+    jac_phi_q_v_geometry[6] = t69;
+    const jg_real t70 = t66 * h_j_world_0 + t67 * h_j_world_1 + t68 * h_j_world_2 - (t63 * h_j_world_0 + t64 *
+        h_j_world_1 + t65 * h_j_world_2);
+    jac_phi_q_v_geometry[1] = t70;
+    jac_phi_q_v_geometry[7] = t70;
+    const jg_real t71 = A_i[4] * omega_i[2] - A_i[5] * omega_i[1];
+    const jg_real t72 = A_i[5] * omega_i[0] - omega_i[2] * A_i[3];
+    const jg_real t73 = omega_i[1] * A_i[3] - A_i[4] * omega_i[0];
+    const jg_real t74 = A_i[4] * omega_j[2] - A_i[5] * omega_j[1];
+    const jg_real t75 = A_i[5] * omega_j[0] - A_i[3] * omega_j[2];
+    const jg_real t76 = A_i[3] * omega_j[1] - A_i[4] * omega_j[0];
+    const jg_real t77 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (t71 * s_j_world_0 + t72 * s_j_world_1
+        + t73 * s_j_world_2 + (t71 * r_ij_world_0 + t72 * r_ij_world_1 + t73 * r_ij_world_2 + (A_i[3] * v_i[0] +
+        A_i[4] * v_i[1] + A_i[5] * v_i[2])) - (s_j_world_0 * t74 + s_j_world_1 * t75 + s_j_world_2 * t76));
+    jac_phi_q_v_geometry[2] = t77;
+    jac_phi_q_v_geometry[8] = t77;
+    const jg_real t78 = t74 * h_j_world_0 + t75 * h_j_world_1 + t76 * h_j_world_2 - (t71 * h_j_world_0 + t72 *
+        h_j_world_1 + t73 * h_j_world_2);
+    jac_phi_q_v_geometry[3] = t78;
+    jac_phi_q_v_geometry[9] = t78;
+    const jg_real t79 = A_i[7] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t80 = A_i[8] * omega_i[0] - omega_i[2] * A_i[6];
+    const jg_real t81 = omega_i[1] * A_i[6] - A_i[7] * omega_i[0];
+    const jg_real t82 = A_i[7] * omega_j[2] - A_i[8] * omega_j[1];
+    const jg_real t83 = A_i[8] * omega_j[0] - A_i[6] * omega_j[2];
+    const jg_real t84 = A_i[6] * omega_j[1] - A_i[7] * omega_j[0];
+    const jg_real t85 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (t79 * s_j_world_0 + t80 * s_j_world_1
+        + t81 * s_j_world_2 + (t79 * r_ij_world_0 + t80 * r_ij_world_1 + t81 * r_ij_world_2 + (A_i[6] * v_i[0] +
+        A_i[7] * v_i[1] + A_i[8] * v_i[2])) - (s_j_world_0 * t82 + s_j_world_1 * t83 + s_j_world_2 * t84));
+    jac_phi_q_v_geometry[4] = t85;
+    jac_phi_q_v_geometry[10] = t85;
+    const jg_real t86 = t82 * h_j_world_0 + t83 * h_j_world_1 + t84 * h_j_world_2 - (t79 * h_j_world_0 + t80 *
+        h_j_world_1 + t81 * h_j_world_2);
+    jac_phi_q_v_geometry[5] = t86;
+    jac_phi_q_v_geometry[11] = t86;
+    const jg_real t87 = A_j[0] * f_i_cross_omega_j_world_0 + A_j[1] * f_i_cross_omega_j_world_1 + A_j[2] *
         f_i_cross_omega_j_world_2 - (f_i_cross_omega_i_world_0 * A_j[0] + f_i_cross_omega_i_world_1 * A_j[1] +
         f_i_cross_omega_i_world_2 * A_j[2]);
-    jac_phi_q_v_geometry[12] = t84;
-    jac_phi_q_v_geometry[18] = t84;
-    const jg_real t85 = A_j[0] * g_i_cross_omega_j_world_0 + A_j[1] * g_i_cross_omega_j_world_1 + A_j[2] *
+    jac_phi_q_v_geometry[12] = t87;
+    jac_phi_q_v_geometry[18] = t87;
+    const jg_real t88 = A_j[0] * g_i_cross_omega_j_world_0 + A_j[1] * g_i_cross_omega_j_world_1 + A_j[2] *
         g_i_cross_omega_j_world_2 - (A_j[0] * g_i_cross_omega_i_world_0 + A_j[1] * g_i_cross_omega_i_world_1 +
         A_j[2] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[13] = t85;
-    jac_phi_q_v_geometry[19] = t85;
-    const jg_real t86 = A_j[3] * f_i_cross_omega_j_world_0 + A_j[4] * f_i_cross_omega_j_world_1 + A_j[5] *
+    jac_phi_q_v_geometry[13] = t88;
+    jac_phi_q_v_geometry[19] = t88;
+    const jg_real t89 = A_j[3] * f_i_cross_omega_j_world_0 + A_j[4] * f_i_cross_omega_j_world_1 + A_j[5] *
         f_i_cross_omega_j_world_2 - (f_i_cross_omega_i_world_0 * A_j[3] + f_i_cross_omega_i_world_1 * A_j[4] +
         f_i_cross_omega_i_world_2 * A_j[5]);
-    jac_phi_q_v_geometry[14] = t86;
-    jac_phi_q_v_geometry[20] = t86;
-    const jg_real t87 = A_j[3] * g_i_cross_omega_j_world_0 + A_j[4] * g_i_cross_omega_j_world_1 + A_j[5] *
+    jac_phi_q_v_geometry[14] = t89;
+    jac_phi_q_v_geometry[20] = t89;
+    const jg_real t90 = A_j[3] * g_i_cross_omega_j_world_0 + A_j[4] * g_i_cross_omega_j_world_1 + A_j[5] *
         g_i_cross_omega_j_world_2 - (A_j[3] * g_i_cross_omega_i_world_0 + A_j[4] * g_i_cross_omega_i_world_1 +
         A_j[5] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[15] = t87;
-    jac_phi_q_v_geometry[21] = t87;
-    const jg_real t88 = A_j[6] * f_i_cross_omega_j_world_0 + A_j[7] * f_i_cross_omega_j_world_1 + A_j[8] *
+    jac_phi_q_v_geometry[15] = t90;
+    jac_phi_q_v_geometry[21] = t90;
+    const jg_real t91 = A_j[6] * f_i_cross_omega_j_world_0 + A_j[7] * f_i_cross_omega_j_world_1 + A_j[8] *
         f_i_cross_omega_j_world_2 - (f_i_cross_omega_i_world_0 * A_j[6] + f_i_cross_omega_i_world_1 * A_j[7] +
         f_i_cross_omega_i_world_2 * A_j[8]);
-    jac_phi_q_v_geometry[16] = t88;
-    jac_phi_q_v_geometry[22] = t88;
-    const jg_real t89 = A_j[6] * g_i_cross_omega_j_world_0 + A_j[7] * g_i_cross_omega_j_world_1 + A_j[8] *
+    jac_phi_q_v_geometry[16] = t91;
+    jac_phi_q_v_geometry[22] = t91;
+    const jg_real t92 = A_j[6] * g_i_cross_omega_j_world_0 + A_j[7] * g_i_cross_omega_j_world_1 + A_j[8] *
         g_i_cross_omega_j_world_2 - (A_j[6] * g_i_cross_omega_i_world_0 + A_j[7] * g_i_cross_omega_i_world_1 +
         A_j[8] * g_i_cross_omega_i_world_2);
-    jac_phi_q_v_geometry[17] = t89;
-    jac_phi_q_v_geometry[23] = t89;
+    jac_phi_q_v_geometry[17] = t92;
+    jac_phi_q_v_geometry[23] = t92;
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
     jac_phi_q_v_velocity[2] = -f_i_world_1;
     jac_phi_q_v_velocity[3] = -g_i_world_1;
     jac_phi_q_v_velocity[4] = -f_i_world_2;
     jac_phi_q_v_velocity[5] = -g_i_world_2;
-    const jg_real t90 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    jac_phi_q_v_velocity[24] = t90;
-    jac_phi_q_v_velocity[6] = f_i_world_2 * r_i[1] - f_i_world_1 * r_i[2] - (f_i_world_2 * r_j[1] - f_i_world_1 *
-        r_j[2] + t90);
-    const jg_real t91 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
-    jac_phi_q_v_velocity[25] = t91;
-    jac_phi_q_v_velocity[7] = r_i[1] * g_i_world_2 - r_i[2] * g_i_world_1 - (r_j[1] * g_i_world_2 - r_j[2] *
-        g_i_world_1 + t91);
-    const jg_real t92 = f_i_world_2 * h_j_world_1 - f_i_world_1 * h_j_world_2;
-    jac_phi_q_v_velocity[26] = t92;
-    jac_phi_q_v_velocity[8] = -t92;
-    const jg_real t93 = g_i_world_2 * h_j_world_1 - g_i_world_1 * h_j_world_2;
-    jac_phi_q_v_velocity[27] = t93;
-    jac_phi_q_v_velocity[9] = -t93;
-    const jg_real t94 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    jac_phi_q_v_velocity[28] = t94;
-    jac_phi_q_v_velocity[10] = f_i_world_0 * r_i[2] - f_i_world_2 * r_i[0] - (f_i_world_0 * r_j[2] - f_i_world_2 *
-        r_j[0] + t94);
-    const jg_real t95 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
-    jac_phi_q_v_velocity[29] = t95;
-    jac_phi_q_v_velocity[11] = r_i[2] * g_i_world_0 - r_i[0] * g_i_world_2 - (r_j[2] * g_i_world_0 - r_j[0] *
-        g_i_world_2 + t95);
-    const jg_real t96 = f_i_world_0 * h_j_world_2 - f_i_world_2 * h_j_world_0;
-    jac_phi_q_v_velocity[30] = t96;
-    jac_phi_q_v_velocity[12] = -t96;
-    const jg_real t97 = g_i_world_0 * h_j_world_2 - g_i_world_2 * h_j_world_0;
-    jac_phi_q_v_velocity[31] = t97;
-    jac_phi_q_v_velocity[13] = -t97;
-    const jg_real t98 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    jac_phi_q_v_velocity[32] = t98;
-    jac_phi_q_v_velocity[14] = f_i_world_1 * r_i[0] - f_i_world_0 * r_i[1] - (f_i_world_1 * r_j[0] - f_i_world_0 *
-        r_j[1] + t98);
-    const jg_real t99 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
-    jac_phi_q_v_velocity[33] = t99;
-    jac_phi_q_v_velocity[15] = r_i[0] * g_i_world_1 - r_i[1] * g_i_world_0 - (r_j[0] * g_i_world_1 - r_j[1] *
-        g_i_world_0 + t99);
-    const jg_real t100 = f_i_world_1 * h_j_world_0 - f_i_world_0 * h_j_world_1;
-    jac_phi_q_v_velocity[34] = t100;
-    jac_phi_q_v_velocity[16] = -t100;
-    const jg_real t101 = g_i_world_1 * h_j_world_0 - g_i_world_0 * h_j_world_1;
-    jac_phi_q_v_velocity[35] = t101;
-    jac_phi_q_v_velocity[17] = -t101;
+    const jg_real t93 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    jac_phi_q_v_velocity[24] = t93;
+    jac_phi_q_v_velocity[6] = -(f_i_world_2 * r_ij_world_1 - f_i_world_1 * r_ij_world_2 + t93);
+    const jg_real t94 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
+    jac_phi_q_v_velocity[25] = t94;
+    jac_phi_q_v_velocity[7] = -(r_ij_world_1 * g_i_world_2 - r_ij_world_2 * g_i_world_1 + t94);
+    const jg_real t95 = f_i_world_2 * h_j_world_1 - f_i_world_1 * h_j_world_2;
+    jac_phi_q_v_velocity[26] = t95;
+    jac_phi_q_v_velocity[8] = -t95;
+    const jg_real t96 = g_i_world_2 * h_j_world_1 - g_i_world_1 * h_j_world_2;
+    jac_phi_q_v_velocity[27] = t96;
+    jac_phi_q_v_velocity[9] = -t96;
+    const jg_real t97 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
+    jac_phi_q_v_velocity[28] = t97;
+    jac_phi_q_v_velocity[10] = -(f_i_world_0 * r_ij_world_2 - f_i_world_2 * r_ij_world_0 + t97);
+    const jg_real t98 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
+    jac_phi_q_v_velocity[29] = t98;
+    jac_phi_q_v_velocity[11] = -(r_ij_world_2 * g_i_world_0 - r_ij_world_0 * g_i_world_2 + t98);
+    const jg_real t99 = f_i_world_0 * h_j_world_2 - f_i_world_2 * h_j_world_0;
+    jac_phi_q_v_velocity[30] = t99;
+    jac_phi_q_v_velocity[12] = -t99;
+    const jg_real t100 = g_i_world_0 * h_j_world_2 - g_i_world_2 * h_j_world_0;
+    jac_phi_q_v_velocity[31] = t100;
+    jac_phi_q_v_velocity[13] = -t100;
+    const jg_real t101 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    jac_phi_q_v_velocity[32] = t101;
+    jac_phi_q_v_velocity[14] = -(f_i_world_1 * r_ij_world_0 - f_i_world_0 * r_ij_world_1 + t101);
+    const jg_real t102 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
+    jac_phi_q_v_velocity[33] = t102;
+    jac_phi_q_v_velocity[15] = -(r_ij_world_0 * g_i_world_1 - r_ij_world_1 * g_i_world_0 + t102);
+    const jg_real t103 = f_i_world_1 * h_j_world_0 - f_i_world_0 * h_j_world_1;
+    jac_phi_q_v_velocity[34] = t103;
+    jac_phi_q_v_velocity[16] = -t103;
+    const jg_real t104 = g_i_world_1 * h_j_world_0 - g_i_world_0 * h_j_world_1;
+    jac_phi_q_v_velocity[35] = t104;
+    jac_phi_q_v_velocity[17] = -t104;
 }
 
 static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -615,31 +610,31 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_A_i[12] = t9;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* v_4_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
-    const jg_real v_4_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    /* v_3_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
+    const jg_real v_3_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t13 = v_0_in_i_0 * s_j_world_2 + v_4_in_i_0 * h_j_world_2;
+    const jg_real t13 = v_0_in_i_0 * s_j_world_2 + v_3_in_i_0 * h_j_world_2;
     jac_phi_q_t_lambda_A_i[4] = t13;
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real t15 = t13 + v_0_in_i_0 * v_1_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real t15 = t13 + v_0_in_i_0 * r_ij_world_2;
     jac_phi_q_t_lambda_A_i[7] = t15;
     jac_phi_q_t_lambda_A_i[1] = -t15;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t18 = v_0_in_i_0 * s_j_world_1 + v_4_in_i_0 * h_j_world_1;
+    const jg_real t18 = v_0_in_i_0 * s_j_world_1 + v_3_in_i_0 * h_j_world_1;
     jac_phi_q_t_lambda_A_i[16] = t18;
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real t20 = t18 + v_0_in_i_0 * v_1_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t20 = t18 + v_0_in_i_0 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[2] = t20;
     jac_phi_q_t_lambda_A_i[5] = -t18;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    const jg_real t23 = v_0_in_i_0 * s_j_world_0 + v_4_in_i_0 * h_j_world_0;
+    const jg_real t23 = v_0_in_i_0 * s_j_world_0 + v_3_in_i_0 * h_j_world_0;
     jac_phi_q_t_lambda_A_i[11] = t23;
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real t25 = t23 + v_0_in_i_0 * v_1_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t25 = t23 + v_0_in_i_0 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[14] = t25;
     jac_phi_q_t_lambda_A_i[8] = -t25;
     jac_phi_q_t_lambda_A_i[10] = -t13;
@@ -649,20 +644,20 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_A_i[18] = t26;
     jac_phi_q_t_lambda_A_i[24] = t26;
     jac_phi_q_t_lambda_A_i[30] = t26;
-    const jg_real v_4_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t28 = v_0_in_i_1 * s_j_world_2 + v_4_in_i_1 * h_j_world_2;
+    const jg_real v_3_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t28 = v_0_in_i_1 * s_j_world_2 + v_3_in_i_1 * h_j_world_2;
     jac_phi_q_t_lambda_A_i[22] = t28;
-    const jg_real t29 = t28 + v_0_in_i_1 * v_1_world_2;
+    const jg_real t29 = t28 + v_0_in_i_1 * r_ij_world_2;
     jac_phi_q_t_lambda_A_i[25] = t29;
     jac_phi_q_t_lambda_A_i[19] = -t29;
-    const jg_real t30 = v_0_in_i_1 * s_j_world_1 + v_4_in_i_1 * h_j_world_1;
+    const jg_real t30 = v_0_in_i_1 * s_j_world_1 + v_3_in_i_1 * h_j_world_1;
     jac_phi_q_t_lambda_A_i[34] = t30;
-    const jg_real t31 = t30 + v_0_in_i_1 * v_1_world_1;
+    const jg_real t31 = t30 + v_0_in_i_1 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[20] = t31;
     jac_phi_q_t_lambda_A_i[23] = -t30;
-    const jg_real t32 = v_0_in_i_1 * s_j_world_0 + v_4_in_i_1 * h_j_world_0;
+    const jg_real t32 = v_0_in_i_1 * s_j_world_0 + v_3_in_i_1 * h_j_world_0;
     jac_phi_q_t_lambda_A_i[29] = t32;
-    const jg_real t33 = t32 + v_0_in_i_1 * v_1_world_0;
+    const jg_real t33 = t32 + v_0_in_i_1 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[32] = t33;
     jac_phi_q_t_lambda_A_i[26] = -t33;
     jac_phi_q_t_lambda_A_i[28] = -t28;
@@ -672,32 +667,32 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_A_i[36] = t34;
     jac_phi_q_t_lambda_A_i[42] = t34;
     jac_phi_q_t_lambda_A_i[48] = t34;
-    const jg_real v_4_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    const jg_real t36 = v_0_in_i_2 * s_j_world_2 + v_4_in_i_2 * h_j_world_2;
+    const jg_real v_3_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real t36 = v_0_in_i_2 * s_j_world_2 + v_3_in_i_2 * h_j_world_2;
     jac_phi_q_t_lambda_A_i[40] = t36;
-    const jg_real t37 = t36 + v_0_in_i_2 * v_1_world_2;
+    const jg_real t37 = t36 + v_0_in_i_2 * r_ij_world_2;
     jac_phi_q_t_lambda_A_i[43] = t37;
     jac_phi_q_t_lambda_A_i[37] = -t37;
-    const jg_real t38 = v_0_in_i_2 * s_j_world_1 + v_4_in_i_2 * h_j_world_1;
+    const jg_real t38 = v_0_in_i_2 * s_j_world_1 + v_3_in_i_2 * h_j_world_1;
     jac_phi_q_t_lambda_A_i[52] = t38;
-    const jg_real t39 = t38 + v_0_in_i_2 * v_1_world_1;
+    const jg_real t39 = t38 + v_0_in_i_2 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[38] = t39;
     jac_phi_q_t_lambda_A_i[41] = -t38;
-    const jg_real t40 = v_0_in_i_2 * s_j_world_0 + v_4_in_i_2 * h_j_world_0;
+    const jg_real t40 = v_0_in_i_2 * s_j_world_0 + v_3_in_i_2 * h_j_world_0;
     jac_phi_q_t_lambda_A_i[47] = t40;
-    const jg_real t41 = t40 + v_0_in_i_2 * v_1_world_0;
+    const jg_real t41 = t40 + v_0_in_i_2 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[50] = t41;
     jac_phi_q_t_lambda_A_i[44] = -t41;
     jac_phi_q_t_lambda_A_i[46] = -t36;
     jac_phi_q_t_lambda_A_i[49] = -t39;
     jac_phi_q_t_lambda_A_i[53] = -t40;
-    /* v_4_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_4_world_2 = A_i[2] * v_4_in_i_0 + A_i[5] * v_4_in_i_1 + A_i[8] * v_4_in_i_2;
-    const jg_real t43 = v_0_world_2 * s_j[0] + C_j[6] * v_4_world_2;
+    /* v_3_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_3_world_2 = A_i[2] * v_3_in_i_0 + A_i[5] * v_3_in_i_1 + A_i[8] * v_3_in_i_2;
+    const jg_real t43 = v_0_world_2 * s_j[0] + C_j[6] * v_3_world_2;
     jac_phi_q_t_lambda_A_j[0] = t43;
     jac_phi_q_t_lambda_A_j[6] = t43;
-    const jg_real v_4_world_1 = A_i[1] * v_4_in_i_0 + A_i[4] * v_4_in_i_1 + A_i[7] * v_4_in_i_2;
-    const jg_real t45 = v_0_world_1 * s_j[0] + v_4_world_1 * C_j[6];
+    const jg_real v_3_world_1 = A_i[1] * v_3_in_i_0 + A_i[4] * v_3_in_i_1 + A_i[7] * v_3_in_i_2;
+    const jg_real t45 = v_0_world_1 * s_j[0] + v_3_world_1 * C_j[6];
     jac_phi_q_t_lambda_A_j[3] = t45;
     jac_phi_q_t_lambda_A_j[8] = t45;
     const jg_real t46 = -t45;
@@ -706,17 +701,17 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t47 = -t43;
     jac_phi_q_t_lambda_A_j[2] = t47;
     jac_phi_q_t_lambda_A_j[4] = t47;
-    const jg_real v_4_world_0 = A_i[0] * v_4_in_i_0 + A_i[3] * v_4_in_i_1 + A_i[6] * v_4_in_i_2;
-    const jg_real t49 = v_0_world_0 * s_j[0] + C_j[6] * v_4_world_0;
+    const jg_real v_3_world_0 = A_i[0] * v_3_in_i_0 + A_i[3] * v_3_in_i_1 + A_i[6] * v_3_in_i_2;
+    const jg_real t49 = v_0_world_0 * s_j[0] + C_j[6] * v_3_world_0;
     jac_phi_q_t_lambda_A_j[5] = t49;
     jac_phi_q_t_lambda_A_j[11] = t49;
     const jg_real t50 = -t49;
     jac_phi_q_t_lambda_A_j[7] = t50;
     jac_phi_q_t_lambda_A_j[9] = t50;
-    const jg_real t51 = v_0_world_2 * s_j[1] + C_j[7] * v_4_world_2;
+    const jg_real t51 = v_0_world_2 * s_j[1] + C_j[7] * v_3_world_2;
     jac_phi_q_t_lambda_A_j[12] = t51;
     jac_phi_q_t_lambda_A_j[18] = t51;
-    const jg_real t52 = v_0_world_1 * s_j[1] + v_4_world_1 * C_j[7];
+    const jg_real t52 = v_0_world_1 * s_j[1] + v_3_world_1 * C_j[7];
     jac_phi_q_t_lambda_A_j[15] = t52;
     jac_phi_q_t_lambda_A_j[20] = t52;
     const jg_real t53 = -t52;
@@ -725,16 +720,16 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t54 = -t51;
     jac_phi_q_t_lambda_A_j[14] = t54;
     jac_phi_q_t_lambda_A_j[16] = t54;
-    const jg_real t55 = v_0_world_0 * s_j[1] + C_j[7] * v_4_world_0;
+    const jg_real t55 = v_0_world_0 * s_j[1] + C_j[7] * v_3_world_0;
     jac_phi_q_t_lambda_A_j[17] = t55;
     jac_phi_q_t_lambda_A_j[23] = t55;
     const jg_real t56 = -t55;
     jac_phi_q_t_lambda_A_j[19] = t56;
     jac_phi_q_t_lambda_A_j[21] = t56;
-    const jg_real t57 = v_0_world_2 * s_j[2] + C_j[8] * v_4_world_2;
+    const jg_real t57 = v_0_world_2 * s_j[2] + C_j[8] * v_3_world_2;
     jac_phi_q_t_lambda_A_j[24] = t57;
     jac_phi_q_t_lambda_A_j[30] = t57;
-    const jg_real t58 = v_0_world_1 * s_j[2] + v_4_world_1 * C_j[8];
+    const jg_real t58 = v_0_world_1 * s_j[2] + v_3_world_1 * C_j[8];
     jac_phi_q_t_lambda_A_j[27] = t58;
     jac_phi_q_t_lambda_A_j[32] = t58;
     const jg_real t59 = -t58;
@@ -743,7 +738,7 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t60 = -t57;
     jac_phi_q_t_lambda_A_j[26] = t60;
     jac_phi_q_t_lambda_A_j[28] = t60;
-    const jg_real t61 = v_0_world_0 * s_j[2] + C_j[8] * v_4_world_0;
+    const jg_real t61 = v_0_world_0 * s_j[2] + C_j[8] * v_3_world_0;
     jac_phi_q_t_lambda_A_j[29] = t61;
     jac_phi_q_t_lambda_A_j[35] = t61;
     const jg_real t62 = -t61;
@@ -762,14 +757,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t67 = A_i[2] * lambda[2];
     const jg_real t68 = t65 * s_j_world_1 - t64 * s_j_world_2 - (t66 * h_j_world_2 - t67 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[9] = t68;
-    jac_phi_q_t_lambda_geometry[3] = -(t65 * v_1_world_1 - t64 * v_1_world_2 + t68);
+    jac_phi_q_t_lambda_geometry[3] = -(t65 * r_ij_world_1 - t64 * r_ij_world_2 + t68);
     const jg_real t69 = A_i[0] * lambda[2];
     const jg_real t70 = t63 * s_j_world_2 - t65 * s_j_world_0 - (t67 * h_j_world_0 - h_j_world_2 * t69);
     jac_phi_q_t_lambda_geometry[10] = t70;
-    jac_phi_q_t_lambda_geometry[4] = -(t63 * v_1_world_2 - t65 * v_1_world_0 + t70);
+    jac_phi_q_t_lambda_geometry[4] = -(t63 * r_ij_world_2 - t65 * r_ij_world_0 + t70);
     const jg_real t71 = t64 * s_j_world_0 - t63 * s_j_world_1 - (h_j_world_1 * t69 - t66 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[11] = t71;
-    jac_phi_q_t_lambda_geometry[5] = -(t64 * v_1_world_0 - t63 * v_1_world_1 + t71);
+    jac_phi_q_t_lambda_geometry[5] = -(t64 * r_ij_world_0 - t63 * r_ij_world_1 + t71);
     const jg_real t72 = lambda[0] * A_i[3];
     jac_phi_q_t_lambda_geometry[18] = t72;
     jac_phi_q_t_lambda_geometry[12] = -t72;
@@ -783,14 +778,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t76 = A_i[5] * lambda[2];
     const jg_real t77 = t74 * s_j_world_1 - t73 * s_j_world_2 - (t75 * h_j_world_2 - t76 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[21] = t77;
-    jac_phi_q_t_lambda_geometry[15] = -(t74 * v_1_world_1 - t73 * v_1_world_2 + t77);
+    jac_phi_q_t_lambda_geometry[15] = -(t74 * r_ij_world_1 - t73 * r_ij_world_2 + t77);
     const jg_real t78 = A_i[3] * lambda[2];
     const jg_real t79 = t72 * s_j_world_2 - t74 * s_j_world_0 - (t76 * h_j_world_0 - h_j_world_2 * t78);
     jac_phi_q_t_lambda_geometry[22] = t79;
-    jac_phi_q_t_lambda_geometry[16] = -(t72 * v_1_world_2 - t74 * v_1_world_0 + t79);
+    jac_phi_q_t_lambda_geometry[16] = -(t72 * r_ij_world_2 - t74 * r_ij_world_0 + t79);
     const jg_real t80 = t73 * s_j_world_0 - t72 * s_j_world_1 - (h_j_world_1 * t78 - t75 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[23] = t80;
-    jac_phi_q_t_lambda_geometry[17] = -(t73 * v_1_world_0 - t72 * v_1_world_1 + t80);
+    jac_phi_q_t_lambda_geometry[17] = -(t73 * r_ij_world_0 - t72 * r_ij_world_1 + t80);
     const jg_real t81 = lambda[0] * A_i[6];
     jac_phi_q_t_lambda_geometry[30] = t81;
     jac_phi_q_t_lambda_geometry[24] = -t81;
@@ -804,14 +799,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t85 = A_i[8] * lambda[2];
     const jg_real t86 = t83 * s_j_world_1 - t82 * s_j_world_2 - (t84 * h_j_world_2 - t85 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[33] = t86;
-    jac_phi_q_t_lambda_geometry[27] = -(t83 * v_1_world_1 - t82 * v_1_world_2 + t86);
+    jac_phi_q_t_lambda_geometry[27] = -(t83 * r_ij_world_1 - t82 * r_ij_world_2 + t86);
     const jg_real t87 = A_i[6] * lambda[2];
     const jg_real t88 = t81 * s_j_world_2 - t83 * s_j_world_0 - (t85 * h_j_world_0 - h_j_world_2 * t87);
     jac_phi_q_t_lambda_geometry[34] = t88;
-    jac_phi_q_t_lambda_geometry[28] = -(t81 * v_1_world_2 - t83 * v_1_world_0 + t88);
+    jac_phi_q_t_lambda_geometry[28] = -(t81 * r_ij_world_2 - t83 * r_ij_world_0 + t88);
     const jg_real t89 = t82 * s_j_world_0 - t81 * s_j_world_1 - (h_j_world_1 * t87 - t84 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[35] = t89;
-    jac_phi_q_t_lambda_geometry[29] = -(t82 * v_1_world_0 - t81 * v_1_world_1 + t89);
+    jac_phi_q_t_lambda_geometry[29] = -(t82 * r_ij_world_0 - t81 * r_ij_world_1 + t89);
     const jg_real t90 = lambda[1] * A_i[0];
     jac_phi_q_t_lambda_geometry[42] = t90;
     jac_phi_q_t_lambda_geometry[36] = -t90;
@@ -825,14 +820,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t94 = A_i[2] * lambda[3];
     const jg_real t95 = t92 * s_j_world_1 - t91 * s_j_world_2 - (t93 * h_j_world_2 - t94 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[45] = t95;
-    jac_phi_q_t_lambda_geometry[39] = -(t92 * v_1_world_1 - t91 * v_1_world_2 + t95);
+    jac_phi_q_t_lambda_geometry[39] = -(t92 * r_ij_world_1 - t91 * r_ij_world_2 + t95);
     const jg_real t96 = A_i[0] * lambda[3];
     const jg_real t97 = t90 * s_j_world_2 - t92 * s_j_world_0 - (t94 * h_j_world_0 - h_j_world_2 * t96);
     jac_phi_q_t_lambda_geometry[46] = t97;
-    jac_phi_q_t_lambda_geometry[40] = -(t90 * v_1_world_2 - t92 * v_1_world_0 + t97);
+    jac_phi_q_t_lambda_geometry[40] = -(t90 * r_ij_world_2 - t92 * r_ij_world_0 + t97);
     const jg_real t98 = t91 * s_j_world_0 - t90 * s_j_world_1 - (h_j_world_1 * t96 - t93 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[47] = t98;
-    jac_phi_q_t_lambda_geometry[41] = -(t91 * v_1_world_0 - t90 * v_1_world_1 + t98);
+    jac_phi_q_t_lambda_geometry[41] = -(t91 * r_ij_world_0 - t90 * r_ij_world_1 + t98);
     const jg_real t99 = lambda[1] * A_i[3];
     jac_phi_q_t_lambda_geometry[54] = t99;
     jac_phi_q_t_lambda_geometry[48] = -t99;
@@ -846,14 +841,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t103 = A_i[5] * lambda[3];
     const jg_real t104 = t101 * s_j_world_1 - t100 * s_j_world_2 - (t102 * h_j_world_2 - t103 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[57] = t104;
-    jac_phi_q_t_lambda_geometry[51] = -(t101 * v_1_world_1 - t100 * v_1_world_2 + t104);
+    jac_phi_q_t_lambda_geometry[51] = -(t101 * r_ij_world_1 - t100 * r_ij_world_2 + t104);
     const jg_real t105 = A_i[3] * lambda[3];
     const jg_real t106 = t99 * s_j_world_2 - t101 * s_j_world_0 - (t103 * h_j_world_0 - h_j_world_2 * t105);
     jac_phi_q_t_lambda_geometry[58] = t106;
-    jac_phi_q_t_lambda_geometry[52] = -(t99 * v_1_world_2 - t101 * v_1_world_0 + t106);
+    jac_phi_q_t_lambda_geometry[52] = -(t99 * r_ij_world_2 - t101 * r_ij_world_0 + t106);
     const jg_real t107 = t100 * s_j_world_0 - t99 * s_j_world_1 - (h_j_world_1 * t105 - t102 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[59] = t107;
-    jac_phi_q_t_lambda_geometry[53] = -(t100 * v_1_world_0 - t99 * v_1_world_1 + t107);
+    jac_phi_q_t_lambda_geometry[53] = -(t100 * r_ij_world_0 - t99 * r_ij_world_1 + t107);
     const jg_real t108 = lambda[1] * A_i[6];
     jac_phi_q_t_lambda_geometry[66] = t108;
     jac_phi_q_t_lambda_geometry[60] = -t108;
@@ -867,14 +862,14 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t112 = A_i[8] * lambda[3];
     const jg_real t113 = t110 * s_j_world_1 - t109 * s_j_world_2 - (t111 * h_j_world_2 - t112 * h_j_world_1);
     jac_phi_q_t_lambda_geometry[69] = t113;
-    jac_phi_q_t_lambda_geometry[63] = -(t110 * v_1_world_1 - t109 * v_1_world_2 + t113);
+    jac_phi_q_t_lambda_geometry[63] = -(t110 * r_ij_world_1 - t109 * r_ij_world_2 + t113);
     const jg_real t114 = A_i[6] * lambda[3];
     const jg_real t115 = t108 * s_j_world_2 - t110 * s_j_world_0 - (t112 * h_j_world_0 - h_j_world_2 * t114);
     jac_phi_q_t_lambda_geometry[70] = t115;
-    jac_phi_q_t_lambda_geometry[64] = -(t108 * v_1_world_2 - t110 * v_1_world_0 + t115);
+    jac_phi_q_t_lambda_geometry[64] = -(t108 * r_ij_world_2 - t110 * r_ij_world_0 + t115);
     const jg_real t116 = t109 * s_j_world_0 - t108 * s_j_world_1 - (h_j_world_1 * t114 - t111 * h_j_world_0);
     jac_phi_q_t_lambda_geometry[71] = t116;
-    jac_phi_q_t_lambda_geometry[65] = -(t109 * v_1_world_0 - t108 * v_1_world_1 + t116);
+    jac_phi_q_t_lambda_geometry[65] = -(t109 * r_ij_world_0 - t108 * r_ij_world_1 + t116);
     const jg_real t117 = v_0_world_2 * A_j[1] - v_0_world_1 * A_j[2];
     jac_phi_q_t_lambda_geometry[75] = t117;
     jac_phi_q_t_lambda_geometry[72] = -t117;
@@ -902,29 +897,29 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     const jg_real t125 = v_0_world_1 * A_j[6] - v_0_world_0 * A_j[7];
     jac_phi_q_t_lambda_geometry[89] = t125;
     jac_phi_q_t_lambda_geometry[86] = -t125;
-    const jg_real t126 = A_j[2] * v_4_world_1 - A_j[1] * v_4_world_2;
+    const jg_real t126 = A_j[2] * v_3_world_1 - A_j[1] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[90] = t126;
-    const jg_real t127 = v_4_world_2 * A_j[0] - A_j[2] * v_4_world_0;
+    const jg_real t127 = v_3_world_2 * A_j[0] - A_j[2] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[91] = t127;
-    const jg_real t128 = A_j[1] * v_4_world_0 - v_4_world_1 * A_j[0];
+    const jg_real t128 = A_j[1] * v_3_world_0 - v_3_world_1 * A_j[0];
     jac_phi_q_t_lambda_geometry[92] = t128;
     jac_phi_q_t_lambda_geometry[93] = -t126;
     jac_phi_q_t_lambda_geometry[94] = -t127;
     jac_phi_q_t_lambda_geometry[95] = -t128;
-    const jg_real t129 = A_j[5] * v_4_world_1 - A_j[4] * v_4_world_2;
+    const jg_real t129 = A_j[5] * v_3_world_1 - A_j[4] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[96] = t129;
-    const jg_real t130 = v_4_world_2 * A_j[3] - A_j[5] * v_4_world_0;
+    const jg_real t130 = v_3_world_2 * A_j[3] - A_j[5] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[97] = t130;
-    const jg_real t131 = A_j[4] * v_4_world_0 - v_4_world_1 * A_j[3];
+    const jg_real t131 = A_j[4] * v_3_world_0 - v_3_world_1 * A_j[3];
     jac_phi_q_t_lambda_geometry[98] = t131;
     jac_phi_q_t_lambda_geometry[99] = -t129;
     jac_phi_q_t_lambda_geometry[100] = -t130;
     jac_phi_q_t_lambda_geometry[101] = -t131;
-    const jg_real t132 = A_j[8] * v_4_world_1 - A_j[7] * v_4_world_2;
+    const jg_real t132 = A_j[8] * v_3_world_1 - A_j[7] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[102] = t132;
-    const jg_real t133 = v_4_world_2 * A_j[6] - A_j[8] * v_4_world_0;
+    const jg_real t133 = v_3_world_2 * A_j[6] - A_j[8] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[103] = t133;
-    const jg_real t134 = A_j[7] * v_4_world_0 - v_4_world_1 * A_j[6];
+    const jg_real t134 = A_j[7] * v_3_world_0 - v_3_world_1 * A_j[6];
     jac_phi_q_t_lambda_geometry[104] = t134;
     jac_phi_q_t_lambda_geometry[105] = -t132;
     jac_phi_q_t_lambda_geometry[106] = -t133;
@@ -940,13 +935,13 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_lambda[2] = -t137;
     const jg_real t138 = t137 * s_j_world_1 - t136 * s_j_world_2;
     jac_phi_q_t_lambda_lambda[9] = t138;
-    jac_phi_q_t_lambda_lambda[3] = -(t137 * v_1_world_1 - t136 * v_1_world_2 + t138);
+    jac_phi_q_t_lambda_lambda[3] = -(t137 * r_ij_world_1 - t136 * r_ij_world_2 + t138);
     const jg_real t139 = t135 * s_j_world_2 - t137 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[10] = t139;
-    jac_phi_q_t_lambda_lambda[4] = -(t135 * v_1_world_2 - t137 * v_1_world_0 + t139);
+    jac_phi_q_t_lambda_lambda[4] = -(t135 * r_ij_world_2 - t137 * r_ij_world_0 + t139);
     const jg_real t140 = t136 * s_j_world_0 - t135 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[11] = t140;
-    jac_phi_q_t_lambda_lambda[5] = -(t136 * v_1_world_0 - t135 * v_1_world_1 + t140);
+    jac_phi_q_t_lambda_lambda[5] = -(t136 * r_ij_world_0 - t135 * r_ij_world_1 + t140);
     const jg_real t141 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
     jac_phi_q_t_lambda_lambda[18] = t141;
     jac_phi_q_t_lambda_lambda[12] = -t141;
@@ -958,13 +953,13 @@ static void jg_cylindrical_conventional_world_phi_q_t_lambda_jacobian(const jg_r
     jac_phi_q_t_lambda_lambda[14] = -t143;
     const jg_real t144 = t143 * s_j_world_1 - t142 * s_j_world_2;
     jac_phi_q_t_lambda_lambda[21] = t144;
-    jac_phi_q_t_lambda_lambda[15] = -(t143 * v_1_world_1 - t142 * v_1_world_2 + t144);
+    jac_phi_q_t_lambda_lambda[15] = -(t143 * r_ij_world_1 - t142 * r_ij_world_2 + t144);
     const jg_real t145 = t141 * s_j_world_2 - t143 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[22] = t145;
-    jac_phi_q_t_lambda_lambda[16] = -(t141 * v_1_world_2 - t143 * v_1_world_0 + t145);
+    jac_phi_q_t_lambda_lambda[16] = -(t141 * r_ij_world_2 - t143 * r_ij_world_0 + t145);
     const jg_real t146 = t142 * s_j_world_0 - t141 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[23] = t146;
-    jac_phi_q_t_lambda_lambda[17] = -(t142 * v_1_world_0 - t141 * v_1_world_1 + t146);
+    jac_phi_q_t_lambda_lambda[17] = -(t142 * r_ij_world_0 - t141 * r_ij_world_1 + t146);
     const jg_real t147 = t136 * h_j_world_2 - t137 * h_j_world_1;
     jac_phi_q_t_lambda_lambda[24] = t147;
     const jg_real t148 = t137 * h_j_world_0 - t135 * h_j_world_2;

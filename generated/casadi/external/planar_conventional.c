@@ -45,24 +45,24 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_A_i[1] = h_j_world_0 * C_i[3];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[2] = e_ij_world_0 * C_i[6];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     jac_phi_A_i[3] = h_j_world_1 * C_i[0];
     jac_phi_A_i[4] = h_j_world_1 * C_i[3];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[5] = e_ij_world_1 * C_i[6];
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     jac_phi_A_i[6] = h_j_world_2 * C_i[0];
     jac_phi_A_i[7] = h_j_world_2 * C_i[3];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[8] = e_ij_world_2 * C_i[6];
     jac_phi_A_i[9] = h_j_world_0 * C_i[1];
     jac_phi_A_i[10] = h_j_world_0 * C_i[4];
@@ -149,9 +149,9 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real h_j_in_i_2 = h_j_world_0 * A_i[6] + h_j_world_1 * A_i[7] + h_j_world_2 * A_i[8];
     jac_phi_geometry[5] = h_j_in_i_2;
     jac_phi_geometry[8] = h_j_in_i_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
@@ -207,620 +207,632 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
     const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
-    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
-    const jg_real h_i_cross_omega_i_world_0 = g_i_world_0 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
-        f_i_world_0;
-    jac_phi_q_v_r_i[0] = h_i_cross_omega_i_world_0;
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t8 = g_i_world_0 * omega_i_in_joint_i_0 - f_i_world_0 * omega_i_in_joint_i_1;
+    jac_phi_q_v_r_i[0] = t8;
+    const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
     jac_phi_q_v_velocity[12] = h_i_world_0;
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    const jg_real h_i_cross_omega_i_world_1 = g_i_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
-        f_i_world_1;
-    jac_phi_q_v_r_i[1] = h_i_cross_omega_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
-    const jg_real h_i_cross_omega_i_world_2 = g_i_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
-        f_i_world_2;
-    jac_phi_q_v_r_i[2] = h_i_cross_omega_i_world_2;
+    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - h_i_world_2 * g_i_world_0;
+    const jg_real t11 = g_i_world_1 * omega_i_in_joint_i_0 - f_i_world_1 * omega_i_in_joint_i_1;
+    jac_phi_q_v_r_i[1] = t11;
+    const jg_real f_i_world_2 = h_i_world_1 * g_i_world_0 - g_i_world_1 * h_i_world_0;
+    const jg_real t13 = g_i_world_2 * omega_i_in_joint_i_0 - f_i_world_2 * omega_i_in_joint_i_1;
+    jac_phi_q_v_r_i[2] = t13;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
-    const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
-    const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
+    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
+    const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
+    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - g_i_in_j_2 * f_i_in_j_0;
+    const jg_real h_i_in_j_2 = g_i_in_j_1 * f_i_in_j_0 - f_i_in_j_1 * g_i_in_j_0;
     /* omega_j_in_joint_i = omega_j, axes of joint i */
     const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
         omega_j[2];
-    const jg_real t18 = C_i[3] * A_j[0];
-    const jg_real t19 = C_i[3] * A_j[3];
-    const jg_real t20 = C_i[3] * A_j[6];
-    const jg_real t21 = t18 * C_j[6] + t19 * C_j[7] + t20 * C_j[8];
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
-    const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real t24 = C_i[3] * A_j[0];
+    const jg_real t25 = C_i[3] * A_j[3];
+    const jg_real t26 = C_i[3] * A_j[6];
+    const jg_real t27 = t24 * C_j[6] + t25 * C_j[7] + t26 * C_j[8];
+    const jg_real t28 = C_i[3] * h_i_world_2 - C_i[6] * g_i_world_2;
+    const jg_real t29 = g_i_world_1 * C_i[6] - C_i[3] * h_i_world_1;
+    const jg_real t30 = t28 * A_j[4] + t29 * A_j[5];
+    const jg_real t31 = t28 * A_j[7] + t29 * A_j[8];
+    const jg_real t32 = f_i_in_j_1 * t26 - t30 * g_i_in_j_2 - (f_i_in_j_2 * t25 - t31 * g_i_in_j_1);
+    const jg_real t33 = t28 * A_j[1] + t29 * A_j[2];
+    const jg_real t34 = f_i_in_j_2 * t24 - t31 * g_i_in_j_0 - (t26 * f_i_in_j_0 - g_i_in_j_2 * t33);
+    const jg_real t35 = t25 * f_i_in_j_0 - g_i_in_j_1 * t33 - (f_i_in_j_1 * t24 - t30 * g_i_in_j_0);
+    const jg_real t36 = t32 * omega_j[0] + t34 * omega_j[1] + t35 * omega_j[2];
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
-    const jg_real t26 = A_j[0] * C_i[6];
-    const jg_real t27 = A_j[3] * C_i[6];
-    const jg_real t28 = A_j[6] * C_i[6];
-    const jg_real t29 = t26 * omega_j[0] + t27 * omega_j[1] + t28 * omega_j[2];
-    const jg_real omega_j_in_joint_i_1 = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 *
+    const jg_real t38 = t32 * C_j[6] + t34 * C_j[7] + t35 * C_j[8];
+    const jg_real omega_j_in_joint_i_1 = omega_j[0] * g_i_in_j_0 + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 *
         omega_j[2];
-    const jg_real t31 = C_j[6] * t26 + C_j[7] * t27 + C_j[8] * t28;
-    const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
-    const jg_real t33 = t18 * omega_j[0] + t19 * omega_j[1] + t20 * omega_j[2];
+    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    const jg_real t41 = omega_j[0] * t24 + t25 * omega_j[1] + t26 * omega_j[2];
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    jac_phi_q_v_A_i[0] = t21 * omega_i_in_joint_i_2 - t31 * omega_i_in_joint_i_1 - (t21 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t29 - (t31 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t33));
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
-    const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
-        f_i_in_j_2;
-    const jg_real t39 = t19 * h_i_in_j_2 + g_i_in_j_1 * t28 - (t20 * h_i_in_j_1 + g_i_in_j_2 * t27);
-    const jg_real t40 = t20 * h_i_in_j_0 + g_i_in_j_2 * t26 - (t18 * h_i_in_j_2 + g_i_in_j_0 * t28);
-    const jg_real t41 = t18 * h_i_in_j_1 + g_i_in_j_0 * t27 - (t19 * h_i_in_j_0 + g_i_in_j_1 * t26);
-    const jg_real t42 = omega_j[0] * t39 + omega_j[1] * t40 + omega_j[2] * t41;
-    const jg_real t43 = C_j[6] * t39 + C_j[7] * t40 + C_j[8] * t41;
-    const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
-    jac_phi_q_v_A_i[1] = t31 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t43 - (t31 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t42 - (omega_j_in_joint_i_2 * t43 + t29 * h_j_in_joint_i_0));
+    jac_phi_q_v_A_i[0] = t27 * omega_i_in_joint_i_2 - t38 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t27 + t36
+        * h_j_in_joint_i_1 - (t38 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t41));
+    const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 *
+        omega_j[2];
+    const jg_real t44 = omega_j[0] * t33 + t30 * omega_j[1] + t31 * omega_j[2];
+    const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
+    const jg_real t46 = t33 * C_j[6] + t30 * C_j[7] + t31 * C_j[8];
+    jac_phi_q_v_A_i[1] = t38 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t46 - (t38 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t44 - (t36 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t46));
+    const jg_real t47 = t24 * s_j[0] + t25 * s_j[1] + t26 * s_j[2];
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
-    const jg_real t46 = t18 * s_j[0] + t19 * s_j[1] + t20 * s_j[2];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
-    const jg_real t48 = t39 * s_j[0] + t40 * s_j[1] + t41 * s_j[2];
-    const jg_real t49 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_2 - g_i_world_2 * C_i[6]);
-    const jg_real t50 = C_i[3] * omega_i_in_joint_i_0;
-    const jg_real t51 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[6] - C_i[3] * h_i_world_1);
-    jac_phi_q_v_A_i[2] = t42 * s_j_dot_g_i + omega_j_in_joint_i_0 * t46 - (t33 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t48) - (omega_i_in_joint_i_0 * t46 - omega_i_in_joint_i_1 * t48 + (t50 * r_j[0] + t49 * r_j[1] + t51 *
-        r_j[2]) - (t50 * r_i[0] + t49 * r_i[1] + t51 * r_i[2]) + C_i[6] * v_i[0] - C_i[6] * v_j[0]);
-    const jg_real t52 = C_i[3] * A_j[1];
-    const jg_real t53 = C_i[3] * A_j[4];
-    const jg_real t54 = C_i[3] * A_j[7];
-    const jg_real t55 = t52 * C_j[6] + t53 * C_j[7] + t54 * C_j[8];
-    const jg_real t56 = A_j[1] * C_i[6];
-    const jg_real t57 = A_j[4] * C_i[6];
-    const jg_real t58 = A_j[7] * C_i[6];
-    const jg_real t59 = t56 * omega_j[0] + t57 * omega_j[1] + t58 * omega_j[2];
-    const jg_real t60 = C_j[6] * t56 + C_j[7] * t57 + C_j[8] * t58;
-    const jg_real t61 = t52 * omega_j[0] + t53 * omega_j[1] + t54 * omega_j[2];
-    jac_phi_q_v_A_i[3] = t55 * omega_i_in_joint_i_2 - t60 * omega_i_in_joint_i_1 - (t55 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t59 - (t60 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t61));
-    const jg_real t62 = t53 * h_i_in_j_2 + g_i_in_j_1 * t58 - (t54 * h_i_in_j_1 + g_i_in_j_2 * t57);
-    const jg_real t63 = t54 * h_i_in_j_0 + g_i_in_j_2 * t56 - (t52 * h_i_in_j_2 + g_i_in_j_0 * t58);
-    const jg_real t64 = t52 * h_i_in_j_1 + g_i_in_j_0 * t57 - (t53 * h_i_in_j_0 + g_i_in_j_1 * t56);
-    const jg_real t65 = omega_j[0] * t62 + omega_j[1] * t63 + omega_j[2] * t64;
-    const jg_real t66 = C_j[6] * t62 + C_j[7] * t63 + C_j[8] * t64;
-    jac_phi_q_v_A_i[4] = t60 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t66 - (t60 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t65 - (omega_j_in_joint_i_2 * t66 + t59 * h_j_in_joint_i_0));
-    const jg_real t67 = t52 * s_j[0] + t53 * s_j[1] + t54 * s_j[2];
-    const jg_real t68 = t62 * s_j[0] + t63 * s_j[1] + t64 * s_j[2];
-    const jg_real t69 = omega_i_in_joint_i_1 * (C_i[3] * h_i_world_0 - g_i_world_0 * C_i[6]);
-    jac_phi_q_v_A_i[5] = t65 * s_j_dot_g_i + omega_j_in_joint_i_0 * t67 - (t61 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t68) - (omega_i_in_joint_i_0 * t67 - omega_i_in_joint_i_1 * t68 + (t50 * r_j[1] - t49 * r_j[0] + t69 *
-        r_j[2]) - (t50 * r_i[1] - t49 * r_i[0] + t69 * r_i[2]) + C_i[6] * v_i[1] - C_i[6] * v_j[1]);
-    const jg_real t70 = C_i[3] * A_j[2];
-    const jg_real t71 = C_i[3] * A_j[5];
-    const jg_real t72 = C_i[3] * A_j[8];
-    const jg_real t73 = t70 * C_j[6] + t71 * C_j[7] + t72 * C_j[8];
-    const jg_real t74 = A_j[2] * C_i[6];
-    const jg_real t75 = A_j[5] * C_i[6];
-    const jg_real t76 = A_j[8] * C_i[6];
-    const jg_real t77 = t74 * omega_j[0] + t75 * omega_j[1] + t76 * omega_j[2];
-    const jg_real t78 = C_j[6] * t74 + C_j[7] * t75 + C_j[8] * t76;
-    const jg_real t79 = t70 * omega_j[0] + t71 * omega_j[1] + t72 * omega_j[2];
-    jac_phi_q_v_A_i[6] = t73 * omega_i_in_joint_i_2 - t78 * omega_i_in_joint_i_1 - (t73 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t77 - (t78 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t79));
-    const jg_real t80 = t71 * h_i_in_j_2 + g_i_in_j_1 * t76 - (t72 * h_i_in_j_1 + g_i_in_j_2 * t75);
-    const jg_real t81 = t72 * h_i_in_j_0 + g_i_in_j_2 * t74 - (t70 * h_i_in_j_2 + g_i_in_j_0 * t76);
-    const jg_real t82 = t70 * h_i_in_j_1 + g_i_in_j_0 * t75 - (t71 * h_i_in_j_0 + g_i_in_j_1 * t74);
-    const jg_real t83 = omega_j[0] * t80 + omega_j[1] * t81 + omega_j[2] * t82;
-    const jg_real t84 = C_j[6] * t80 + C_j[7] * t81 + C_j[8] * t82;
-    jac_phi_q_v_A_i[7] = t78 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t84 - (t78 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t83 - (omega_j_in_joint_i_2 * t84 + t77 * h_j_in_joint_i_0));
-    const jg_real t85 = t70 * s_j[0] + t71 * s_j[1] + t72 * s_j[2];
-    const jg_real t86 = t80 * s_j[0] + t81 * s_j[1] + t82 * s_j[2];
-    jac_phi_q_v_A_i[8] = t83 * s_j_dot_g_i + omega_j_in_joint_i_0 * t85 - (t79 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t86) - (omega_i_in_joint_i_0 * t85 - omega_i_in_joint_i_1 * t86 + (t50 * r_j[2] - (t51 * r_j[0] + t69 *
-        r_j[1])) - (t50 * r_i[2] - (t51 * r_i[0] + t69 * r_i[1])) + C_i[6] * v_i[2] - C_i[6] * v_j[2]);
-    const jg_real t87 = C_i[4] * A_j[0];
-    const jg_real t88 = C_i[4] * A_j[3];
-    const jg_real t89 = C_i[4] * A_j[6];
-    const jg_real t90 = t87 * C_j[6] + t88 * C_j[7] + t89 * C_j[8];
-    const jg_real t91 = A_j[0] * C_i[7];
-    const jg_real t92 = A_j[3] * C_i[7];
-    const jg_real t93 = A_j[6] * C_i[7];
-    const jg_real t94 = t91 * omega_j[0] + t92 * omega_j[1] + t93 * omega_j[2];
-    const jg_real t95 = C_j[6] * t91 + C_j[7] * t92 + C_j[8] * t93;
-    const jg_real t96 = t87 * omega_j[0] + t88 * omega_j[1] + t89 * omega_j[2];
-    jac_phi_q_v_A_i[9] = t90 * omega_i_in_joint_i_2 - t95 * omega_i_in_joint_i_1 - (t90 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t94 - (t95 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t96));
-    const jg_real t97 = t88 * h_i_in_j_2 + g_i_in_j_1 * t93 - (t89 * h_i_in_j_1 + g_i_in_j_2 * t92);
-    const jg_real t98 = t89 * h_i_in_j_0 + g_i_in_j_2 * t91 - (t87 * h_i_in_j_2 + g_i_in_j_0 * t93);
-    const jg_real t99 = t87 * h_i_in_j_1 + g_i_in_j_0 * t92 - (t88 * h_i_in_j_0 + g_i_in_j_1 * t91);
-    const jg_real t100 = omega_j[0] * t97 + omega_j[1] * t98 + omega_j[2] * t99;
-    const jg_real t101 = C_j[6] * t97 + C_j[7] * t98 + C_j[8] * t99;
-    jac_phi_q_v_A_i[10] = t95 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t101 - (t95 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t100 - (omega_j_in_joint_i_2 * t101 + t94 * h_j_in_joint_i_0));
-    const jg_real t102 = t87 * s_j[0] + t88 * s_j[1] + t89 * s_j[2];
-    const jg_real t103 = t97 * s_j[0] + t98 * s_j[1] + t99 * s_j[2];
-    const jg_real t104 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_2 - g_i_world_2 * C_i[7]);
-    const jg_real t105 = C_i[4] * omega_i_in_joint_i_0;
-    const jg_real t106 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[7] - C_i[4] * h_i_world_1);
-    jac_phi_q_v_A_i[11] = t100 * s_j_dot_g_i + omega_j_in_joint_i_0 * t102 - (t96 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t103) - (omega_i_in_joint_i_0 * t102 - omega_i_in_joint_i_1 * t103 + (t105 * r_j[0] +
-        t104 * r_j[1] + t106 * r_j[2]) - (t105 * r_i[0] + t104 * r_i[1] + t106 * r_i[2]) + C_i[7] * v_i[0] - C_i[7]
-        * v_j[0]);
-    const jg_real t107 = C_i[4] * A_j[1];
-    const jg_real t108 = C_i[4] * A_j[4];
-    const jg_real t109 = C_i[4] * A_j[7];
-    const jg_real t110 = t107 * C_j[6] + t108 * C_j[7] + t109 * C_j[8];
-    const jg_real t111 = A_j[1] * C_i[7];
-    const jg_real t112 = A_j[4] * C_i[7];
-    const jg_real t113 = A_j[7] * C_i[7];
-    const jg_real t114 = t111 * omega_j[0] + t112 * omega_j[1] + t113 * omega_j[2];
-    const jg_real t115 = C_j[6] * t111 + C_j[7] * t112 + C_j[8] * t113;
-    const jg_real t116 = t107 * omega_j[0] + t108 * omega_j[1] + t109 * omega_j[2];
-    jac_phi_q_v_A_i[12] = t110 * omega_i_in_joint_i_2 - t115 * omega_i_in_joint_i_1 - (t110 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t114 - (t115 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t116));
-    const jg_real t117 = t108 * h_i_in_j_2 + g_i_in_j_1 * t113 - (t109 * h_i_in_j_1 + g_i_in_j_2 * t112);
-    const jg_real t118 = t109 * h_i_in_j_0 + g_i_in_j_2 * t111 - (t107 * h_i_in_j_2 + g_i_in_j_0 * t113);
-    const jg_real t119 = t107 * h_i_in_j_1 + g_i_in_j_0 * t112 - (t108 * h_i_in_j_0 + g_i_in_j_1 * t111);
-    const jg_real t120 = omega_j[0] * t117 + omega_j[1] * t118 + omega_j[2] * t119;
-    const jg_real t121 = C_j[6] * t117 + C_j[7] * t118 + C_j[8] * t119;
-    jac_phi_q_v_A_i[13] = t115 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t121 - (t115 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t120 - (omega_j_in_joint_i_2 * t121 + t114 * h_j_in_joint_i_0));
-    const jg_real t122 = t107 * s_j[0] + t108 * s_j[1] + t109 * s_j[2];
-    const jg_real t123 = t117 * s_j[0] + t118 * s_j[1] + t119 * s_j[2];
-    const jg_real t124 = omega_i_in_joint_i_1 * (C_i[4] * h_i_world_0 - g_i_world_0 * C_i[7]);
-    jac_phi_q_v_A_i[14] = t120 * s_j_dot_g_i + omega_j_in_joint_i_0 * t122 - (t116 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t123) - (omega_i_in_joint_i_0 * t122 - omega_i_in_joint_i_1 * t123 + (t105 * r_j[1] -
-        t104 * r_j[0] + t124 * r_j[2]) - (t105 * r_i[1] - t104 * r_i[0] + t124 * r_i[2]) + C_i[7] * v_i[1] - C_i[7]
-        * v_j[1]);
-    const jg_real t125 = C_i[4] * A_j[2];
-    const jg_real t126 = C_i[4] * A_j[5];
-    const jg_real t127 = C_i[4] * A_j[8];
-    const jg_real t128 = t125 * C_j[6] + t126 * C_j[7] + t127 * C_j[8];
-    const jg_real t129 = A_j[2] * C_i[7];
-    const jg_real t130 = A_j[5] * C_i[7];
-    const jg_real t131 = A_j[8] * C_i[7];
-    const jg_real t132 = t129 * omega_j[0] + t130 * omega_j[1] + t131 * omega_j[2];
-    const jg_real t133 = C_j[6] * t129 + C_j[7] * t130 + C_j[8] * t131;
-    const jg_real t134 = t125 * omega_j[0] + t126 * omega_j[1] + t127 * omega_j[2];
-    jac_phi_q_v_A_i[15] = t128 * omega_i_in_joint_i_2 - t133 * omega_i_in_joint_i_1 - (t128 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t132 - (t133 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t134));
-    const jg_real t135 = t126 * h_i_in_j_2 + g_i_in_j_1 * t131 - (t127 * h_i_in_j_1 + g_i_in_j_2 * t130);
-    const jg_real t136 = t127 * h_i_in_j_0 + g_i_in_j_2 * t129 - (t125 * h_i_in_j_2 + g_i_in_j_0 * t131);
-    const jg_real t137 = t125 * h_i_in_j_1 + g_i_in_j_0 * t130 - (t126 * h_i_in_j_0 + g_i_in_j_1 * t129);
-    const jg_real t138 = omega_j[0] * t135 + omega_j[1] * t136 + omega_j[2] * t137;
-    const jg_real t139 = C_j[6] * t135 + C_j[7] * t136 + C_j[8] * t137;
-    jac_phi_q_v_A_i[16] = t133 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t139 - (t133 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t138 - (omega_j_in_joint_i_2 * t139 + t132 * h_j_in_joint_i_0));
-    const jg_real t140 = t125 * s_j[0] + t126 * s_j[1] + t127 * s_j[2];
-    const jg_real t141 = t135 * s_j[0] + t136 * s_j[1] + t137 * s_j[2];
-    jac_phi_q_v_A_i[17] = t138 * s_j_dot_g_i + omega_j_in_joint_i_0 * t140 - (t134 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t141) - (omega_i_in_joint_i_0 * t140 - omega_i_in_joint_i_1 * t141 + (t105 * r_j[2] -
-        (t106 * r_j[0] + t124 * r_j[1])) - (t105 * r_i[2] - (t106 * r_i[0] + t124 * r_i[1])) + C_i[7] * v_i[2] -
-        C_i[7] * v_j[2]);
-    const jg_real t142 = C_i[5] * A_j[0];
-    const jg_real t143 = C_i[5] * A_j[3];
-    const jg_real t144 = C_i[5] * A_j[6];
-    const jg_real t145 = t142 * C_j[6] + t143 * C_j[7] + t144 * C_j[8];
-    const jg_real t146 = A_j[0] * C_i[8];
-    const jg_real t147 = A_j[3] * C_i[8];
-    const jg_real t148 = A_j[6] * C_i[8];
-    const jg_real t149 = t146 * omega_j[0] + t147 * omega_j[1] + t148 * omega_j[2];
-    const jg_real t150 = C_j[6] * t146 + C_j[7] * t147 + C_j[8] * t148;
-    const jg_real t151 = t142 * omega_j[0] + t143 * omega_j[1] + t144 * omega_j[2];
-    jac_phi_q_v_A_i[18] = t145 * omega_i_in_joint_i_2 - t150 * omega_i_in_joint_i_1 - (t145 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t149 - (t150 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t151));
-    const jg_real t152 = t143 * h_i_in_j_2 + g_i_in_j_1 * t148 - (t144 * h_i_in_j_1 + g_i_in_j_2 * t147);
-    const jg_real t153 = t144 * h_i_in_j_0 + g_i_in_j_2 * t146 - (t142 * h_i_in_j_2 + g_i_in_j_0 * t148);
-    const jg_real t154 = t142 * h_i_in_j_1 + g_i_in_j_0 * t147 - (t143 * h_i_in_j_0 + g_i_in_j_1 * t146);
-    const jg_real t155 = omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154;
-    const jg_real t156 = C_j[6] * t152 + C_j[7] * t153 + C_j[8] * t154;
-    jac_phi_q_v_A_i[19] = t150 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t156 - (t150 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t155 - (omega_j_in_joint_i_2 * t156 + t149 * h_j_in_joint_i_0));
-    const jg_real t157 = t142 * s_j[0] + t143 * s_j[1] + t144 * s_j[2];
-    const jg_real t158 = t152 * s_j[0] + t153 * s_j[1] + t154 * s_j[2];
-    const jg_real t159 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_2 - g_i_world_2 * C_i[8]);
-    const jg_real t160 = C_i[5] * omega_i_in_joint_i_0;
-    const jg_real t161 = omega_i_in_joint_i_1 * (g_i_world_1 * C_i[8] - C_i[5] * h_i_world_1);
-    jac_phi_q_v_A_i[20] = t155 * s_j_dot_g_i + omega_j_in_joint_i_0 * t157 - (t151 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t158) - (omega_i_in_joint_i_0 * t157 - omega_i_in_joint_i_1 * t158 + (t160 * r_j[0] +
-        t159 * r_j[1] + t161 * r_j[2]) - (t160 * r_i[0] + t159 * r_i[1] + t161 * r_i[2]) + C_i[8] * v_i[0] - C_i[8]
-        * v_j[0]);
+    const jg_real t50 = t33 * s_j[0] + t30 * s_j[1] + t31 * s_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    jac_phi_q_v_A_i[2] = omega_j_in_joint_i_0 * t47 - t44 * s_j_dot_g_i - (t41 * s_j_dot_f_i - omega_j_in_joint_i_1
+        * t50) - (omega_i_in_joint_i_1 * t50 + omega_i_in_joint_i_0 * t47 + (omega_i_in_joint_i_1 * (t28 *
+        r_ij_world_1 + t29 * r_ij_world_2) + C_i[3] * r_ij_world_0 * omega_i_in_joint_i_0) + C_i[6] * v_i[0] -
+        C_i[6] * v_j[0]);
+    const jg_real t54 = C_i[3] * A_j[1];
+    const jg_real t55 = C_i[3] * A_j[4];
+    const jg_real t56 = C_i[3] * A_j[7];
+    const jg_real t57 = t54 * C_j[6] + t55 * C_j[7] + t56 * C_j[8];
+    const jg_real t58 = C_i[3] * h_i_world_0 - C_i[6] * g_i_world_0;
+    const jg_real t59 = t28 * A_j[3] - t58 * A_j[5];
+    const jg_real t60 = t28 * A_j[6] - t58 * A_j[8];
+    const jg_real t61 = t59 * g_i_in_j_2 + f_i_in_j_1 * t56 - (t60 * g_i_in_j_1 + f_i_in_j_2 * t55);
+    const jg_real t62 = t28 * A_j[0] - t58 * A_j[2];
+    const jg_real t63 = t60 * g_i_in_j_0 + f_i_in_j_2 * t54 - (g_i_in_j_2 * t62 + t56 * f_i_in_j_0);
+    const jg_real t64 = g_i_in_j_1 * t62 + t55 * f_i_in_j_0 - (t59 * g_i_in_j_0 + f_i_in_j_1 * t54);
+    const jg_real t65 = t61 * omega_j[0] + t63 * omega_j[1] + t64 * omega_j[2];
+    const jg_real t66 = t61 * C_j[6] + t63 * C_j[7] + t64 * C_j[8];
+    const jg_real t67 = omega_j[0] * t54 + t55 * omega_j[1] + t56 * omega_j[2];
+    jac_phi_q_v_A_i[3] = t57 * omega_i_in_joint_i_2 - t66 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t57 + t65
+        * h_j_in_joint_i_1 - (t66 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t67));
+    const jg_real t68 = omega_j[0] * t62 + t59 * omega_j[1] + t60 * omega_j[2];
+    const jg_real t69 = t62 * C_j[6] + t59 * C_j[7] + t60 * C_j[8];
+    jac_phi_q_v_A_i[4] = -(t66 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t68 - (omega_j_in_joint_i_2 * t69 + t65 *
+        h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t69 - t66 * omega_i_in_joint_i_0));
+    const jg_real t70 = t54 * s_j[0] + t55 * s_j[1] + t56 * s_j[2];
+    const jg_real t71 = t62 * s_j[0] + t59 * s_j[1] + t60 * s_j[2];
+    jac_phi_q_v_A_i[5] = t68 * s_j_dot_g_i + omega_j_in_joint_i_0 * t70 - (t67 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t71) - (omega_i_in_joint_i_0 * t70 - omega_i_in_joint_i_1 * t71 + (C_i[3] * r_ij_world_1 *
+        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t28 * r_ij_world_0 - t58 * r_ij_world_2)) + C_i[6] * v_i[1] -
+        C_i[6] * v_j[1]);
+    const jg_real t72 = C_i[3] * A_j[2];
+    const jg_real t73 = C_i[3] * A_j[5];
+    const jg_real t74 = C_i[3] * A_j[8];
+    const jg_real t75 = t72 * C_j[6] + t73 * C_j[7] + t74 * C_j[8];
+    const jg_real t76 = t29 * A_j[3] + t58 * A_j[4];
+    const jg_real t77 = t29 * A_j[6] + t58 * A_j[7];
+    const jg_real t78 = t76 * g_i_in_j_2 + f_i_in_j_1 * t74 - (t77 * g_i_in_j_1 + f_i_in_j_2 * t73);
+    const jg_real t79 = t29 * A_j[0] + t58 * A_j[1];
+    const jg_real t80 = t77 * g_i_in_j_0 + f_i_in_j_2 * t72 - (g_i_in_j_2 * t79 + t74 * f_i_in_j_0);
+    const jg_real t81 = g_i_in_j_1 * t79 + t73 * f_i_in_j_0 - (t76 * g_i_in_j_0 + f_i_in_j_1 * t72);
+    const jg_real t82 = t78 * omega_j[0] + t80 * omega_j[1] + t81 * omega_j[2];
+    const jg_real t83 = t78 * C_j[6] + t80 * C_j[7] + t81 * C_j[8];
+    const jg_real t84 = omega_j[0] * t72 + t73 * omega_j[1] + t74 * omega_j[2];
+    jac_phi_q_v_A_i[6] = t75 * omega_i_in_joint_i_2 - t83 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t75 + t82
+        * h_j_in_joint_i_1 - (t83 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t84));
+    const jg_real t85 = omega_j[0] * t79 + t76 * omega_j[1] + t77 * omega_j[2];
+    const jg_real t86 = t79 * C_j[6] + t76 * C_j[7] + t77 * C_j[8];
+    jac_phi_q_v_A_i[7] = -(t83 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t85 - (omega_j_in_joint_i_2 * t86 + t82 *
+        h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t86 - t83 * omega_i_in_joint_i_0));
+    const jg_real t87 = t72 * s_j[0] + t73 * s_j[1] + t74 * s_j[2];
+    const jg_real t88 = t79 * s_j[0] + t76 * s_j[1] + t77 * s_j[2];
+    jac_phi_q_v_A_i[8] = t85 * s_j_dot_g_i + omega_j_in_joint_i_0 * t87 - (t84 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t88) - (omega_i_in_joint_i_0 * t87 - omega_i_in_joint_i_1 * t88 + (C_i[3] * r_ij_world_2 *
+        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t29 * r_ij_world_0 + t58 * r_ij_world_1)) + C_i[6] * v_i[2] -
+        C_i[6] * v_j[2]);
+    const jg_real t89 = C_i[4] * A_j[0];
+    const jg_real t90 = C_i[4] * A_j[3];
+    const jg_real t91 = C_i[4] * A_j[6];
+    const jg_real t92 = t89 * C_j[6] + t90 * C_j[7] + t91 * C_j[8];
+    const jg_real t93 = C_i[4] * h_i_world_2 - C_i[7] * g_i_world_2;
+    const jg_real t94 = g_i_world_1 * C_i[7] - C_i[4] * h_i_world_1;
+    const jg_real t95 = t93 * A_j[4] + t94 * A_j[5];
+    const jg_real t96 = t93 * A_j[7] + t94 * A_j[8];
+    const jg_real t97 = f_i_in_j_1 * t91 - t95 * g_i_in_j_2 - (f_i_in_j_2 * t90 - t96 * g_i_in_j_1);
+    const jg_real t98 = t93 * A_j[1] + t94 * A_j[2];
+    const jg_real t99 = f_i_in_j_2 * t89 - t96 * g_i_in_j_0 - (t91 * f_i_in_j_0 - g_i_in_j_2 * t98);
+    const jg_real t100 = t90 * f_i_in_j_0 - g_i_in_j_1 * t98 - (f_i_in_j_1 * t89 - t95 * g_i_in_j_0);
+    const jg_real t101 = t97 * omega_j[0] + t99 * omega_j[1] + t100 * omega_j[2];
+    const jg_real t102 = t97 * C_j[6] + t99 * C_j[7] + t100 * C_j[8];
+    const jg_real t103 = omega_j[0] * t89 + t90 * omega_j[1] + t91 * omega_j[2];
+    jac_phi_q_v_A_i[9] = t92 * omega_i_in_joint_i_2 - t102 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t92 +
+        t101 * h_j_in_joint_i_1 - (t102 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t103));
+    const jg_real t104 = omega_j[0] * t98 + t95 * omega_j[1] + t96 * omega_j[2];
+    const jg_real t105 = t98 * C_j[6] + t95 * C_j[7] + t96 * C_j[8];
+    jac_phi_q_v_A_i[10] = t102 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t105 - (t102 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t104 - (t101 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t105));
+    const jg_real t106 = t89 * s_j[0] + t90 * s_j[1] + t91 * s_j[2];
+    const jg_real t107 = t98 * s_j[0] + t95 * s_j[1] + t96 * s_j[2];
+    jac_phi_q_v_A_i[11] = omega_j_in_joint_i_0 * t106 - t104 * s_j_dot_g_i - (t103 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t107) - (omega_i_in_joint_i_1 * t107 + omega_i_in_joint_i_0 * t106 +
+        (omega_i_in_joint_i_1 * (t93 * r_ij_world_1 + t94 * r_ij_world_2) + C_i[4] * r_ij_world_0 *
+        omega_i_in_joint_i_0) + C_i[7] * v_i[0] - C_i[7] * v_j[0]);
+    const jg_real t108 = C_i[4] * A_j[1];
+    const jg_real t109 = C_i[4] * A_j[4];
+    const jg_real t110 = C_i[4] * A_j[7];
+    const jg_real t111 = t108 * C_j[6] + t109 * C_j[7] + t110 * C_j[8];
+    const jg_real t112 = C_i[4] * h_i_world_0 - C_i[7] * g_i_world_0;
+    const jg_real t113 = t93 * A_j[3] - t112 * A_j[5];
+    const jg_real t114 = t93 * A_j[6] - t112 * A_j[8];
+    const jg_real t115 = t113 * g_i_in_j_2 + f_i_in_j_1 * t110 - (t114 * g_i_in_j_1 + f_i_in_j_2 * t109);
+    const jg_real t116 = t93 * A_j[0] - t112 * A_j[2];
+    const jg_real t117 = t114 * g_i_in_j_0 + f_i_in_j_2 * t108 - (g_i_in_j_2 * t116 + t110 * f_i_in_j_0);
+    const jg_real t118 = g_i_in_j_1 * t116 + t109 * f_i_in_j_0 - (t113 * g_i_in_j_0 + f_i_in_j_1 * t108);
+    const jg_real t119 = t115 * omega_j[0] + t117 * omega_j[1] + t118 * omega_j[2];
+    const jg_real t120 = t115 * C_j[6] + t117 * C_j[7] + t118 * C_j[8];
+    const jg_real t121 = omega_j[0] * t108 + t109 * omega_j[1] + t110 * omega_j[2];
+    jac_phi_q_v_A_i[12] = t111 * omega_i_in_joint_i_2 - t120 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t111 +
+        t119 * h_j_in_joint_i_1 - (t120 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t121));
+    const jg_real t122 = omega_j[0] * t116 + t113 * omega_j[1] + t114 * omega_j[2];
+    const jg_real t123 = t116 * C_j[6] + t113 * C_j[7] + t114 * C_j[8];
+    jac_phi_q_v_A_i[13] = -(t120 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t122 - (omega_j_in_joint_i_2 * t123 +
+        t119 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t123 - t120 * omega_i_in_joint_i_0));
+    const jg_real t124 = t108 * s_j[0] + t109 * s_j[1] + t110 * s_j[2];
+    const jg_real t125 = t116 * s_j[0] + t113 * s_j[1] + t114 * s_j[2];
+    jac_phi_q_v_A_i[14] = t122 * s_j_dot_g_i + omega_j_in_joint_i_0 * t124 - (t121 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t125) - (omega_i_in_joint_i_0 * t124 - omega_i_in_joint_i_1 * t125 + (C_i[4] *
+        r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t93 * r_ij_world_0 - t112 * r_ij_world_2)) +
+        C_i[7] * v_i[1] - C_i[7] * v_j[1]);
+    const jg_real t126 = C_i[4] * A_j[2];
+    const jg_real t127 = C_i[4] * A_j[5];
+    const jg_real t128 = C_i[4] * A_j[8];
+    const jg_real t129 = t126 * C_j[6] + t127 * C_j[7] + t128 * C_j[8];
+    const jg_real t130 = t94 * A_j[3] + t112 * A_j[4];
+    const jg_real t131 = t94 * A_j[6] + t112 * A_j[7];
+    const jg_real t132 = t130 * g_i_in_j_2 + f_i_in_j_1 * t128 - (t131 * g_i_in_j_1 + f_i_in_j_2 * t127);
+    const jg_real t133 = t94 * A_j[0] + t112 * A_j[1];
+    const jg_real t134 = t131 * g_i_in_j_0 + f_i_in_j_2 * t126 - (g_i_in_j_2 * t133 + t128 * f_i_in_j_0);
+    const jg_real t135 = g_i_in_j_1 * t133 + t127 * f_i_in_j_0 - (t130 * g_i_in_j_0 + f_i_in_j_1 * t126);
+    const jg_real t136 = t132 * omega_j[0] + t134 * omega_j[1] + t135 * omega_j[2];
+    const jg_real t137 = t132 * C_j[6] + t134 * C_j[7] + t135 * C_j[8];
+    const jg_real t138 = omega_j[0] * t126 + t127 * omega_j[1] + t128 * omega_j[2];
+    jac_phi_q_v_A_i[15] = t129 * omega_i_in_joint_i_2 - t137 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t129 +
+        t136 * h_j_in_joint_i_1 - (t137 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t138));
+    const jg_real t139 = omega_j[0] * t133 + t130 * omega_j[1] + t131 * omega_j[2];
+    const jg_real t140 = t133 * C_j[6] + t130 * C_j[7] + t131 * C_j[8];
+    jac_phi_q_v_A_i[16] = -(t137 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t139 - (omega_j_in_joint_i_2 * t140 +
+        t136 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t140 - t137 * omega_i_in_joint_i_0));
+    const jg_real t141 = t126 * s_j[0] + t127 * s_j[1] + t128 * s_j[2];
+    const jg_real t142 = t133 * s_j[0] + t130 * s_j[1] + t131 * s_j[2];
+    jac_phi_q_v_A_i[17] = t139 * s_j_dot_g_i + omega_j_in_joint_i_0 * t141 - (t138 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t142) - (omega_i_in_joint_i_0 * t141 - omega_i_in_joint_i_1 * t142 + (C_i[4] *
+        r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t94 * r_ij_world_0 + t112 * r_ij_world_1)) +
+        C_i[7] * v_i[2] - C_i[7] * v_j[2]);
+    const jg_real t143 = C_i[5] * A_j[0];
+    const jg_real t144 = C_i[5] * A_j[3];
+    const jg_real t145 = C_i[5] * A_j[6];
+    const jg_real t146 = t143 * C_j[6] + t144 * C_j[7] + t145 * C_j[8];
+    const jg_real t147 = C_i[5] * h_i_world_2 - C_i[8] * g_i_world_2;
+    const jg_real t148 = g_i_world_1 * C_i[8] - C_i[5] * h_i_world_1;
+    const jg_real t149 = t147 * A_j[4] + t148 * A_j[5];
+    const jg_real t150 = t147 * A_j[7] + t148 * A_j[8];
+    const jg_real t151 = f_i_in_j_1 * t145 - t149 * g_i_in_j_2 - (f_i_in_j_2 * t144 - t150 * g_i_in_j_1);
+    const jg_real t152 = t147 * A_j[1] + t148 * A_j[2];
+    const jg_real t153 = f_i_in_j_2 * t143 - t150 * g_i_in_j_0 - (t145 * f_i_in_j_0 - g_i_in_j_2 * t152);
+    const jg_real t154 = t144 * f_i_in_j_0 - g_i_in_j_1 * t152 - (f_i_in_j_1 * t143 - t149 * g_i_in_j_0);
+    const jg_real t155 = t151 * omega_j[0] + t153 * omega_j[1] + t154 * omega_j[2];
+    const jg_real t156 = t151 * C_j[6] + t153 * C_j[7] + t154 * C_j[8];
+    const jg_real t157 = omega_j[0] * t143 + t144 * omega_j[1] + t145 * omega_j[2];
+    jac_phi_q_v_A_i[18] = t146 * omega_i_in_joint_i_2 - t156 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t146 +
+        t155 * h_j_in_joint_i_1 - (t156 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t157));
+    const jg_real t158 = omega_j[0] * t152 + t149 * omega_j[1] + t150 * omega_j[2];
+    const jg_real t159 = t152 * C_j[6] + t149 * C_j[7] + t150 * C_j[8];
+    jac_phi_q_v_A_i[19] = t156 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t159 - (t156 * omega_j_in_joint_i_0 -
+        h_j_in_joint_i_2 * t158 - (t155 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t159));
+    const jg_real t160 = t143 * s_j[0] + t144 * s_j[1] + t145 * s_j[2];
+    const jg_real t161 = t152 * s_j[0] + t149 * s_j[1] + t150 * s_j[2];
+    jac_phi_q_v_A_i[20] = omega_j_in_joint_i_0 * t160 - t158 * s_j_dot_g_i - (t157 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t161) - (omega_i_in_joint_i_1 * t161 + omega_i_in_joint_i_0 * t160 +
+        (omega_i_in_joint_i_1 * (t147 * r_ij_world_1 + t148 * r_ij_world_2) + C_i[5] * r_ij_world_0 *
+        omega_i_in_joint_i_0) + C_i[8] * v_i[0] - C_i[8] * v_j[0]);
     const jg_real t162 = C_i[5] * A_j[1];
     const jg_real t163 = C_i[5] * A_j[4];
     const jg_real t164 = C_i[5] * A_j[7];
     const jg_real t165 = t162 * C_j[6] + t163 * C_j[7] + t164 * C_j[8];
-    const jg_real t166 = A_j[1] * C_i[8];
-    const jg_real t167 = A_j[4] * C_i[8];
-    const jg_real t168 = A_j[7] * C_i[8];
-    const jg_real t169 = t166 * omega_j[0] + t167 * omega_j[1] + t168 * omega_j[2];
-    const jg_real t170 = C_j[6] * t166 + C_j[7] * t167 + C_j[8] * t168;
-    const jg_real t171 = t162 * omega_j[0] + t163 * omega_j[1] + t164 * omega_j[2];
-    jac_phi_q_v_A_i[21] = t165 * omega_i_in_joint_i_2 - t170 * omega_i_in_joint_i_1 - (t165 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t169 - (t170 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t171));
-    const jg_real t172 = t163 * h_i_in_j_2 + g_i_in_j_1 * t168 - (t164 * h_i_in_j_1 + g_i_in_j_2 * t167);
-    const jg_real t173 = t164 * h_i_in_j_0 + g_i_in_j_2 * t166 - (t162 * h_i_in_j_2 + g_i_in_j_0 * t168);
-    const jg_real t174 = t162 * h_i_in_j_1 + g_i_in_j_0 * t167 - (t163 * h_i_in_j_0 + g_i_in_j_1 * t166);
-    const jg_real t175 = omega_j[0] * t172 + omega_j[1] * t173 + omega_j[2] * t174;
-    const jg_real t176 = C_j[6] * t172 + C_j[7] * t173 + C_j[8] * t174;
-    jac_phi_q_v_A_i[22] = t170 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t176 - (t170 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t175 - (omega_j_in_joint_i_2 * t176 + t169 * h_j_in_joint_i_0));
-    const jg_real t177 = t162 * s_j[0] + t163 * s_j[1] + t164 * s_j[2];
-    const jg_real t178 = t172 * s_j[0] + t173 * s_j[1] + t174 * s_j[2];
-    const jg_real t179 = omega_i_in_joint_i_1 * (C_i[5] * h_i_world_0 - g_i_world_0 * C_i[8]);
-    jac_phi_q_v_A_i[23] = t175 * s_j_dot_g_i + omega_j_in_joint_i_0 * t177 - (t171 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t178) - (omega_i_in_joint_i_0 * t177 - omega_i_in_joint_i_1 * t178 + (t160 * r_j[1] -
-        t159 * r_j[0] + t179 * r_j[2]) - (t160 * r_i[1] - t159 * r_i[0] + t179 * r_i[2]) + C_i[8] * v_i[1] - C_i[8]
-        * v_j[1]);
+    const jg_real t166 = C_i[5] * h_i_world_0 - C_i[8] * g_i_world_0;
+    const jg_real t167 = t147 * A_j[3] - t166 * A_j[5];
+    const jg_real t168 = t147 * A_j[6] - t166 * A_j[8];
+    const jg_real t169 = t167 * g_i_in_j_2 + f_i_in_j_1 * t164 - (t168 * g_i_in_j_1 + f_i_in_j_2 * t163);
+    const jg_real t170 = t147 * A_j[0] - t166 * A_j[2];
+    const jg_real t171 = t168 * g_i_in_j_0 + f_i_in_j_2 * t162 - (g_i_in_j_2 * t170 + t164 * f_i_in_j_0);
+    const jg_real t172 = g_i_in_j_1 * t170 + t163 * f_i_in_j_0 - (t167 * g_i_in_j_0 + f_i_in_j_1 * t162);
+    const jg_real t173 = t169 * omega_j[0] + t171 * omega_j[1] + t172 * omega_j[2];
+    const jg_real t174 = t169 * C_j[6] + t171 * C_j[7] + t172 * C_j[8];
+    const jg_real t175 = omega_j[0] * t162 + t163 * omega_j[1] + t164 * omega_j[2];
+    jac_phi_q_v_A_i[21] = t165 * omega_i_in_joint_i_2 - t174 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t165 +
+        t173 * h_j_in_joint_i_1 - (t174 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t175));
+    const jg_real t176 = omega_j[0] * t170 + t167 * omega_j[1] + t168 * omega_j[2];
+    const jg_real t177 = t170 * C_j[6] + t167 * C_j[7] + t168 * C_j[8];
+    jac_phi_q_v_A_i[22] = -(t174 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t176 - (omega_j_in_joint_i_2 * t177 +
+        t173 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t177 - t174 * omega_i_in_joint_i_0));
+    const jg_real t178 = t162 * s_j[0] + t163 * s_j[1] + t164 * s_j[2];
+    const jg_real t179 = t170 * s_j[0] + t167 * s_j[1] + t168 * s_j[2];
+    jac_phi_q_v_A_i[23] = t176 * s_j_dot_g_i + omega_j_in_joint_i_0 * t178 - (t175 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t179) - (omega_i_in_joint_i_0 * t178 - omega_i_in_joint_i_1 * t179 + (C_i[5] *
+        r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t147 * r_ij_world_0 - t166 * r_ij_world_2)) +
+        C_i[8] * v_i[1] - C_i[8] * v_j[1]);
     const jg_real t180 = C_i[5] * A_j[2];
     const jg_real t181 = C_i[5] * A_j[5];
     const jg_real t182 = C_i[5] * A_j[8];
     const jg_real t183 = t180 * C_j[6] + t181 * C_j[7] + t182 * C_j[8];
-    const jg_real t184 = A_j[2] * C_i[8];
-    const jg_real t185 = A_j[5] * C_i[8];
-    const jg_real t186 = A_j[8] * C_i[8];
-    const jg_real t187 = t184 * omega_j[0] + t185 * omega_j[1] + t186 * omega_j[2];
-    const jg_real t188 = C_j[6] * t184 + C_j[7] * t185 + C_j[8] * t186;
-    const jg_real t189 = t180 * omega_j[0] + t181 * omega_j[1] + t182 * omega_j[2];
-    jac_phi_q_v_A_i[24] = t183 * omega_i_in_joint_i_2 - t188 * omega_i_in_joint_i_1 - (t183 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t187 - (t188 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t189));
-    const jg_real t190 = t181 * h_i_in_j_2 + g_i_in_j_1 * t186 - (t182 * h_i_in_j_1 + g_i_in_j_2 * t185);
-    const jg_real t191 = t182 * h_i_in_j_0 + g_i_in_j_2 * t184 - (t180 * h_i_in_j_2 + g_i_in_j_0 * t186);
-    const jg_real t192 = t180 * h_i_in_j_1 + g_i_in_j_0 * t185 - (t181 * h_i_in_j_0 + g_i_in_j_1 * t184);
-    const jg_real t193 = omega_j[0] * t190 + omega_j[1] * t191 + omega_j[2] * t192;
-    const jg_real t194 = C_j[6] * t190 + C_j[7] * t191 + C_j[8] * t192;
-    jac_phi_q_v_A_i[25] = t188 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t194 - (t188 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t193 - (omega_j_in_joint_i_2 * t194 + t187 * h_j_in_joint_i_0));
+    const jg_real t184 = t148 * A_j[3] + t166 * A_j[4];
+    const jg_real t185 = t148 * A_j[6] + t166 * A_j[7];
+    const jg_real t186 = t184 * g_i_in_j_2 + f_i_in_j_1 * t182 - (t185 * g_i_in_j_1 + f_i_in_j_2 * t181);
+    const jg_real t187 = t148 * A_j[0] + t166 * A_j[1];
+    const jg_real t188 = t185 * g_i_in_j_0 + f_i_in_j_2 * t180 - (g_i_in_j_2 * t187 + t182 * f_i_in_j_0);
+    const jg_real t189 = g_i_in_j_1 * t187 + t181 * f_i_in_j_0 - (t184 * g_i_in_j_0 + f_i_in_j_1 * t180);
+    const jg_real t190 = t186 * omega_j[0] + t188 * omega_j[1] + t189 * omega_j[2];
+    const jg_real t191 = t186 * C_j[6] + t188 * C_j[7] + t189 * C_j[8];
+    const jg_real t192 = omega_j[0] * t180 + t181 * omega_j[1] + t182 * omega_j[2];
+    jac_phi_q_v_A_i[24] = t183 * omega_i_in_joint_i_2 - t191 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t183 +
+        t190 * h_j_in_joint_i_1 - (t191 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t192));
+    const jg_real t193 = omega_j[0] * t187 + t184 * omega_j[1] + t185 * omega_j[2];
+    const jg_real t194 = t187 * C_j[6] + t184 * C_j[7] + t185 * C_j[8];
+    jac_phi_q_v_A_i[25] = -(t191 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t193 - (omega_j_in_joint_i_2 * t194 +
+        t190 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t194 - t191 * omega_i_in_joint_i_0));
     const jg_real t195 = t180 * s_j[0] + t181 * s_j[1] + t182 * s_j[2];
-    const jg_real t196 = t190 * s_j[0] + t191 * s_j[1] + t192 * s_j[2];
-    jac_phi_q_v_A_i[26] = t193 * s_j_dot_g_i + omega_j_in_joint_i_0 * t195 - (t189 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t196) - (omega_i_in_joint_i_0 * t195 - omega_i_in_joint_i_1 * t196 + (t160 * r_j[2] -
-        (t161 * r_j[0] + t179 * r_j[1])) - (t160 * r_i[2] - (t161 * r_i[0] + t179 * r_i[1])) + C_i[8] * v_i[2] -
-        C_i[8] * v_j[2]);
-    jac_phi_q_v_r_j[0] = -h_i_cross_omega_i_world_0;
-    jac_phi_q_v_r_j[1] = -h_i_cross_omega_i_world_1;
-    jac_phi_q_v_r_j[2] = -h_i_cross_omega_i_world_2;
+    const jg_real t196 = t187 * s_j[0] + t184 * s_j[1] + t185 * s_j[2];
+    jac_phi_q_v_A_i[26] = t193 * s_j_dot_g_i + omega_j_in_joint_i_0 * t195 - (t192 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t196) - (omega_i_in_joint_i_0 * t195 - omega_i_in_joint_i_1 * t196 + (C_i[5] *
+        r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (t148 * r_ij_world_0 + t166 * r_ij_world_1)) +
+        C_i[8] * v_i[2] - C_i[8] * v_j[2]);
+    jac_phi_q_v_r_j[0] = -t8;
+    jac_phi_q_v_r_j[1] = -t11;
+    jac_phi_q_v_r_j[2] = -t13;
     const jg_real t197 = g_i_world_0 * C_j[6];
-    const jg_real t198 = h_i_world_0 * omega_j[0];
-    const jg_real t199 = C_j[6] * h_i_world_0;
-    const jg_real t200 = g_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[0] = t197 * omega_i_in_joint_i_2 - t199 * omega_i_in_joint_i_1 - (t197 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t198 - (t199 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t200));
-    const jg_real t201 = g_i_world_0 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_0;
-    const jg_real t202 = g_i_in_j_1 * h_i_world_0 - g_i_world_0 * h_i_in_j_1;
-    const jg_real t203 = omega_j[1] * t201 + omega_j[2] * t202;
-    const jg_real t204 = C_j[7] * t201 + C_j[8] * t202;
-    jac_phi_q_v_A_j[1] = omega_i_in_joint_i_2 * t204 + t199 * omega_i_in_joint_i_0 - (t199 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t203 - (t198 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t204));
+    const jg_real t198 = f_i_world_0 * g_i_in_j_2 - g_i_world_0 * f_i_in_j_2;
+    const jg_real t199 = g_i_world_0 * f_i_in_j_1 - f_i_world_0 * g_i_in_j_1;
+    const jg_real t200 = t198 * omega_j[1] + t199 * omega_j[2];
+    const jg_real t201 = g_i_world_0 * omega_j[0];
+    const jg_real t202 = t198 * C_j[7] + t199 * C_j[8];
+    jac_phi_q_v_A_j[0] = t202 * omega_i_in_joint_i_1 + t197 * omega_i_in_joint_i_2 - (omega_j_in_joint_i_2 * t197 -
+        t200 * h_j_in_joint_i_1 - (h_j_in_joint_i_2 * t201 - t202 * omega_j_in_joint_i_1));
+    const jg_real t203 = f_i_world_0 * omega_j[0];
+    const jg_real t204 = f_i_world_0 * C_j[6];
+    jac_phi_q_v_A_j[1] = -(h_j_in_joint_i_2 * t203 - t202 * omega_j_in_joint_i_0 - (omega_j_in_joint_i_2 * t204 -
+        t200 * h_j_in_joint_i_0) + (t202 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t204));
     const jg_real t205 = g_i_world_0 * s_j[0];
-    const jg_real t206 = t201 * s_j[1] + t202 * s_j[2];
-    jac_phi_q_v_A_j[2] = omega_j_in_joint_i_0 * t205 - t203 * s_j_dot_g_i - (t200 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t206) - (omega_i_in_joint_i_1 * t206 + omega_i_in_joint_i_0 * t205);
+    const jg_real t206 = f_i_world_0 * s_j[0];
+    jac_phi_q_v_A_j[2] = t203 * s_j_dot_g_i + omega_j_in_joint_i_0 * t205 - (t201 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t206) - (omega_i_in_joint_i_0 * t205 - omega_i_in_joint_i_1 * t206);
     const jg_real t207 = g_i_world_1 * C_j[6];
-    const jg_real t208 = h_i_world_1 * omega_j[0];
-    const jg_real t209 = C_j[6] * h_i_world_1;
-    const jg_real t210 = g_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[3] = t207 * omega_i_in_joint_i_2 - t209 * omega_i_in_joint_i_1 - (t207 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t208 - (t209 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t210));
-    const jg_real t211 = g_i_world_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_1;
-    const jg_real t212 = g_i_in_j_1 * h_i_world_1 - g_i_world_1 * h_i_in_j_1;
-    const jg_real t213 = omega_j[1] * t211 + omega_j[2] * t212;
-    const jg_real t214 = C_j[7] * t211 + C_j[8] * t212;
-    jac_phi_q_v_A_j[4] = omega_i_in_joint_i_2 * t214 + t209 * omega_i_in_joint_i_0 - (t209 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t213 - (t208 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t214));
+    const jg_real t208 = f_i_world_1 * g_i_in_j_2 - g_i_world_1 * f_i_in_j_2;
+    const jg_real t209 = g_i_world_1 * f_i_in_j_1 - f_i_world_1 * g_i_in_j_1;
+    const jg_real t210 = t208 * omega_j[1] + t209 * omega_j[2];
+    const jg_real t211 = g_i_world_1 * omega_j[0];
+    const jg_real t212 = t208 * C_j[7] + t209 * C_j[8];
+    jac_phi_q_v_A_j[3] = t212 * omega_i_in_joint_i_1 + t207 * omega_i_in_joint_i_2 - (omega_j_in_joint_i_2 * t207 -
+        t210 * h_j_in_joint_i_1 - (h_j_in_joint_i_2 * t211 - t212 * omega_j_in_joint_i_1));
+    const jg_real t213 = f_i_world_1 * omega_j[0];
+    const jg_real t214 = f_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[4] = -(h_j_in_joint_i_2 * t213 - t212 * omega_j_in_joint_i_0 - (omega_j_in_joint_i_2 * t214 -
+        t210 * h_j_in_joint_i_0) + (t212 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t214));
     const jg_real t215 = g_i_world_1 * s_j[0];
-    const jg_real t216 = t211 * s_j[1] + t212 * s_j[2];
-    jac_phi_q_v_A_j[5] = omega_j_in_joint_i_0 * t215 - t213 * s_j_dot_g_i - (t210 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_1 * t216 + omega_i_in_joint_i_0 * t215);
+    const jg_real t216 = f_i_world_1 * s_j[0];
+    jac_phi_q_v_A_j[5] = t213 * s_j_dot_g_i + omega_j_in_joint_i_0 * t215 - (t211 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_0 * t215 - omega_i_in_joint_i_1 * t216);
     const jg_real t217 = g_i_world_2 * C_j[6];
-    const jg_real t218 = h_i_world_2 * omega_j[0];
-    const jg_real t219 = C_j[6] * h_i_world_2;
-    const jg_real t220 = g_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[6] = t217 * omega_i_in_joint_i_2 - t219 * omega_i_in_joint_i_1 - (t217 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t218 - (t219 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t220));
-    const jg_real t221 = g_i_world_2 * h_i_in_j_2 - g_i_in_j_2 * h_i_world_2;
-    const jg_real t222 = g_i_in_j_1 * h_i_world_2 - g_i_world_2 * h_i_in_j_1;
-    const jg_real t223 = omega_j[1] * t221 + omega_j[2] * t222;
-    const jg_real t224 = C_j[7] * t221 + C_j[8] * t222;
-    jac_phi_q_v_A_j[7] = omega_i_in_joint_i_2 * t224 + t219 * omega_i_in_joint_i_0 - (t219 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t223 - (t218 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t224));
+    const jg_real t218 = f_i_world_2 * g_i_in_j_2 - g_i_world_2 * f_i_in_j_2;
+    const jg_real t219 = g_i_world_2 * f_i_in_j_1 - f_i_world_2 * g_i_in_j_1;
+    const jg_real t220 = t218 * omega_j[1] + t219 * omega_j[2];
+    const jg_real t221 = g_i_world_2 * omega_j[0];
+    const jg_real t222 = t218 * C_j[7] + t219 * C_j[8];
+    jac_phi_q_v_A_j[6] = t222 * omega_i_in_joint_i_1 + t217 * omega_i_in_joint_i_2 - (omega_j_in_joint_i_2 * t217 -
+        t220 * h_j_in_joint_i_1 - (h_j_in_joint_i_2 * t221 - t222 * omega_j_in_joint_i_1));
+    const jg_real t223 = f_i_world_2 * omega_j[0];
+    const jg_real t224 = f_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[7] = -(h_j_in_joint_i_2 * t223 - t222 * omega_j_in_joint_i_0 - (omega_j_in_joint_i_2 * t224 -
+        t220 * h_j_in_joint_i_0) + (t222 * omega_i_in_joint_i_0 + omega_i_in_joint_i_2 * t224));
     const jg_real t225 = g_i_world_2 * s_j[0];
-    const jg_real t226 = t221 * s_j[1] + t222 * s_j[2];
-    jac_phi_q_v_A_j[8] = omega_j_in_joint_i_0 * t225 - t223 * s_j_dot_g_i - (t220 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_1 * t226 + omega_i_in_joint_i_0 * t225);
+    const jg_real t226 = f_i_world_2 * s_j[0];
+    jac_phi_q_v_A_j[8] = t223 * s_j_dot_g_i + omega_j_in_joint_i_0 * t225 - (t221 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_0 * t225 - omega_i_in_joint_i_1 * t226);
     const jg_real t227 = g_i_world_0 * C_j[7];
-    const jg_real t228 = h_i_world_0 * omega_j[1];
-    const jg_real t229 = C_j[7] * h_i_world_0;
+    const jg_real t228 = f_i_world_0 * g_i_in_j_0 - g_i_world_0 * f_i_in_j_0;
+    const jg_real t229 = t198 * omega_j[0] - t228 * omega_j[2];
     const jg_real t230 = g_i_world_0 * omega_j[1];
-    jac_phi_q_v_A_j[9] = t227 * omega_i_in_joint_i_2 - t229 * omega_i_in_joint_i_1 - (t227 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t228 - (t229 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t230));
-    const jg_real t231 = g_i_world_0 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_0;
-    const jg_real t232 = omega_j[0] * t201 - omega_j[2] * t231;
-    const jg_real t233 = C_j[6] * t201 - C_j[8] * t231;
-    jac_phi_q_v_A_j[10] = t229 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t233 - (t229 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t232 - (omega_j_in_joint_i_2 * t233 + t228 * h_j_in_joint_i_0));
+    const jg_real t231 = t198 * C_j[6] - t228 * C_j[8];
+    jac_phi_q_v_A_j[9] = t227 * omega_i_in_joint_i_2 - t231 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t227 +
+        t229 * h_j_in_joint_i_1 - (t231 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t230));
+    const jg_real t232 = f_i_world_0 * omega_j[1];
+    const jg_real t233 = f_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[10] = -(t231 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t232 - (omega_j_in_joint_i_2 * t233 +
+        t229 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t233 - t231 * omega_i_in_joint_i_0));
     const jg_real t234 = g_i_world_0 * s_j[1];
-    const jg_real t235 = t201 * s_j[0] - t231 * s_j[2];
+    const jg_real t235 = f_i_world_0 * s_j[1];
     jac_phi_q_v_A_j[11] = t232 * s_j_dot_g_i + omega_j_in_joint_i_0 * t234 - (t230 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t235) - (omega_i_in_joint_i_0 * t234 - omega_i_in_joint_i_1 * t235);
     const jg_real t236 = g_i_world_1 * C_j[7];
-    const jg_real t237 = h_i_world_1 * omega_j[1];
-    const jg_real t238 = C_j[7] * h_i_world_1;
+    const jg_real t237 = f_i_world_1 * g_i_in_j_0 - g_i_world_1 * f_i_in_j_0;
+    const jg_real t238 = t208 * omega_j[0] - t237 * omega_j[2];
     const jg_real t239 = g_i_world_1 * omega_j[1];
-    jac_phi_q_v_A_j[12] = t236 * omega_i_in_joint_i_2 - t238 * omega_i_in_joint_i_1 - (t236 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t237 - (t238 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t239));
-    const jg_real t240 = g_i_world_1 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_1;
-    const jg_real t241 = omega_j[0] * t211 - omega_j[2] * t240;
-    const jg_real t242 = C_j[6] * t211 - C_j[8] * t240;
-    jac_phi_q_v_A_j[13] = t238 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t242 - (t238 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t241 - (omega_j_in_joint_i_2 * t242 + t237 * h_j_in_joint_i_0));
+    const jg_real t240 = t208 * C_j[6] - t237 * C_j[8];
+    jac_phi_q_v_A_j[12] = t236 * omega_i_in_joint_i_2 - t240 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t236 +
+        t238 * h_j_in_joint_i_1 - (t240 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t239));
+    const jg_real t241 = f_i_world_1 * omega_j[1];
+    const jg_real t242 = f_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[13] = -(t240 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t241 - (omega_j_in_joint_i_2 * t242 +
+        t238 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t242 - t240 * omega_i_in_joint_i_0));
     const jg_real t243 = g_i_world_1 * s_j[1];
-    const jg_real t244 = t211 * s_j[0] - t240 * s_j[2];
+    const jg_real t244 = f_i_world_1 * s_j[1];
     jac_phi_q_v_A_j[14] = t241 * s_j_dot_g_i + omega_j_in_joint_i_0 * t243 - (t239 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t244) - (omega_i_in_joint_i_0 * t243 - omega_i_in_joint_i_1 * t244);
     const jg_real t245 = g_i_world_2 * C_j[7];
-    const jg_real t246 = h_i_world_2 * omega_j[1];
-    const jg_real t247 = C_j[7] * h_i_world_2;
+    const jg_real t246 = f_i_world_2 * g_i_in_j_0 - g_i_world_2 * f_i_in_j_0;
+    const jg_real t247 = t218 * omega_j[0] - t246 * omega_j[2];
     const jg_real t248 = g_i_world_2 * omega_j[1];
-    jac_phi_q_v_A_j[15] = t245 * omega_i_in_joint_i_2 - t247 * omega_i_in_joint_i_1 - (t245 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t246 - (t247 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t248));
-    const jg_real t249 = g_i_world_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_world_2;
-    const jg_real t250 = omega_j[0] * t221 - omega_j[2] * t249;
-    const jg_real t251 = C_j[6] * t221 - C_j[8] * t249;
-    jac_phi_q_v_A_j[16] = t247 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t251 - (t247 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t250 - (omega_j_in_joint_i_2 * t251 + t246 * h_j_in_joint_i_0));
+    const jg_real t249 = t218 * C_j[6] - t246 * C_j[8];
+    jac_phi_q_v_A_j[15] = t245 * omega_i_in_joint_i_2 - t249 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t245 +
+        t247 * h_j_in_joint_i_1 - (t249 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t248));
+    const jg_real t250 = f_i_world_2 * omega_j[1];
+    const jg_real t251 = f_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[16] = -(t249 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t250 - (omega_j_in_joint_i_2 * t251 +
+        t247 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t251 - t249 * omega_i_in_joint_i_0));
     const jg_real t252 = g_i_world_2 * s_j[1];
-    const jg_real t253 = t221 * s_j[0] - t249 * s_j[2];
+    const jg_real t253 = f_i_world_2 * s_j[1];
     jac_phi_q_v_A_j[17] = t250 * s_j_dot_g_i + omega_j_in_joint_i_0 * t252 - (t248 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t253) - (omega_i_in_joint_i_0 * t252 - omega_i_in_joint_i_1 * t253);
     const jg_real t254 = g_i_world_0 * C_j[8];
-    const jg_real t255 = h_i_world_0 * omega_j[2];
-    const jg_real t256 = C_j[8] * h_i_world_0;
-    const jg_real t257 = g_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[18] = t254 * omega_i_in_joint_i_2 - t256 * omega_i_in_joint_i_1 - (t254 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t255 - (t256 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t257));
-    const jg_real t258 = omega_j[0] * t202 + omega_j[1] * t231;
-    const jg_real t259 = C_j[6] * t202 + C_j[7] * t231;
-    jac_phi_q_v_A_j[19] = t256 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t259 - (t256 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t258 - (omega_j_in_joint_i_2 * t259 + t255 * h_j_in_joint_i_0));
+    const jg_real t255 = t199 * omega_j[0] + t228 * omega_j[1];
+    const jg_real t256 = g_i_world_0 * omega_j[2];
+    const jg_real t257 = t199 * C_j[6] + t228 * C_j[7];
+    jac_phi_q_v_A_j[18] = t254 * omega_i_in_joint_i_2 - t257 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t254 +
+        t255 * h_j_in_joint_i_1 - (t257 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t256));
+    const jg_real t258 = f_i_world_0 * omega_j[2];
+    const jg_real t259 = f_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[19] = -(t257 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t258 - (omega_j_in_joint_i_2 * t259 +
+        t255 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t259 - t257 * omega_i_in_joint_i_0));
     const jg_real t260 = g_i_world_0 * s_j[2];
-    const jg_real t261 = t202 * s_j[0] + t231 * s_j[1];
-    jac_phi_q_v_A_j[20] = t258 * s_j_dot_g_i + omega_j_in_joint_i_0 * t260 - (t257 * s_j_dot_f_i +
+    const jg_real t261 = f_i_world_0 * s_j[2];
+    jac_phi_q_v_A_j[20] = t258 * s_j_dot_g_i + omega_j_in_joint_i_0 * t260 - (t256 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t261) - (omega_i_in_joint_i_0 * t260 - omega_i_in_joint_i_1 * t261);
     const jg_real t262 = g_i_world_1 * C_j[8];
-    const jg_real t263 = h_i_world_1 * omega_j[2];
-    const jg_real t264 = C_j[8] * h_i_world_1;
-    const jg_real t265 = g_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[21] = t262 * omega_i_in_joint_i_2 - t264 * omega_i_in_joint_i_1 - (t262 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t263 - (t264 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t265));
-    const jg_real t266 = omega_j[0] * t212 + omega_j[1] * t240;
-    const jg_real t267 = C_j[6] * t212 + C_j[7] * t240;
-    jac_phi_q_v_A_j[22] = t264 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t267 - (t264 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t266 - (omega_j_in_joint_i_2 * t267 + t263 * h_j_in_joint_i_0));
+    const jg_real t263 = t209 * omega_j[0] + t237 * omega_j[1];
+    const jg_real t264 = g_i_world_1 * omega_j[2];
+    const jg_real t265 = t209 * C_j[6] + t237 * C_j[7];
+    jac_phi_q_v_A_j[21] = t262 * omega_i_in_joint_i_2 - t265 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t262 +
+        t263 * h_j_in_joint_i_1 - (t265 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t264));
+    const jg_real t266 = f_i_world_1 * omega_j[2];
+    const jg_real t267 = f_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[22] = -(t265 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t266 - (omega_j_in_joint_i_2 * t267 +
+        t263 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t267 - t265 * omega_i_in_joint_i_0));
     const jg_real t268 = g_i_world_1 * s_j[2];
-    const jg_real t269 = t212 * s_j[0] + t240 * s_j[1];
-    jac_phi_q_v_A_j[23] = t266 * s_j_dot_g_i + omega_j_in_joint_i_0 * t268 - (t265 * s_j_dot_f_i +
+    const jg_real t269 = f_i_world_1 * s_j[2];
+    jac_phi_q_v_A_j[23] = t266 * s_j_dot_g_i + omega_j_in_joint_i_0 * t268 - (t264 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t269) - (omega_i_in_joint_i_0 * t268 - omega_i_in_joint_i_1 * t269);
     const jg_real t270 = g_i_world_2 * C_j[8];
-    const jg_real t271 = h_i_world_2 * omega_j[2];
-    const jg_real t272 = C_j[8] * h_i_world_2;
-    const jg_real t273 = g_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[24] = t270 * omega_i_in_joint_i_2 - t272 * omega_i_in_joint_i_1 - (t270 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t271 - (t272 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t273));
-    const jg_real t274 = omega_j[0] * t222 + omega_j[1] * t249;
-    const jg_real t275 = C_j[6] * t222 + C_j[7] * t249;
-    jac_phi_q_v_A_j[25] = t272 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * t275 - (t272 * omega_j_in_joint_i_0 +
-        h_j_in_joint_i_2 * t274 - (omega_j_in_joint_i_2 * t275 + t271 * h_j_in_joint_i_0));
+    const jg_real t271 = t219 * omega_j[0] + t246 * omega_j[1];
+    const jg_real t272 = g_i_world_2 * omega_j[2];
+    const jg_real t273 = t219 * C_j[6] + t246 * C_j[7];
+    jac_phi_q_v_A_j[24] = t270 * omega_i_in_joint_i_2 - t273 * omega_i_in_joint_i_1 - (omega_j_in_joint_i_2 * t270 +
+        t271 * h_j_in_joint_i_1 - (t273 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 * t272));
+    const jg_real t274 = f_i_world_2 * omega_j[2];
+    const jg_real t275 = f_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[25] = -(t273 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t274 - (omega_j_in_joint_i_2 * t275 +
+        t271 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t275 - t273 * omega_i_in_joint_i_0));
     const jg_real t276 = g_i_world_2 * s_j[2];
-    const jg_real t277 = t222 * s_j[0] + t249 * s_j[1];
-    jac_phi_q_v_A_j[26] = t274 * s_j_dot_g_i + omega_j_in_joint_i_0 * t276 - (t273 * s_j_dot_f_i +
+    const jg_real t277 = f_i_world_2 * s_j[2];
+    jac_phi_q_v_A_j[26] = t274 * s_j_dot_g_i + omega_j_in_joint_i_0 * t276 - (t272 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t277) - (omega_i_in_joint_i_0 * t276 - omega_i_in_joint_i_1 * t277);
     const jg_real t278 = h_j_in_joint_i_2 * omega_i[0];
     jac_phi_q_v_geometry[0] = t278;
-    const jg_real t279 = g_i_world_0 * omega_i[0];
-    const jg_real t280 = g_i_world_1 * omega_i[0];
-    const jg_real t281 = g_i_world_2 * omega_i[0];
-    jac_phi_q_v_geometry[1] = t279 * r_i[0] + t280 * r_i[1] + t281 * r_i[2] - (t279 * r_j[0] + t280 * r_j[1] + t281
-        * r_j[2] + omega_i[0] * s_j_dot_g_i);
-    const jg_real t282 = h_j_in_joint_i_2 * omega_i[1];
-    jac_phi_q_v_geometry[2] = t282;
-    const jg_real t283 = g_i_world_0 * omega_i[1];
-    const jg_real t284 = g_i_world_1 * omega_i[1];
-    const jg_real t285 = g_i_world_2 * omega_i[1];
-    jac_phi_q_v_geometry[3] = t283 * r_i[0] + t284 * r_i[1] + t285 * r_i[2] - (t283 * r_j[0] + t284 * r_j[1] + t285
-        * r_j[2] + omega_i[1] * s_j_dot_g_i);
-    const jg_real t286 = h_j_in_joint_i_2 * omega_i[2];
-    jac_phi_q_v_geometry[4] = t286;
-    const jg_real t287 = g_i_world_0 * omega_i[2];
-    const jg_real t288 = g_i_world_1 * omega_i[2];
-    const jg_real t289 = g_i_world_2 * omega_i[2];
-    jac_phi_q_v_geometry[5] = t287 * r_i[0] + t288 * r_i[1] + t289 * r_i[2] - (t287 * r_j[0] + t288 * r_j[1] + t289
-        * r_j[2] + omega_i[2] * s_j_dot_g_i);
-    const jg_real t290 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t291 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t292 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t293 = t290 * C_j[6] + t291 * C_j[7] + t292 * C_j[8];
-    const jg_real t294 = t290 * omega_j[0] + t291 * omega_j[1] + t292 * omega_j[2];
-    jac_phi_q_v_geometry[6] = t293 * omega_i_in_joint_i_2 - t278 - (t293 * omega_j_in_joint_i_2 - t294 *
-        h_j_in_joint_i_2);
-    const jg_real t295 = t291 * h_i_in_j_2 - t292 * h_i_in_j_1;
-    const jg_real t296 = t292 * h_i_in_j_0 - t290 * h_i_in_j_2;
-    const jg_real t297 = t290 * h_i_in_j_1 - t291 * h_i_in_j_0;
-    const jg_real t298 = omega_j[0] * t295 + omega_j[1] * t296 + omega_j[2] * t297;
-    const jg_real t299 = C_j[6] * t295 + C_j[7] * t296 + C_j[8] * t297;
-    jac_phi_q_v_geometry[7] = -(h_j_in_joint_i_2 * t298 - omega_j_in_joint_i_2 * t299 + omega_i_in_joint_i_2 *
-        t299);
-    const jg_real t300 = t290 * s_j[0] + t291 * s_j[1] + t292 * s_j[2];
-    const jg_real t301 = t295 * s_j[0] + t296 * s_j[1] + t297 * s_j[2];
-    const jg_real t302 = A_i[0] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[1]
-        * h_i_world_2 - A_i[2] * h_i_world_1));
-    const jg_real t303 = A_i[1] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[2]
-        * h_i_world_0 - A_i[0] * h_i_world_2));
-    const jg_real t304 = A_i[2] * omega_i_in_joint_i_0 - (omega_i[0] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[0]
-        * h_i_world_1 - A_i[1] * h_i_world_0));
-    jac_phi_q_v_geometry[8] = t298 * s_j_dot_g_i + omega_j_in_joint_i_0 * t300 - (t294 * s_j_dot_f_i +
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
+    jac_phi_q_v_geometry[1] = -(omega_i[0] * s_j_dot_g_i + omega_i[0] * r_ij_dot_g_i);
+    const jg_real t280 = h_j_in_joint_i_2 * omega_i[1];
+    jac_phi_q_v_geometry[2] = t280;
+    jac_phi_q_v_geometry[3] = -(omega_i[1] * s_j_dot_g_i + omega_i[1] * r_ij_dot_g_i);
+    const jg_real t281 = h_j_in_joint_i_2 * omega_i[2];
+    jac_phi_q_v_geometry[4] = t281;
+    jac_phi_q_v_geometry[5] = -(omega_i[2] * s_j_dot_g_i + omega_i[2] * r_ij_dot_g_i);
+    const jg_real t282 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real t283 = A_j[3] * A_i[0] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real t284 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real t285 = t282 * C_j[6] + t283 * C_j[7] + t284 * C_j[8];
+    const jg_real t286 = A_i[1] * h_i_world_2 - A_i[2] * h_i_world_1;
+    const jg_real t287 = A_i[2] * h_i_world_0 - h_i_world_2 * A_i[0];
+    const jg_real t288 = h_i_world_1 * A_i[0] - A_i[1] * h_i_world_0;
+    const jg_real t289 = t286 * A_j[3] + t287 * A_j[4] + t288 * A_j[5];
+    const jg_real t290 = t286 * A_j[6] + t287 * A_j[7] + t288 * A_j[8];
+    const jg_real t291 = t289 * g_i_in_j_2 + f_i_in_j_1 * t284 - (t290 * g_i_in_j_1 + f_i_in_j_2 * t283);
+    const jg_real t292 = t286 * A_j[0] + t287 * A_j[1] + t288 * A_j[2];
+    const jg_real t293 = t290 * g_i_in_j_0 + f_i_in_j_2 * t282 - (g_i_in_j_2 * t292 + t284 * f_i_in_j_0);
+    const jg_real t294 = g_i_in_j_1 * t292 + t283 * f_i_in_j_0 - (t289 * g_i_in_j_0 + f_i_in_j_1 * t282);
+    const jg_real t295 = t291 * omega_j[0] + t293 * omega_j[1] + t294 * omega_j[2];
+    const jg_real t296 = t291 * C_j[6] + t293 * C_j[7] + t294 * C_j[8];
+    const jg_real t297 = omega_j[0] * t282 + t283 * omega_j[1] + t284 * omega_j[2];
+    jac_phi_q_v_geometry[6] = t285 * omega_i_in_joint_i_2 - (t296 * omega_i_in_joint_i_1 + t278) -
+        (omega_j_in_joint_i_2 * t285 + t295 * h_j_in_joint_i_1 - (t296 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 *
+        t297));
+    const jg_real t298 = omega_j[0] * t292 + t289 * omega_j[1] + t290 * omega_j[2];
+    const jg_real t299 = t292 * C_j[6] + t289 * C_j[7] + t290 * C_j[8];
+    jac_phi_q_v_geometry[7] = -(t296 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t298 - (omega_j_in_joint_i_2 * t299
+        + t295 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t299 - t296 * omega_i_in_joint_i_0));
+    const jg_real t300 = t282 * s_j[0] + t283 * s_j[1] + t284 * s_j[2];
+    const jg_real t301 = t292 * s_j[0] + t289 * s_j[1] + t290 * s_j[2];
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    jac_phi_q_v_geometry[8] = t298 * s_j_dot_g_i + omega_j_in_joint_i_0 * t300 - (t297 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t301) - (omega_i_in_joint_i_0 * t300 - (omega_i[0] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t301) + (t302 * r_j[0] + t303 * r_j[1] + t304 * r_j[2]) - (t302 * r_i[0] + t303 *
-        r_i[1] + t304 * r_i[2]));
-    const jg_real t305 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t306 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real t307 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t308 = t305 * C_j[6] + t306 * C_j[7] + t307 * C_j[8];
-    const jg_real t309 = t305 * omega_j[0] + t306 * omega_j[1] + t307 * omega_j[2];
-    jac_phi_q_v_geometry[9] = t308 * omega_i_in_joint_i_2 - t282 - (t308 * omega_j_in_joint_i_2 - t309 *
-        h_j_in_joint_i_2);
-    const jg_real t310 = t306 * h_i_in_j_2 - t307 * h_i_in_j_1;
-    const jg_real t311 = t307 * h_i_in_j_0 - t305 * h_i_in_j_2;
-    const jg_real t312 = t305 * h_i_in_j_1 - t306 * h_i_in_j_0;
-    const jg_real t313 = omega_j[0] * t310 + omega_j[1] * t311 + omega_j[2] * t312;
-    const jg_real t314 = C_j[6] * t310 + C_j[7] * t311 + C_j[8] * t312;
-    jac_phi_q_v_geometry[10] = -(h_j_in_joint_i_2 * t313 - omega_j_in_joint_i_2 * t314 + omega_i_in_joint_i_2 *
-        t314);
-    const jg_real t315 = t305 * s_j[0] + t306 * s_j[1] + t307 * s_j[2];
-    const jg_real t316 = t310 * s_j[0] + t311 * s_j[1] + t312 * s_j[2];
-    const jg_real t317 = A_i[3] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[4]
-        * h_i_world_2 - A_i[5] * h_i_world_1));
-    const jg_real t318 = A_i[4] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[5]
-        * h_i_world_0 - A_i[3] * h_i_world_2));
-    const jg_real t319 = A_i[5] * omega_i_in_joint_i_0 - (omega_i[1] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[3]
-        * h_i_world_1 - A_i[4] * h_i_world_0));
-    jac_phi_q_v_geometry[11] = t313 * s_j_dot_g_i + omega_j_in_joint_i_0 * t315 - (t309 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t316) - (omega_i_in_joint_i_0 * t315 - (omega_i[1] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t316) + (t317 * r_j[0] + t318 * r_j[1] + t319 * r_j[2]) - (t317 * r_i[0] + t318 *
-        r_i[1] + t319 * r_i[2]));
-    const jg_real t320 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t321 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t322 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t323 = t320 * C_j[6] + t321 * C_j[7] + t322 * C_j[8];
-    const jg_real t324 = t320 * omega_j[0] + t321 * omega_j[1] + t322 * omega_j[2];
-    jac_phi_q_v_geometry[12] = t323 * omega_i_in_joint_i_2 - t286 - (t323 * omega_j_in_joint_i_2 - t324 *
-        h_j_in_joint_i_2);
-    const jg_real t325 = t321 * h_i_in_j_2 - t322 * h_i_in_j_1;
-    const jg_real t326 = t322 * h_i_in_j_0 - t320 * h_i_in_j_2;
-    const jg_real t327 = t320 * h_i_in_j_1 - t321 * h_i_in_j_0;
-    const jg_real t328 = omega_j[0] * t325 + omega_j[1] * t326 + omega_j[2] * t327;
-    const jg_real t329 = C_j[6] * t325 + C_j[7] * t326 + C_j[8] * t327;
-    jac_phi_q_v_geometry[13] = -(h_j_in_joint_i_2 * t328 - omega_j_in_joint_i_2 * t329 + omega_i_in_joint_i_2 *
-        t329);
-    const jg_real t330 = t320 * s_j[0] + t321 * s_j[1] + t322 * s_j[2];
-    const jg_real t331 = t325 * s_j[0] + t326 * s_j[1] + t327 * s_j[2];
-    const jg_real t332 = A_i[6] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_0 + omega_i_in_joint_i_1 * (A_i[7]
-        * h_i_world_2 - A_i[8] * h_i_world_1));
-    const jg_real t333 = A_i[7] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_1 + omega_i_in_joint_i_1 * (A_i[8]
-        * h_i_world_0 - A_i[6] * h_i_world_2));
-    const jg_real t334 = A_i[8] * omega_i_in_joint_i_0 - (omega_i[2] * f_i_world_2 + omega_i_in_joint_i_1 * (A_i[6]
-        * h_i_world_1 - A_i[7] * h_i_world_0));
-    jac_phi_q_v_geometry[14] = t328 * s_j_dot_g_i + omega_j_in_joint_i_0 * t330 - (t324 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t331) - (omega_i_in_joint_i_0 * t330 - (omega_i[2] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t331) + (t332 * r_j[0] + t333 * r_j[1] + t334 * r_j[2]) - (t332 * r_i[0] + t333 *
-        r_i[1] + t334 * r_i[2]));
-    jac_phi_q_v_geometry[15] = h_j_in_joint_i_1 * omega_i[0] - t293 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
-        t294 - t293 * omega_j_in_joint_i_1);
-    const jg_real t335 = g_i_in_j_1 * t292 - t291 * g_i_in_j_2;
-    const jg_real t336 = t290 * g_i_in_j_2 - g_i_in_j_0 * t292;
-    const jg_real t337 = g_i_in_j_0 * t291 - t290 * g_i_in_j_1;
-    const jg_real t338 = omega_j[0] * t335 + omega_j[1] * t336 + omega_j[2] * t337;
-    const jg_real t339 = C_j[6] * t335 + C_j[7] * t336 + C_j[8] * t337;
-    jac_phi_q_v_geometry[16] = t293 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t339 + omega_i[0] *
-        h_j_in_joint_i_0) - (t293 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t338 - (omega_j_in_joint_i_2 * t339 +
-        t294 * h_j_in_joint_i_0));
-    const jg_real t340 = t335 * s_j[0] + t336 * s_j[1] + t337 * s_j[2];
-    const jg_real t341 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[2] - A_i[1] * g_i_world_2);
-    const jg_real t342 = omega_i_in_joint_i_1 * (A_i[0] * g_i_world_2 - g_i_world_0 * A_i[2]);
-    const jg_real t343 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[1] - A_i[0] * g_i_world_1);
-    jac_phi_q_v_geometry[17] = t338 * s_j_dot_g_i - omega_j_in_joint_i_1 * t340 - (t341 * r_i[0] + t342 * r_i[1] +
-        t343 * r_i[2] - (t341 * r_j[0] + t342 * r_j[1] + t343 * r_j[2] + omega_i_in_joint_i_1 * t340) + (A_i[0] *
-        v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2]) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
-    jac_phi_q_v_geometry[18] = h_j_in_joint_i_1 * omega_i[1] - t308 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
-        t309 - t308 * omega_j_in_joint_i_1);
-    const jg_real t344 = g_i_in_j_1 * t307 - t306 * g_i_in_j_2;
-    const jg_real t345 = t305 * g_i_in_j_2 - g_i_in_j_0 * t307;
-    const jg_real t346 = g_i_in_j_0 * t306 - t305 * g_i_in_j_1;
-    const jg_real t347 = omega_j[0] * t344 + omega_j[1] * t345 + omega_j[2] * t346;
-    const jg_real t348 = C_j[6] * t344 + C_j[7] * t345 + C_j[8] * t346;
-    jac_phi_q_v_geometry[19] = t308 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t348 + omega_i[1] *
-        h_j_in_joint_i_0) - (t308 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t347 - (omega_j_in_joint_i_2 * t348 +
-        t309 * h_j_in_joint_i_0));
-    const jg_real t349 = t344 * s_j[0] + t345 * s_j[1] + t346 * s_j[2];
-    const jg_real t350 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[5] - A_i[4] * g_i_world_2);
-    const jg_real t351 = omega_i_in_joint_i_1 * (A_i[3] * g_i_world_2 - g_i_world_0 * A_i[5]);
-    const jg_real t352 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[4] - A_i[3] * g_i_world_1);
-    jac_phi_q_v_geometry[20] = t347 * s_j_dot_g_i - omega_j_in_joint_i_1 * t349 - (t350 * r_i[0] + t351 * r_i[1] +
-        t352 * r_i[2] - (t350 * r_j[0] + t351 * r_j[1] + t352 * r_j[2] + omega_i_in_joint_i_1 * t349) + (A_i[3] *
-        v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2]) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
-    jac_phi_q_v_geometry[21] = h_j_in_joint_i_1 * omega_i[2] - t323 * omega_i_in_joint_i_1 - (h_j_in_joint_i_1 *
-        t324 - t323 * omega_j_in_joint_i_1);
-    const jg_real t353 = g_i_in_j_1 * t322 - t321 * g_i_in_j_2;
-    const jg_real t354 = t320 * g_i_in_j_2 - g_i_in_j_0 * t322;
-    const jg_real t355 = g_i_in_j_0 * t321 - t320 * g_i_in_j_1;
-    const jg_real t356 = omega_j[0] * t353 + omega_j[1] * t354 + omega_j[2] * t355;
-    const jg_real t357 = C_j[6] * t353 + C_j[7] * t354 + C_j[8] * t355;
-    jac_phi_q_v_geometry[22] = t323 * omega_i_in_joint_i_0 - (omega_i_in_joint_i_2 * t357 + omega_i[2] *
-        h_j_in_joint_i_0) - (t323 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t356 - (omega_j_in_joint_i_2 * t357 +
-        t324 * h_j_in_joint_i_0));
-    const jg_real t358 = t353 * s_j[0] + t354 * s_j[1] + t355 * s_j[2];
-    const jg_real t359 = omega_i_in_joint_i_1 * (g_i_world_1 * A_i[8] - A_i[7] * g_i_world_2);
-    const jg_real t360 = omega_i_in_joint_i_1 * (A_i[6] * g_i_world_2 - g_i_world_0 * A_i[8]);
-    const jg_real t361 = omega_i_in_joint_i_1 * (g_i_world_0 * A_i[7] - A_i[6] * g_i_world_1);
-    jac_phi_q_v_geometry[23] = t356 * s_j_dot_g_i - omega_j_in_joint_i_1 * t358 - (t359 * r_i[0] + t360 * r_i[1] +
-        t361 * r_i[2] - (t359 * r_j[0] + t360 * r_j[1] + t361 * r_j[2] + omega_i_in_joint_i_1 * t358) + (A_i[6] *
-        v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2]) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
-    jac_phi_q_v_geometry[24] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 - (g_i_in_j_0 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_0);
-    jac_phi_q_v_geometry[25] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 - (g_i_in_j_1 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_1);
-    jac_phi_q_v_geometry[26] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 - (g_i_in_j_2 *
-        omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_in_j_2);
+        omega_i_in_joint_i_1 * t301) + (omega_i_in_joint_i_0 * (A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 +
+        A_i[2] * r_ij_world_2) - (omega_i[0] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (t286 * r_ij_world_0 + t287 *
+        r_ij_world_1 + t288 * r_ij_world_2))));
+    const jg_real t303 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real t304 = A_j[3] * A_i[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real t305 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real t306 = t303 * C_j[6] + t304 * C_j[7] + t305 * C_j[8];
+    const jg_real t307 = A_i[4] * h_i_world_2 - A_i[5] * h_i_world_1;
+    const jg_real t308 = A_i[5] * h_i_world_0 - h_i_world_2 * A_i[3];
+    const jg_real t309 = h_i_world_1 * A_i[3] - A_i[4] * h_i_world_0;
+    const jg_real t310 = t307 * A_j[3] + t308 * A_j[4] + t309 * A_j[5];
+    const jg_real t311 = t307 * A_j[6] + t308 * A_j[7] + t309 * A_j[8];
+    const jg_real t312 = t310 * g_i_in_j_2 + f_i_in_j_1 * t305 - (t311 * g_i_in_j_1 + f_i_in_j_2 * t304);
+    const jg_real t313 = t307 * A_j[0] + t308 * A_j[1] + t309 * A_j[2];
+    const jg_real t314 = t311 * g_i_in_j_0 + f_i_in_j_2 * t303 - (g_i_in_j_2 * t313 + t305 * f_i_in_j_0);
+    const jg_real t315 = g_i_in_j_1 * t313 + t304 * f_i_in_j_0 - (t310 * g_i_in_j_0 + f_i_in_j_1 * t303);
+    const jg_real t316 = t312 * omega_j[0] + t314 * omega_j[1] + t315 * omega_j[2];
+    const jg_real t317 = t312 * C_j[6] + t314 * C_j[7] + t315 * C_j[8];
+    const jg_real t318 = omega_j[0] * t303 + t304 * omega_j[1] + t305 * omega_j[2];
+    jac_phi_q_v_geometry[9] = t306 * omega_i_in_joint_i_2 - (t317 * omega_i_in_joint_i_1 + t280) -
+        (omega_j_in_joint_i_2 * t306 + t316 * h_j_in_joint_i_1 - (t317 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 *
+        t318));
+    const jg_real t319 = omega_j[0] * t313 + t310 * omega_j[1] + t311 * omega_j[2];
+    const jg_real t320 = t313 * C_j[6] + t310 * C_j[7] + t311 * C_j[8];
+    jac_phi_q_v_geometry[10] = -(t317 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t319 - (omega_j_in_joint_i_2 *
+        t320 + t316 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t320 - t317 * omega_i_in_joint_i_0));
+    const jg_real t321 = t303 * s_j[0] + t304 * s_j[1] + t305 * s_j[2];
+    const jg_real t322 = t313 * s_j[0] + t310 * s_j[1] + t311 * s_j[2];
+    jac_phi_q_v_geometry[11] = t319 * s_j_dot_g_i + omega_j_in_joint_i_0 * t321 - (t318 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t322) - (omega_i_in_joint_i_0 * t321 - (omega_i[1] * s_j_dot_f_i +
+        omega_i_in_joint_i_1 * t322) + (omega_i_in_joint_i_0 * (A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 +
+        A_i[5] * r_ij_world_2) - (omega_i[1] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (t307 * r_ij_world_0 + t308 *
+        r_ij_world_1 + t309 * r_ij_world_2))));
+    const jg_real t323 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real t324 = A_j[3] * A_i[6] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real t325 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real t326 = t323 * C_j[6] + t324 * C_j[7] + t325 * C_j[8];
+    const jg_real t327 = A_i[7] * h_i_world_2 - A_i[8] * h_i_world_1;
+    const jg_real t328 = A_i[8] * h_i_world_0 - h_i_world_2 * A_i[6];
+    const jg_real t329 = h_i_world_1 * A_i[6] - A_i[7] * h_i_world_0;
+    const jg_real t330 = t327 * A_j[3] + t328 * A_j[4] + t329 * A_j[5];
+    const jg_real t331 = t327 * A_j[6] + t328 * A_j[7] + t329 * A_j[8];
+    const jg_real t332 = t330 * g_i_in_j_2 + f_i_in_j_1 * t325 - (t331 * g_i_in_j_1 + f_i_in_j_2 * t324);
+    const jg_real t333 = t327 * A_j[0] + t328 * A_j[1] + t329 * A_j[2];
+    const jg_real t334 = t331 * g_i_in_j_0 + f_i_in_j_2 * t323 - (g_i_in_j_2 * t333 + t325 * f_i_in_j_0);
+    const jg_real t335 = g_i_in_j_1 * t333 + t324 * f_i_in_j_0 - (t330 * g_i_in_j_0 + f_i_in_j_1 * t323);
+    const jg_real t336 = t332 * omega_j[0] + t334 * omega_j[1] + t335 * omega_j[2];
+    const jg_real t337 = t332 * C_j[6] + t334 * C_j[7] + t335 * C_j[8];
+    const jg_real t338 = omega_j[0] * t323 + t324 * omega_j[1] + t325 * omega_j[2];
+    jac_phi_q_v_geometry[12] = t326 * omega_i_in_joint_i_2 - (t337 * omega_i_in_joint_i_1 + t281) -
+        (omega_j_in_joint_i_2 * t326 + t336 * h_j_in_joint_i_1 - (t337 * omega_j_in_joint_i_1 + h_j_in_joint_i_2 *
+        t338));
+    const jg_real t339 = omega_j[0] * t333 + t330 * omega_j[1] + t331 * omega_j[2];
+    const jg_real t340 = t333 * C_j[6] + t330 * C_j[7] + t331 * C_j[8];
+    jac_phi_q_v_geometry[13] = -(t337 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t339 - (omega_j_in_joint_i_2 *
+        t340 + t336 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t340 - t337 * omega_i_in_joint_i_0));
+    const jg_real t341 = t323 * s_j[0] + t324 * s_j[1] + t325 * s_j[2];
+    const jg_real t342 = t333 * s_j[0] + t330 * s_j[1] + t331 * s_j[2];
+    jac_phi_q_v_geometry[14] = t339 * s_j_dot_g_i + omega_j_in_joint_i_0 * t341 - (t338 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t342) - (omega_i_in_joint_i_0 * t341 - (omega_i[2] * s_j_dot_f_i +
+        omega_i_in_joint_i_1 * t342) + (omega_i_in_joint_i_0 * (A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 +
+        A_i[8] * r_ij_world_2) - (omega_i[2] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (t327 * r_ij_world_0 + t328 *
+        r_ij_world_1 + t329 * r_ij_world_2))));
+    const jg_real t343 = g_i_world_1 * A_i[2] - A_i[1] * g_i_world_2;
+    const jg_real t344 = g_i_world_2 * A_i[0] - A_i[2] * g_i_world_0;
+    const jg_real t345 = A_i[1] * g_i_world_0 - g_i_world_1 * A_i[0];
+    const jg_real t346 = t343 * A_j[3] + t344 * A_j[4] + t345 * A_j[5];
+    const jg_real t347 = t343 * A_j[6] + t344 * A_j[7] + t345 * A_j[8];
+    const jg_real t348 = t346 * g_i_in_j_2 - t347 * g_i_in_j_1;
+    const jg_real t349 = t343 * A_j[0] + t344 * A_j[1] + t345 * A_j[2];
+    const jg_real t350 = t347 * g_i_in_j_0 - g_i_in_j_2 * t349;
+    const jg_real t351 = g_i_in_j_1 * t349 - t346 * g_i_in_j_0;
+    const jg_real t352 = t348 * omega_j[0] + t350 * omega_j[1] + t351 * omega_j[2];
+    const jg_real t353 = t348 * C_j[6] + t350 * C_j[7] + t351 * C_j[8];
+    jac_phi_q_v_geometry[15] = h_j_in_joint_i_1 * omega_i[0] - t353 * omega_i_in_joint_i_1 - (t352 *
+        h_j_in_joint_i_1 - t353 * omega_j_in_joint_i_1);
+    const jg_real t354 = omega_j[0] * t349 + t346 * omega_j[1] + t347 * omega_j[2];
+    const jg_real t355 = t349 * C_j[6] + t346 * C_j[7] + t347 * C_j[8];
+    jac_phi_q_v_geometry[16] = -(t353 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t354 - (omega_j_in_joint_i_2 *
+        t355 + t352 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t355 + omega_i[0] * h_j_in_joint_i_0 - t353 *
+        omega_i_in_joint_i_0));
+    const jg_real t356 = t349 * s_j[0] + t346 * s_j[1] + t347 * s_j[2];
+    jac_phi_q_v_geometry[17] = t354 * s_j_dot_g_i - omega_j_in_joint_i_1 * t356 - (A_i[0] * v_i[0] + A_i[1] * v_i[1]
+        + A_i[2] * v_i[2] - (omega_i_in_joint_i_1 * t356 + omega_i_in_joint_i_1 * (t343 * r_ij_world_0 + t344 *
+        r_ij_world_1 + t345 * r_ij_world_2)) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
+    const jg_real t357 = g_i_world_1 * A_i[5] - A_i[4] * g_i_world_2;
+    const jg_real t358 = g_i_world_2 * A_i[3] - A_i[5] * g_i_world_0;
+    const jg_real t359 = A_i[4] * g_i_world_0 - g_i_world_1 * A_i[3];
+    const jg_real t360 = t357 * A_j[3] + t358 * A_j[4] + t359 * A_j[5];
+    const jg_real t361 = t357 * A_j[6] + t358 * A_j[7] + t359 * A_j[8];
+    const jg_real t362 = t360 * g_i_in_j_2 - t361 * g_i_in_j_1;
+    const jg_real t363 = t357 * A_j[0] + t358 * A_j[1] + t359 * A_j[2];
+    const jg_real t364 = t361 * g_i_in_j_0 - g_i_in_j_2 * t363;
+    const jg_real t365 = g_i_in_j_1 * t363 - t360 * g_i_in_j_0;
+    const jg_real t366 = t362 * omega_j[0] + t364 * omega_j[1] + t365 * omega_j[2];
+    const jg_real t367 = t362 * C_j[6] + t364 * C_j[7] + t365 * C_j[8];
+    jac_phi_q_v_geometry[18] = h_j_in_joint_i_1 * omega_i[1] - t367 * omega_i_in_joint_i_1 - (t366 *
+        h_j_in_joint_i_1 - t367 * omega_j_in_joint_i_1);
+    const jg_real t368 = omega_j[0] * t363 + t360 * omega_j[1] + t361 * omega_j[2];
+    const jg_real t369 = t363 * C_j[6] + t360 * C_j[7] + t361 * C_j[8];
+    jac_phi_q_v_geometry[19] = -(t367 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t368 - (omega_j_in_joint_i_2 *
+        t369 + t366 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t369 + omega_i[1] * h_j_in_joint_i_0 - t367 *
+        omega_i_in_joint_i_0));
+    const jg_real t370 = t363 * s_j[0] + t360 * s_j[1] + t361 * s_j[2];
+    jac_phi_q_v_geometry[20] = t368 * s_j_dot_g_i - omega_j_in_joint_i_1 * t370 - (A_i[3] * v_i[0] + A_i[4] * v_i[1]
+        + A_i[5] * v_i[2] - (omega_i_in_joint_i_1 * t370 + omega_i_in_joint_i_1 * (t357 * r_ij_world_0 + t358 *
+        r_ij_world_1 + t359 * r_ij_world_2)) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
+    const jg_real t371 = g_i_world_1 * A_i[8] - A_i[7] * g_i_world_2;
+    const jg_real t372 = g_i_world_2 * A_i[6] - A_i[8] * g_i_world_0;
+    const jg_real t373 = A_i[7] * g_i_world_0 - g_i_world_1 * A_i[6];
+    const jg_real t374 = t371 * A_j[3] + t372 * A_j[4] + t373 * A_j[5];
+    const jg_real t375 = t371 * A_j[6] + t372 * A_j[7] + t373 * A_j[8];
+    const jg_real t376 = t374 * g_i_in_j_2 - t375 * g_i_in_j_1;
+    const jg_real t377 = t371 * A_j[0] + t372 * A_j[1] + t373 * A_j[2];
+    const jg_real t378 = t375 * g_i_in_j_0 - g_i_in_j_2 * t377;
+    const jg_real t379 = g_i_in_j_1 * t377 - t374 * g_i_in_j_0;
+    const jg_real t380 = t376 * omega_j[0] + t378 * omega_j[1] + t379 * omega_j[2];
+    const jg_real t381 = t376 * C_j[6] + t378 * C_j[7] + t379 * C_j[8];
+    jac_phi_q_v_geometry[21] = h_j_in_joint_i_1 * omega_i[2] - t381 * omega_i_in_joint_i_1 - (t380 *
+        h_j_in_joint_i_1 - t381 * omega_j_in_joint_i_1);
+    const jg_real t382 = omega_j[0] * t377 + t374 * omega_j[1] + t375 * omega_j[2];
+    const jg_real t383 = t377 * C_j[6] + t374 * C_j[7] + t375 * C_j[8];
+    jac_phi_q_v_geometry[22] = -(t381 * omega_j_in_joint_i_0 + h_j_in_joint_i_2 * t382 - (omega_j_in_joint_i_2 *
+        t383 + t380 * h_j_in_joint_i_0) + (omega_i_in_joint_i_2 * t383 + omega_i[2] * h_j_in_joint_i_0 - t381 *
+        omega_i_in_joint_i_0));
+    const jg_real t384 = t377 * s_j[0] + t374 * s_j[1] + t375 * s_j[2];
+    jac_phi_q_v_geometry[23] = t382 * s_j_dot_g_i - omega_j_in_joint_i_1 * t384 - (A_i[6] * v_i[0] + A_i[7] * v_i[1]
+        + A_i[8] * v_i[2] - (omega_i_in_joint_i_1 * t384 + omega_i_in_joint_i_1 * (t371 * r_ij_world_0 + t372 *
+        r_ij_world_1 + t373 * r_ij_world_2)) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
+    jac_phi_q_v_geometry[24] = g_i_in_j_0 * omega_j_in_joint_i_0 - f_i_in_j_0 * omega_j_in_joint_i_1 - (g_i_in_j_0 *
+        omega_i_in_joint_i_0 - f_i_in_j_0 * omega_i_in_joint_i_1);
+    jac_phi_q_v_geometry[25] = g_i_in_j_1 * omega_j_in_joint_i_0 - f_i_in_j_1 * omega_j_in_joint_i_1 - (g_i_in_j_1 *
+        omega_i_in_joint_i_0 - f_i_in_j_1 * omega_i_in_joint_i_1);
+    jac_phi_q_v_geometry[26] = g_i_in_j_2 * omega_j_in_joint_i_0 - f_i_in_j_2 * omega_j_in_joint_i_1 - (g_i_in_j_2 *
+        omega_i_in_joint_i_0 - f_i_in_j_2 * omega_i_in_joint_i_1);
     jac_phi_q_v_geometry[27] = g_i_in_j_0 * omega_i_in_joint_i_2 - h_i_in_j_0 * omega_i_in_joint_i_1 - (g_i_in_j_0 *
         omega_j_in_joint_i_2 - h_i_in_j_0 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[28] = h_i_in_j_0 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_0 - (h_i_in_j_0 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_0);
+    jac_phi_q_v_geometry[28] = -(h_i_in_j_0 * omega_j_in_joint_i_0 - f_i_in_j_0 * omega_j_in_joint_i_2 + (f_i_in_j_0
+        * omega_i_in_joint_i_2 - h_i_in_j_0 * omega_i_in_joint_i_0));
     jac_phi_q_v_geometry[29] = g_i_in_j_1 * omega_i_in_joint_i_2 - h_i_in_j_1 * omega_i_in_joint_i_1 - (g_i_in_j_1 *
         omega_j_in_joint_i_2 - h_i_in_j_1 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[30] = h_i_in_j_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_1 - (h_i_in_j_1 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_1);
+    jac_phi_q_v_geometry[30] = -(h_i_in_j_1 * omega_j_in_joint_i_0 - f_i_in_j_1 * omega_j_in_joint_i_2 + (f_i_in_j_1
+        * omega_i_in_joint_i_2 - h_i_in_j_1 * omega_i_in_joint_i_0));
     jac_phi_q_v_geometry[31] = g_i_in_j_2 * omega_i_in_joint_i_2 - h_i_in_j_2 * omega_i_in_joint_i_1 - (g_i_in_j_2 *
         omega_j_in_joint_i_2 - h_i_in_j_2 * omega_j_in_joint_i_1);
-    jac_phi_q_v_geometry[32] = h_i_in_j_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_2 * f_i_in_j_2 - (h_i_in_j_2 *
-        omega_j_in_joint_i_0 - omega_j_in_joint_i_2 * f_i_in_j_2);
+    jac_phi_q_v_geometry[32] = -(h_i_in_j_2 * omega_j_in_joint_i_0 - f_i_in_j_2 * omega_j_in_joint_i_2 + (f_i_in_j_2
+        * omega_i_in_joint_i_2 - h_i_in_j_2 * omega_i_in_joint_i_0));
     jac_phi_q_v_velocity[0] = -h_i_world_0;
     jac_phi_q_v_velocity[1] = -h_i_world_1;
     jac_phi_q_v_velocity[2] = -h_i_world_2;
-    jac_phi_q_v_velocity[3] = h_j_in_joint_i_1 * C_i[6] - C_i[3] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[3] = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[4] = h_j_in_joint_i_2 * C_i[0] - C_i[6] * h_j_in_joint_i_0;
-    const jg_real t362 = g_i_world_0 * C_i[0] - C_i[3] * f_i_world_0;
-    const jg_real t363 = g_i_world_1 * C_i[0] - C_i[3] * f_i_world_1;
-    const jg_real t364 = g_i_world_2 * C_i[0] - C_i[3] * f_i_world_2;
-    jac_phi_q_v_velocity[5] = t362 * r_i[0] + t363 * r_i[1] + t364 * r_i[2] - (C_i[0] * s_j_dot_g_i - C_i[3] *
-        s_j_dot_f_i + (t362 * r_j[0] + t363 * r_j[1] + t364 * r_j[2]));
-    jac_phi_q_v_velocity[6] = h_j_in_joint_i_1 * C_i[7] - C_i[4] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[5] = -(C_i[0] * s_j_dot_g_i - C_i[3] * s_j_dot_f_i + (C_i[0] * r_ij_dot_g_i - C_i[3] *
+        r_ij_dot_f_i));
+    jac_phi_q_v_velocity[6] = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[7] = h_j_in_joint_i_2 * C_i[1] - C_i[7] * h_j_in_joint_i_0;
-    const jg_real t365 = g_i_world_0 * C_i[1] - C_i[4] * f_i_world_0;
-    const jg_real t366 = g_i_world_1 * C_i[1] - C_i[4] * f_i_world_1;
-    const jg_real t367 = g_i_world_2 * C_i[1] - C_i[4] * f_i_world_2;
-    jac_phi_q_v_velocity[8] = t365 * r_i[0] + t366 * r_i[1] + t367 * r_i[2] - (C_i[1] * s_j_dot_g_i - C_i[4] *
-        s_j_dot_f_i + (t365 * r_j[0] + t366 * r_j[1] + t367 * r_j[2]));
-    jac_phi_q_v_velocity[9] = h_j_in_joint_i_1 * C_i[8] - C_i[5] * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[8] = -(C_i[1] * s_j_dot_g_i - C_i[4] * s_j_dot_f_i + (C_i[1] * r_ij_dot_g_i - C_i[4] *
+        r_ij_dot_f_i));
+    jac_phi_q_v_velocity[9] = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[10] = h_j_in_joint_i_2 * C_i[2] - C_i[8] * h_j_in_joint_i_0;
-    const jg_real t368 = g_i_world_0 * C_i[2] - C_i[5] * f_i_world_0;
-    const jg_real t369 = g_i_world_1 * C_i[2] - C_i[5] * f_i_world_1;
-    const jg_real t370 = g_i_world_2 * C_i[2] - C_i[5] * f_i_world_2;
-    jac_phi_q_v_velocity[11] = t368 * r_i[0] + t369 * r_i[1] + t370 * r_i[2] - (C_i[2] * s_j_dot_g_i - C_i[5] *
-        s_j_dot_f_i + (t368 * r_j[0] + t369 * r_j[1] + t370 * r_j[2]));
-    jac_phi_q_v_velocity[15] = g_i_in_j_0 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_0;
-    jac_phi_q_v_velocity[16] = h_i_in_j_0 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_0;
+    jac_phi_q_v_velocity[11] = -(C_i[2] * s_j_dot_g_i - C_i[5] * s_j_dot_f_i + (C_i[2] * r_ij_dot_g_i - C_i[5] *
+        r_ij_dot_f_i));
+    jac_phi_q_v_velocity[15] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[16] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[17] = f_i_in_j_0 * s_j_dot_g_i - g_i_in_j_0 * s_j_dot_f_i;
-    jac_phi_q_v_velocity[18] = g_i_in_j_1 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_1;
-    jac_phi_q_v_velocity[19] = h_i_in_j_1 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_1;
+    jac_phi_q_v_velocity[18] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[19] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[20] = f_i_in_j_1 * s_j_dot_g_i - g_i_in_j_1 * s_j_dot_f_i;
-    jac_phi_q_v_velocity[21] = g_i_in_j_2 * h_j_in_joint_i_2 - h_j_in_joint_i_1 * h_i_in_j_2;
-    jac_phi_q_v_velocity[22] = h_i_in_j_2 * h_j_in_joint_i_0 - h_j_in_joint_i_2 * f_i_in_j_2;
+    jac_phi_q_v_velocity[21] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[22] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[23] = f_i_in_j_2 * s_j_dot_g_i - g_i_in_j_2 * s_j_dot_f_i;
 }
 
@@ -892,180 +904,181 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     /* v_2_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j, world axes */
     const jg_real v_2_world_0 = v_1_world_1 * h_j_world_2 - v_1_world_2 * h_j_world_1;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    /* v_3_in_j = lambda_2 s_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[2] * s_j[0];
+    const jg_real v_3_in_j_1 = lambda[2] * s_j[1];
+    const jg_real v_3_in_j_2 = lambda[2] * s_j[2];
     /* v_3_world = lambda_2 s_j, world axes */
-    const jg_real v_3_world_1 = lambda[2] * s_j_world_1;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real v_3_world_2 = lambda[2] * s_j_world_2;
+    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
+    const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
     /* v_4_world = lambda_2 s_j x h_i, world axes */
     const jg_real v_4_world_0 = h_i_world_2 * v_3_world_1 - h_i_world_1 * v_3_world_2;
     /* v_5_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 s_j x h_i, world axes */
     const jg_real v_5_world_0 = v_2_world_0 - v_4_world_0;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    /* v_7_world = lambda_2 r_j x h_i - lambda_2 r_i x h_i, world axes */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
-    /* v_8_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_j x h_i - lambda_2 s_j x h_i + ... */
-    const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    const jg_real t35 = v_1_in_i_0 * h_j_world_2 + C_i[6] * v_3_world_2;
-    const jg_real t36 = t35 + t15 * v_6_world_2;
-    const jg_real t37 = v_1_in_i_0 * h_j_world_1 + C_i[6] * v_3_world_1;
-    const jg_real t38 = t37 + t15 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[1] = v_8_world_0 - A_i[1] * t36 + A_i[2] * t38;
-    jac_phi_q_t_lambda_A_i[2] = A_i[5] * t38 - A_i[4] * t36;
-    jac_phi_q_t_lambda_A_i[3] = A_i[8] * t38 - A_i[7] * t36;
-    jac_phi_q_t_lambda_A_i[5] = A_j[1] * t35 - A_j[2] * t37;
-    jac_phi_q_t_lambda_A_i[6] = A_j[4] * t35 - A_j[5] * t37;
-    jac_phi_q_t_lambda_A_i[7] = A_j[7] * t35 - A_j[8] * t37;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    /* v_6_world = lambda_2 r_ij x h_i, world axes */
+    const jg_real v_6_world_0 = lambda[2] * r_ij_cross_h_i_world_0;
+    /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_ij x h_i - lambda_2 s_j x h_i, world axes */
+    const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    const jg_real t37 = v_1_in_i_0 * h_j_world_2 + C_i[6] * v_3_world_2;
+    const jg_real t38 = t37 + C_i[6] * r_ij_world_2 * lambda[2];
+    const jg_real t39 = v_1_in_i_0 * h_j_world_1 + C_i[6] * v_3_world_1;
+    const jg_real t40 = t39 + C_i[6] * r_ij_world_1 * lambda[2];
+    jac_phi_q_t_lambda_A_i[1] = v_7_world_0 - A_i[1] * t38 + A_i[2] * t40;
+    jac_phi_q_t_lambda_A_i[2] = A_i[5] * t40 - A_i[4] * t38;
+    jac_phi_q_t_lambda_A_i[3] = A_i[8] * t40 - A_i[7] * t38;
+    jac_phi_q_t_lambda_A_i[5] = A_j[1] * t37 - A_j[2] * t39;
+    jac_phi_q_t_lambda_A_i[6] = A_j[4] * t37 - A_j[5] * t39;
+    jac_phi_q_t_lambda_A_i[7] = A_j[7] * t37 - A_j[8] * t39;
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
     const jg_real v_2_world_1 = v_1_world_2 * h_j_world_0 - h_j_world_2 * v_1_world_0;
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real v_3_world_0 = lambda[2] * s_j_world_0;
+    const jg_real v_3_world_0 = v_3_in_j_0 * A_j[0] + v_3_in_j_1 * A_j[3] + v_3_in_j_2 * A_j[6];
     const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
     const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
-    const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    const jg_real t49 = v_1_in_i_0 * h_j_world_0 + C_i[6] * v_3_world_0;
-    const jg_real t50 = t49 + t15 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[9] = A_i[0] * t36 + v_8_world_1 - A_i[2] * t50;
-    jac_phi_q_t_lambda_A_i[10] = A_i[3] * t36 - A_i[5] * t50;
-    jac_phi_q_t_lambda_A_i[11] = A_i[6] * t36 - A_i[8] * t50;
-    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t49 - t35 * A_j[0];
-    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t49 - t35 * A_j[3];
-    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t49 - t35 * A_j[6];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
+    const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
+    const jg_real t51 = v_1_in_i_0 * h_j_world_0 + C_i[6] * v_3_world_0;
+    const jg_real t52 = t51 + C_i[6] * r_ij_world_0 * lambda[2];
+    jac_phi_q_t_lambda_A_i[9] = A_i[0] * t38 + v_7_world_1 - A_i[2] * t52;
+    jac_phi_q_t_lambda_A_i[10] = A_i[3] * t38 - A_i[5] * t52;
+    jac_phi_q_t_lambda_A_i[11] = A_i[6] * t38 - A_i[8] * t52;
+    jac_phi_q_t_lambda_A_i[13] = A_j[2] * t51 - t37 * A_j[0];
+    jac_phi_q_t_lambda_A_i[14] = A_j[5] * t51 - t37 * A_j[3];
+    jac_phi_q_t_lambda_A_i[15] = A_j[8] * t51 - t37 * A_j[6];
     const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - v_1_world_1 * h_j_world_0;
     const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
     const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
-    const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    jac_phi_q_t_lambda_A_i[17] = A_i[1] * t50 - A_i[0] * t38 + v_8_world_2;
-    jac_phi_q_t_lambda_A_i[18] = A_i[4] * t50 - A_i[3] * t38;
-    jac_phi_q_t_lambda_A_i[19] = A_i[7] * t50 - A_i[6] * t38;
-    jac_phi_q_t_lambda_A_i[21] = t37 * A_j[0] - A_j[1] * t49;
-    jac_phi_q_t_lambda_A_i[22] = t37 * A_j[3] - A_j[4] * t49;
-    jac_phi_q_t_lambda_A_i[23] = t37 * A_j[6] - A_j[7] * t49;
-    const jg_real t56 = C_i[7] * lambda[2];
-    jac_phi_q_t_lambda_A_i[28] = t56;
-    jac_phi_q_t_lambda_A_i[36] = t56;
-    jac_phi_q_t_lambda_A_i[44] = t56;
-    const jg_real t57 = -t56;
-    jac_phi_q_t_lambda_A_i[24] = t57;
-    jac_phi_q_t_lambda_A_i[32] = t57;
-    jac_phi_q_t_lambda_A_i[40] = t57;
-    const jg_real t58 = v_1_in_i_1 * h_j_world_1 + C_i[7] * v_3_world_1;
-    const jg_real t59 = t58 + t56 * v_6_world_1;
-    const jg_real t60 = v_1_in_i_1 * h_j_world_2 + C_i[7] * v_3_world_2;
-    const jg_real t61 = t60 + t56 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[25] = A_i[2] * t59 - A_i[1] * t61;
-    jac_phi_q_t_lambda_A_i[26] = v_8_world_0 - A_i[4] * t61 + A_i[5] * t59;
-    jac_phi_q_t_lambda_A_i[27] = A_i[8] * t59 - A_i[7] * t61;
-    jac_phi_q_t_lambda_A_i[29] = A_j[1] * t60 - A_j[2] * t58;
-    jac_phi_q_t_lambda_A_i[30] = A_j[4] * t60 - A_j[5] * t58;
-    jac_phi_q_t_lambda_A_i[31] = A_j[7] * t60 - A_j[8] * t58;
-    const jg_real t62 = v_1_in_i_1 * h_j_world_0 + C_i[7] * v_3_world_0;
-    const jg_real t63 = t62 + t56 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[33] = A_i[0] * t61 - A_i[2] * t63;
-    jac_phi_q_t_lambda_A_i[34] = v_8_world_1 + A_i[3] * t61 - A_i[5] * t63;
-    jac_phi_q_t_lambda_A_i[35] = A_i[6] * t61 - A_i[8] * t63;
-    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t62 - t60 * A_j[0];
-    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t62 - t60 * A_j[3];
-    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t62 - t60 * A_j[6];
-    jac_phi_q_t_lambda_A_i[41] = A_i[1] * t63 - A_i[0] * t59;
-    jac_phi_q_t_lambda_A_i[42] = A_i[4] * t63 - A_i[3] * t59 + v_8_world_2;
-    jac_phi_q_t_lambda_A_i[43] = A_i[7] * t63 - A_i[6] * t59;
-    jac_phi_q_t_lambda_A_i[45] = t58 * A_j[0] - A_j[1] * t62;
-    jac_phi_q_t_lambda_A_i[46] = t58 * A_j[3] - A_j[4] * t62;
-    jac_phi_q_t_lambda_A_i[47] = t58 * A_j[6] - A_j[7] * t62;
-    const jg_real t64 = C_i[8] * lambda[2];
-    jac_phi_q_t_lambda_A_i[52] = t64;
-    jac_phi_q_t_lambda_A_i[60] = t64;
-    jac_phi_q_t_lambda_A_i[68] = t64;
-    const jg_real t65 = -t64;
-    jac_phi_q_t_lambda_A_i[48] = t65;
-    jac_phi_q_t_lambda_A_i[56] = t65;
-    jac_phi_q_t_lambda_A_i[64] = t65;
-    const jg_real t66 = v_1_in_i_2 * h_j_world_1 + C_i[8] * v_3_world_1;
-    const jg_real t67 = t66 + t64 * v_6_world_1;
-    const jg_real t68 = v_1_in_i_2 * h_j_world_2 + C_i[8] * v_3_world_2;
-    const jg_real t69 = t68 + t64 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[49] = A_i[2] * t67 - A_i[1] * t69;
-    jac_phi_q_t_lambda_A_i[50] = A_i[5] * t67 - A_i[4] * t69;
-    jac_phi_q_t_lambda_A_i[51] = v_8_world_0 - A_i[7] * t69 + A_i[8] * t67;
-    jac_phi_q_t_lambda_A_i[53] = A_j[1] * t68 - A_j[2] * t66;
-    jac_phi_q_t_lambda_A_i[54] = A_j[4] * t68 - A_j[5] * t66;
-    jac_phi_q_t_lambda_A_i[55] = A_j[7] * t68 - A_j[8] * t66;
-    const jg_real t70 = v_1_in_i_2 * h_j_world_0 + C_i[8] * v_3_world_0;
-    const jg_real t71 = t70 + t64 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[57] = A_i[0] * t69 - A_i[2] * t71;
-    jac_phi_q_t_lambda_A_i[58] = A_i[3] * t69 - A_i[5] * t71;
-    jac_phi_q_t_lambda_A_i[59] = v_8_world_1 + A_i[6] * t69 - A_i[8] * t71;
-    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t70 - t68 * A_j[0];
-    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t70 - t68 * A_j[3];
-    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t70 - t68 * A_j[6];
-    jac_phi_q_t_lambda_A_i[65] = A_i[1] * t71 - A_i[0] * t67;
-    jac_phi_q_t_lambda_A_i[66] = A_i[4] * t71 - A_i[3] * t67;
-    jac_phi_q_t_lambda_A_i[67] = A_i[7] * t71 - A_i[6] * t67 + v_8_world_2;
-    jac_phi_q_t_lambda_A_i[69] = t66 * A_j[0] - A_j[1] * t70;
-    jac_phi_q_t_lambda_A_i[70] = t66 * A_j[3] - A_j[4] * t70;
-    jac_phi_q_t_lambda_A_i[71] = t66 * A_j[6] - A_j[7] * t70;
-    const jg_real t72 = lambda[2] * s_j[0];
-    const jg_real t73 = C_j[6] * v_1_world_2 + h_i_world_2 * t72;
-    const jg_real t74 = v_1_world_1 * C_j[6] + h_i_world_1 * t72;
-    jac_phi_q_t_lambda_A_j[0] = A_i[1] * t73 - A_i[2] * t74;
-    jac_phi_q_t_lambda_A_j[1] = A_i[4] * t73 - A_i[5] * t74;
-    jac_phi_q_t_lambda_A_j[2] = A_i[7] * t73 - A_i[8] * t74;
-    jac_phi_q_t_lambda_A_j[3] = A_j[2] * t74 - (v_5_world_0 + A_j[1] * t73);
-    jac_phi_q_t_lambda_A_j[4] = A_j[5] * t74 - A_j[4] * t73;
-    jac_phi_q_t_lambda_A_j[5] = A_j[8] * t74 - A_j[7] * t73;
-    const jg_real t75 = C_j[6] * v_1_world_0 + h_i_world_0 * t72;
-    jac_phi_q_t_lambda_A_j[6] = A_i[2] * t75 - A_i[0] * t73;
-    jac_phi_q_t_lambda_A_j[7] = A_i[5] * t75 - A_i[3] * t73;
-    jac_phi_q_t_lambda_A_j[8] = A_i[8] * t75 - A_i[6] * t73;
-    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - t73 * A_j[0] + A_j[2] * t75);
-    jac_phi_q_t_lambda_A_j[10] = t73 * A_j[3] - A_j[5] * t75;
-    jac_phi_q_t_lambda_A_j[11] = t73 * A_j[6] - A_j[8] * t75;
-    jac_phi_q_t_lambda_A_j[12] = A_i[0] * t74 - A_i[1] * t75;
-    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t74 - A_i[4] * t75;
-    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t74 - A_i[7] * t75;
-    jac_phi_q_t_lambda_A_j[15] = -(t74 * A_j[0] - A_j[1] * t75 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t75 - t74 * A_j[3];
-    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t75 - t74 * A_j[6];
-    const jg_real t76 = lambda[2] * s_j[1];
-    const jg_real t77 = C_j[7] * v_1_world_2 + h_i_world_2 * t76;
-    const jg_real t78 = v_1_world_1 * C_j[7] + h_i_world_1 * t76;
-    jac_phi_q_t_lambda_A_j[18] = A_i[1] * t77 - A_i[2] * t78;
-    jac_phi_q_t_lambda_A_j[19] = A_i[4] * t77 - A_i[5] * t78;
-    jac_phi_q_t_lambda_A_j[20] = A_i[7] * t77 - A_i[8] * t78;
-    jac_phi_q_t_lambda_A_j[21] = A_j[2] * t78 - A_j[1] * t77;
-    jac_phi_q_t_lambda_A_j[22] = A_j[5] * t78 - (v_5_world_0 + A_j[4] * t77);
-    jac_phi_q_t_lambda_A_j[23] = A_j[8] * t78 - A_j[7] * t77;
-    const jg_real t79 = C_j[7] * v_1_world_0 + h_i_world_0 * t76;
-    jac_phi_q_t_lambda_A_j[24] = A_i[2] * t79 - A_i[0] * t77;
-    jac_phi_q_t_lambda_A_j[25] = A_i[5] * t79 - A_i[3] * t77;
-    jac_phi_q_t_lambda_A_j[26] = A_i[8] * t79 - A_i[6] * t77;
-    jac_phi_q_t_lambda_A_j[27] = t77 * A_j[0] - A_j[2] * t79;
-    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - t77 * A_j[3] + A_j[5] * t79);
-    jac_phi_q_t_lambda_A_j[29] = t77 * A_j[6] - A_j[8] * t79;
-    jac_phi_q_t_lambda_A_j[30] = A_i[0] * t78 - A_i[1] * t79;
-    jac_phi_q_t_lambda_A_j[31] = A_i[3] * t78 - A_i[4] * t79;
-    jac_phi_q_t_lambda_A_j[32] = A_i[6] * t78 - A_i[7] * t79;
-    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t79 - t78 * A_j[0];
-    jac_phi_q_t_lambda_A_j[34] = -(t78 * A_j[3] - A_j[4] * t79 + v_5_world_2);
-    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t79 - t78 * A_j[6];
-    const jg_real t80 = lambda[2] * s_j[2];
-    const jg_real t81 = C_j[8] * v_1_world_2 + h_i_world_2 * t80;
-    const jg_real t82 = v_1_world_1 * C_j[8] + h_i_world_1 * t80;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
+    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
+    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    jac_phi_q_t_lambda_A_i[17] = A_i[1] * t52 - A_i[0] * t40 + v_7_world_2;
+    jac_phi_q_t_lambda_A_i[18] = A_i[4] * t52 - A_i[3] * t40;
+    jac_phi_q_t_lambda_A_i[19] = A_i[7] * t52 - A_i[6] * t40;
+    jac_phi_q_t_lambda_A_i[21] = t39 * A_j[0] - A_j[1] * t51;
+    jac_phi_q_t_lambda_A_i[22] = t39 * A_j[3] - A_j[4] * t51;
+    jac_phi_q_t_lambda_A_i[23] = t39 * A_j[6] - A_j[7] * t51;
+    const jg_real t59 = C_i[7] * lambda[2];
+    jac_phi_q_t_lambda_A_i[28] = t59;
+    jac_phi_q_t_lambda_A_i[36] = t59;
+    jac_phi_q_t_lambda_A_i[44] = t59;
+    const jg_real t60 = -t59;
+    jac_phi_q_t_lambda_A_i[24] = t60;
+    jac_phi_q_t_lambda_A_i[32] = t60;
+    jac_phi_q_t_lambda_A_i[40] = t60;
+    const jg_real t61 = v_1_in_i_1 * h_j_world_1 + C_i[7] * v_3_world_1;
+    const jg_real t62 = t61 + C_i[7] * r_ij_world_1 * lambda[2];
+    const jg_real t63 = v_1_in_i_1 * h_j_world_2 + C_i[7] * v_3_world_2;
+    const jg_real t64 = t63 + C_i[7] * r_ij_world_2 * lambda[2];
+    jac_phi_q_t_lambda_A_i[25] = A_i[2] * t62 - A_i[1] * t64;
+    jac_phi_q_t_lambda_A_i[26] = v_7_world_0 - A_i[4] * t64 + A_i[5] * t62;
+    jac_phi_q_t_lambda_A_i[27] = A_i[8] * t62 - A_i[7] * t64;
+    jac_phi_q_t_lambda_A_i[29] = A_j[1] * t63 - A_j[2] * t61;
+    jac_phi_q_t_lambda_A_i[30] = A_j[4] * t63 - A_j[5] * t61;
+    jac_phi_q_t_lambda_A_i[31] = A_j[7] * t63 - A_j[8] * t61;
+    const jg_real t65 = v_1_in_i_1 * h_j_world_0 + C_i[7] * v_3_world_0;
+    const jg_real t66 = t65 + C_i[7] * r_ij_world_0 * lambda[2];
+    jac_phi_q_t_lambda_A_i[33] = A_i[0] * t64 - A_i[2] * t66;
+    jac_phi_q_t_lambda_A_i[34] = v_7_world_1 + A_i[3] * t64 - A_i[5] * t66;
+    jac_phi_q_t_lambda_A_i[35] = A_i[6] * t64 - A_i[8] * t66;
+    jac_phi_q_t_lambda_A_i[37] = A_j[2] * t65 - t63 * A_j[0];
+    jac_phi_q_t_lambda_A_i[38] = A_j[5] * t65 - t63 * A_j[3];
+    jac_phi_q_t_lambda_A_i[39] = A_j[8] * t65 - t63 * A_j[6];
+    jac_phi_q_t_lambda_A_i[41] = A_i[1] * t66 - A_i[0] * t62;
+    jac_phi_q_t_lambda_A_i[42] = A_i[4] * t66 - A_i[3] * t62 + v_7_world_2;
+    jac_phi_q_t_lambda_A_i[43] = A_i[7] * t66 - A_i[6] * t62;
+    jac_phi_q_t_lambda_A_i[45] = t61 * A_j[0] - A_j[1] * t65;
+    jac_phi_q_t_lambda_A_i[46] = t61 * A_j[3] - A_j[4] * t65;
+    jac_phi_q_t_lambda_A_i[47] = t61 * A_j[6] - A_j[7] * t65;
+    const jg_real t67 = C_i[8] * lambda[2];
+    jac_phi_q_t_lambda_A_i[52] = t67;
+    jac_phi_q_t_lambda_A_i[60] = t67;
+    jac_phi_q_t_lambda_A_i[68] = t67;
+    const jg_real t68 = -t67;
+    jac_phi_q_t_lambda_A_i[48] = t68;
+    jac_phi_q_t_lambda_A_i[56] = t68;
+    jac_phi_q_t_lambda_A_i[64] = t68;
+    const jg_real t69 = v_1_in_i_2 * h_j_world_1 + C_i[8] * v_3_world_1;
+    const jg_real t70 = t69 + C_i[8] * r_ij_world_1 * lambda[2];
+    const jg_real t71 = v_1_in_i_2 * h_j_world_2 + C_i[8] * v_3_world_2;
+    const jg_real t72 = t71 + C_i[8] * r_ij_world_2 * lambda[2];
+    jac_phi_q_t_lambda_A_i[49] = A_i[2] * t70 - A_i[1] * t72;
+    jac_phi_q_t_lambda_A_i[50] = A_i[5] * t70 - A_i[4] * t72;
+    jac_phi_q_t_lambda_A_i[51] = v_7_world_0 - A_i[7] * t72 + A_i[8] * t70;
+    jac_phi_q_t_lambda_A_i[53] = A_j[1] * t71 - A_j[2] * t69;
+    jac_phi_q_t_lambda_A_i[54] = A_j[4] * t71 - A_j[5] * t69;
+    jac_phi_q_t_lambda_A_i[55] = A_j[7] * t71 - A_j[8] * t69;
+    const jg_real t73 = v_1_in_i_2 * h_j_world_0 + C_i[8] * v_3_world_0;
+    const jg_real t74 = t73 + C_i[8] * r_ij_world_0 * lambda[2];
+    jac_phi_q_t_lambda_A_i[57] = A_i[0] * t72 - A_i[2] * t74;
+    jac_phi_q_t_lambda_A_i[58] = A_i[3] * t72 - A_i[5] * t74;
+    jac_phi_q_t_lambda_A_i[59] = v_7_world_1 + A_i[6] * t72 - A_i[8] * t74;
+    jac_phi_q_t_lambda_A_i[61] = A_j[2] * t73 - t71 * A_j[0];
+    jac_phi_q_t_lambda_A_i[62] = A_j[5] * t73 - t71 * A_j[3];
+    jac_phi_q_t_lambda_A_i[63] = A_j[8] * t73 - t71 * A_j[6];
+    jac_phi_q_t_lambda_A_i[65] = A_i[1] * t74 - A_i[0] * t70;
+    jac_phi_q_t_lambda_A_i[66] = A_i[4] * t74 - A_i[3] * t70;
+    jac_phi_q_t_lambda_A_i[67] = A_i[7] * t74 - A_i[6] * t70 + v_7_world_2;
+    jac_phi_q_t_lambda_A_i[69] = t69 * A_j[0] - A_j[1] * t73;
+    jac_phi_q_t_lambda_A_i[70] = t69 * A_j[3] - A_j[4] * t73;
+    jac_phi_q_t_lambda_A_i[71] = t69 * A_j[6] - A_j[7] * t73;
+    const jg_real t75 = C_j[6] * v_1_world_2 + h_i_world_2 * v_3_in_j_0;
+    const jg_real t76 = v_1_world_1 * C_j[6] + h_i_world_1 * v_3_in_j_0;
+    jac_phi_q_t_lambda_A_j[0] = A_i[1] * t75 - A_i[2] * t76;
+    jac_phi_q_t_lambda_A_j[1] = A_i[4] * t75 - A_i[5] * t76;
+    jac_phi_q_t_lambda_A_j[2] = A_i[7] * t75 - A_i[8] * t76;
+    jac_phi_q_t_lambda_A_j[3] = A_j[2] * t76 - (v_5_world_0 + A_j[1] * t75);
+    jac_phi_q_t_lambda_A_j[4] = A_j[5] * t76 - A_j[4] * t75;
+    jac_phi_q_t_lambda_A_j[5] = A_j[8] * t76 - A_j[7] * t75;
+    const jg_real t77 = C_j[6] * v_1_world_0 + h_i_world_0 * v_3_in_j_0;
+    jac_phi_q_t_lambda_A_j[6] = A_i[2] * t77 - A_i[0] * t75;
+    jac_phi_q_t_lambda_A_j[7] = A_i[5] * t77 - A_i[3] * t75;
+    jac_phi_q_t_lambda_A_j[8] = A_i[8] * t77 - A_i[6] * t75;
+    jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - t75 * A_j[0] + A_j[2] * t77);
+    jac_phi_q_t_lambda_A_j[10] = t75 * A_j[3] - A_j[5] * t77;
+    jac_phi_q_t_lambda_A_j[11] = t75 * A_j[6] - A_j[8] * t77;
+    jac_phi_q_t_lambda_A_j[12] = A_i[0] * t76 - A_i[1] * t77;
+    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t76 - A_i[4] * t77;
+    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t76 - A_i[7] * t77;
+    jac_phi_q_t_lambda_A_j[15] = -(t76 * A_j[0] - A_j[1] * t77 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[16] = A_j[4] * t77 - t76 * A_j[3];
+    jac_phi_q_t_lambda_A_j[17] = A_j[7] * t77 - t76 * A_j[6];
+    const jg_real t78 = C_j[7] * v_1_world_2 + h_i_world_2 * v_3_in_j_1;
+    const jg_real t79 = v_1_world_1 * C_j[7] + h_i_world_1 * v_3_in_j_1;
+    jac_phi_q_t_lambda_A_j[18] = A_i[1] * t78 - A_i[2] * t79;
+    jac_phi_q_t_lambda_A_j[19] = A_i[4] * t78 - A_i[5] * t79;
+    jac_phi_q_t_lambda_A_j[20] = A_i[7] * t78 - A_i[8] * t79;
+    jac_phi_q_t_lambda_A_j[21] = A_j[2] * t79 - A_j[1] * t78;
+    jac_phi_q_t_lambda_A_j[22] = A_j[5] * t79 - (v_5_world_0 + A_j[4] * t78);
+    jac_phi_q_t_lambda_A_j[23] = A_j[8] * t79 - A_j[7] * t78;
+    const jg_real t80 = C_j[7] * v_1_world_0 + h_i_world_0 * v_3_in_j_1;
+    jac_phi_q_t_lambda_A_j[24] = A_i[2] * t80 - A_i[0] * t78;
+    jac_phi_q_t_lambda_A_j[25] = A_i[5] * t80 - A_i[3] * t78;
+    jac_phi_q_t_lambda_A_j[26] = A_i[8] * t80 - A_i[6] * t78;
+    jac_phi_q_t_lambda_A_j[27] = t78 * A_j[0] - A_j[2] * t80;
+    jac_phi_q_t_lambda_A_j[28] = -(v_5_world_1 - t78 * A_j[3] + A_j[5] * t80);
+    jac_phi_q_t_lambda_A_j[29] = t78 * A_j[6] - A_j[8] * t80;
+    jac_phi_q_t_lambda_A_j[30] = A_i[0] * t79 - A_i[1] * t80;
+    jac_phi_q_t_lambda_A_j[31] = A_i[3] * t79 - A_i[4] * t80;
+    jac_phi_q_t_lambda_A_j[32] = A_i[6] * t79 - A_i[7] * t80;
+    jac_phi_q_t_lambda_A_j[33] = A_j[1] * t80 - t79 * A_j[0];
+    jac_phi_q_t_lambda_A_j[34] = -(t79 * A_j[3] - A_j[4] * t80 + v_5_world_2);
+    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t80 - t79 * A_j[6];
+    const jg_real t81 = C_j[8] * v_1_world_2 + h_i_world_2 * v_3_in_j_2;
+    const jg_real t82 = v_1_world_1 * C_j[8] + h_i_world_1 * v_3_in_j_2;
     jac_phi_q_t_lambda_A_j[36] = A_i[1] * t81 - A_i[2] * t82;
     jac_phi_q_t_lambda_A_j[37] = A_i[4] * t81 - A_i[5] * t82;
     jac_phi_q_t_lambda_A_j[38] = A_i[7] * t81 - A_i[8] * t82;
     jac_phi_q_t_lambda_A_j[39] = A_j[2] * t82 - A_j[1] * t81;
     jac_phi_q_t_lambda_A_j[40] = A_j[5] * t82 - A_j[4] * t81;
     jac_phi_q_t_lambda_A_j[41] = A_j[8] * t82 - (v_5_world_0 + A_j[7] * t81);
-    const jg_real t83 = C_j[8] * v_1_world_0 + h_i_world_0 * t80;
+    const jg_real t83 = C_j[8] * v_1_world_0 + h_i_world_0 * v_3_in_j_2;
     jac_phi_q_t_lambda_A_j[42] = A_i[2] * t83 - A_i[0] * t81;
     jac_phi_q_t_lambda_A_j[43] = A_i[5] * t83 - A_i[3] * t81;
     jac_phi_q_t_lambda_A_j[44] = A_i[8] * t83 - A_i[6] * t81;
@@ -1160,11 +1173,11 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[44] = t122;
     jac_phi_q_t_lambda_geometry[38] = -t122;
     const jg_real t123 = A_i[2] * v_3_world_1 - A_i[1] * v_3_world_2;
-    const jg_real t124 = t122 * v_6_world_1 - t121 * v_6_world_2 + t123;
+    const jg_real t124 = t123 + lambda[2] * (A_i[2] * r_ij_world_1 - A_i[1] * r_ij_world_2);
     const jg_real t125 = A_i[0] * v_3_world_2 - A_i[2] * v_3_world_0;
-    const jg_real t126 = t120 * v_6_world_2 - t122 * v_6_world_0 + t125;
+    const jg_real t126 = t125 + lambda[2] * (A_i[0] * r_ij_world_2 - A_i[2] * r_ij_world_0);
     const jg_real t127 = A_i[1] * v_3_world_0 - A_i[0] * v_3_world_1;
-    const jg_real t128 = t121 * v_6_world_0 - t120 * v_6_world_1 + t127;
+    const jg_real t128 = t127 + lambda[2] * (A_i[1] * r_ij_world_0 - A_i[0] * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[39] = -(A_i[0] * t124 + A_i[1] * t126 + A_i[2] * t128);
     jac_phi_q_t_lambda_geometry[40] = -(A_i[3] * t124 + A_i[4] * t126 + A_i[5] * t128);
     jac_phi_q_t_lambda_geometry[41] = -(A_i[6] * t124 + A_i[7] * t126 + A_i[8] * t128);
@@ -1181,11 +1194,11 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[56] = t131;
     jac_phi_q_t_lambda_geometry[50] = -t131;
     const jg_real t132 = A_i[5] * v_3_world_1 - A_i[4] * v_3_world_2;
-    const jg_real t133 = t131 * v_6_world_1 - t130 * v_6_world_2 + t132;
+    const jg_real t133 = t132 + lambda[2] * (A_i[5] * r_ij_world_1 - A_i[4] * r_ij_world_2);
     const jg_real t134 = A_i[3] * v_3_world_2 - A_i[5] * v_3_world_0;
-    const jg_real t135 = t129 * v_6_world_2 - t131 * v_6_world_0 + t134;
+    const jg_real t135 = t134 + lambda[2] * (A_i[3] * r_ij_world_2 - A_i[5] * r_ij_world_0);
     const jg_real t136 = A_i[4] * v_3_world_0 - A_i[3] * v_3_world_1;
-    const jg_real t137 = t130 * v_6_world_0 - t129 * v_6_world_1 + t136;
+    const jg_real t137 = t136 + lambda[2] * (A_i[4] * r_ij_world_0 - A_i[3] * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[51] = -(A_i[0] * t133 + A_i[1] * t135 + A_i[2] * t137);
     jac_phi_q_t_lambda_geometry[52] = -(A_i[3] * t133 + A_i[4] * t135 + A_i[5] * t137);
     jac_phi_q_t_lambda_geometry[53] = -(A_i[6] * t133 + A_i[7] * t135 + A_i[8] * t137);
@@ -1202,11 +1215,11 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[68] = t140;
     jac_phi_q_t_lambda_geometry[62] = -t140;
     const jg_real t141 = A_i[8] * v_3_world_1 - A_i[7] * v_3_world_2;
-    const jg_real t142 = t140 * v_6_world_1 - t139 * v_6_world_2 + t141;
+    const jg_real t142 = t141 + lambda[2] * (A_i[8] * r_ij_world_1 - A_i[7] * r_ij_world_2);
     const jg_real t143 = A_i[6] * v_3_world_2 - A_i[8] * v_3_world_0;
-    const jg_real t144 = t138 * v_6_world_2 - t140 * v_6_world_0 + t143;
+    const jg_real t144 = t143 + lambda[2] * (A_i[6] * r_ij_world_2 - A_i[8] * r_ij_world_0);
     const jg_real t145 = A_i[7] * v_3_world_0 - A_i[6] * v_3_world_1;
-    const jg_real t146 = t139 * v_6_world_0 - t138 * v_6_world_1 + t145;
+    const jg_real t146 = t145 + lambda[2] * (A_i[7] * r_ij_world_0 - A_i[6] * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[63] = -(A_i[0] * t142 + A_i[1] * t144 + A_i[2] * t146);
     jac_phi_q_t_lambda_geometry[64] = -(A_i[3] * t142 + A_i[4] * t144 + A_i[5] * t146);
     jac_phi_q_t_lambda_geometry[65] = -(A_i[6] * t142 + A_i[7] * t144 + A_i[8] * t146);
@@ -1303,18 +1316,21 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_lambda[12] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -h_i_world_2;
-    const jg_real t186 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
-    const jg_real t187 = h_i_world_2 * v_6_world_1 - h_i_world_1 * v_6_world_2 + t186;
-    const jg_real t188 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    const jg_real t189 = h_i_world_0 * v_6_world_2 - h_i_world_2 * v_6_world_0 + t188;
-    const jg_real t190 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
-    const jg_real t191 = h_i_world_1 * v_6_world_0 - h_i_world_0 * v_6_world_1 + t190;
-    jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t187 + A_i[1] * t189 + A_i[2] * t191);
-    jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t187 + A_i[4] * t189 + A_i[5] * t191);
-    jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t187 + A_i[7] * t189 + A_i[8] * t191);
-    jac_phi_q_t_lambda_lambda[21] = t186 * A_j[0] + A_j[1] * t188 + A_j[2] * t190;
-    jac_phi_q_t_lambda_lambda[22] = t186 * A_j[3] + A_j[4] * t188 + A_j[5] * t190;
-    jac_phi_q_t_lambda_lambda[23] = t186 * A_j[6] + A_j[7] * t188 + A_j[8] * t190;
+    const jg_real t186 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real t187 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real t188 = h_i_world_2 * t186 - h_i_world_1 * t187;
+    const jg_real t189 = t188 + r_ij_cross_h_i_world_0;
+    const jg_real t190 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real t191 = h_i_world_0 * t187 - h_i_world_2 * t190;
+    const jg_real t192 = t191 + r_ij_cross_h_i_world_1;
+    const jg_real t193 = h_i_world_1 * t190 - h_i_world_0 * t186;
+    const jg_real t194 = t193 + r_ij_cross_h_i_world_2;
+    jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t189 + A_i[1] * t192 + A_i[2] * t194);
+    jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t189 + A_i[4] * t192 + A_i[5] * t194);
+    jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t189 + A_i[7] * t192 + A_i[8] * t194);
+    jac_phi_q_t_lambda_lambda[21] = t188 * A_j[0] + A_j[1] * t191 + A_j[2] * t193;
+    jac_phi_q_t_lambda_lambda[22] = t188 * A_j[3] + A_j[4] * t191 + A_j[5] * t193;
+    jac_phi_q_t_lambda_lambda[23] = t188 * A_j[6] + A_j[7] * t191 + A_j[8] * t193;
 }
 
 JG_EXPORT int jg_planar_conventional_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

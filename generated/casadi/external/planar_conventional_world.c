@@ -45,24 +45,24 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     jac_phi_A_i[1] = h_j_world_0 * C_i[3];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[2] = e_ij_world_0 * C_i[6];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     jac_phi_A_i[3] = h_j_world_1 * C_i[0];
     jac_phi_A_i[4] = h_j_world_1 * C_i[3];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[5] = e_ij_world_1 * C_i[6];
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     jac_phi_A_i[6] = h_j_world_2 * C_i[0];
     jac_phi_A_i[7] = h_j_world_2 * C_i[3];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[8] = e_ij_world_2 * C_i[6];
     jac_phi_A_i[9] = h_j_world_0 * C_i[1];
     jac_phi_A_i[10] = h_j_world_0 * C_i[4];
@@ -149,9 +149,9 @@ static void jg_planar_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT
     const jg_real h_j_in_i_2 = h_j_world_0 * A_i[6] + h_j_world_1 * A_i[7] + h_j_world_2 * A_i[8];
     jac_phi_geometry[5] = h_j_in_i_2;
     jac_phi_geometry[8] = h_j_in_i_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
@@ -195,22 +195,18 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_q_v_velocity[14] = h_i_world_2;
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
     jac_phi_q_v_velocity[13] = h_i_world_1;
-    /* omega_i_cross_h_i_world = omega_i x h_i, world axes */
-    const jg_real omega_i_cross_h_i_world_0 = h_i_world_2 * omega_i[1] - h_i_world_1 * omega_i[2];
-    jac_phi_q_v_r_j[0] = omega_i_cross_h_i_world_0;
-    jac_phi_q_v_r_i[0] = -omega_i_cross_h_i_world_0;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    jac_phi_q_v_velocity[14] = h_i_world_2;
+    const jg_real t2 = h_i_world_1 * omega_i[2] - h_i_world_2 * omega_i[1];
+    jac_phi_q_v_r_i[0] = t2;
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_q_v_velocity[12] = h_i_world_0;
-    const jg_real omega_i_cross_h_i_world_1 = h_i_world_0 * omega_i[2] - h_i_world_2 * omega_i[0];
-    jac_phi_q_v_r_j[1] = omega_i_cross_h_i_world_1;
-    jac_phi_q_v_r_i[1] = -omega_i_cross_h_i_world_1;
-    const jg_real omega_i_cross_h_i_world_2 = h_i_world_1 * omega_i[0] - h_i_world_0 * omega_i[1];
-    jac_phi_q_v_r_j[2] = omega_i_cross_h_i_world_2;
-    jac_phi_q_v_r_i[2] = -omega_i_cross_h_i_world_2;
+    const jg_real t4 = h_i_world_2 * omega_i[0] - h_i_world_0 * omega_i[2];
+    jac_phi_q_v_r_i[1] = t4;
+    const jg_real t5 = h_i_world_0 * omega_i[1] - h_i_world_1 * omega_i[0];
+    jac_phi_q_v_r_i[2] = t5;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     const jg_real t7 = g_i_world_2 * C_i[6] - C_i[3] * h_i_world_2;
@@ -231,291 +227,312 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     const jg_real t19 = C_i[3] * h_j_world_2;
     jac_phi_q_v_A_i[1] = omega_i[2] * t18 - omega_i[1] * t19 - (omega_j[2] * t18 - omega_j[1] * t19);
     /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t21 = C_i[6] * omega_i[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t23 = C_i[6] * omega_i[1];
-    /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
-    const jg_real s_j_cross_omega_j_world_0 = omega_j[2] * s_j_world_1 - omega_j[1] * s_j_world_2;
-    jac_phi_q_v_A_i[2] = C_i[6] * v_j[0] - (C_i[6] * v_i[0] - (t21 * r_j[1] - t23 * r_j[2]) - (t21 * s_j_world_1 -
-        t23 * s_j_world_2) + (t21 * r_i[1] - t23 * r_i[2]) + C_i[6] * s_j_cross_omega_j_world_0);
+    const jg_real t21 = C_i[6] * s_j_world_2;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real t23 = C_i[6] * s_j_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real t25 = C_i[6] * r_ij_world_2;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t27 = C_i[6] * r_ij_world_1;
+    jac_phi_q_v_A_i[2] = C_i[6] * v_j[0] - (omega_i[1] * t21 - omega_i[2] * t23 + (omega_i[1] * t25 - omega_i[2] *
+        t27 + C_i[6] * v_i[0]) - (omega_j[1] * t21 - omega_j[2] * t23));
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    const jg_real t26 = C_i[3] * h_i_world_0 - C_i[6] * g_i_world_0;
-    const jg_real t27 = t26 * h_j_world_0;
-    const jg_real t28 = t9 - t27;
-    const jg_real t29 = t26 * h_j_world_1;
-    const jg_real t30 = t7 * h_j_world_1;
-    jac_phi_q_v_A_i[3] = t29 * omega_i[0] + t28 * omega_i[1] - t30 * omega_i[2] - (t29 * omega_j[0] + t28 *
-        omega_j[1] - t30 * omega_j[2]);
-    const jg_real t31 = C_i[3] * h_j_world_0;
-    jac_phi_q_v_A_i[4] = omega_i[0] * t19 - omega_i[2] * t31 - (omega_j[0] * t19 - omega_j[2] * t31);
-    const jg_real t32 = C_i[6] * omega_i[0];
+    const jg_real t29 = C_i[3] * h_i_world_0 - C_i[6] * g_i_world_0;
+    const jg_real t30 = t29 * h_j_world_0;
+    const jg_real t31 = t9 - t30;
+    const jg_real t32 = t29 * h_j_world_1;
+    const jg_real t33 = t7 * h_j_world_1;
+    jac_phi_q_v_A_i[3] = t32 * omega_i[0] + t31 * omega_i[1] - t33 * omega_i[2] - (t32 * omega_j[0] + t31 *
+        omega_j[1] - t33 * omega_j[2]);
+    const jg_real t34 = C_i[3] * h_j_world_0;
+    jac_phi_q_v_A_i[4] = omega_i[0] * t19 - omega_i[2] * t34 - (omega_j[0] * t19 - omega_j[2] * t34);
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real s_j_cross_omega_j_world_1 = omega_j[0] * s_j_world_2 - omega_j[2] * s_j_world_0;
-    jac_phi_q_v_A_i[5] = C_i[6] * v_j[1] - (C_i[6] * v_i[1] - (t32 * r_j[2] - t21 * r_j[0]) - (t32 * s_j_world_2 -
-        t21 * s_j_world_0) + (t32 * r_i[2] - t21 * r_i[0]) + C_i[6] * s_j_cross_omega_j_world_1);
-    const jg_real t35 = t26 * h_j_world_2;
-    const jg_real t36 = h_j_world_2 * t11;
-    const jg_real t37 = t13 + t27;
-    jac_phi_q_v_A_i[6] = t35 * omega_i[0] + t36 * omega_i[1] - t37 * omega_i[2] - (t35 * omega_j[0] + t36 *
-        omega_j[1] - t37 * omega_j[2]);
-    jac_phi_q_v_A_i[7] = omega_i[1] * t31 - omega_i[0] * t18 - (omega_j[1] * t31 - omega_j[0] * t18);
-    const jg_real s_j_cross_omega_j_world_2 = omega_j[1] * s_j_world_0 - omega_j[0] * s_j_world_1;
-    jac_phi_q_v_A_i[8] = C_i[6] * v_j[2] - (C_i[6] * v_i[2] - (t23 * r_j[0] - t32 * r_j[1]) - (t23 * s_j_world_0 -
-        t32 * s_j_world_1) + (t23 * r_i[0] - t32 * r_i[1]) + C_i[6] * s_j_cross_omega_j_world_2);
-    const jg_real t39 = g_i_world_2 * C_i[7] - C_i[4] * h_i_world_2;
-    const jg_real t40 = t39 * h_j_world_2;
-    const jg_real t41 = C_i[4] * h_i_world_1 - C_i[7] * g_i_world_1;
-    const jg_real t42 = t41 * h_j_world_1;
-    const jg_real t43 = t40 - t42;
-    const jg_real t44 = t41 * h_j_world_0;
-    const jg_real t45 = t39 * h_j_world_0;
-    jac_phi_q_v_A_i[9] = t43 * omega_i[0] + t44 * omega_i[1] - t45 * omega_i[2] - (t43 * omega_j[0] + t44 *
-        omega_j[1] - t45 * omega_j[2]);
-    const jg_real t46 = C_i[4] * h_j_world_1;
-    const jg_real t47 = C_i[4] * h_j_world_2;
-    jac_phi_q_v_A_i[10] = omega_i[2] * t46 - omega_i[1] * t47 - (omega_j[2] * t46 - omega_j[1] * t47);
-    const jg_real t48 = C_i[7] * omega_i[2];
-    const jg_real t49 = C_i[7] * omega_i[1];
-    jac_phi_q_v_A_i[11] = C_i[7] * v_j[0] - (C_i[7] * v_i[0] - (t48 * r_j[1] - t49 * r_j[2]) - (t48 * s_j_world_1 -
-        t49 * s_j_world_2) + (t48 * r_i[1] - t49 * r_i[2]) + C_i[7] * s_j_cross_omega_j_world_0);
-    const jg_real t50 = C_i[4] * h_i_world_0 - C_i[7] * g_i_world_0;
-    const jg_real t51 = t50 * h_j_world_0;
-    const jg_real t52 = t40 - t51;
-    const jg_real t53 = t50 * h_j_world_1;
-    const jg_real t54 = t39 * h_j_world_1;
-    jac_phi_q_v_A_i[12] = t53 * omega_i[0] + t52 * omega_i[1] - t54 * omega_i[2] - (t53 * omega_j[0] + t52 *
-        omega_j[1] - t54 * omega_j[2]);
-    const jg_real t55 = C_i[4] * h_j_world_0;
-    jac_phi_q_v_A_i[13] = omega_i[0] * t47 - omega_i[2] * t55 - (omega_j[0] * t47 - omega_j[2] * t55);
-    const jg_real t56 = C_i[7] * omega_i[0];
-    jac_phi_q_v_A_i[14] = C_i[7] * v_j[1] - (C_i[7] * v_i[1] - (t56 * r_j[2] - t48 * r_j[0]) - (t56 * s_j_world_2 -
-        t48 * s_j_world_0) + (t56 * r_i[2] - t48 * r_i[0]) + C_i[7] * s_j_cross_omega_j_world_1);
-    const jg_real t57 = t50 * h_j_world_2;
-    const jg_real t58 = h_j_world_2 * t41;
-    const jg_real t59 = t42 + t51;
-    jac_phi_q_v_A_i[15] = t57 * omega_i[0] + t58 * omega_i[1] - t59 * omega_i[2] - (t57 * omega_j[0] + t58 *
+    const jg_real t36 = C_i[6] * s_j_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t38 = C_i[6] * r_ij_world_0;
+    jac_phi_q_v_A_i[5] = C_i[6] * v_j[1] - (omega_i[2] * t36 - omega_i[0] * t21 + (omega_i[2] * t38 - omega_i[0] *
+        t25 + C_i[6] * v_i[1]) - (omega_j[2] * t36 - omega_j[0] * t21));
+    const jg_real t39 = t29 * h_j_world_2;
+    const jg_real t40 = h_j_world_2 * t11;
+    const jg_real t41 = t13 + t30;
+    jac_phi_q_v_A_i[6] = t39 * omega_i[0] + t40 * omega_i[1] - t41 * omega_i[2] - (t39 * omega_j[0] + t40 *
+        omega_j[1] - t41 * omega_j[2]);
+    jac_phi_q_v_A_i[7] = omega_i[1] * t34 - omega_i[0] * t18 - (omega_j[1] * t34 - omega_j[0] * t18);
+    jac_phi_q_v_A_i[8] = C_i[6] * v_j[2] - (omega_i[0] * t23 - omega_i[1] * t36 + (omega_i[0] * t27 - omega_i[1] *
+        t38 + C_i[6] * v_i[2]) - (omega_j[0] * t23 - omega_j[1] * t36));
+    const jg_real t42 = g_i_world_2 * C_i[7] - C_i[4] * h_i_world_2;
+    const jg_real t43 = t42 * h_j_world_2;
+    const jg_real t44 = C_i[4] * h_i_world_1 - C_i[7] * g_i_world_1;
+    const jg_real t45 = t44 * h_j_world_1;
+    const jg_real t46 = t43 - t45;
+    const jg_real t47 = t44 * h_j_world_0;
+    const jg_real t48 = t42 * h_j_world_0;
+    jac_phi_q_v_A_i[9] = t46 * omega_i[0] + t47 * omega_i[1] - t48 * omega_i[2] - (t46 * omega_j[0] + t47 *
+        omega_j[1] - t48 * omega_j[2]);
+    const jg_real t49 = C_i[4] * h_j_world_1;
+    const jg_real t50 = C_i[4] * h_j_world_2;
+    jac_phi_q_v_A_i[10] = omega_i[2] * t49 - omega_i[1] * t50 - (omega_j[2] * t49 - omega_j[1] * t50);
+    const jg_real t51 = C_i[7] * s_j_world_2;
+    const jg_real t52 = C_i[7] * s_j_world_1;
+    const jg_real t53 = C_i[7] * r_ij_world_2;
+    const jg_real t54 = C_i[7] * r_ij_world_1;
+    jac_phi_q_v_A_i[11] = C_i[7] * v_j[0] - (omega_i[1] * t51 - omega_i[2] * t52 + (omega_i[1] * t53 - omega_i[2] *
+        t54 + C_i[7] * v_i[0]) - (omega_j[1] * t51 - omega_j[2] * t52));
+    const jg_real t55 = C_i[4] * h_i_world_0 - C_i[7] * g_i_world_0;
+    const jg_real t56 = t55 * h_j_world_0;
+    const jg_real t57 = t43 - t56;
+    const jg_real t58 = t55 * h_j_world_1;
+    const jg_real t59 = t42 * h_j_world_1;
+    jac_phi_q_v_A_i[12] = t58 * omega_i[0] + t57 * omega_i[1] - t59 * omega_i[2] - (t58 * omega_j[0] + t57 *
         omega_j[1] - t59 * omega_j[2]);
-    jac_phi_q_v_A_i[16] = omega_i[1] * t55 - omega_i[0] * t46 - (omega_j[1] * t55 - omega_j[0] * t46);
-    jac_phi_q_v_A_i[17] = C_i[7] * v_j[2] - (C_i[7] * v_i[2] - (t49 * r_j[0] - t56 * r_j[1]) - (t49 * s_j_world_0 -
-        t56 * s_j_world_1) + (t49 * r_i[0] - t56 * r_i[1]) + C_i[7] * s_j_cross_omega_j_world_2);
-    const jg_real t60 = g_i_world_2 * C_i[8] - C_i[5] * h_i_world_2;
-    const jg_real t61 = t60 * h_j_world_2;
-    const jg_real t62 = C_i[5] * h_i_world_1 - C_i[8] * g_i_world_1;
-    const jg_real t63 = t62 * h_j_world_1;
-    const jg_real t64 = t61 - t63;
-    const jg_real t65 = t62 * h_j_world_0;
-    const jg_real t66 = t60 * h_j_world_0;
-    jac_phi_q_v_A_i[18] = t64 * omega_i[0] + t65 * omega_i[1] - t66 * omega_i[2] - (t64 * omega_j[0] + t65 *
-        omega_j[1] - t66 * omega_j[2]);
-    const jg_real t67 = C_i[5] * h_j_world_1;
-    const jg_real t68 = C_i[5] * h_j_world_2;
-    jac_phi_q_v_A_i[19] = omega_i[2] * t67 - omega_i[1] * t68 - (omega_j[2] * t67 - omega_j[1] * t68);
-    const jg_real t69 = C_i[8] * omega_i[2];
-    const jg_real t70 = C_i[8] * omega_i[1];
-    jac_phi_q_v_A_i[20] = C_i[8] * v_j[0] - (C_i[8] * v_i[0] - (t69 * r_j[1] - t70 * r_j[2]) - (t69 * s_j_world_1 -
-        t70 * s_j_world_2) + (t69 * r_i[1] - t70 * r_i[2]) + C_i[8] * s_j_cross_omega_j_world_0);
-    const jg_real t71 = C_i[5] * h_i_world_0 - C_i[8] * g_i_world_0;
-    const jg_real t72 = t71 * h_j_world_0;
-    const jg_real t73 = t61 - t72;
-    const jg_real t74 = t71 * h_j_world_1;
-    const jg_real t75 = t60 * h_j_world_1;
-    jac_phi_q_v_A_i[21] = t74 * omega_i[0] + t73 * omega_i[1] - t75 * omega_i[2] - (t74 * omega_j[0] + t73 *
-        omega_j[1] - t75 * omega_j[2]);
-    const jg_real t76 = C_i[5] * h_j_world_0;
-    jac_phi_q_v_A_i[22] = omega_i[0] * t68 - omega_i[2] * t76 - (omega_j[0] * t68 - omega_j[2] * t76);
-    const jg_real t77 = C_i[8] * omega_i[0];
-    jac_phi_q_v_A_i[23] = C_i[8] * v_j[1] - (C_i[8] * v_i[1] - (t77 * r_j[2] - t69 * r_j[0]) - (t77 * s_j_world_2 -
-        t69 * s_j_world_0) + (t77 * r_i[2] - t69 * r_i[0]) + C_i[8] * s_j_cross_omega_j_world_1);
-    const jg_real t78 = t71 * h_j_world_2;
-    const jg_real t79 = h_j_world_2 * t62;
-    const jg_real t80 = t63 + t72;
-    jac_phi_q_v_A_i[24] = t78 * omega_i[0] + t79 * omega_i[1] - t80 * omega_i[2] - (t78 * omega_j[0] + t79 *
-        omega_j[1] - t80 * omega_j[2]);
-    jac_phi_q_v_A_i[25] = omega_i[1] * t76 - omega_i[0] * t67 - (omega_j[1] * t76 - omega_j[0] * t67);
-    jac_phi_q_v_A_i[26] = C_i[8] * v_j[2] - (C_i[8] * v_i[2] - (t70 * r_j[0] - t77 * r_j[1]) - (t70 * s_j_world_0 -
-        t77 * s_j_world_1) + (t70 * r_i[0] - t77 * r_i[1]) + C_i[8] * s_j_cross_omega_j_world_2);
+    const jg_real t60 = C_i[4] * h_j_world_0;
+    jac_phi_q_v_A_i[13] = omega_i[0] * t50 - omega_i[2] * t60 - (omega_j[0] * t50 - omega_j[2] * t60);
+    const jg_real t61 = C_i[7] * s_j_world_0;
+    const jg_real t62 = C_i[7] * r_ij_world_0;
+    jac_phi_q_v_A_i[14] = C_i[7] * v_j[1] - (omega_i[2] * t61 - omega_i[0] * t51 + (omega_i[2] * t62 - omega_i[0] *
+        t53 + C_i[7] * v_i[1]) - (omega_j[2] * t61 - omega_j[0] * t51));
+    const jg_real t63 = t55 * h_j_world_2;
+    const jg_real t64 = h_j_world_2 * t44;
+    const jg_real t65 = t45 + t56;
+    jac_phi_q_v_A_i[15] = t63 * omega_i[0] + t64 * omega_i[1] - t65 * omega_i[2] - (t63 * omega_j[0] + t64 *
+        omega_j[1] - t65 * omega_j[2]);
+    jac_phi_q_v_A_i[16] = omega_i[1] * t60 - omega_i[0] * t49 - (omega_j[1] * t60 - omega_j[0] * t49);
+    jac_phi_q_v_A_i[17] = C_i[7] * v_j[2] - (omega_i[0] * t52 - omega_i[1] * t61 + (omega_i[0] * t54 - omega_i[1] *
+        t62 + C_i[7] * v_i[2]) - (omega_j[0] * t52 - omega_j[1] * t61));
+    const jg_real t66 = g_i_world_2 * C_i[8] - C_i[5] * h_i_world_2;
+    const jg_real t67 = t66 * h_j_world_2;
+    const jg_real t68 = C_i[5] * h_i_world_1 - C_i[8] * g_i_world_1;
+    const jg_real t69 = t68 * h_j_world_1;
+    const jg_real t70 = t67 - t69;
+    const jg_real t71 = t68 * h_j_world_0;
+    const jg_real t72 = t66 * h_j_world_0;
+    jac_phi_q_v_A_i[18] = t70 * omega_i[0] + t71 * omega_i[1] - t72 * omega_i[2] - (t70 * omega_j[0] + t71 *
+        omega_j[1] - t72 * omega_j[2]);
+    const jg_real t73 = C_i[5] * h_j_world_1;
+    const jg_real t74 = C_i[5] * h_j_world_2;
+    jac_phi_q_v_A_i[19] = omega_i[2] * t73 - omega_i[1] * t74 - (omega_j[2] * t73 - omega_j[1] * t74);
+    const jg_real t75 = C_i[8] * s_j_world_2;
+    const jg_real t76 = C_i[8] * s_j_world_1;
+    const jg_real t77 = C_i[8] * r_ij_world_2;
+    const jg_real t78 = C_i[8] * r_ij_world_1;
+    jac_phi_q_v_A_i[20] = C_i[8] * v_j[0] - (omega_i[1] * t75 - omega_i[2] * t76 + (omega_i[1] * t77 - omega_i[2] *
+        t78 + C_i[8] * v_i[0]) - (omega_j[1] * t75 - omega_j[2] * t76));
+    const jg_real t79 = C_i[5] * h_i_world_0 - C_i[8] * g_i_world_0;
+    const jg_real t80 = t79 * h_j_world_0;
+    const jg_real t81 = t67 - t80;
+    const jg_real t82 = t79 * h_j_world_1;
+    const jg_real t83 = t66 * h_j_world_1;
+    jac_phi_q_v_A_i[21] = t82 * omega_i[0] + t81 * omega_i[1] - t83 * omega_i[2] - (t82 * omega_j[0] + t81 *
+        omega_j[1] - t83 * omega_j[2]);
+    const jg_real t84 = C_i[5] * h_j_world_0;
+    jac_phi_q_v_A_i[22] = omega_i[0] * t74 - omega_i[2] * t84 - (omega_j[0] * t74 - omega_j[2] * t84);
+    const jg_real t85 = C_i[8] * s_j_world_0;
+    const jg_real t86 = C_i[8] * r_ij_world_0;
+    jac_phi_q_v_A_i[23] = C_i[8] * v_j[1] - (omega_i[2] * t85 - omega_i[0] * t75 + (omega_i[2] * t86 - omega_i[0] *
+        t77 + C_i[8] * v_i[1]) - (omega_j[2] * t85 - omega_j[0] * t75));
+    const jg_real t87 = t79 * h_j_world_2;
+    const jg_real t88 = h_j_world_2 * t68;
+    const jg_real t89 = t69 + t80;
+    jac_phi_q_v_A_i[24] = t87 * omega_i[0] + t88 * omega_i[1] - t89 * omega_i[2] - (t87 * omega_j[0] + t88 *
+        omega_j[1] - t89 * omega_j[2]);
+    jac_phi_q_v_A_i[25] = omega_i[1] * t84 - omega_i[0] * t73 - (omega_j[1] * t84 - omega_j[0] * t73);
+    jac_phi_q_v_A_i[26] = C_i[8] * v_j[2] - (omega_i[0] * t76 - omega_i[1] * t85 + (omega_i[0] * t78 - omega_i[1] *
+        t86 + C_i[8] * v_i[2]) - (omega_j[0] * t76 - omega_j[1] * t85));
+    jac_phi_q_v_r_j[0] = -t2;
+    jac_phi_q_v_r_j[1] = -t4;
+    jac_phi_q_v_r_j[2] = -t5;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - h_i_world_0 * g_i_world_1;
-    const jg_real t82 = C_j[6] * f_i_world_2;
+    const jg_real t91 = C_j[6] * f_i_world_2;
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    const jg_real t84 = f_i_world_1 * C_j[6];
-    jac_phi_q_v_A_j[0] = t82 * omega_i[1] - t84 * omega_i[2] - (t82 * omega_j[1] - t84 * omega_j[2]);
-    const jg_real t85 = g_i_world_2 * C_j[6];
-    const jg_real t86 = C_j[6] * g_i_world_1;
-    jac_phi_q_v_A_j[1] = omega_i[1] * t85 - omega_i[2] * t86 - (omega_j[1] * t85 - omega_j[2] * t86);
-    const jg_real t87 = omega_j[1] * s_j[0];
-    const jg_real t88 = omega_j[2] * s_j[0];
-    jac_phi_q_v_A_j[2] = omega_i_cross_h_i_world_0 * s_j[0] - (h_i_world_2 * t87 - h_i_world_1 * t88);
+    const jg_real t93 = f_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[0] = t91 * omega_i[1] - t93 * omega_i[2] - (t91 * omega_j[1] - t93 * omega_j[2]);
+    const jg_real t94 = g_i_world_2 * C_j[6];
+    const jg_real t95 = C_j[6] * g_i_world_1;
+    jac_phi_q_v_A_j[1] = omega_i[1] * t94 - omega_i[2] * t95 - (omega_j[1] * t94 - omega_j[2] * t95);
+    const jg_real t96 = h_i_world_1 * s_j[0];
+    const jg_real t97 = h_i_world_2 * s_j[0];
+    jac_phi_q_v_A_j[2] = omega_j[2] * t96 - omega_j[1] * t97 - (omega_i[2] * t96 - omega_i[1] * t97);
     const jg_real f_i_world_0 = h_i_world_2 * g_i_world_1 - g_i_world_2 * h_i_world_1;
-    const jg_real t90 = C_j[6] * f_i_world_0;
-    jac_phi_q_v_A_j[3] = t90 * omega_i[2] - t82 * omega_i[0] - (t90 * omega_j[2] - t82 * omega_j[0]);
-    const jg_real t91 = g_i_world_0 * C_j[6];
-    jac_phi_q_v_A_j[4] = omega_i[2] * t91 - omega_i[0] * t85 - (omega_j[2] * t91 - omega_j[0] * t85);
-    const jg_real t92 = omega_j[0] * s_j[0];
-    jac_phi_q_v_A_j[5] = omega_i_cross_h_i_world_1 * s_j[0] - (h_i_world_0 * t88 - h_i_world_2 * t92);
-    jac_phi_q_v_A_j[6] = t84 * omega_i[0] - t90 * omega_i[1] - (t84 * omega_j[0] - t90 * omega_j[1]);
-    jac_phi_q_v_A_j[7] = omega_i[0] * t86 - omega_i[1] * t91 - (omega_j[0] * t86 - omega_j[1] * t91);
-    jac_phi_q_v_A_j[8] = omega_i_cross_h_i_world_2 * s_j[0] - (h_i_world_1 * t92 - h_i_world_0 * t87);
-    const jg_real t93 = C_j[7] * f_i_world_2;
-    const jg_real t94 = f_i_world_1 * C_j[7];
-    jac_phi_q_v_A_j[9] = t93 * omega_i[1] - t94 * omega_i[2] - (t93 * omega_j[1] - t94 * omega_j[2]);
-    const jg_real t95 = g_i_world_2 * C_j[7];
-    const jg_real t96 = C_j[7] * g_i_world_1;
-    jac_phi_q_v_A_j[10] = omega_i[1] * t95 - omega_i[2] * t96 - (omega_j[1] * t95 - omega_j[2] * t96);
-    const jg_real t97 = omega_j[1] * s_j[1];
-    const jg_real t98 = omega_j[2] * s_j[1];
-    jac_phi_q_v_A_j[11] = omega_i_cross_h_i_world_0 * s_j[1] - (h_i_world_2 * t97 - h_i_world_1 * t98);
-    const jg_real t99 = C_j[7] * f_i_world_0;
-    jac_phi_q_v_A_j[12] = t99 * omega_i[2] - t93 * omega_i[0] - (t99 * omega_j[2] - t93 * omega_j[0]);
-    const jg_real t100 = g_i_world_0 * C_j[7];
-    jac_phi_q_v_A_j[13] = omega_i[2] * t100 - omega_i[0] * t95 - (omega_j[2] * t100 - omega_j[0] * t95);
-    const jg_real t101 = omega_j[0] * s_j[1];
-    jac_phi_q_v_A_j[14] = omega_i_cross_h_i_world_1 * s_j[1] - (h_i_world_0 * t98 - h_i_world_2 * t101);
-    jac_phi_q_v_A_j[15] = t94 * omega_i[0] - t99 * omega_i[1] - (t94 * omega_j[0] - t99 * omega_j[1]);
-    jac_phi_q_v_A_j[16] = omega_i[0] * t96 - omega_i[1] * t100 - (omega_j[0] * t96 - omega_j[1] * t100);
-    jac_phi_q_v_A_j[17] = omega_i_cross_h_i_world_2 * s_j[1] - (h_i_world_1 * t101 - h_i_world_0 * t97);
-    const jg_real t102 = C_j[8] * f_i_world_2;
-    const jg_real t103 = f_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[18] = t102 * omega_i[1] - t103 * omega_i[2] - (t102 * omega_j[1] - t103 * omega_j[2]);
-    const jg_real t104 = g_i_world_2 * C_j[8];
-    const jg_real t105 = C_j[8] * g_i_world_1;
-    jac_phi_q_v_A_j[19] = omega_i[1] * t104 - omega_i[2] * t105 - (omega_j[1] * t104 - omega_j[2] * t105);
-    const jg_real t106 = omega_j[1] * s_j[2];
-    const jg_real t107 = omega_j[2] * s_j[2];
-    jac_phi_q_v_A_j[20] = omega_i_cross_h_i_world_0 * s_j[2] - (h_i_world_2 * t106 - h_i_world_1 * t107);
-    const jg_real t108 = C_j[8] * f_i_world_0;
-    jac_phi_q_v_A_j[21] = t108 * omega_i[2] - t102 * omega_i[0] - (t108 * omega_j[2] - t102 * omega_j[0]);
-    const jg_real t109 = g_i_world_0 * C_j[8];
-    jac_phi_q_v_A_j[22] = omega_i[2] * t109 - omega_i[0] * t104 - (omega_j[2] * t109 - omega_j[0] * t104);
-    const jg_real t110 = omega_j[0] * s_j[2];
-    jac_phi_q_v_A_j[23] = omega_i_cross_h_i_world_1 * s_j[2] - (h_i_world_0 * t107 - h_i_world_2 * t110);
-    jac_phi_q_v_A_j[24] = t103 * omega_i[0] - t108 * omega_i[1] - (t103 * omega_j[0] - t108 * omega_j[1]);
-    jac_phi_q_v_A_j[25] = omega_i[0] * t105 - omega_i[1] * t109 - (omega_j[0] * t105 - omega_j[1] * t109);
-    jac_phi_q_v_A_j[26] = omega_i_cross_h_i_world_2 * s_j[2] - (h_i_world_1 * t110 - h_i_world_0 * t106);
-    const jg_real t111 = A_i[2] * h_i_world_0 - A_i[0] * h_i_world_2;
-    const jg_real t112 = A_i[0] * h_i_world_1 - h_i_world_0 * A_i[1];
-    const jg_real t113 = t111 * h_j_world_2 - t112 * h_j_world_1;
-    const jg_real t114 = h_i_world_2 * A_i[1] - A_i[2] * h_i_world_1;
-    const jg_real t115 = t112 * h_j_world_0 - h_j_world_2 * t114;
-    const jg_real t116 = h_j_world_1 * t114 - t111 * h_j_world_0;
-    jac_phi_q_v_geometry[0] = t113 * omega_i[0] + t115 * omega_i[1] + t116 * omega_i[2] - (t113 * omega_j[0] + t115
-        * omega_j[1] + t116 * omega_j[2]);
-    const jg_real t117 = h_j_world_2 * A_i[1] - A_i[2] * h_j_world_1;
-    const jg_real t118 = A_i[2] * h_j_world_0 - A_i[0] * h_j_world_2;
-    const jg_real t119 = A_i[0] * h_j_world_1 - A_i[1] * h_j_world_0;
-    jac_phi_q_v_geometry[1] = omega_i[0] * t117 + omega_i[1] * t118 + omega_i[2] * t119 - (omega_j[0] * t117 +
-        omega_j[1] * t118 + omega_j[2] * t119);
-    const jg_real t120 = A_i[5] * h_i_world_0 - A_i[3] * h_i_world_2;
-    const jg_real t121 = A_i[3] * h_i_world_1 - h_i_world_0 * A_i[4];
+    const jg_real t99 = C_j[6] * f_i_world_0;
+    jac_phi_q_v_A_j[3] = t99 * omega_i[2] - t91 * omega_i[0] - (t99 * omega_j[2] - t91 * omega_j[0]);
+    const jg_real t100 = g_i_world_0 * C_j[6];
+    jac_phi_q_v_A_j[4] = omega_i[2] * t100 - omega_i[0] * t94 - (omega_j[2] * t100 - omega_j[0] * t94);
+    const jg_real t101 = h_i_world_0 * s_j[0];
+    jac_phi_q_v_A_j[5] = omega_j[0] * t97 - omega_j[2] * t101 - (omega_i[0] * t97 - omega_i[2] * t101);
+    jac_phi_q_v_A_j[6] = t93 * omega_i[0] - t99 * omega_i[1] - (t93 * omega_j[0] - t99 * omega_j[1]);
+    jac_phi_q_v_A_j[7] = omega_i[0] * t95 - omega_i[1] * t100 - (omega_j[0] * t95 - omega_j[1] * t100);
+    jac_phi_q_v_A_j[8] = omega_j[1] * t101 - omega_j[0] * t96 - (omega_i[1] * t101 - omega_i[0] * t96);
+    const jg_real t102 = C_j[7] * f_i_world_2;
+    const jg_real t103 = f_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[9] = t102 * omega_i[1] - t103 * omega_i[2] - (t102 * omega_j[1] - t103 * omega_j[2]);
+    const jg_real t104 = g_i_world_2 * C_j[7];
+    const jg_real t105 = C_j[7] * g_i_world_1;
+    jac_phi_q_v_A_j[10] = omega_i[1] * t104 - omega_i[2] * t105 - (omega_j[1] * t104 - omega_j[2] * t105);
+    const jg_real t106 = h_i_world_1 * s_j[1];
+    const jg_real t107 = h_i_world_2 * s_j[1];
+    jac_phi_q_v_A_j[11] = omega_j[2] * t106 - omega_j[1] * t107 - (omega_i[2] * t106 - omega_i[1] * t107);
+    const jg_real t108 = C_j[7] * f_i_world_0;
+    jac_phi_q_v_A_j[12] = t108 * omega_i[2] - t102 * omega_i[0] - (t108 * omega_j[2] - t102 * omega_j[0]);
+    const jg_real t109 = g_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[13] = omega_i[2] * t109 - omega_i[0] * t104 - (omega_j[2] * t109 - omega_j[0] * t104);
+    const jg_real t110 = h_i_world_0 * s_j[1];
+    jac_phi_q_v_A_j[14] = omega_j[0] * t107 - omega_j[2] * t110 - (omega_i[0] * t107 - omega_i[2] * t110);
+    jac_phi_q_v_A_j[15] = t103 * omega_i[0] - t108 * omega_i[1] - (t103 * omega_j[0] - t108 * omega_j[1]);
+    jac_phi_q_v_A_j[16] = omega_i[0] * t105 - omega_i[1] * t109 - (omega_j[0] * t105 - omega_j[1] * t109);
+    jac_phi_q_v_A_j[17] = omega_j[1] * t110 - omega_j[0] * t106 - (omega_i[1] * t110 - omega_i[0] * t106);
+    const jg_real t111 = C_j[8] * f_i_world_2;
+    const jg_real t112 = f_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[18] = t111 * omega_i[1] - t112 * omega_i[2] - (t111 * omega_j[1] - t112 * omega_j[2]);
+    const jg_real t113 = g_i_world_2 * C_j[8];
+    const jg_real t114 = C_j[8] * g_i_world_1;
+    jac_phi_q_v_A_j[19] = omega_i[1] * t113 - omega_i[2] * t114 - (omega_j[1] * t113 - omega_j[2] * t114);
+    const jg_real t115 = h_i_world_1 * s_j[2];
+    const jg_real t116 = h_i_world_2 * s_j[2];
+    jac_phi_q_v_A_j[20] = omega_j[2] * t115 - omega_j[1] * t116 - (omega_i[2] * t115 - omega_i[1] * t116);
+    const jg_real t117 = C_j[8] * f_i_world_0;
+    jac_phi_q_v_A_j[21] = t117 * omega_i[2] - t111 * omega_i[0] - (t117 * omega_j[2] - t111 * omega_j[0]);
+    const jg_real t118 = g_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[22] = omega_i[2] * t118 - omega_i[0] * t113 - (omega_j[2] * t118 - omega_j[0] * t113);
+    const jg_real t119 = h_i_world_0 * s_j[2];
+    jac_phi_q_v_A_j[23] = omega_j[0] * t116 - omega_j[2] * t119 - (omega_i[0] * t116 - omega_i[2] * t119);
+    jac_phi_q_v_A_j[24] = t112 * omega_i[0] - t117 * omega_i[1] - (t112 * omega_j[0] - t117 * omega_j[1]);
+    jac_phi_q_v_A_j[25] = omega_i[0] * t114 - omega_i[1] * t118 - (omega_j[0] * t114 - omega_j[1] * t118);
+    jac_phi_q_v_A_j[26] = omega_j[1] * t119 - omega_j[0] * t115 - (omega_i[1] * t119 - omega_i[0] * t115);
+    const jg_real t120 = A_i[2] * h_i_world_0 - A_i[0] * h_i_world_2;
+    const jg_real t121 = A_i[0] * h_i_world_1 - h_i_world_0 * A_i[1];
     const jg_real t122 = t120 * h_j_world_2 - t121 * h_j_world_1;
-    const jg_real t123 = h_i_world_2 * A_i[4] - A_i[5] * h_i_world_1;
+    const jg_real t123 = h_i_world_2 * A_i[1] - A_i[2] * h_i_world_1;
     const jg_real t124 = t121 * h_j_world_0 - h_j_world_2 * t123;
     const jg_real t125 = h_j_world_1 * t123 - t120 * h_j_world_0;
-    jac_phi_q_v_geometry[2] = t122 * omega_i[0] + t124 * omega_i[1] + t125 * omega_i[2] - (t122 * omega_j[0] + t124
+    jac_phi_q_v_geometry[0] = t122 * omega_i[0] + t124 * omega_i[1] + t125 * omega_i[2] - (t122 * omega_j[0] + t124
         * omega_j[1] + t125 * omega_j[2]);
-    const jg_real t126 = h_j_world_2 * A_i[4] - A_i[5] * h_j_world_1;
-    const jg_real t127 = A_i[5] * h_j_world_0 - A_i[3] * h_j_world_2;
-    const jg_real t128 = A_i[3] * h_j_world_1 - A_i[4] * h_j_world_0;
-    jac_phi_q_v_geometry[3] = omega_i[0] * t126 + omega_i[1] * t127 + omega_i[2] * t128 - (omega_j[0] * t126 +
+    const jg_real t126 = h_j_world_2 * A_i[1] - A_i[2] * h_j_world_1;
+    const jg_real t127 = A_i[2] * h_j_world_0 - A_i[0] * h_j_world_2;
+    const jg_real t128 = A_i[0] * h_j_world_1 - A_i[1] * h_j_world_0;
+    jac_phi_q_v_geometry[1] = omega_i[0] * t126 + omega_i[1] * t127 + omega_i[2] * t128 - (omega_j[0] * t126 +
         omega_j[1] * t127 + omega_j[2] * t128);
-    const jg_real t129 = A_i[8] * h_i_world_0 - A_i[6] * h_i_world_2;
-    const jg_real t130 = A_i[6] * h_i_world_1 - h_i_world_0 * A_i[7];
+    const jg_real t129 = A_i[5] * h_i_world_0 - A_i[3] * h_i_world_2;
+    const jg_real t130 = A_i[3] * h_i_world_1 - h_i_world_0 * A_i[4];
     const jg_real t131 = t129 * h_j_world_2 - t130 * h_j_world_1;
-    const jg_real t132 = h_i_world_2 * A_i[7] - A_i[8] * h_i_world_1;
+    const jg_real t132 = h_i_world_2 * A_i[4] - A_i[5] * h_i_world_1;
     const jg_real t133 = t130 * h_j_world_0 - h_j_world_2 * t132;
     const jg_real t134 = h_j_world_1 * t132 - t129 * h_j_world_0;
-    jac_phi_q_v_geometry[4] = t131 * omega_i[0] + t133 * omega_i[1] + t134 * omega_i[2] - (t131 * omega_j[0] + t133
+    jac_phi_q_v_geometry[2] = t131 * omega_i[0] + t133 * omega_i[1] + t134 * omega_i[2] - (t131 * omega_j[0] + t133
         * omega_j[1] + t134 * omega_j[2]);
-    const jg_real t135 = h_j_world_2 * A_i[7] - A_i[8] * h_j_world_1;
-    const jg_real t136 = A_i[8] * h_j_world_0 - A_i[6] * h_j_world_2;
-    const jg_real t137 = A_i[6] * h_j_world_1 - A_i[7] * h_j_world_0;
-    jac_phi_q_v_geometry[5] = omega_i[0] * t135 + omega_i[1] * t136 + omega_i[2] * t137 - (omega_j[0] * t135 +
+    const jg_real t135 = h_j_world_2 * A_i[4] - A_i[5] * h_j_world_1;
+    const jg_real t136 = A_i[5] * h_j_world_0 - A_i[3] * h_j_world_2;
+    const jg_real t137 = A_i[3] * h_j_world_1 - A_i[4] * h_j_world_0;
+    jac_phi_q_v_geometry[3] = omega_i[0] * t135 + omega_i[1] * t136 + omega_i[2] * t137 - (omega_j[0] * t135 +
         omega_j[1] * t136 + omega_j[2] * t137);
-    const jg_real t138 = g_i_world_2 * A_i[0] - A_i[2] * g_i_world_0;
-    const jg_real t139 = g_i_world_0 * A_i[1] - A_i[0] * g_i_world_1;
+    const jg_real t138 = A_i[8] * h_i_world_0 - A_i[6] * h_i_world_2;
+    const jg_real t139 = A_i[6] * h_i_world_1 - h_i_world_0 * A_i[7];
     const jg_real t140 = t138 * h_j_world_2 - t139 * h_j_world_1;
-    const jg_real t141 = A_i[2] * g_i_world_1 - g_i_world_2 * A_i[1];
+    const jg_real t141 = h_i_world_2 * A_i[7] - A_i[8] * h_i_world_1;
     const jg_real t142 = t139 * h_j_world_0 - h_j_world_2 * t141;
     const jg_real t143 = h_j_world_1 * t141 - t138 * h_j_world_0;
-    jac_phi_q_v_geometry[6] = t140 * omega_i[0] + t142 * omega_i[1] + t143 * omega_i[2] - (t140 * omega_j[0] + t142
+    jac_phi_q_v_geometry[4] = t140 * omega_i[0] + t142 * omega_i[1] + t143 * omega_i[2] - (t140 * omega_j[0] + t142
         * omega_j[1] + t143 * omega_j[2]);
-    const jg_real t144 = A_i[2] * omega_i[1] - A_i[1] * omega_i[2];
-    const jg_real t145 = A_i[0] * omega_i[2] - A_i[2] * omega_i[0];
-    const jg_real t146 = A_i[1] * omega_i[0] - A_i[0] * omega_i[1];
-    jac_phi_q_v_geometry[7] = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (A_i[0] * v_i[0] + A_i[1] *
-        v_i[1] + A_i[2] * v_i[2] - (t144 * r_j[0] + t145 * r_j[1] + t146 * r_j[2]) - (t144 * s_j_world_0 + t145 *
-        s_j_world_1 + t146 * s_j_world_2) + (t144 * r_i[0] + t145 * r_i[1] + t146 * r_i[2]) + (A_i[0] *
-        s_j_cross_omega_j_world_0 + A_i[1] * s_j_cross_omega_j_world_1 + A_i[2] * s_j_cross_omega_j_world_2));
-    const jg_real t147 = g_i_world_2 * A_i[3] - A_i[5] * g_i_world_0;
-    const jg_real t148 = g_i_world_0 * A_i[4] - A_i[3] * g_i_world_1;
+    const jg_real t144 = h_j_world_2 * A_i[7] - A_i[8] * h_j_world_1;
+    const jg_real t145 = A_i[8] * h_j_world_0 - A_i[6] * h_j_world_2;
+    const jg_real t146 = A_i[6] * h_j_world_1 - A_i[7] * h_j_world_0;
+    jac_phi_q_v_geometry[5] = omega_i[0] * t144 + omega_i[1] * t145 + omega_i[2] * t146 - (omega_j[0] * t144 +
+        omega_j[1] * t145 + omega_j[2] * t146);
+    const jg_real t147 = g_i_world_2 * A_i[0] - A_i[2] * g_i_world_0;
+    const jg_real t148 = g_i_world_0 * A_i[1] - A_i[0] * g_i_world_1;
     const jg_real t149 = t147 * h_j_world_2 - t148 * h_j_world_1;
-    const jg_real t150 = A_i[5] * g_i_world_1 - g_i_world_2 * A_i[4];
+    const jg_real t150 = A_i[2] * g_i_world_1 - g_i_world_2 * A_i[1];
     const jg_real t151 = t148 * h_j_world_0 - h_j_world_2 * t150;
     const jg_real t152 = h_j_world_1 * t150 - t147 * h_j_world_0;
-    jac_phi_q_v_geometry[8] = t149 * omega_i[0] + t151 * omega_i[1] + t152 * omega_i[2] - (t149 * omega_j[0] + t151
+    jac_phi_q_v_geometry[6] = t149 * omega_i[0] + t151 * omega_i[1] + t152 * omega_i[2] - (t149 * omega_j[0] + t151
         * omega_j[1] + t152 * omega_j[2]);
-    const jg_real t153 = A_i[5] * omega_i[1] - A_i[4] * omega_i[2];
-    const jg_real t154 = A_i[3] * omega_i[2] - A_i[5] * omega_i[0];
-    const jg_real t155 = A_i[4] * omega_i[0] - A_i[3] * omega_i[1];
-    jac_phi_q_v_geometry[9] = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (A_i[3] * v_i[0] + A_i[4] *
-        v_i[1] + A_i[5] * v_i[2] - (t153 * r_j[0] + t154 * r_j[1] + t155 * r_j[2]) - (t153 * s_j_world_0 + t154 *
-        s_j_world_1 + t155 * s_j_world_2) + (t153 * r_i[0] + t154 * r_i[1] + t155 * r_i[2]) + (A_i[3] *
-        s_j_cross_omega_j_world_0 + A_i[4] * s_j_cross_omega_j_world_1 + A_i[5] * s_j_cross_omega_j_world_2));
-    const jg_real t156 = g_i_world_2 * A_i[6] - A_i[8] * g_i_world_0;
-    const jg_real t157 = g_i_world_0 * A_i[7] - A_i[6] * g_i_world_1;
+    const jg_real t153 = A_i[2] * s_j_world_1 - A_i[1] * s_j_world_2;
+    const jg_real t154 = A_i[0] * s_j_world_2 - A_i[2] * s_j_world_0;
+    const jg_real t155 = A_i[1] * s_j_world_0 - A_i[0] * s_j_world_1;
+    jac_phi_q_v_geometry[7] = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2] - (omega_i[0] * t153 + omega_i[1]
+        * t154 + omega_i[2] * t155 + (omega_i[0] * (A_i[2] * r_ij_world_1 - A_i[1] * r_ij_world_2) + omega_i[1] *
+        (A_i[0] * r_ij_world_2 - A_i[2] * r_ij_world_0) + omega_i[2] * (A_i[1] * r_ij_world_0 - A_i[0] *
+        r_ij_world_1) + (A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2])) - (omega_j[0] * t153 + omega_j[1] *
+        t154 + omega_j[2] * t155));
+    const jg_real t156 = g_i_world_2 * A_i[3] - A_i[5] * g_i_world_0;
+    const jg_real t157 = g_i_world_0 * A_i[4] - A_i[3] * g_i_world_1;
     const jg_real t158 = t156 * h_j_world_2 - t157 * h_j_world_1;
-    const jg_real t159 = A_i[8] * g_i_world_1 - g_i_world_2 * A_i[7];
+    const jg_real t159 = A_i[5] * g_i_world_1 - g_i_world_2 * A_i[4];
     const jg_real t160 = t157 * h_j_world_0 - h_j_world_2 * t159;
     const jg_real t161 = h_j_world_1 * t159 - t156 * h_j_world_0;
-    jac_phi_q_v_geometry[10] = t158 * omega_i[0] + t160 * omega_i[1] + t161 * omega_i[2] - (t158 * omega_j[0] + t160
+    jac_phi_q_v_geometry[8] = t158 * omega_i[0] + t160 * omega_i[1] + t161 * omega_i[2] - (t158 * omega_j[0] + t160
         * omega_j[1] + t161 * omega_j[2]);
-    const jg_real t162 = A_i[8] * omega_i[1] - A_i[7] * omega_i[2];
-    const jg_real t163 = A_i[6] * omega_i[2] - A_i[8] * omega_i[0];
-    const jg_real t164 = A_i[7] * omega_i[0] - A_i[6] * omega_i[1];
-    jac_phi_q_v_geometry[11] = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (A_i[6] * v_i[0] + A_i[7] *
-        v_i[1] + A_i[8] * v_i[2] - (t162 * r_j[0] + t163 * r_j[1] + t164 * r_j[2]) - (t162 * s_j_world_0 + t163 *
-        s_j_world_1 + t164 * s_j_world_2) + (t162 * r_i[0] + t163 * r_i[1] + t164 * r_i[2]) + (A_i[6] *
-        s_j_cross_omega_j_world_0 + A_i[7] * s_j_cross_omega_j_world_1 + A_i[8] * s_j_cross_omega_j_world_2));
-    jac_phi_q_v_geometry[12] = A_j[0] * omega_i_cross_h_i_world_0 + A_j[1] * omega_i_cross_h_i_world_1 + A_j[2] *
-        omega_i_cross_h_i_world_2 - (h_i_world_0 * (A_j[1] * omega_j[2] - A_j[2] * omega_j[1]) + h_i_world_1 *
-        (A_j[2] * omega_j[0] - A_j[0] * omega_j[2]) + h_i_world_2 * (A_j[0] * omega_j[1] - A_j[1] * omega_j[0]));
-    jac_phi_q_v_geometry[13] = A_j[3] * omega_i_cross_h_i_world_0 + A_j[4] * omega_i_cross_h_i_world_1 + A_j[5] *
-        omega_i_cross_h_i_world_2 - (h_i_world_0 * (A_j[4] * omega_j[2] - A_j[5] * omega_j[1]) + h_i_world_1 *
-        (A_j[5] * omega_j[0] - A_j[3] * omega_j[2]) + h_i_world_2 * (A_j[3] * omega_j[1] - A_j[4] * omega_j[0]));
-    jac_phi_q_v_geometry[14] = A_j[6] * omega_i_cross_h_i_world_0 + A_j[7] * omega_i_cross_h_i_world_1 + A_j[8] *
-        omega_i_cross_h_i_world_2 - (h_i_world_0 * (A_j[7] * omega_j[2] - A_j[8] * omega_j[1]) + h_i_world_1 *
-        (A_j[8] * omega_j[0] - A_j[6] * omega_j[2]) + h_i_world_2 * (A_j[6] * omega_j[1] - A_j[7] * omega_j[0]));
-    const jg_real t165 = f_i_world_1 * A_j[2] - f_i_world_2 * A_j[1];
-    const jg_real t166 = f_i_world_2 * A_j[0] - A_j[2] * f_i_world_0;
-    const jg_real t167 = A_j[1] * f_i_world_0 - f_i_world_1 * A_j[0];
-    jac_phi_q_v_geometry[15] = t165 * omega_i[0] + t166 * omega_i[1] + t167 * omega_i[2] - (t165 * omega_j[0] + t166
-        * omega_j[1] + t167 * omega_j[2]);
-    const jg_real t168 = A_j[2] * g_i_world_1 - g_i_world_2 * A_j[1];
-    const jg_real t169 = g_i_world_2 * A_j[0] - g_i_world_0 * A_j[2];
-    const jg_real t170 = g_i_world_0 * A_j[1] - g_i_world_1 * A_j[0];
-    jac_phi_q_v_geometry[16] = omega_i[0] * t168 + omega_i[1] * t169 + omega_i[2] * t170 - (omega_j[0] * t168 +
-        omega_j[1] * t169 + omega_j[2] * t170);
-    const jg_real t171 = f_i_world_1 * A_j[5] - f_i_world_2 * A_j[4];
-    const jg_real t172 = f_i_world_2 * A_j[3] - A_j[5] * f_i_world_0;
-    const jg_real t173 = A_j[4] * f_i_world_0 - f_i_world_1 * A_j[3];
-    jac_phi_q_v_geometry[17] = t171 * omega_i[0] + t172 * omega_i[1] + t173 * omega_i[2] - (t171 * omega_j[0] + t172
-        * omega_j[1] + t173 * omega_j[2]);
-    const jg_real t174 = A_j[5] * g_i_world_1 - g_i_world_2 * A_j[4];
-    const jg_real t175 = g_i_world_2 * A_j[3] - g_i_world_0 * A_j[5];
-    const jg_real t176 = g_i_world_0 * A_j[4] - g_i_world_1 * A_j[3];
-    jac_phi_q_v_geometry[18] = omega_i[0] * t174 + omega_i[1] * t175 + omega_i[2] * t176 - (omega_j[0] * t174 +
-        omega_j[1] * t175 + omega_j[2] * t176);
-    const jg_real t177 = f_i_world_1 * A_j[8] - f_i_world_2 * A_j[7];
-    const jg_real t178 = f_i_world_2 * A_j[6] - A_j[8] * f_i_world_0;
-    const jg_real t179 = A_j[7] * f_i_world_0 - f_i_world_1 * A_j[6];
-    jac_phi_q_v_geometry[19] = t177 * omega_i[0] + t178 * omega_i[1] + t179 * omega_i[2] - (t177 * omega_j[0] + t178
-        * omega_j[1] + t179 * omega_j[2]);
-    const jg_real t180 = A_j[8] * g_i_world_1 - g_i_world_2 * A_j[7];
-    const jg_real t181 = g_i_world_2 * A_j[6] - g_i_world_0 * A_j[8];
-    const jg_real t182 = g_i_world_0 * A_j[7] - g_i_world_1 * A_j[6];
-    jac_phi_q_v_geometry[20] = omega_i[0] * t180 + omega_i[1] * t181 + omega_i[2] * t182 - (omega_j[0] * t180 +
-        omega_j[1] * t181 + omega_j[2] * t182);
+    const jg_real t162 = A_i[5] * s_j_world_1 - A_i[4] * s_j_world_2;
+    const jg_real t163 = A_i[3] * s_j_world_2 - A_i[5] * s_j_world_0;
+    const jg_real t164 = A_i[4] * s_j_world_0 - A_i[3] * s_j_world_1;
+    jac_phi_q_v_geometry[9] = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2] - (omega_i[0] * t162 + omega_i[1]
+        * t163 + omega_i[2] * t164 + (omega_i[0] * (A_i[5] * r_ij_world_1 - A_i[4] * r_ij_world_2) + omega_i[1] *
+        (A_i[3] * r_ij_world_2 - A_i[5] * r_ij_world_0) + omega_i[2] * (A_i[4] * r_ij_world_0 - A_i[3] *
+        r_ij_world_1) + (A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2])) - (omega_j[0] * t162 + omega_j[1] *
+        t163 + omega_j[2] * t164));
+    const jg_real t165 = g_i_world_2 * A_i[6] - A_i[8] * g_i_world_0;
+    const jg_real t166 = g_i_world_0 * A_i[7] - A_i[6] * g_i_world_1;
+    const jg_real t167 = t165 * h_j_world_2 - t166 * h_j_world_1;
+    const jg_real t168 = A_i[8] * g_i_world_1 - g_i_world_2 * A_i[7];
+    const jg_real t169 = t166 * h_j_world_0 - h_j_world_2 * t168;
+    const jg_real t170 = h_j_world_1 * t168 - t165 * h_j_world_0;
+    jac_phi_q_v_geometry[10] = t167 * omega_i[0] + t169 * omega_i[1] + t170 * omega_i[2] - (t167 * omega_j[0] + t169
+        * omega_j[1] + t170 * omega_j[2]);
+    const jg_real t171 = A_i[8] * s_j_world_1 - A_i[7] * s_j_world_2;
+    const jg_real t172 = A_i[6] * s_j_world_2 - A_i[8] * s_j_world_0;
+    const jg_real t173 = A_i[7] * s_j_world_0 - A_i[6] * s_j_world_1;
+    jac_phi_q_v_geometry[11] = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2] - (omega_i[0] * t171 + omega_i[1]
+        * t172 + omega_i[2] * t173 + (omega_i[0] * (A_i[8] * r_ij_world_1 - A_i[7] * r_ij_world_2) + omega_i[1] *
+        (A_i[6] * r_ij_world_2 - A_i[8] * r_ij_world_0) + omega_i[2] * (A_i[7] * r_ij_world_0 - A_i[6] *
+        r_ij_world_1) + (A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2])) - (omega_j[0] * t171 + omega_j[1] *
+        t172 + omega_j[2] * t173));
+    const jg_real t174 = h_i_world_2 * A_j[1] - A_j[2] * h_i_world_1;
+    const jg_real t175 = h_i_world_0 * A_j[2] - h_i_world_2 * A_j[0];
+    const jg_real t176 = h_i_world_1 * A_j[0] - h_i_world_0 * A_j[1];
+    jac_phi_q_v_geometry[12] = omega_j[0] * t174 + omega_j[1] * t175 + omega_j[2] * t176 - (omega_i[0] * t174 +
+        omega_i[1] * t175 + omega_i[2] * t176);
+    const jg_real t177 = h_i_world_2 * A_j[4] - A_j[5] * h_i_world_1;
+    const jg_real t178 = h_i_world_0 * A_j[5] - h_i_world_2 * A_j[3];
+    const jg_real t179 = h_i_world_1 * A_j[3] - h_i_world_0 * A_j[4];
+    jac_phi_q_v_geometry[13] = omega_j[0] * t177 + omega_j[1] * t178 + omega_j[2] * t179 - (omega_i[0] * t177 +
+        omega_i[1] * t178 + omega_i[2] * t179);
+    const jg_real t180 = h_i_world_2 * A_j[7] - A_j[8] * h_i_world_1;
+    const jg_real t181 = h_i_world_0 * A_j[8] - h_i_world_2 * A_j[6];
+    const jg_real t182 = h_i_world_1 * A_j[6] - h_i_world_0 * A_j[7];
+    jac_phi_q_v_geometry[14] = omega_j[0] * t180 + omega_j[1] * t181 + omega_j[2] * t182 - (omega_i[0] * t180 +
+        omega_i[1] * t181 + omega_i[2] * t182);
+    const jg_real t183 = f_i_world_1 * A_j[2] - f_i_world_2 * A_j[1];
+    const jg_real t184 = f_i_world_2 * A_j[0] - A_j[2] * f_i_world_0;
+    const jg_real t185 = A_j[1] * f_i_world_0 - f_i_world_1 * A_j[0];
+    jac_phi_q_v_geometry[15] = t183 * omega_i[0] + t184 * omega_i[1] + t185 * omega_i[2] - (t183 * omega_j[0] + t184
+        * omega_j[1] + t185 * omega_j[2]);
+    const jg_real t186 = A_j[2] * g_i_world_1 - g_i_world_2 * A_j[1];
+    const jg_real t187 = g_i_world_2 * A_j[0] - g_i_world_0 * A_j[2];
+    const jg_real t188 = g_i_world_0 * A_j[1] - g_i_world_1 * A_j[0];
+    jac_phi_q_v_geometry[16] = omega_i[0] * t186 + omega_i[1] * t187 + omega_i[2] * t188 - (omega_j[0] * t186 +
+        omega_j[1] * t187 + omega_j[2] * t188);
+    const jg_real t189 = f_i_world_1 * A_j[5] - f_i_world_2 * A_j[4];
+    const jg_real t190 = f_i_world_2 * A_j[3] - A_j[5] * f_i_world_0;
+    const jg_real t191 = A_j[4] * f_i_world_0 - f_i_world_1 * A_j[3];
+    jac_phi_q_v_geometry[17] = t189 * omega_i[0] + t190 * omega_i[1] + t191 * omega_i[2] - (t189 * omega_j[0] + t190
+        * omega_j[1] + t191 * omega_j[2]);
+    const jg_real t192 = A_j[5] * g_i_world_1 - g_i_world_2 * A_j[4];
+    const jg_real t193 = g_i_world_2 * A_j[3] - g_i_world_0 * A_j[5];
+    const jg_real t194 = g_i_world_0 * A_j[4] - g_i_world_1 * A_j[3];
+    jac_phi_q_v_geometry[18] = omega_i[0] * t192 + omega_i[1] * t193 + omega_i[2] * t194 - (omega_j[0] * t192 +
+        omega_j[1] * t193 + omega_j[2] * t194);
+    const jg_real t195 = f_i_world_1 * A_j[8] - f_i_world_2 * A_j[7];
+    const jg_real t196 = f_i_world_2 * A_j[6] - A_j[8] * f_i_world_0;
+    const jg_real t197 = A_j[7] * f_i_world_0 - f_i_world_1 * A_j[6];
+    jac_phi_q_v_geometry[19] = t195 * omega_i[0] + t196 * omega_i[1] + t197 * omega_i[2] - (t195 * omega_j[0] + t196
+        * omega_j[1] + t197 * omega_j[2]);
+    const jg_real t198 = A_j[8] * g_i_world_1 - g_i_world_2 * A_j[7];
+    const jg_real t199 = g_i_world_2 * A_j[6] - g_i_world_0 * A_j[8];
+    const jg_real t200 = g_i_world_0 * A_j[7] - g_i_world_1 * A_j[6];
+    jac_phi_q_v_geometry[20] = omega_i[0] * t198 + omega_i[1] * t199 + omega_i[2] * t200 - (omega_j[0] * t198 +
+        omega_j[1] * t199 + omega_j[2] * t200);
     jac_phi_q_v_velocity[0] = -h_i_world_0;
     jac_phi_q_v_velocity[1] = -h_i_world_1;
     jac_phi_q_v_velocity[2] = -h_i_world_2;
@@ -525,32 +542,34 @@ static void jg_planar_conventional_world_phi_q_v_jacobian(const jg_real *JG_REST
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - g_i_world_2 * h_j_world_1;
     jac_phi_q_v_velocity[4] = g_i_cross_h_j_world_0;
-    const jg_real t185 = h_i_world_1 * s_j_world_2 - h_i_world_2 * s_j_world_1;
-    jac_phi_q_v_velocity[5] = h_i_world_1 * r_j[2] - h_i_world_2 * r_j[1] + t185 - (h_i_world_1 * r_i[2] -
-        h_i_world_2 * r_i[1]);
+    /* s_j_cross_h_i_world = s_j x h_i, world axes */
+    const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
+    jac_phi_q_v_velocity[17] = s_j_cross_h_i_world_0;
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    jac_phi_q_v_velocity[5] = -(s_j_cross_h_i_world_0 + r_ij_cross_h_i_world_0);
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - h_j_world_2 * f_i_world_0;
     jac_phi_q_v_velocity[6] = f_i_cross_h_j_world_1;
     const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
     jac_phi_q_v_velocity[7] = g_i_cross_h_j_world_1;
-    const jg_real t188 = h_i_world_2 * s_j_world_0 - h_i_world_0 * s_j_world_2;
-    jac_phi_q_v_velocity[8] = h_i_world_2 * r_j[0] - h_i_world_0 * r_j[2] + t188 - (h_i_world_2 * r_i[0] -
-        h_i_world_0 * r_i[2]);
+    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
+    jac_phi_q_v_velocity[20] = s_j_cross_h_i_world_1;
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    jac_phi_q_v_velocity[8] = -(s_j_cross_h_i_world_1 + r_ij_cross_h_i_world_1);
     const jg_real f_i_cross_h_j_world_2 = h_j_world_1 * f_i_world_0 - f_i_world_1 * h_j_world_0;
     jac_phi_q_v_velocity[9] = f_i_cross_h_j_world_2;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
     jac_phi_q_v_velocity[10] = g_i_cross_h_j_world_2;
-    const jg_real t191 = h_i_world_0 * s_j_world_1 - h_i_world_1 * s_j_world_0;
-    jac_phi_q_v_velocity[11] = h_i_world_0 * r_j[1] - h_i_world_1 * r_j[0] + t191 - (h_i_world_0 * r_i[1] -
-        h_i_world_1 * r_i[0]);
+    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
+    jac_phi_q_v_velocity[23] = s_j_cross_h_i_world_2;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
+    jac_phi_q_v_velocity[11] = -(s_j_cross_h_i_world_2 + r_ij_cross_h_i_world_2);
     jac_phi_q_v_velocity[15] = -f_i_cross_h_j_world_0;
     jac_phi_q_v_velocity[16] = -g_i_cross_h_j_world_0;
-    jac_phi_q_v_velocity[17] = -t185;
     jac_phi_q_v_velocity[18] = -f_i_cross_h_j_world_1;
     jac_phi_q_v_velocity[19] = -g_i_cross_h_j_world_1;
-    jac_phi_q_v_velocity[20] = -t188;
     jac_phi_q_v_velocity[21] = -f_i_cross_h_j_world_2;
     jac_phi_q_v_velocity[22] = -g_i_cross_h_j_world_2;
-    jac_phi_q_v_velocity[23] = -t191;
 }
 
 static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -607,9 +626,9 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real v_3_world_2 = lambda[2] * s_j_world_2;
     const jg_real t15 = v_1_in_i_0 * h_j_world_2 + C_i[6] * v_3_world_2;
     jac_phi_q_t_lambda_A_i[4] = t15;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    const jg_real t17 = t15 + t9 * v_6_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real t17 = t15 + C_i[6] * r_ij_world_2 * lambda[2];
     jac_phi_q_t_lambda_A_i[7] = t17;
     jac_phi_q_t_lambda_A_i[1] = -t17;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
@@ -617,8 +636,8 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real v_3_world_1 = lambda[2] * s_j_world_1;
     const jg_real t21 = v_1_in_i_0 * h_j_world_1 + C_i[6] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[16] = t21;
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real t23 = t21 + t9 * v_6_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t23 = t21 + C_i[6] * r_ij_world_1 * lambda[2];
     jac_phi_q_t_lambda_A_i[2] = t23;
     jac_phi_q_t_lambda_A_i[5] = -t21;
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
@@ -626,8 +645,8 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real v_3_world_0 = lambda[2] * s_j_world_0;
     const jg_real t27 = v_1_in_i_0 * h_j_world_0 + C_i[6] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[11] = t27;
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t29 = t27 + t9 * v_6_world_0;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t29 = t27 + C_i[6] * r_ij_world_0 * lambda[2];
     jac_phi_q_t_lambda_A_i[14] = t29;
     jac_phi_q_t_lambda_A_i[8] = -t29;
     jac_phi_q_t_lambda_A_i[10] = -t15;
@@ -644,17 +663,17 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
     const jg_real t33 = v_1_in_i_1 * h_j_world_2 + C_i[7] * v_3_world_2;
     jac_phi_q_t_lambda_A_i[22] = t33;
-    const jg_real t34 = t33 + t30 * v_6_world_2;
+    const jg_real t34 = t33 + C_i[7] * r_ij_world_2 * lambda[2];
     jac_phi_q_t_lambda_A_i[25] = t34;
     jac_phi_q_t_lambda_A_i[19] = -t34;
     const jg_real t35 = v_1_in_i_1 * h_j_world_1 + C_i[7] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[34] = t35;
-    const jg_real t36 = t35 + t30 * v_6_world_1;
+    const jg_real t36 = t35 + C_i[7] * r_ij_world_1 * lambda[2];
     jac_phi_q_t_lambda_A_i[20] = t36;
     jac_phi_q_t_lambda_A_i[23] = -t35;
     const jg_real t37 = v_1_in_i_1 * h_j_world_0 + C_i[7] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[29] = t37;
-    const jg_real t38 = t37 + t30 * v_6_world_0;
+    const jg_real t38 = t37 + C_i[7] * r_ij_world_0 * lambda[2];
     jac_phi_q_t_lambda_A_i[32] = t38;
     jac_phi_q_t_lambda_A_i[26] = -t38;
     jac_phi_q_t_lambda_A_i[28] = -t33;
@@ -671,17 +690,17 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     const jg_real t42 = v_1_in_i_2 * h_j_world_2 + C_i[8] * v_3_world_2;
     jac_phi_q_t_lambda_A_i[40] = t42;
-    const jg_real t43 = t42 + t39 * v_6_world_2;
+    const jg_real t43 = t42 + C_i[8] * r_ij_world_2 * lambda[2];
     jac_phi_q_t_lambda_A_i[43] = t43;
     jac_phi_q_t_lambda_A_i[37] = -t43;
     const jg_real t44 = v_1_in_i_2 * h_j_world_1 + C_i[8] * v_3_world_1;
     jac_phi_q_t_lambda_A_i[52] = t44;
-    const jg_real t45 = t44 + t39 * v_6_world_1;
+    const jg_real t45 = t44 + C_i[8] * r_ij_world_1 * lambda[2];
     jac_phi_q_t_lambda_A_i[38] = t45;
     jac_phi_q_t_lambda_A_i[41] = -t44;
     const jg_real t46 = v_1_in_i_2 * h_j_world_0 + C_i[8] * v_3_world_0;
     jac_phi_q_t_lambda_A_i[47] = t46;
-    const jg_real t47 = t46 + t39 * v_6_world_0;
+    const jg_real t47 = t46 + C_i[8] * r_ij_world_0 * lambda[2];
     jac_phi_q_t_lambda_A_i[50] = t47;
     jac_phi_q_t_lambda_A_i[44] = -t47;
     jac_phi_q_t_lambda_A_i[46] = -t42;
@@ -831,13 +850,13 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     jac_phi_q_t_lambda_geometry[38] = -t110;
     const jg_real t111 = A_i[2] * v_3_world_1 - A_i[1] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[45] = t111;
-    jac_phi_q_t_lambda_geometry[39] = -(t110 * v_6_world_1 - t109 * v_6_world_2 + t111);
+    jac_phi_q_t_lambda_geometry[39] = -(t111 + lambda[2] * (A_i[2] * r_ij_world_1 - A_i[1] * r_ij_world_2));
     const jg_real t112 = A_i[0] * v_3_world_2 - A_i[2] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[46] = t112;
-    jac_phi_q_t_lambda_geometry[40] = -(t108 * v_6_world_2 - t110 * v_6_world_0 + t112);
+    jac_phi_q_t_lambda_geometry[40] = -(t112 + lambda[2] * (A_i[0] * r_ij_world_2 - A_i[2] * r_ij_world_0));
     const jg_real t113 = A_i[1] * v_3_world_0 - A_i[0] * v_3_world_1;
     jac_phi_q_t_lambda_geometry[47] = t113;
-    jac_phi_q_t_lambda_geometry[41] = -(t109 * v_6_world_0 - t108 * v_6_world_1 + t113);
+    jac_phi_q_t_lambda_geometry[41] = -(t113 + lambda[2] * (A_i[1] * r_ij_world_0 - A_i[0] * r_ij_world_1));
     const jg_real t114 = A_i[3] * lambda[2];
     jac_phi_q_t_lambda_geometry[54] = t114;
     jac_phi_q_t_lambda_geometry[48] = -t114;
@@ -849,13 +868,13 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     jac_phi_q_t_lambda_geometry[50] = -t116;
     const jg_real t117 = A_i[5] * v_3_world_1 - A_i[4] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[57] = t117;
-    jac_phi_q_t_lambda_geometry[51] = -(t116 * v_6_world_1 - t115 * v_6_world_2 + t117);
+    jac_phi_q_t_lambda_geometry[51] = -(t117 + lambda[2] * (A_i[5] * r_ij_world_1 - A_i[4] * r_ij_world_2));
     const jg_real t118 = A_i[3] * v_3_world_2 - A_i[5] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[58] = t118;
-    jac_phi_q_t_lambda_geometry[52] = -(t114 * v_6_world_2 - t116 * v_6_world_0 + t118);
+    jac_phi_q_t_lambda_geometry[52] = -(t118 + lambda[2] * (A_i[3] * r_ij_world_2 - A_i[5] * r_ij_world_0));
     const jg_real t119 = A_i[4] * v_3_world_0 - A_i[3] * v_3_world_1;
     jac_phi_q_t_lambda_geometry[59] = t119;
-    jac_phi_q_t_lambda_geometry[53] = -(t115 * v_6_world_0 - t114 * v_6_world_1 + t119);
+    jac_phi_q_t_lambda_geometry[53] = -(t119 + lambda[2] * (A_i[4] * r_ij_world_0 - A_i[3] * r_ij_world_1));
     const jg_real t120 = A_i[6] * lambda[2];
     jac_phi_q_t_lambda_geometry[66] = t120;
     jac_phi_q_t_lambda_geometry[60] = -t120;
@@ -867,13 +886,13 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     jac_phi_q_t_lambda_geometry[62] = -t122;
     const jg_real t123 = A_i[8] * v_3_world_1 - A_i[7] * v_3_world_2;
     jac_phi_q_t_lambda_geometry[69] = t123;
-    jac_phi_q_t_lambda_geometry[63] = -(t122 * v_6_world_1 - t121 * v_6_world_2 + t123);
+    jac_phi_q_t_lambda_geometry[63] = -(t123 + lambda[2] * (A_i[8] * r_ij_world_1 - A_i[7] * r_ij_world_2));
     const jg_real t124 = A_i[6] * v_3_world_2 - A_i[8] * v_3_world_0;
     jac_phi_q_t_lambda_geometry[70] = t124;
-    jac_phi_q_t_lambda_geometry[64] = -(t120 * v_6_world_2 - t122 * v_6_world_0 + t124);
+    jac_phi_q_t_lambda_geometry[64] = -(t124 + lambda[2] * (A_i[6] * r_ij_world_2 - A_i[8] * r_ij_world_0));
     const jg_real t125 = A_i[7] * v_3_world_0 - A_i[6] * v_3_world_1;
     jac_phi_q_t_lambda_geometry[71] = t125;
-    jac_phi_q_t_lambda_geometry[65] = -(t121 * v_6_world_0 - t120 * v_6_world_1 + t125);
+    jac_phi_q_t_lambda_geometry[65] = -(t125 + lambda[2] * (A_i[7] * r_ij_world_0 - A_i[6] * r_ij_world_1));
     const jg_real t126 = lambda[2] * A_j[1];
     const jg_real t127 = lambda[2] * A_j[2];
     const jg_real t128 = h_i_world_2 * t126 - h_i_world_1 * t127;
@@ -966,13 +985,17 @@ static void jg_planar_conventional_world_phi_q_t_lambda_jacobian(const jg_real *
     jac_phi_q_t_lambda_lambda[14] = -h_i_world_2;
     const jg_real t165 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
     jac_phi_q_t_lambda_lambda[21] = t165;
-    jac_phi_q_t_lambda_lambda[15] = -(h_i_world_2 * v_6_world_1 - h_i_world_1 * v_6_world_2 + t165);
-    const jg_real t166 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    jac_phi_q_t_lambda_lambda[22] = t166;
-    jac_phi_q_t_lambda_lambda[16] = -(h_i_world_0 * v_6_world_2 - h_i_world_2 * v_6_world_0 + t166);
-    const jg_real t167 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
-    jac_phi_q_t_lambda_lambda[23] = t167;
-    jac_phi_q_t_lambda_lambda[17] = -(h_i_world_1 * v_6_world_0 - h_i_world_0 * v_6_world_1 + t167);
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    jac_phi_q_t_lambda_lambda[15] = -(t165 + r_ij_cross_h_i_world_0);
+    const jg_real t167 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
+    jac_phi_q_t_lambda_lambda[22] = t167;
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    jac_phi_q_t_lambda_lambda[16] = -(t167 + r_ij_cross_h_i_world_1);
+    const jg_real t169 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
+    jac_phi_q_t_lambda_lambda[23] = t169;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
+    jac_phi_q_t_lambda_lambda[17] = -(t169 + r_ij_cross_h_i_world_2);
 }
 
 JG_EXPORT int jg_planar_conventional_world_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

@@ -186,197 +186,428 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_A_i[0] = s_i_cross_omega_i_in_i_0;
     jac_phi_q_v_A_i[4] = s_i_cross_omega_i_in_i_0;
     jac_phi_q_v_A_i[8] = s_i_cross_omega_i_in_i_0;
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* omega_i_world = omega_i, world axes */
-    const jg_real omega_i_world_2 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
-    const jg_real t3 = omega_i[0] * f_i_world_2 - C_i[0] * omega_i_world_2;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real omega_i_world_1 = omega_i[0] * A_i[1] + omega_i[1] * A_i[4] + omega_i[2] * A_i[7];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real t7 = omega_i_world_1 * C_i[0] - omega_i[0] * f_i_world_1;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* omega_j_world = omega_j, world axes */
-    const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
-    const jg_real t10 = C_i[0] * omega_j_world_2;
-    const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
-    const jg_real t12 = C_i[0] * omega_j_world_1;
-    jac_phi_q_v_A_i[1] = -(t3 * h_j_world_1 + t7 * h_j_world_2 + (h_j_world_1 * t10 - h_j_world_2 * t12));
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    const jg_real t16 = h_j_world_2 * C_i[3];
-    const jg_real t17 = h_j_world_1 * C_i[3];
-    jac_phi_q_v_A_i[2] = omega_i[0] * g_i_cross_h_j_world_0 - omega_i_world_1 * t16 + omega_i_world_2 * t17 -
-        (omega_j_world_2 * t17 - omega_j_world_1 * t16);
-    /* g_j_world = g_j, world axes */
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    jac_phi_q_v_A_i[3] = -(t3 * g_j_world_1 + t7 * g_j_world_2 + (t10 * g_j_world_1 - t12 * g_j_world_2));
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + omega_i[1] * A_i[3] + omega_i[2] * A_i[6];
-    const jg_real t23 = omega_i[0] * f_i_world_0 - C_i[0] * omega_i_world_0;
-    const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
-    const jg_real t25 = C_i[0] * omega_j_world_0;
-    jac_phi_q_v_A_i[5] = t3 * h_j_world_0 - t23 * h_j_world_2 - (h_j_world_2 * t25 - h_j_world_0 * t10);
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    const jg_real t28 = h_j_world_0 * C_i[3];
-    jac_phi_q_v_A_i[6] = omega_i_world_0 * t16 + omega_i[0] * g_i_cross_h_j_world_1 - omega_i_world_2 * t28 -
-        (omega_j_world_0 * t16 - omega_j_world_2 * t28);
-    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    jac_phi_q_v_A_i[7] = t3 * g_j_world_0 - t23 * g_j_world_2 - (t25 * g_j_world_2 - t10 * g_j_world_0);
-    jac_phi_q_v_A_i[9] = t7 * h_j_world_0 + t23 * h_j_world_1 - (h_j_world_0 * t12 - h_j_world_1 * t25);
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
-    jac_phi_q_v_A_i[10] = omega_i_world_1 * t28 - omega_i_world_0 * t17 + omega_i[0] * g_i_cross_h_j_world_2 -
-        (omega_j_world_1 * t28 - omega_j_world_0 * t17);
-    jac_phi_q_v_A_i[11] = t7 * g_j_world_0 + t23 * g_j_world_1 - (t12 * g_j_world_0 - t25 * g_j_world_1);
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
+    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    const jg_real t11 = omega_i[0] * A_j[0];
+    const jg_real t12 = A_j[6] * A_ij_2 - A_j[0] * A_ij_8;
+    const jg_real t13 = A_j[0] * A_ij_7 - A_j[6] * A_ij_1;
+    const jg_real t14 = t12 * C_i[1] + t13 * C_i[2];
+    /* omega_i_in_j = omega_i, axes of body j */
+    const jg_real omega_i_in_j_0 = omega_i[0] * A_ij_0 + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
+    const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
+    const jg_real t17 = A_j[0] * C_i[0];
+    const jg_real t18 = omega_i[1] * t12 + omega_i[2] * t13;
+    const jg_real f_i_in_j_0 = C_i[0] * A_ij_0 + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    const jg_real t20 = f_i_in_j_1 * t11 - t14 * omega_i_in_j_0 - (omega_i_in_j_1 * t17 - t18 * f_i_in_j_0);
+    const jg_real t21 = A_j[6] * C_i[0];
+    const jg_real f_i_in_j_2 = C_i[0] * A_ij_6 + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
+    const jg_real t23 = omega_i[0] * A_j[6];
+    const jg_real omega_i_in_j_2 = omega_i[0] * A_ij_6 + omega_i[1] * A_ij_7 + omega_i[2] * A_ij_8;
+    const jg_real t25 = omega_i_in_j_1 * t21 - t18 * f_i_in_j_2 - (f_i_in_j_1 * t23 - t14 * omega_i_in_j_2);
+    const jg_real t26 = f_i_in_j_0 * t23 + t17 * omega_i_in_j_2 - (t11 * f_i_in_j_2 + omega_i_in_j_0 * t21);
+    const jg_real t27 = omega_j[2] * t14 + omega_j[1] * t21;
+    const jg_real t28 = omega_j[2] * t17 - omega_j[0] * t21;
+    const jg_real t29 = omega_j[0] * t14 + omega_j[1] * t17;
+    jac_phi_q_v_A_i[1] = t25 * C_j[6] + t26 * C_j[7] + t20 * C_j[8] - (C_j[6] * t27 + C_j[7] * t28 - C_j[8] * t29);
+    const jg_real t30 = A_j[6] * C_i[3];
+    const jg_real t31 = A_j[0] * C_i[3];
+    const jg_real t32 = C_j[6] * t30 - C_j[8] * t31;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
+    const jg_real g_i_cross_h_j_in_j_1 = C_j[6] * g_i_in_j_2 - C_j[8] * g_i_in_j_0;
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
+    const jg_real t38 = t12 * C_i[4] + t13 * C_i[5];
+    const jg_real t39 = C_j[8] * t38 + C_j[7] * t30;
+    const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
+    const jg_real t41 = C_j[6] * t38 + C_j[7] * t31;
+    jac_phi_q_v_A_i[2] = t11 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t39 + (omega_i_in_j_1 * t32 - t18 *
+        g_i_cross_h_j_in_j_1) + (t23 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t41) - (omega_j[1] * t32 - omega_j[0]
+        * t39 + omega_j[2] * t41);
+    jac_phi_q_v_A_i[3] = t25 * C_j[3] + t26 * C_j[4] + t20 * C_j[5] - (t27 * C_j[3] + t28 * C_j[4] - t29 * C_j[5]);
+    const jg_real t42 = omega_i[0] * A_j[1];
+    const jg_real t43 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
+    const jg_real t44 = A_j[1] * A_ij_7 - A_j[7] * A_ij_1;
+    const jg_real t45 = t43 * C_i[1] + t44 * C_i[2];
+    const jg_real t46 = A_j[1] * C_i[0];
+    const jg_real t47 = omega_i[1] * t43 + omega_i[2] * t44;
+    const jg_real t48 = f_i_in_j_1 * t42 - t45 * omega_i_in_j_0 - (omega_i_in_j_1 * t46 - t47 * f_i_in_j_0);
+    const jg_real t49 = A_j[7] * C_i[0];
+    const jg_real t50 = omega_i[0] * A_j[7];
+    const jg_real t51 = omega_i_in_j_1 * t49 - t47 * f_i_in_j_2 - (f_i_in_j_1 * t50 - t45 * omega_i_in_j_2);
+    const jg_real t52 = f_i_in_j_0 * t50 + t46 * omega_i_in_j_2 - (t42 * f_i_in_j_2 + omega_i_in_j_0 * t49);
+    const jg_real t53 = omega_j[2] * t45 + omega_j[1] * t49;
+    const jg_real t54 = omega_j[2] * t46 - omega_j[0] * t49;
+    const jg_real t55 = omega_j[0] * t45 + omega_j[1] * t46;
+    jac_phi_q_v_A_i[5] = t51 * C_j[6] + t52 * C_j[7] + t48 * C_j[8] - (C_j[6] * t53 + C_j[7] * t54 - C_j[8] * t55);
+    const jg_real t56 = A_j[7] * C_i[3];
+    const jg_real t57 = A_j[1] * C_i[3];
+    const jg_real t58 = C_j[6] * t56 - C_j[8] * t57;
+    const jg_real t59 = t43 * C_i[4] + t44 * C_i[5];
+    const jg_real t60 = C_j[8] * t59 + C_j[7] * t56;
+    const jg_real t61 = C_j[6] * t59 + C_j[7] * t57;
+    jac_phi_q_v_A_i[6] = t42 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t60 + (omega_i_in_j_1 * t58 - t47 *
+        g_i_cross_h_j_in_j_1) + (t50 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t61) - (omega_j[1] * t58 - omega_j[0]
+        * t60 + omega_j[2] * t61);
+    jac_phi_q_v_A_i[7] = t51 * C_j[3] + t52 * C_j[4] + t48 * C_j[5] - (t53 * C_j[3] + t54 * C_j[4] - t55 * C_j[5]);
+    const jg_real t62 = omega_i[0] * A_j[2];
+    const jg_real t63 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
+    const jg_real t64 = A_j[2] * A_ij_7 - A_j[8] * A_ij_1;
+    const jg_real t65 = t63 * C_i[1] + t64 * C_i[2];
+    const jg_real t66 = A_j[2] * C_i[0];
+    const jg_real t67 = omega_i[1] * t63 + omega_i[2] * t64;
+    const jg_real t68 = f_i_in_j_1 * t62 - t65 * omega_i_in_j_0 - (omega_i_in_j_1 * t66 - t67 * f_i_in_j_0);
+    const jg_real t69 = A_j[8] * C_i[0];
+    const jg_real t70 = omega_i[0] * A_j[8];
+    const jg_real t71 = omega_i_in_j_1 * t69 - t67 * f_i_in_j_2 - (f_i_in_j_1 * t70 - t65 * omega_i_in_j_2);
+    const jg_real t72 = f_i_in_j_0 * t70 + t66 * omega_i_in_j_2 - (t62 * f_i_in_j_2 + omega_i_in_j_0 * t69);
+    const jg_real t73 = omega_j[2] * t65 + omega_j[1] * t69;
+    const jg_real t74 = omega_j[2] * t66 - omega_j[0] * t69;
+    const jg_real t75 = omega_j[0] * t65 + omega_j[1] * t66;
+    jac_phi_q_v_A_i[9] = t71 * C_j[6] + t72 * C_j[7] + t68 * C_j[8] - (C_j[6] * t73 + C_j[7] * t74 - C_j[8] * t75);
+    const jg_real t76 = A_j[8] * C_i[3];
+    const jg_real t77 = A_j[2] * C_i[3];
+    const jg_real t78 = C_j[6] * t76 - C_j[8] * t77;
+    const jg_real t79 = t63 * C_i[4] + t64 * C_i[5];
+    const jg_real t80 = C_j[8] * t79 + C_j[7] * t76;
+    const jg_real t81 = C_j[6] * t79 + C_j[7] * t77;
+    jac_phi_q_v_A_i[10] = t62 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t80 + (omega_i_in_j_1 * t78 - t67 *
+        g_i_cross_h_j_in_j_1) + (t70 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t81) - (omega_j[1] * t78 - omega_j[0]
+        * t80 + omega_j[2] * t81);
+    jac_phi_q_v_A_i[11] = t71 * C_j[3] + t72 * C_j[4] + t68 * C_j[5] - (t73 * C_j[3] + t74 * C_j[4] - t75 * C_j[5]);
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - omega_i[2] * s_i[0];
     jac_phi_q_v_A_i[12] = s_i_cross_omega_i_in_i_1;
     jac_phi_q_v_A_i[16] = s_i_cross_omega_i_in_i_1;
     jac_phi_q_v_A_i[20] = s_i_cross_omega_i_in_i_1;
-    const jg_real t32 = omega_i[1] * f_i_world_2 - C_i[1] * omega_i_world_2;
-    const jg_real t33 = omega_i_world_1 * C_i[1] - omega_i[1] * f_i_world_1;
-    const jg_real t34 = C_i[1] * omega_j_world_2;
-    const jg_real t35 = C_i[1] * omega_j_world_1;
-    jac_phi_q_v_A_i[13] = -(t32 * h_j_world_1 + t33 * h_j_world_2 + (h_j_world_1 * t34 - h_j_world_2 * t35));
-    const jg_real t36 = h_j_world_2 * C_i[4];
-    const jg_real t37 = h_j_world_1 * C_i[4];
-    jac_phi_q_v_A_i[14] = omega_i[1] * g_i_cross_h_j_world_0 - omega_i_world_1 * t36 + omega_i_world_2 * t37 -
-        (omega_j_world_2 * t37 - omega_j_world_1 * t36);
-    jac_phi_q_v_A_i[15] = -(t32 * g_j_world_1 + t33 * g_j_world_2 + (t34 * g_j_world_1 - t35 * g_j_world_2));
-    const jg_real t38 = omega_i[1] * f_i_world_0 - C_i[1] * omega_i_world_0;
-    const jg_real t39 = C_i[1] * omega_j_world_0;
-    jac_phi_q_v_A_i[17] = t32 * h_j_world_0 - t38 * h_j_world_2 - (h_j_world_2 * t39 - h_j_world_0 * t34);
-    const jg_real t40 = h_j_world_0 * C_i[4];
-    jac_phi_q_v_A_i[18] = omega_i_world_0 * t36 + omega_i[1] * g_i_cross_h_j_world_1 - omega_i_world_2 * t40 -
-        (omega_j_world_0 * t36 - omega_j_world_2 * t40);
-    jac_phi_q_v_A_i[19] = t32 * g_j_world_0 - t38 * g_j_world_2 - (t39 * g_j_world_2 - t34 * g_j_world_0);
-    jac_phi_q_v_A_i[21] = t33 * h_j_world_0 + t38 * h_j_world_1 - (h_j_world_0 * t35 - h_j_world_1 * t39);
-    jac_phi_q_v_A_i[22] = omega_i_world_1 * t40 - omega_i_world_0 * t37 + omega_i[1] * g_i_cross_h_j_world_2 -
-        (omega_j_world_1 * t40 - omega_j_world_0 * t37);
-    jac_phi_q_v_A_i[23] = t33 * g_j_world_0 + t38 * g_j_world_1 - (t35 * g_j_world_0 - t39 * g_j_world_1);
+    const jg_real t83 = omega_i[1] * A_j[0];
+    const jg_real t84 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
+    const jg_real t85 = t12 * C_i[0] - t84 * C_i[2];
+    const jg_real t86 = A_j[0] * C_i[1];
+    const jg_real t87 = omega_i[0] * t12 - omega_i[2] * t84;
+    const jg_real t88 = f_i_in_j_1 * t83 + t85 * omega_i_in_j_0 - (t87 * f_i_in_j_0 + omega_i_in_j_1 * t86);
+    const jg_real t89 = A_j[6] * C_i[1];
+    const jg_real t90 = omega_i[1] * A_j[6];
+    const jg_real t91 = t87 * f_i_in_j_2 + omega_i_in_j_1 * t89 - (f_i_in_j_1 * t90 + t85 * omega_i_in_j_2);
+    const jg_real t92 = f_i_in_j_0 * t90 + t86 * omega_i_in_j_2 - (t83 * f_i_in_j_2 + omega_i_in_j_0 * t89);
+    const jg_real t93 = omega_j[0] * t85 - omega_j[1] * t86;
+    const jg_real t94 = omega_j[1] * t89 - omega_j[2] * t85;
+    const jg_real t95 = omega_j[2] * t86 - omega_j[0] * t89;
+    jac_phi_q_v_A_i[13] = t91 * C_j[6] + t92 * C_j[7] + t88 * C_j[8] - (C_j[6] * t94 + C_j[7] * t95 + C_j[8] * t93);
+    const jg_real t96 = A_j[6] * C_i[4];
+    const jg_real t97 = A_j[0] * C_i[4];
+    const jg_real t98 = C_j[6] * t96 - C_j[8] * t97;
+    const jg_real t99 = t12 * C_i[3] - t84 * C_i[5];
+    const jg_real t100 = C_j[8] * t99 - C_j[7] * t96;
+    const jg_real t101 = C_j[7] * t97 - C_j[6] * t99;
+    jac_phi_q_v_A_i[14] = t83 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t100 + (t87 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t98) + (t90 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t101) - (omega_j[0] * t100 +
+        omega_j[1] * t98 + omega_j[2] * t101);
+    jac_phi_q_v_A_i[15] = t91 * C_j[3] + t92 * C_j[4] + t88 * C_j[5] - (t94 * C_j[3] + t95 * C_j[4] + t93 * C_j[5]);
+    const jg_real t102 = omega_i[1] * A_j[1];
+    const jg_real t103 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
+    const jg_real t104 = t43 * C_i[0] - t103 * C_i[2];
+    const jg_real t105 = A_j[1] * C_i[1];
+    const jg_real t106 = omega_i[0] * t43 - omega_i[2] * t103;
+    const jg_real t107 = f_i_in_j_1 * t102 + t104 * omega_i_in_j_0 - (t106 * f_i_in_j_0 + omega_i_in_j_1 * t105);
+    const jg_real t108 = A_j[7] * C_i[1];
+    const jg_real t109 = omega_i[1] * A_j[7];
+    const jg_real t110 = t106 * f_i_in_j_2 + omega_i_in_j_1 * t108 - (f_i_in_j_1 * t109 + t104 * omega_i_in_j_2);
+    const jg_real t111 = f_i_in_j_0 * t109 + t105 * omega_i_in_j_2 - (t102 * f_i_in_j_2 + omega_i_in_j_0 * t108);
+    const jg_real t112 = omega_j[0] * t104 - omega_j[1] * t105;
+    const jg_real t113 = omega_j[1] * t108 - omega_j[2] * t104;
+    const jg_real t114 = omega_j[2] * t105 - omega_j[0] * t108;
+    jac_phi_q_v_A_i[17] = t110 * C_j[6] + t111 * C_j[7] + t107 * C_j[8] - (C_j[6] * t113 + C_j[7] * t114 + C_j[8] *
+        t112);
+    const jg_real t115 = A_j[7] * C_i[4];
+    const jg_real t116 = A_j[1] * C_i[4];
+    const jg_real t117 = C_j[6] * t115 - C_j[8] * t116;
+    const jg_real t118 = t43 * C_i[3] - t103 * C_i[5];
+    const jg_real t119 = C_j[8] * t118 - C_j[7] * t115;
+    const jg_real t120 = C_j[7] * t116 - C_j[6] * t118;
+    jac_phi_q_v_A_i[18] = t102 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t119 + (t106 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t117) + (t109 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t120) - (omega_j[0] * t119 +
+        omega_j[1] * t117 + omega_j[2] * t120);
+    jac_phi_q_v_A_i[19] = t110 * C_j[3] + t111 * C_j[4] + t107 * C_j[5] - (t113 * C_j[3] + t114 * C_j[4] + t112 *
+        C_j[5]);
+    const jg_real t121 = omega_i[1] * A_j[2];
+    const jg_real t122 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
+    const jg_real t123 = t63 * C_i[0] - t122 * C_i[2];
+    const jg_real t124 = A_j[2] * C_i[1];
+    const jg_real t125 = omega_i[0] * t63 - omega_i[2] * t122;
+    const jg_real t126 = f_i_in_j_1 * t121 + t123 * omega_i_in_j_0 - (t125 * f_i_in_j_0 + omega_i_in_j_1 * t124);
+    const jg_real t127 = A_j[8] * C_i[1];
+    const jg_real t128 = omega_i[1] * A_j[8];
+    const jg_real t129 = t125 * f_i_in_j_2 + omega_i_in_j_1 * t127 - (f_i_in_j_1 * t128 + t123 * omega_i_in_j_2);
+    const jg_real t130 = f_i_in_j_0 * t128 + t124 * omega_i_in_j_2 - (t121 * f_i_in_j_2 + omega_i_in_j_0 * t127);
+    const jg_real t131 = omega_j[0] * t123 - omega_j[1] * t124;
+    const jg_real t132 = omega_j[1] * t127 - omega_j[2] * t123;
+    const jg_real t133 = omega_j[2] * t124 - omega_j[0] * t127;
+    jac_phi_q_v_A_i[21] = t129 * C_j[6] + t130 * C_j[7] + t126 * C_j[8] - (C_j[6] * t132 + C_j[7] * t133 + C_j[8] *
+        t131);
+    const jg_real t134 = A_j[8] * C_i[4];
+    const jg_real t135 = A_j[2] * C_i[4];
+    const jg_real t136 = C_j[6] * t134 - C_j[8] * t135;
+    const jg_real t137 = t63 * C_i[3] - t122 * C_i[5];
+    const jg_real t138 = C_j[8] * t137 - C_j[7] * t134;
+    const jg_real t139 = C_j[7] * t135 - C_j[6] * t137;
+    jac_phi_q_v_A_i[22] = t121 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t138 + (t125 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t136) + (t128 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t139) - (omega_j[0] * t138 +
+        omega_j[1] * t136 + omega_j[2] * t139);
+    jac_phi_q_v_A_i[23] = t129 * C_j[3] + t130 * C_j[4] + t126 * C_j[5] - (t132 * C_j[3] + t133 * C_j[4] + t131 *
+        C_j[5]);
     const jg_real s_i_cross_omega_i_in_i_2 = omega_i[1] * s_i[0] - s_i[1] * omega_i[0];
     jac_phi_q_v_A_i[24] = s_i_cross_omega_i_in_i_2;
     jac_phi_q_v_A_i[28] = s_i_cross_omega_i_in_i_2;
     jac_phi_q_v_A_i[32] = s_i_cross_omega_i_in_i_2;
-    const jg_real t42 = omega_i[2] * f_i_world_2 - C_i[2] * omega_i_world_2;
-    const jg_real t43 = omega_i_world_1 * C_i[2] - omega_i[2] * f_i_world_1;
-    const jg_real t44 = C_i[2] * omega_j_world_2;
-    const jg_real t45 = C_i[2] * omega_j_world_1;
-    jac_phi_q_v_A_i[25] = -(t42 * h_j_world_1 + t43 * h_j_world_2 + (h_j_world_1 * t44 - h_j_world_2 * t45));
-    const jg_real t46 = h_j_world_2 * C_i[5];
-    const jg_real t47 = h_j_world_1 * C_i[5];
-    jac_phi_q_v_A_i[26] = omega_i[2] * g_i_cross_h_j_world_0 - omega_i_world_1 * t46 + omega_i_world_2 * t47 -
-        (omega_j_world_2 * t47 - omega_j_world_1 * t46);
-    jac_phi_q_v_A_i[27] = -(t42 * g_j_world_1 + t43 * g_j_world_2 + (t44 * g_j_world_1 - t45 * g_j_world_2));
-    const jg_real t48 = omega_i[2] * f_i_world_0 - C_i[2] * omega_i_world_0;
-    const jg_real t49 = C_i[2] * omega_j_world_0;
-    jac_phi_q_v_A_i[29] = t42 * h_j_world_0 - t48 * h_j_world_2 - (h_j_world_2 * t49 - h_j_world_0 * t44);
-    const jg_real t50 = h_j_world_0 * C_i[5];
-    jac_phi_q_v_A_i[30] = omega_i_world_0 * t46 + omega_i[2] * g_i_cross_h_j_world_1 - omega_i_world_2 * t50 -
-        (omega_j_world_0 * t46 - omega_j_world_2 * t50);
-    jac_phi_q_v_A_i[31] = t42 * g_j_world_0 - t48 * g_j_world_2 - (t49 * g_j_world_2 - t44 * g_j_world_0);
-    jac_phi_q_v_A_i[33] = t43 * h_j_world_0 + t48 * h_j_world_1 - (h_j_world_0 * t45 - h_j_world_1 * t49);
-    jac_phi_q_v_A_i[34] = omega_i_world_1 * t50 - omega_i_world_0 * t47 + omega_i[2] * g_i_cross_h_j_world_2 -
-        (omega_j_world_1 * t50 - omega_j_world_0 * t47);
-    jac_phi_q_v_A_i[35] = t43 * g_j_world_0 + t48 * g_j_world_1 - (t45 * g_j_world_0 - t49 * g_j_world_1);
-    const jg_real t51 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
-    jac_phi_q_v_A_j[0] = t51;
-    jac_phi_q_v_A_j[4] = t51;
-    jac_phi_q_v_A_j[8] = t51;
-    /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
-    const jg_real omega_i_cross_f_i_world_0 = omega_i_world_1 * f_i_world_2 - omega_i_world_2 * f_i_world_1;
-    /* omega_j_cross_f_i_world = omega_j x f_i, world axes */
-    const jg_real omega_j_cross_f_i_world_0 = f_i_world_2 * omega_j_world_1 - f_i_world_1 * omega_j_world_2;
-    const jg_real t54 = omega_j[0] * f_i_world_2;
-    const jg_real t55 = omega_j[0] * f_i_world_1;
-    jac_phi_q_v_A_j[1] = omega_i_cross_f_i_world_0 * C_j[6] - (C_j[6] * omega_j_cross_f_i_world_0 - h_j_world_1 *
-        t54 + h_j_world_2 * t55);
-    const jg_real t56 = C_j[6] * g_i_world_2;
-    const jg_real t57 = C_j[6] * g_i_world_1;
-    jac_phi_q_v_A_j[2] = omega_i_world_1 * t56 - omega_i_world_2 * t57 - (omega_j[0] * g_i_cross_h_j_world_0 +
-        omega_j_world_1 * t56 - omega_j_world_2 * t57);
-    jac_phi_q_v_A_j[3] = omega_i_cross_f_i_world_0 * C_j[3] - (omega_j_cross_f_i_world_0 * C_j[3] - t54 *
-        g_j_world_1 + t55 * g_j_world_2);
-    const jg_real omega_i_cross_f_i_world_1 = omega_i_world_2 * f_i_world_0 - f_i_world_2 * omega_i_world_0;
-    const jg_real omega_j_cross_f_i_world_1 = f_i_world_0 * omega_j_world_2 - f_i_world_2 * omega_j_world_0;
-    const jg_real t60 = omega_j[0] * f_i_world_0;
-    jac_phi_q_v_A_j[5] = C_j[6] * omega_i_cross_f_i_world_1 - (h_j_world_0 * t54 + C_j[6] *
-        omega_j_cross_f_i_world_1 - h_j_world_2 * t60);
-    const jg_real t61 = C_j[6] * g_i_world_0;
-    jac_phi_q_v_A_j[6] = omega_i_world_2 * t61 - omega_i_world_0 * t56 - (omega_j[0] * g_i_cross_h_j_world_1 -
-        omega_j_world_0 * t56 + omega_j_world_2 * t61);
-    jac_phi_q_v_A_j[7] = omega_i_cross_f_i_world_1 * C_j[3] - (t54 * g_j_world_0 + omega_j_cross_f_i_world_1 *
-        C_j[3] - t60 * g_j_world_2);
-    const jg_real omega_j_cross_f_i_world_2 = f_i_world_1 * omega_j_world_0 - f_i_world_0 * omega_j_world_1;
-    const jg_real omega_i_cross_f_i_world_2 = f_i_world_1 * omega_i_world_0 - omega_i_world_1 * f_i_world_0;
-    jac_phi_q_v_A_j[9] = C_j[6] * omega_i_cross_f_i_world_2 - (h_j_world_1 * t60 - h_j_world_0 * t55 + C_j[6] *
-        omega_j_cross_f_i_world_2);
-    jac_phi_q_v_A_j[10] = omega_i_world_0 * t57 - omega_i_world_1 * t61 - (omega_j_world_0 * t57 - omega_j_world_1 *
-        t61 + omega_j[0] * g_i_cross_h_j_world_2);
-    jac_phi_q_v_A_j[11] = omega_i_cross_f_i_world_2 * C_j[3] - (t60 * g_j_world_1 - t55 * g_j_world_0 +
-        omega_j_cross_f_i_world_2 * C_j[3]);
-    const jg_real t64 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
-    jac_phi_q_v_A_j[12] = t64;
-    jac_phi_q_v_A_j[16] = t64;
-    jac_phi_q_v_A_j[20] = t64;
-    const jg_real t65 = omega_j[1] * f_i_world_2;
-    const jg_real t66 = omega_j[1] * f_i_world_1;
-    jac_phi_q_v_A_j[13] = omega_i_cross_f_i_world_0 * C_j[7] - (C_j[7] * omega_j_cross_f_i_world_0 - h_j_world_1 *
-        t65 + h_j_world_2 * t66);
-    const jg_real t67 = C_j[7] * g_i_world_2;
-    const jg_real t68 = C_j[7] * g_i_world_1;
-    jac_phi_q_v_A_j[14] = omega_i_world_1 * t67 - omega_i_world_2 * t68 - (omega_j[1] * g_i_cross_h_j_world_0 +
-        omega_j_world_1 * t67 - omega_j_world_2 * t68);
-    jac_phi_q_v_A_j[15] = omega_i_cross_f_i_world_0 * C_j[4] - (omega_j_cross_f_i_world_0 * C_j[4] - t65 *
-        g_j_world_1 + t66 * g_j_world_2);
-    const jg_real t69 = omega_j[1] * f_i_world_0;
-    jac_phi_q_v_A_j[17] = C_j[7] * omega_i_cross_f_i_world_1 - (h_j_world_0 * t65 + C_j[7] *
-        omega_j_cross_f_i_world_1 - h_j_world_2 * t69);
-    const jg_real t70 = C_j[7] * g_i_world_0;
-    jac_phi_q_v_A_j[18] = omega_i_world_2 * t70 - omega_i_world_0 * t67 - (omega_j[1] * g_i_cross_h_j_world_1 -
-        omega_j_world_0 * t67 + omega_j_world_2 * t70);
-    jac_phi_q_v_A_j[19] = omega_i_cross_f_i_world_1 * C_j[4] - (t65 * g_j_world_0 + omega_j_cross_f_i_world_1 *
-        C_j[4] - t69 * g_j_world_2);
-    jac_phi_q_v_A_j[21] = C_j[7] * omega_i_cross_f_i_world_2 - (h_j_world_1 * t69 - h_j_world_0 * t66 + C_j[7] *
-        omega_j_cross_f_i_world_2);
-    jac_phi_q_v_A_j[22] = omega_i_world_0 * t68 - omega_i_world_1 * t70 - (omega_j_world_0 * t68 - omega_j_world_1 *
-        t70 + omega_j[1] * g_i_cross_h_j_world_2);
-    jac_phi_q_v_A_j[23] = omega_i_cross_f_i_world_2 * C_j[4] - (t69 * g_j_world_1 - t66 * g_j_world_0 +
-        omega_j_cross_f_i_world_2 * C_j[4]);
-    const jg_real t71 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
-    jac_phi_q_v_A_j[24] = t71;
-    jac_phi_q_v_A_j[28] = t71;
-    jac_phi_q_v_A_j[32] = t71;
-    const jg_real t72 = omega_j[2] * f_i_world_2;
-    const jg_real t73 = omega_j[2] * f_i_world_1;
-    jac_phi_q_v_A_j[25] = omega_i_cross_f_i_world_0 * C_j[8] - (C_j[8] * omega_j_cross_f_i_world_0 - h_j_world_1 *
-        t72 + h_j_world_2 * t73);
-    const jg_real t74 = C_j[8] * g_i_world_2;
-    const jg_real t75 = C_j[8] * g_i_world_1;
-    jac_phi_q_v_A_j[26] = omega_i_world_1 * t74 - omega_i_world_2 * t75 - (omega_j[2] * g_i_cross_h_j_world_0 +
-        omega_j_world_1 * t74 - omega_j_world_2 * t75);
-    jac_phi_q_v_A_j[27] = omega_i_cross_f_i_world_0 * C_j[5] - (omega_j_cross_f_i_world_0 * C_j[5] - t72 *
-        g_j_world_1 + t73 * g_j_world_2);
-    const jg_real t76 = omega_j[2] * f_i_world_0;
-    jac_phi_q_v_A_j[29] = C_j[8] * omega_i_cross_f_i_world_1 - (h_j_world_0 * t72 + C_j[8] *
-        omega_j_cross_f_i_world_1 - h_j_world_2 * t76);
-    const jg_real t77 = C_j[8] * g_i_world_0;
-    jac_phi_q_v_A_j[30] = omega_i_world_2 * t77 - omega_i_world_0 * t74 - (omega_j[2] * g_i_cross_h_j_world_1 -
-        omega_j_world_0 * t74 + omega_j_world_2 * t77);
-    jac_phi_q_v_A_j[31] = omega_i_cross_f_i_world_1 * C_j[5] - (t72 * g_j_world_0 + omega_j_cross_f_i_world_1 *
-        C_j[5] - t76 * g_j_world_2);
-    jac_phi_q_v_A_j[33] = C_j[8] * omega_i_cross_f_i_world_2 - (h_j_world_1 * t76 - h_j_world_0 * t73 + C_j[8] *
-        omega_j_cross_f_i_world_2);
-    jac_phi_q_v_A_j[34] = omega_i_world_0 * t75 - omega_i_world_1 * t77 - (omega_j_world_0 * t75 - omega_j_world_1 *
-        t77 + omega_j[2] * g_i_cross_h_j_world_2);
-    jac_phi_q_v_A_j[35] = omega_i_cross_f_i_world_2 * C_j[5] - (t76 * g_j_world_1 - t73 * g_j_world_0 +
-        omega_j_cross_f_i_world_2 * C_j[5]);
+    const jg_real t141 = omega_i[2] * A_j[0];
+    const jg_real t142 = t13 * C_i[0] + t84 * C_i[1];
+    const jg_real t143 = A_j[0] * C_i[2];
+    const jg_real t144 = omega_i[0] * t13 + omega_i[1] * t84;
+    const jg_real t145 = f_i_in_j_1 * t141 + t142 * omega_i_in_j_0 - (t144 * f_i_in_j_0 + omega_i_in_j_1 * t143);
+    const jg_real t146 = A_j[6] * C_i[2];
+    const jg_real t147 = omega_i[2] * A_j[6];
+    const jg_real t148 = t144 * f_i_in_j_2 + omega_i_in_j_1 * t146 - (f_i_in_j_1 * t147 + t142 * omega_i_in_j_2);
+    const jg_real t149 = f_i_in_j_0 * t147 + t143 * omega_i_in_j_2 - (t141 * f_i_in_j_2 + omega_i_in_j_0 * t146);
+    const jg_real t150 = omega_j[0] * t142 - omega_j[1] * t143;
+    const jg_real t151 = omega_j[1] * t146 - omega_j[2] * t142;
+    const jg_real t152 = omega_j[2] * t143 - omega_j[0] * t146;
+    jac_phi_q_v_A_i[25] = t148 * C_j[6] + t149 * C_j[7] + t145 * C_j[8] - (C_j[6] * t151 + C_j[7] * t152 + C_j[8] *
+        t150);
+    const jg_real t153 = A_j[6] * C_i[5];
+    const jg_real t154 = A_j[0] * C_i[5];
+    const jg_real t155 = C_j[6] * t153 - C_j[8] * t154;
+    const jg_real t156 = t13 * C_i[3] + t84 * C_i[4];
+    const jg_real t157 = C_j[8] * t156 - C_j[7] * t153;
+    const jg_real t158 = C_j[7] * t154 - C_j[6] * t156;
+    jac_phi_q_v_A_i[26] = t141 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t157 + (t144 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t155) + (t147 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158) - (omega_j[0] * t157 +
+        omega_j[1] * t155 + omega_j[2] * t158);
+    jac_phi_q_v_A_i[27] = t148 * C_j[3] + t149 * C_j[4] + t145 * C_j[5] - (t151 * C_j[3] + t152 * C_j[4] + t150 *
+        C_j[5]);
+    const jg_real t159 = omega_i[2] * A_j[1];
+    const jg_real t160 = t44 * C_i[0] + t103 * C_i[1];
+    const jg_real t161 = A_j[1] * C_i[2];
+    const jg_real t162 = omega_i[0] * t44 + omega_i[1] * t103;
+    const jg_real t163 = f_i_in_j_1 * t159 + t160 * omega_i_in_j_0 - (t162 * f_i_in_j_0 + omega_i_in_j_1 * t161);
+    const jg_real t164 = A_j[7] * C_i[2];
+    const jg_real t165 = omega_i[2] * A_j[7];
+    const jg_real t166 = t162 * f_i_in_j_2 + omega_i_in_j_1 * t164 - (f_i_in_j_1 * t165 + t160 * omega_i_in_j_2);
+    const jg_real t167 = f_i_in_j_0 * t165 + t161 * omega_i_in_j_2 - (t159 * f_i_in_j_2 + omega_i_in_j_0 * t164);
+    const jg_real t168 = omega_j[0] * t160 - omega_j[1] * t161;
+    const jg_real t169 = omega_j[1] * t164 - omega_j[2] * t160;
+    const jg_real t170 = omega_j[2] * t161 - omega_j[0] * t164;
+    jac_phi_q_v_A_i[29] = t166 * C_j[6] + t167 * C_j[7] + t163 * C_j[8] - (C_j[6] * t169 + C_j[7] * t170 + C_j[8] *
+        t168);
+    const jg_real t171 = A_j[7] * C_i[5];
+    const jg_real t172 = A_j[1] * C_i[5];
+    const jg_real t173 = C_j[6] * t171 - C_j[8] * t172;
+    const jg_real t174 = t44 * C_i[3] + t103 * C_i[4];
+    const jg_real t175 = C_j[8] * t174 - C_j[7] * t171;
+    const jg_real t176 = C_j[7] * t172 - C_j[6] * t174;
+    jac_phi_q_v_A_i[30] = t159 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t175 + (t162 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t173) + (t165 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t176) - (omega_j[0] * t175 +
+        omega_j[1] * t173 + omega_j[2] * t176);
+    jac_phi_q_v_A_i[31] = t166 * C_j[3] + t167 * C_j[4] + t163 * C_j[5] - (t169 * C_j[3] + t170 * C_j[4] + t168 *
+        C_j[5]);
+    const jg_real t177 = omega_i[2] * A_j[2];
+    const jg_real t178 = t64 * C_i[0] + t122 * C_i[1];
+    const jg_real t179 = A_j[2] * C_i[2];
+    const jg_real t180 = omega_i[0] * t64 + omega_i[1] * t122;
+    const jg_real t181 = f_i_in_j_1 * t177 + t178 * omega_i_in_j_0 - (t180 * f_i_in_j_0 + omega_i_in_j_1 * t179);
+    const jg_real t182 = A_j[8] * C_i[2];
+    const jg_real t183 = omega_i[2] * A_j[8];
+    const jg_real t184 = t180 * f_i_in_j_2 + omega_i_in_j_1 * t182 - (f_i_in_j_1 * t183 + t178 * omega_i_in_j_2);
+    const jg_real t185 = f_i_in_j_0 * t183 + t179 * omega_i_in_j_2 - (t177 * f_i_in_j_2 + omega_i_in_j_0 * t182);
+    const jg_real t186 = omega_j[0] * t178 - omega_j[1] * t179;
+    const jg_real t187 = omega_j[1] * t182 - omega_j[2] * t178;
+    const jg_real t188 = omega_j[2] * t179 - omega_j[0] * t182;
+    jac_phi_q_v_A_i[33] = t184 * C_j[6] + t185 * C_j[7] + t181 * C_j[8] - (C_j[6] * t187 + C_j[7] * t188 + C_j[8] *
+        t186);
+    const jg_real t189 = A_j[8] * C_i[5];
+    const jg_real t190 = A_j[2] * C_i[5];
+    const jg_real t191 = C_j[6] * t189 - C_j[8] * t190;
+    const jg_real t192 = t64 * C_i[3] + t122 * C_i[4];
+    const jg_real t193 = C_j[8] * t192 - C_j[7] * t189;
+    const jg_real t194 = C_j[7] * t190 - C_j[6] * t192;
+    jac_phi_q_v_A_i[34] = t177 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t193 + (t180 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t191) + (t183 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t194) - (omega_j[0] * t193 +
+        omega_j[1] * t191 + omega_j[2] * t194);
+    jac_phi_q_v_A_i[35] = t184 * C_j[3] + t185 * C_j[4] + t181 * C_j[5] - (t187 * C_j[3] + t188 * C_j[4] + t186 *
+        C_j[5]);
+    const jg_real t195 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    jac_phi_q_v_A_j[0] = t195;
+    jac_phi_q_v_A_j[4] = t195;
+    jac_phi_q_v_A_j[8] = t195;
+    const jg_real t196 = A_i[0] * omega_i[0] + omega_i[1] * A_i[3] + omega_i[2] * A_i[6];
+    const jg_real t197 = f_i_in_j_1 * t196;
+    const jg_real t198 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
+    const jg_real t199 = A_i[0] * A_ij_8 - A_i[6] * A_ij_6;
+    const jg_real t200 = A_i[3] * A_ij_6 - A_i[0] * A_ij_7;
+    const jg_real t201 = t198 * C_i[0] + t199 * C_i[1] + t200 * C_i[2];
+    const jg_real t202 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real t203 = omega_i_in_j_1 * t202;
+    const jg_real t204 = omega_i[0] * t198 + omega_i[1] * t199 + omega_i[2] * t200;
+    const jg_real t205 = t197 + t201 * omega_i_in_j_0 - (t204 * f_i_in_j_0 + t203);
+    const jg_real t206 = t204 * f_i_in_j_2 - t201 * omega_i_in_j_2;
+    const jg_real t207 = t202 * omega_i_in_j_2 - t196 * f_i_in_j_2;
+    const jg_real t208 = omega_j[1] * t202;
+    const jg_real t209 = omega_j[0] * t201 - t208;
+    const jg_real t210 = omega_j[2] * t201;
+    const jg_real t211 = omega_j[2] * t202;
+    jac_phi_q_v_A_j[1] = t206 * C_j[6] + t207 * C_j[7] + t205 * C_j[8] - (C_j[7] * t211 - C_j[6] * t210 + C_j[8] *
+        t209);
+    const jg_real t212 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t213 = C_j[8] * t212;
+    const jg_real t214 = t198 * C_i[3] + t199 * C_i[4] + t200 * C_i[5];
+    const jg_real t215 = C_j[8] * t214;
+    const jg_real t216 = C_j[7] * t212;
+    const jg_real t217 = t216 - C_j[6] * t214;
+    jac_phi_q_v_A_j[2] = t196 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t215 + (t204 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t213) + omega_i_in_j_2 * t217 - (omega_j[0] * t215 - omega_j[1] * t213 + omega_j[2] *
+        t217);
+    jac_phi_q_v_A_j[3] = t206 * C_j[3] + t207 * C_j[4] + t205 * C_j[5] - (t211 * C_j[4] - t210 * C_j[3] + t209 *
+        C_j[5]);
+    const jg_real t218 = omega_i[0] * A_i[1] + omega_i[1] * A_i[4] + omega_i[2] * A_i[7];
+    const jg_real t219 = f_i_in_j_1 * t218;
+    const jg_real t220 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
+    const jg_real t221 = A_i[1] * A_ij_8 - A_i[7] * A_ij_6;
+    const jg_real t222 = A_i[4] * A_ij_6 - A_i[1] * A_ij_7;
+    const jg_real t223 = t220 * C_i[0] + t221 * C_i[1] + t222 * C_i[2];
+    const jg_real t224 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real t225 = omega_i_in_j_1 * t224;
+    const jg_real t226 = omega_i[0] * t220 + omega_i[1] * t221 + omega_i[2] * t222;
+    const jg_real t227 = t219 + t223 * omega_i_in_j_0 - (t226 * f_i_in_j_0 + t225);
+    const jg_real t228 = t226 * f_i_in_j_2 - t223 * omega_i_in_j_2;
+    const jg_real t229 = t224 * omega_i_in_j_2 - t218 * f_i_in_j_2;
+    const jg_real t230 = omega_j[1] * t224;
+    const jg_real t231 = omega_j[0] * t223 - t230;
+    const jg_real t232 = omega_j[2] * t223;
+    const jg_real t233 = omega_j[2] * t224;
+    jac_phi_q_v_A_j[5] = t228 * C_j[6] + t229 * C_j[7] + t227 * C_j[8] - (C_j[7] * t233 - C_j[6] * t232 + C_j[8] *
+        t231);
+    const jg_real t234 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t235 = C_j[8] * t234;
+    const jg_real t236 = t220 * C_i[3] + t221 * C_i[4] + t222 * C_i[5];
+    const jg_real t237 = C_j[8] * t236;
+    const jg_real t238 = C_j[7] * t234;
+    const jg_real t239 = t238 - C_j[6] * t236;
+    jac_phi_q_v_A_j[6] = t218 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t237 + (t226 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t235) + omega_i_in_j_2 * t239 - (omega_j[0] * t237 - omega_j[1] * t235 + omega_j[2] *
+        t239);
+    jac_phi_q_v_A_j[7] = t228 * C_j[3] + t229 * C_j[4] + t227 * C_j[5] - (t233 * C_j[4] - t232 * C_j[3] + t231 *
+        C_j[5]);
+    const jg_real t240 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
+    const jg_real t241 = f_i_in_j_1 * t240;
+    const jg_real t242 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
+    const jg_real t243 = A_i[2] * A_ij_8 - A_i[8] * A_ij_6;
+    const jg_real t244 = A_i[5] * A_ij_6 - A_i[2] * A_ij_7;
+    const jg_real t245 = t242 * C_i[0] + t243 * C_i[1] + t244 * C_i[2];
+    const jg_real t246 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real t247 = omega_i_in_j_1 * t246;
+    const jg_real t248 = omega_i[0] * t242 + omega_i[1] * t243 + omega_i[2] * t244;
+    const jg_real t249 = t241 + t245 * omega_i_in_j_0 - (t248 * f_i_in_j_0 + t247);
+    const jg_real t250 = t248 * f_i_in_j_2 - t245 * omega_i_in_j_2;
+    const jg_real t251 = t246 * omega_i_in_j_2 - t240 * f_i_in_j_2;
+    const jg_real t252 = omega_j[1] * t246;
+    const jg_real t253 = omega_j[0] * t245 - t252;
+    const jg_real t254 = omega_j[2] * t245;
+    const jg_real t255 = omega_j[2] * t246;
+    jac_phi_q_v_A_j[9] = t250 * C_j[6] + t251 * C_j[7] + t249 * C_j[8] - (C_j[7] * t255 - C_j[6] * t254 + C_j[8] *
+        t253);
+    const jg_real t256 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real t257 = C_j[8] * t256;
+    const jg_real t258 = t242 * C_i[3] + t243 * C_i[4] + t244 * C_i[5];
+    const jg_real t259 = C_j[8] * t258;
+    const jg_real t260 = C_j[7] * t256;
+    const jg_real t261 = t260 - C_j[6] * t258;
+    jac_phi_q_v_A_j[10] = t240 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t259 + (t248 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t257) + omega_i_in_j_2 * t261 - (omega_j[0] * t259 - omega_j[1] * t257 + omega_j[2] *
+        t261);
+    jac_phi_q_v_A_j[11] = t250 * C_j[3] + t251 * C_j[4] + t249 * C_j[5] - (t255 * C_j[4] - t254 * C_j[3] + t253 *
+        C_j[5]);
+    const jg_real t262 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
+    jac_phi_q_v_A_j[12] = t262;
+    jac_phi_q_v_A_j[13] = t262;
+    jac_phi_q_v_A_j[14] = t262;
+    const jg_real t263 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    jac_phi_q_v_A_j[15] = t263;
+    jac_phi_q_v_A_j[19] = t263;
+    jac_phi_q_v_A_j[23] = t263;
+    const jg_real t264 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
+    const jg_real t265 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
+    const jg_real t266 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
+    const jg_real t267 = omega_i[0] * t264 + omega_i[1] * t265 + omega_i[2] * t266;
+    const jg_real t268 = t264 * C_i[0] + t265 * C_i[1] + t266 * C_i[2];
+    const jg_real t269 = t203 + t267 * f_i_in_j_2 - (t197 + t268 * omega_i_in_j_2);
+    const jg_real t270 = t196 * f_i_in_j_0 - omega_i_in_j_0 * t202;
+    const jg_real t271 = t268 * omega_i_in_j_0 - t267 * f_i_in_j_0;
+    const jg_real t272 = omega_j[0] * t268;
+    const jg_real t273 = t208 - omega_j[2] * t268;
+    const jg_real t274 = omega_j[0] * t202;
+    jac_phi_q_v_A_j[16] = t269 * C_j[6] + t270 * C_j[7] + t271 * C_j[8] - (C_j[6] * t273 - C_j[7] * t274 + C_j[8] *
+        t272);
+    const jg_real t275 = C_j[6] * t212;
+    const jg_real t276 = t264 * C_i[3] + t265 * C_i[4] + t266 * C_i[5];
+    const jg_real t277 = C_j[8] * t276 - t216;
+    const jg_real t278 = C_j[6] * t276;
+    jac_phi_q_v_A_j[17] = t267 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t275 + omega_i_in_j_0 * t277 + (t196 *
+        g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t278) - (omega_j[0] * t277 + omega_j[1] * t275 - omega_j[2] * t278);
+    jac_phi_q_v_A_j[18] = t269 * C_j[3] + t270 * C_j[4] + t271 * C_j[5] - (t273 * C_j[3] - t274 * C_j[4] + t272 *
+        C_j[5]);
+    const jg_real t279 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
+    const jg_real t280 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
+    const jg_real t281 = A_i[1] * A_ij_1 - A_i[4] * A_ij_0;
+    const jg_real t282 = omega_i[0] * t279 + omega_i[1] * t280 + omega_i[2] * t281;
+    const jg_real t283 = t279 * C_i[0] + t280 * C_i[1] + t281 * C_i[2];
+    const jg_real t284 = t225 + t282 * f_i_in_j_2 - (t219 + t283 * omega_i_in_j_2);
+    const jg_real t285 = t218 * f_i_in_j_0 - omega_i_in_j_0 * t224;
+    const jg_real t286 = t283 * omega_i_in_j_0 - t282 * f_i_in_j_0;
+    const jg_real t287 = omega_j[0] * t283;
+    const jg_real t288 = t230 - omega_j[2] * t283;
+    const jg_real t289 = omega_j[0] * t224;
+    jac_phi_q_v_A_j[20] = t284 * C_j[6] + t285 * C_j[7] + t286 * C_j[8] - (C_j[6] * t288 - C_j[7] * t289 + C_j[8] *
+        t287);
+    const jg_real t290 = C_j[6] * t234;
+    const jg_real t291 = t279 * C_i[3] + t280 * C_i[4] + t281 * C_i[5];
+    const jg_real t292 = C_j[8] * t291 - t238;
+    const jg_real t293 = C_j[6] * t291;
+    jac_phi_q_v_A_j[21] = t282 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t290 + omega_i_in_j_0 * t292 + (t218 *
+        g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t293) - (omega_j[0] * t292 + omega_j[1] * t290 - omega_j[2] * t293);
+    jac_phi_q_v_A_j[22] = t284 * C_j[3] + t285 * C_j[4] + t286 * C_j[5] - (t288 * C_j[3] - t289 * C_j[4] + t287 *
+        C_j[5]);
+    const jg_real t294 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
+    const jg_real t295 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
+    const jg_real t296 = A_i[2] * A_ij_1 - A_i[5] * A_ij_0;
+    const jg_real t297 = omega_i[0] * t294 + omega_i[1] * t295 + omega_i[2] * t296;
+    const jg_real t298 = t294 * C_i[0] + t295 * C_i[1] + t296 * C_i[2];
+    const jg_real t299 = t247 + t297 * f_i_in_j_2 - (t241 + t298 * omega_i_in_j_2);
+    const jg_real t300 = t240 * f_i_in_j_0 - omega_i_in_j_0 * t246;
+    const jg_real t301 = t298 * omega_i_in_j_0 - t297 * f_i_in_j_0;
+    const jg_real t302 = omega_j[0] * t298;
+    const jg_real t303 = t252 - omega_j[2] * t298;
+    const jg_real t304 = omega_j[0] * t246;
+    jac_phi_q_v_A_j[24] = t299 * C_j[6] + t300 * C_j[7] + t301 * C_j[8] - (C_j[6] * t303 - C_j[7] * t304 + C_j[8] *
+        t302);
+    const jg_real t305 = C_j[6] * t256;
+    const jg_real t306 = t294 * C_i[3] + t295 * C_i[4] + t296 * C_i[5];
+    const jg_real t307 = C_j[8] * t306 - t260;
+    const jg_real t308 = C_j[6] * t306;
+    jac_phi_q_v_A_j[25] = t297 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t305 + omega_i_in_j_0 * t307 + (t240 *
+        g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t308) - (omega_j[0] * t307 + omega_j[1] * t305 - omega_j[2] * t308);
+    jac_phi_q_v_A_j[26] = t299 * C_j[3] + t300 * C_j[4] + t301 * C_j[5] - (t303 * C_j[3] - t304 * C_j[4] + t302 *
+        C_j[5]);
     jac_phi_q_v_geometry[0] = omega_i[1] * A_i[6] - omega_i[2] * A_i[3];
     jac_phi_q_v_geometry[1] = omega_i[1] * A_i[7] - omega_i[2] * A_i[4];
     jac_phi_q_v_geometry[2] = omega_i[1] * A_i[8] - omega_i[2] * A_i[5];
@@ -386,51 +617,51 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_geometry[6] = omega_i[0] * A_i[3] - omega_i[1] * A_i[0];
     jac_phi_q_v_geometry[7] = omega_i[0] * A_i[4] - omega_i[1] * A_i[1];
     jac_phi_q_v_geometry[8] = omega_i[0] * A_i[5] - omega_i[1] * A_i[2];
-    const jg_real t78 = A_i[2] * omega_i_world_1 - A_i[1] * omega_i_world_2;
-    const jg_real t79 = A_i[0] * omega_i_world_2 - A_i[2] * omega_i_world_0;
-    const jg_real t80 = A_i[1] * omega_i_world_0 - A_i[0] * omega_i_world_1;
-    const jg_real t81 = A_i[2] * omega_j_world_1 - A_i[1] * omega_j_world_2;
-    const jg_real t82 = A_i[0] * omega_j_world_2 - A_i[2] * omega_j_world_0;
-    const jg_real t83 = A_i[1] * omega_j_world_0 - A_i[0] * omega_j_world_1;
-    jac_phi_q_v_geometry[9] = t78 * h_j_world_0 + t79 * h_j_world_1 + t80 * h_j_world_2 - (h_j_world_0 * t81 +
-        h_j_world_1 * t82 + h_j_world_2 * t83);
-    jac_phi_q_v_geometry[10] = t78 * g_j_world_0 + t79 * g_j_world_1 + t80 * g_j_world_2 - (t81 * g_j_world_0 + t82
-        * g_j_world_1 + t83 * g_j_world_2);
-    const jg_real t84 = A_i[5] * omega_i_world_1 - A_i[4] * omega_i_world_2;
-    const jg_real t85 = A_i[3] * omega_i_world_2 - A_i[5] * omega_i_world_0;
-    const jg_real t86 = A_i[4] * omega_i_world_0 - A_i[3] * omega_i_world_1;
-    const jg_real t87 = A_i[5] * omega_j_world_1 - A_i[4] * omega_j_world_2;
-    const jg_real t88 = A_i[3] * omega_j_world_2 - A_i[5] * omega_j_world_0;
-    const jg_real t89 = A_i[4] * omega_j_world_0 - A_i[3] * omega_j_world_1;
-    jac_phi_q_v_geometry[11] = t84 * h_j_world_0 + t85 * h_j_world_1 + t86 * h_j_world_2 - (h_j_world_0 * t87 +
-        h_j_world_1 * t88 + h_j_world_2 * t89);
-    jac_phi_q_v_geometry[12] = t84 * g_j_world_0 + t85 * g_j_world_1 + t86 * g_j_world_2 - (t87 * g_j_world_0 + t88
-        * g_j_world_1 + t89 * g_j_world_2);
-    const jg_real t90 = A_i[8] * omega_i_world_1 - A_i[7] * omega_i_world_2;
-    const jg_real t91 = A_i[6] * omega_i_world_2 - A_i[8] * omega_i_world_0;
-    const jg_real t92 = A_i[7] * omega_i_world_0 - A_i[6] * omega_i_world_1;
-    const jg_real t93 = A_i[8] * omega_j_world_1 - A_i[7] * omega_j_world_2;
-    const jg_real t94 = A_i[6] * omega_j_world_2 - A_i[8] * omega_j_world_0;
-    const jg_real t95 = A_i[7] * omega_j_world_0 - A_i[6] * omega_j_world_1;
-    jac_phi_q_v_geometry[13] = t90 * h_j_world_0 + t91 * h_j_world_1 + t92 * h_j_world_2 - (h_j_world_0 * t93 +
-        h_j_world_1 * t94 + h_j_world_2 * t95);
-    jac_phi_q_v_geometry[14] = t90 * g_j_world_0 + t91 * g_j_world_1 + t92 * g_j_world_2 - (t93 * g_j_world_0 + t94
-        * g_j_world_1 + t95 * g_j_world_2);
-    const jg_real t96 = A_i[1] * h_j_world_2 - A_i[2] * h_j_world_1;
-    const jg_real t97 = A_i[2] * h_j_world_0 - A_i[0] * h_j_world_2;
-    const jg_real t98 = A_i[0] * h_j_world_1 - A_i[1] * h_j_world_0;
-    jac_phi_q_v_geometry[15] = omega_i_world_0 * t96 + omega_i_world_1 * t97 + omega_i_world_2 * t98 -
-        (omega_j_world_0 * t96 + omega_j_world_1 * t97 + omega_j_world_2 * t98);
-    const jg_real t99 = A_i[4] * h_j_world_2 - A_i[5] * h_j_world_1;
-    const jg_real t100 = A_i[5] * h_j_world_0 - A_i[3] * h_j_world_2;
-    const jg_real t101 = A_i[3] * h_j_world_1 - A_i[4] * h_j_world_0;
-    jac_phi_q_v_geometry[16] = omega_i_world_0 * t99 + omega_i_world_1 * t100 + omega_i_world_2 * t101 -
-        (omega_j_world_0 * t99 + omega_j_world_1 * t100 + omega_j_world_2 * t101);
-    const jg_real t102 = A_i[7] * h_j_world_2 - A_i[8] * h_j_world_1;
-    const jg_real t103 = A_i[8] * h_j_world_0 - A_i[6] * h_j_world_2;
-    const jg_real t104 = A_i[6] * h_j_world_1 - A_i[7] * h_j_world_0;
-    jac_phi_q_v_geometry[17] = omega_i_world_0 * t102 + omega_i_world_1 * t103 + omega_i_world_2 * t104 -
-        (omega_j_world_0 * t102 + omega_j_world_1 * t103 + omega_j_world_2 * t104);
+    const jg_real t309 = A_ij_3 * omega_i_in_j_0 - A_ij_0 * omega_i_in_j_1;
+    const jg_real t310 = A_ij_6 * omega_i_in_j_1 - A_ij_3 * omega_i_in_j_2;
+    const jg_real t311 = A_ij_0 * omega_i_in_j_2 - A_ij_6 * omega_i_in_j_0;
+    const jg_real t312 = omega_j[0] * A_ij_3 - omega_j[1] * A_ij_0;
+    const jg_real t313 = omega_j[1] * A_ij_6 - omega_j[2] * A_ij_3;
+    const jg_real t314 = omega_j[2] * A_ij_0 - omega_j[0] * A_ij_6;
+    jac_phi_q_v_geometry[9] = t310 * C_j[6] + t311 * C_j[7] + t309 * C_j[8] - (C_j[6] * t313 + C_j[7] * t314 +
+        C_j[8] * t312);
+    jac_phi_q_v_geometry[10] = t310 * C_j[3] + t311 * C_j[4] + t309 * C_j[5] - (t313 * C_j[3] + t314 * C_j[4] + t312
+        * C_j[5]);
+    const jg_real t315 = A_ij_4 * omega_i_in_j_0 - A_ij_1 * omega_i_in_j_1;
+    const jg_real t316 = A_ij_7 * omega_i_in_j_1 - A_ij_4 * omega_i_in_j_2;
+    const jg_real t317 = A_ij_1 * omega_i_in_j_2 - A_ij_7 * omega_i_in_j_0;
+    const jg_real t318 = omega_j[0] * A_ij_4 - omega_j[1] * A_ij_1;
+    const jg_real t319 = omega_j[1] * A_ij_7 - omega_j[2] * A_ij_4;
+    const jg_real t320 = omega_j[2] * A_ij_1 - omega_j[0] * A_ij_7;
+    jac_phi_q_v_geometry[11] = t316 * C_j[6] + t317 * C_j[7] + t315 * C_j[8] - (C_j[6] * t319 + C_j[7] * t320 +
+        C_j[8] * t318);
+    jac_phi_q_v_geometry[12] = t316 * C_j[3] + t317 * C_j[4] + t315 * C_j[5] - (t319 * C_j[3] + t320 * C_j[4] + t318
+        * C_j[5]);
+    const jg_real t321 = A_ij_5 * omega_i_in_j_0 - A_ij_2 * omega_i_in_j_1;
+    const jg_real t322 = A_ij_8 * omega_i_in_j_1 - A_ij_5 * omega_i_in_j_2;
+    const jg_real t323 = A_ij_2 * omega_i_in_j_2 - A_ij_8 * omega_i_in_j_0;
+    const jg_real t324 = omega_j[0] * A_ij_5 - omega_j[1] * A_ij_2;
+    const jg_real t325 = omega_j[1] * A_ij_8 - omega_j[2] * A_ij_5;
+    const jg_real t326 = omega_j[2] * A_ij_2 - omega_j[0] * A_ij_8;
+    jac_phi_q_v_geometry[13] = t322 * C_j[6] + t323 * C_j[7] + t321 * C_j[8] - (C_j[6] * t325 + C_j[7] * t326 +
+        C_j[8] * t324);
+    jac_phi_q_v_geometry[14] = t322 * C_j[3] + t323 * C_j[4] + t321 * C_j[5] - (t325 * C_j[3] + t326 * C_j[4] + t324
+        * C_j[5]);
+    const jg_real t327 = A_ij_6 * C_j[6] - A_ij_0 * C_j[8];
+    const jg_real t328 = A_ij_3 * C_j[8] - A_ij_6 * C_j[7];
+    const jg_real t329 = A_ij_0 * C_j[7] - A_ij_3 * C_j[6];
+    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t328 + omega_i_in_j_1 * t327 + omega_i_in_j_2 * t329 - (omega_j[0] *
+        t328 + omega_j[1] * t327 + omega_j[2] * t329);
+    const jg_real t330 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
+    const jg_real t331 = A_ij_4 * C_j[8] - A_ij_7 * C_j[7];
+    const jg_real t332 = A_ij_1 * C_j[7] - A_ij_4 * C_j[6];
+    jac_phi_q_v_geometry[16] = omega_i_in_j_0 * t331 + omega_i_in_j_1 * t330 + omega_i_in_j_2 * t332 - (omega_j[0] *
+        t331 + omega_j[1] * t330 + omega_j[2] * t332);
+    const jg_real t333 = A_ij_8 * C_j[6] - A_ij_2 * C_j[8];
+    const jg_real t334 = A_ij_5 * C_j[8] - A_ij_8 * C_j[7];
+    const jg_real t335 = A_ij_2 * C_j[7] - A_ij_5 * C_j[6];
+    jac_phi_q_v_geometry[17] = omega_i_in_j_0 * t334 + omega_i_in_j_1 * t333 + omega_i_in_j_2 * t335 - (omega_j[0] *
+        t334 + omega_j[1] * t333 + omega_j[2] * t335);
     jac_phi_q_v_geometry[18] = omega_j[2] * A_j[3] - omega_j[1] * A_j[6];
     jac_phi_q_v_geometry[19] = omega_j[2] * A_j[4] - omega_j[1] * A_j[7];
     jac_phi_q_v_geometry[20] = omega_j[2] * A_j[5] - omega_j[1] * A_j[8];
@@ -440,102 +671,83 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_geometry[24] = omega_j[1] * A_j[0] - omega_j[0] * A_j[3];
     jac_phi_q_v_geometry[25] = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
     jac_phi_q_v_geometry[26] = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
-    const jg_real t105 = A_j[0] * omega_i_cross_f_i_world_0 + A_j[1] * omega_i_cross_f_i_world_1 + A_j[2] *
-        omega_i_cross_f_i_world_2 - (A_j[0] * omega_j_cross_f_i_world_0 + A_j[1] * omega_j_cross_f_i_world_1 +
-        A_j[2] * omega_j_cross_f_i_world_2);
-    jac_phi_q_v_geometry[27] = t105;
-    jac_phi_q_v_geometry[30] = t105;
-    const jg_real t106 = A_j[3] * omega_i_cross_f_i_world_0 + A_j[4] * omega_i_cross_f_i_world_1 + A_j[5] *
-        omega_i_cross_f_i_world_2 - (A_j[3] * omega_j_cross_f_i_world_0 + A_j[4] * omega_j_cross_f_i_world_1 +
-        A_j[5] * omega_j_cross_f_i_world_2);
-    jac_phi_q_v_geometry[28] = t106;
-    jac_phi_q_v_geometry[32] = t106;
-    const jg_real t107 = A_j[6] * omega_i_cross_f_i_world_0 + A_j[7] * omega_i_cross_f_i_world_1 + A_j[8] *
-        omega_i_cross_f_i_world_2 - (A_j[6] * omega_j_cross_f_i_world_0 + A_j[7] * omega_j_cross_f_i_world_1 +
-        A_j[8] * omega_j_cross_f_i_world_2);
-    jac_phi_q_v_geometry[29] = t107;
-    jac_phi_q_v_geometry[34] = t107;
-    const jg_real t108 = A_j[2] * g_i_world_1 - A_j[1] * g_i_world_2;
-    const jg_real t109 = A_j[0] * g_i_world_2 - A_j[2] * g_i_world_0;
-    const jg_real t110 = A_j[1] * g_i_world_0 - A_j[0] * g_i_world_1;
-    jac_phi_q_v_geometry[31] = omega_i_world_0 * t108 + omega_i_world_1 * t109 + omega_i_world_2 * t110 -
-        (omega_j_world_0 * t108 + omega_j_world_1 * t109 + omega_j_world_2 * t110);
-    const jg_real t111 = A_j[5] * g_i_world_1 - A_j[4] * g_i_world_2;
-    const jg_real t112 = A_j[3] * g_i_world_2 - A_j[5] * g_i_world_0;
-    const jg_real t113 = A_j[4] * g_i_world_0 - A_j[3] * g_i_world_1;
-    jac_phi_q_v_geometry[33] = omega_i_world_0 * t111 + omega_i_world_1 * t112 + omega_i_world_2 * t113 -
-        (omega_j_world_0 * t111 + omega_j_world_1 * t112 + omega_j_world_2 * t113);
-    const jg_real t114 = A_j[8] * g_i_world_1 - A_j[7] * g_i_world_2;
-    const jg_real t115 = A_j[6] * g_i_world_2 - A_j[8] * g_i_world_0;
-    const jg_real t116 = A_j[7] * g_i_world_0 - A_j[6] * g_i_world_1;
-    jac_phi_q_v_geometry[35] = omega_i_world_0 * t114 + omega_i_world_1 * t115 + omega_i_world_2 * t116 -
-        (omega_j_world_0 * t114 + omega_j_world_1 * t115 + omega_j_world_2 * t116);
+    /* omega_i_cross_f_i_in_j = omega_i x f_i, axes of body j */
+    const jg_real omega_i_cross_f_i_in_j_0 = omega_i_in_j_1 * f_i_in_j_2 - f_i_in_j_1 * omega_i_in_j_2;
+    /* omega_j_cross_f_i_in_j = omega_j x f_i, axes of body j */
+    const jg_real omega_j_cross_f_i_in_j_0 = omega_j[1] * f_i_in_j_2 - omega_j[2] * f_i_in_j_1;
+    const jg_real t338 = omega_i_cross_f_i_in_j_0 - omega_j_cross_f_i_in_j_0;
+    jac_phi_q_v_geometry[27] = t338;
+    jac_phi_q_v_geometry[30] = t338;
+    const jg_real omega_i_cross_f_i_in_j_1 = f_i_in_j_0 * omega_i_in_j_2 - omega_i_in_j_0 * f_i_in_j_2;
+    const jg_real omega_j_cross_f_i_in_j_1 = omega_j[2] * f_i_in_j_0 - omega_j[0] * f_i_in_j_2;
+    const jg_real t341 = omega_i_cross_f_i_in_j_1 - omega_j_cross_f_i_in_j_1;
+    jac_phi_q_v_geometry[28] = t341;
+    jac_phi_q_v_geometry[32] = t341;
+    const jg_real omega_i_cross_f_i_in_j_2 = f_i_in_j_1 * omega_i_in_j_0 - omega_i_in_j_1 * f_i_in_j_0;
+    const jg_real omega_j_cross_f_i_in_j_2 = omega_j[0] * f_i_in_j_1 - omega_j[1] * f_i_in_j_0;
+    const jg_real t344 = omega_i_cross_f_i_in_j_2 - omega_j_cross_f_i_in_j_2;
+    jac_phi_q_v_geometry[29] = t344;
+    jac_phi_q_v_geometry[34] = t344;
+    jac_phi_q_v_geometry[31] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
+        - omega_j[2] * g_i_in_j_1);
+    jac_phi_q_v_geometry[33] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
+        - omega_j[0] * g_i_in_j_2);
+    jac_phi_q_v_geometry[35] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
+        - omega_j[1] * g_i_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     jac_phi_q_v_velocity[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
     jac_phi_q_v_velocity[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    const jg_real t117 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
-    const jg_real t118 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
-    const jg_real t119 = A_i[0] * f_i_world_1 - A_i[1] * f_i_world_0;
-    jac_phi_q_v_velocity[6] = t117 * h_j_world_0 + t118 * h_j_world_1 + t119 * h_j_world_2;
-    jac_phi_q_v_velocity[7] = A_i[0] * g_i_cross_h_j_world_0 + A_i[1] * g_i_cross_h_j_world_1 + A_i[2] *
-        g_i_cross_h_j_world_2;
-    jac_phi_q_v_velocity[8] = t117 * g_j_world_0 + t118 * g_j_world_1 + t119 * g_j_world_2;
+    const jg_real t345 = A_ij_0 * f_i_in_j_1 - A_ij_3 * f_i_in_j_0;
+    const jg_real t346 = A_ij_3 * f_i_in_j_2 - A_ij_6 * f_i_in_j_1;
+    const jg_real t347 = A_ij_6 * f_i_in_j_0 - A_ij_0 * f_i_in_j_2;
+    jac_phi_q_v_velocity[6] = t346 * C_j[6] + t347 * C_j[7] + t345 * C_j[8];
+    jac_phi_q_v_velocity[7] = A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_6 *
+        g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[8] = t346 * C_j[3] + t347 * C_j[4] + t345 * C_j[5];
     jac_phi_q_v_velocity[9] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
     jac_phi_q_v_velocity[10] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
     jac_phi_q_v_velocity[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real t120 = A_i[4] * f_i_world_2 - A_i[5] * f_i_world_1;
-    const jg_real t121 = A_i[5] * f_i_world_0 - A_i[3] * f_i_world_2;
-    const jg_real t122 = A_i[3] * f_i_world_1 - A_i[4] * f_i_world_0;
-    jac_phi_q_v_velocity[12] = t120 * h_j_world_0 + t121 * h_j_world_1 + t122 * h_j_world_2;
-    jac_phi_q_v_velocity[13] = A_i[3] * g_i_cross_h_j_world_0 + A_i[4] * g_i_cross_h_j_world_1 + A_i[5] *
-        g_i_cross_h_j_world_2;
-    jac_phi_q_v_velocity[14] = t120 * g_j_world_0 + t121 * g_j_world_1 + t122 * g_j_world_2;
+    const jg_real t348 = A_ij_1 * f_i_in_j_1 - A_ij_4 * f_i_in_j_0;
+    const jg_real t349 = A_ij_4 * f_i_in_j_2 - A_ij_7 * f_i_in_j_1;
+    const jg_real t350 = A_ij_7 * f_i_in_j_0 - A_ij_1 * f_i_in_j_2;
+    jac_phi_q_v_velocity[12] = t349 * C_j[6] + t350 * C_j[7] + t348 * C_j[8];
+    jac_phi_q_v_velocity[13] = A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_7 *
+        g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[14] = t349 * C_j[3] + t350 * C_j[4] + t348 * C_j[5];
     jac_phi_q_v_velocity[15] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     jac_phi_q_v_velocity[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     jac_phi_q_v_velocity[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    const jg_real t123 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
-    const jg_real t124 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
-    const jg_real t125 = A_i[6] * f_i_world_1 - A_i[7] * f_i_world_0;
-    jac_phi_q_v_velocity[18] = t123 * h_j_world_0 + t124 * h_j_world_1 + t125 * h_j_world_2;
-    jac_phi_q_v_velocity[19] = A_i[6] * g_i_cross_h_j_world_0 + A_i[7] * g_i_cross_h_j_world_1 + A_i[8] *
-        g_i_cross_h_j_world_2;
-    jac_phi_q_v_velocity[20] = t123 * g_j_world_0 + t124 * g_j_world_1 + t125 * g_j_world_2;
+    const jg_real t351 = A_ij_2 * f_i_in_j_1 - A_ij_5 * f_i_in_j_0;
+    const jg_real t352 = A_ij_5 * f_i_in_j_2 - A_ij_8 * f_i_in_j_1;
+    const jg_real t353 = A_ij_8 * f_i_in_j_0 - A_ij_2 * f_i_in_j_2;
+    jac_phi_q_v_velocity[18] = t352 * C_j[6] + t353 * C_j[7] + t351 * C_j[8];
+    jac_phi_q_v_velocity[19] = A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_8 *
+        g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[20] = t352 * C_j[3] + t353 * C_j[4] + t351 * C_j[5];
     jac_phi_q_v_velocity[21] = JG_REAL(1.0);
     jac_phi_q_v_velocity[22] = JG_REAL(1.0);
     jac_phi_q_v_velocity[23] = JG_REAL(1.0);
     jac_phi_q_v_velocity[24] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
     jac_phi_q_v_velocity[25] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
     jac_phi_q_v_velocity[26] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
-    const jg_real t126 = A_j[1] * f_i_world_2 - A_j[2] * f_i_world_1;
-    const jg_real t127 = A_j[2] * f_i_world_0 - A_j[0] * f_i_world_2;
-    const jg_real t128 = A_j[0] * f_i_world_1 - A_j[1] * f_i_world_0;
-    jac_phi_q_v_velocity[27] = -(h_j_world_0 * t126 + h_j_world_1 * t127 + h_j_world_2 * t128);
-    jac_phi_q_v_velocity[28] = -(A_j[0] * g_i_cross_h_j_world_0 + A_j[1] * g_i_cross_h_j_world_1 + A_j[2] *
-        g_i_cross_h_j_world_2);
-    jac_phi_q_v_velocity[29] = -(t126 * g_j_world_0 + t127 * g_j_world_1 + t128 * g_j_world_2);
+    jac_phi_q_v_velocity[27] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
+    jac_phi_q_v_velocity[28] = -g_i_cross_h_j_in_j_0;
+    jac_phi_q_v_velocity[29] = f_i_in_j_2 * C_j[4] - f_i_in_j_1 * C_j[5];
     jac_phi_q_v_velocity[30] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
     jac_phi_q_v_velocity[31] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
     jac_phi_q_v_velocity[32] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
-    const jg_real t129 = A_j[4] * f_i_world_2 - A_j[5] * f_i_world_1;
-    const jg_real t130 = A_j[5] * f_i_world_0 - A_j[3] * f_i_world_2;
-    const jg_real t131 = A_j[3] * f_i_world_1 - A_j[4] * f_i_world_0;
-    jac_phi_q_v_velocity[33] = -(h_j_world_0 * t129 + h_j_world_1 * t130 + h_j_world_2 * t131);
-    jac_phi_q_v_velocity[34] = -(A_j[3] * g_i_cross_h_j_world_0 + A_j[4] * g_i_cross_h_j_world_1 + A_j[5] *
-        g_i_cross_h_j_world_2);
-    jac_phi_q_v_velocity[35] = -(t129 * g_j_world_0 + t130 * g_j_world_1 + t131 * g_j_world_2);
+    jac_phi_q_v_velocity[33] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
+    jac_phi_q_v_velocity[34] = -g_i_cross_h_j_in_j_1;
+    jac_phi_q_v_velocity[35] = f_i_in_j_0 * C_j[5] - f_i_in_j_2 * C_j[3];
     jac_phi_q_v_velocity[36] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
     jac_phi_q_v_velocity[37] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     jac_phi_q_v_velocity[38] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
-    const jg_real t132 = A_j[7] * f_i_world_2 - A_j[8] * f_i_world_1;
-    const jg_real t133 = A_j[8] * f_i_world_0 - A_j[6] * f_i_world_2;
-    const jg_real t134 = A_j[6] * f_i_world_1 - A_j[7] * f_i_world_0;
-    jac_phi_q_v_velocity[39] = -(h_j_world_0 * t132 + h_j_world_1 * t133 + h_j_world_2 * t134);
-    jac_phi_q_v_velocity[40] = -(A_j[6] * g_i_cross_h_j_world_0 + A_j[7] * g_i_cross_h_j_world_1 + A_j[8] *
-        g_i_cross_h_j_world_2);
-    jac_phi_q_v_velocity[41] = -(t132 * g_j_world_0 + t133 * g_j_world_1 + t134 * g_j_world_2);
+    jac_phi_q_v_velocity[39] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
+    jac_phi_q_v_velocity[40] = -g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[41] = f_i_in_j_1 * C_j[3] - f_i_in_j_0 * C_j[4];
 }
 
 static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT A_i,
@@ -1405,7 +1617,7 @@ int jac_jg_rigid_conventional_phi_q_v_external(const double **arg, double **res,
 {
     static const double zeros[24] = {0.0};
     double unwanted_0[36];
-    double unwanted_1[36];
+    double unwanted_1[27];
     double unwanted_2[36];
     double unwanted_3[42];
     (void)iw;
@@ -1479,8 +1691,8 @@ const casadi_int *jac_jg_rigid_conventional_phi_q_v_external_sparsity_out(casadi
         4, 5, 0, 3, 4, 5, 1, 3, 4, 5, 2, 3, 4, 5
     };
     static const casadi_int pattern_1[] = {
-        6, 9, 0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 0, 3, 4, 5, 1, 3, 4, 5, 2, 3, 4, 5, 0, 3, 4, 5, 1, 3, 4, 5, 2, 3,
-        4, 5, 0, 3, 4, 5, 1, 3, 4, 5, 2, 3, 4, 5
+        6, 9, 0, 4, 8, 12, 13, 14, 15, 19, 23, 27, 0, 3, 4, 5, 1, 3, 4, 5, 2, 3, 4, 5, 0, 1, 2, 0, 3, 4, 5, 1, 3, 4,
+        5, 2, 3, 4, 5
     };
     static const casadi_int pattern_2[] = {
         6, 24, 0, 3, 6, 9, 11, 13, 15, 16, 17, 18, 18, 18, 18, 21, 24, 27, 27, 27, 27, 28, 29, 30, 32, 34, 36, 0, 1,

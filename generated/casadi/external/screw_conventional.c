@@ -64,10 +64,10 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_r_i[8] = -t8;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
     jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
     /* h_j_world = h_j, world axes */
@@ -87,8 +87,8 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t20 = g_i_dot_f_j / t18;
     jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20) * pitch;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[5] = e_ij_world_1 * C_i[0];
     jac_phi_A_i[6] = e_ij_world_1 * C_i[3];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -96,8 +96,8 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_A_i[8] = C_i[3] * h_j_world_1;
     jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20) * pitch;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[10] = e_ij_world_2 * C_i[0];
     jac_phi_A_i[11] = e_ij_world_2 * C_i[3];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -224,9 +224,9 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[6] = -C_i[2];
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     jac_phi_geometry[18] = d_ij_in_i_0;
@@ -386,31 +386,31 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t40 = s_j[0] * t25 + s_j[1] * t26 + s_j[2] * t27;
     const jg_real t41 = t31 * omega_j[0] + t32 * omega_j[1] + t33 * omega_j[2];
     const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
-    const jg_real t43 = t29 * r_j[1] + t30 * r_j[2];
-    const jg_real t44 = C_i[3] * r_j[0];
-    const jg_real t45 = t29 * r_i[1] + t30 * r_i[2];
-    const jg_real t46 = C_i[3] * r_i[0];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real t45 = t29 * r_ij_world_1 + t30 * r_ij_world_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t47 = C_i[3] * r_ij_world_0;
     jac_phi_q_v_A_i[0] = s_j_in_joint_i_2 * t28 - t34 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t40 - t41 *
-        s_j_in_joint_i_1) - (g_i_dot_omega_i * t45 + h_i_dot_omega_i * t46 - (t34 * g_i_dot_omega_i + t40 *
-        h_i_dot_omega_i + (g_i_dot_omega_i * t43 + h_i_dot_omega_i * t44)) + C_i[0] * v_i[0] - C_i[0] * v_j[0]);
-    const jg_real t47 = h_i_in_j_2 * t26 - t33 * g_i_in_j_1 - (h_i_in_j_1 * t27 - t32 * g_i_in_j_2);
-    const jg_real t48 = h_i_in_j_0 * t27 - t31 * g_i_in_j_2 - (h_i_in_j_2 * t25 - t33 * g_i_in_j_0);
-    const jg_real t49 = h_i_in_j_1 * t25 - t32 * g_i_in_j_0 - (h_i_in_j_0 * t26 - t31 * g_i_in_j_1);
-    const jg_real t50 = s_j[0] * t47 + s_j[1] * t48 + s_j[2] * t49;
+        s_j_in_joint_i_1) - (C_i[0] * v_i[0] - (t34 * g_i_dot_omega_i + t40 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        t45 + h_i_dot_omega_i * t47)) - C_i[0] * v_j[0]);
+    const jg_real t48 = h_i_in_j_2 * t26 - t33 * g_i_in_j_1 - (h_i_in_j_1 * t27 - t32 * g_i_in_j_2);
+    const jg_real t49 = h_i_in_j_0 * t27 - t31 * g_i_in_j_2 - (h_i_in_j_2 * t25 - t33 * g_i_in_j_0);
+    const jg_real t50 = h_i_in_j_1 * t25 - t32 * g_i_in_j_0 - (h_i_in_j_0 * t26 - t31 * g_i_in_j_1);
+    const jg_real t51 = s_j[0] * t48 + s_j[1] * t49 + s_j[2] * t50;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
     const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
     const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
     const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
-    const jg_real t55 = omega_j[0] * t47 + omega_j[1] * t48 + omega_j[2] * t49;
+    const jg_real t56 = omega_j[0] * t48 + omega_j[1] * t49 + omega_j[2] * t50;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
         f_i_in_j_2;
-    const jg_real t57 = C_i[0] * r_j[0];
-    const jg_real t58 = C_i[0] * r_i[0];
-    jac_phi_q_v_A_i[1] = omega_j_in_joint_i_2 * t50 - t41 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t55 - t34 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t50 + t34 * f_i_dot_omega_i + (t43 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t57) - (t45 * f_i_dot_omega_i + h_i_dot_omega_i * t58) + C_i[3] * v_i[0] - C_i[3] *
-        v_j[0]);
+    const jg_real t58 = C_i[0] * r_ij_world_0;
+    jac_phi_q_v_A_i[1] = omega_j_in_joint_i_2 * t51 - t41 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t56 - t34 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t51 + t34 * f_i_dot_omega_i + (t45 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t58) + C_i[3] * v_i[0] - C_i[3] * v_j[0]);
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
     const jg_real t60 = t31 * C_j[6] + t32 * C_j[7] + t33 * C_j[8];
@@ -418,13 +418,13 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
     jac_phi_q_v_A_i[2] = t28 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t60 - (omega_j_in_joint_i_2 * t61 - t41 *
         h_j_in_joint_i_1) + (g_i_dot_omega_i * t60 + h_i_dot_omega_i * t61);
-    const jg_real t63 = t47 * C_j[6] + t48 * C_j[7] + t49 * C_j[8];
+    const jg_real t63 = t48 * C_j[6] + t49 * C_j[7] + t50 * C_j[8];
     const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (t55 * h_j_in_joint_i_2 -
+    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (t56 * h_j_in_joint_i_2 -
         omega_j_in_joint_i_0 * t60) - (h_i_dot_omega_i * t63 + f_i_dot_omega_i * t60);
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
-    const jg_real t66 = t47 * C_j[0] + t48 * C_j[1] + t49 * C_j[2];
+    const jg_real t66 = t48 * C_j[0] + t49 * C_j[1] + t50 * C_j[2];
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
     const jg_real t68 = t25 * C_j[0] + t26 * C_j[1] + t27 * C_j[2];
@@ -444,12 +444,12 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t76 = h_i_dot_f_j * t73 - h_i_dot_omega_i + omega_j_in_joint_i_2;
     const jg_real t77 = spread * spread;
     const jg_real t78 = h_i_dot_f_j * t70;
-    jac_phi_q_v_A_i[4] = t40 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t55 - (omega_j_in_joint_i_1 * t50 + t28 *
+    jac_phi_q_v_A_i[4] = t40 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t56 - (omega_j_in_joint_i_1 * t51 + t28 *
         s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t66 + g_i_dot_omega_i * t68 - h_i_dot_omega_i * t70 -
-        (t55 * f_i_dot_f_j + omega_j_in_joint_i_0 * t66 + (t28 * g_i_dot_f_j + omega_j_in_joint_i_1 * t68) - (t41 *
+        (t56 * f_i_dot_f_j + omega_j_in_joint_i_0 * t66 + (t28 * g_i_dot_f_j + omega_j_in_joint_i_1 * t68) - (t41 *
         h_i_dot_f_j + omega_j_in_joint_i_2 * t70))) - t70 * t73 - t41) * t75 - (t78 + t78) * t77 * pitch * t76 +
-        (t44 * f_i_dot_omega_i - g_i_dot_omega_i * t57) + (t40 * f_i_dot_omega_i - g_i_dot_omega_i * t50) - (t46 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t58) - (t29 * v_i[1] + t30 * v_i[2]) + (t29 * v_j[1] + t30 * v_j[2]));
+        (t47 * f_i_dot_omega_i - g_i_dot_omega_i * t58) + (t40 * f_i_dot_omega_i - g_i_dot_omega_i * t51) - (t29 *
+        v_i[1] + t30 * v_i[2]) + (t29 * v_j[1] + t30 * v_j[2]));
     const jg_real t79 = C_i[3] * A_j[1];
     const jg_real t80 = C_i[3] * A_j[4];
     const jg_real t81 = C_i[3] * A_j[7];
@@ -461,370 +461,332 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t87 = t84 * s_j[0] + t85 * s_j[1] + t86 * s_j[2];
     const jg_real t88 = s_j[0] * t79 + s_j[1] * t80 + s_j[2] * t81;
     const jg_real t89 = t84 * omega_j[0] + t85 * omega_j[1] + t86 * omega_j[2];
-    const jg_real t90 = t29 * r_j[0] - t83 * r_j[2];
-    const jg_real t91 = C_i[3] * r_j[1];
-    const jg_real t92 = t29 * r_i[0] - t83 * r_i[2];
-    const jg_real t93 = C_i[3] * r_i[1];
+    const jg_real t90 = t29 * r_ij_world_0 - t83 * r_ij_world_2;
+    const jg_real t91 = C_i[3] * r_ij_world_1;
     jac_phi_q_v_A_i[5] = t87 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t82 - (omega_j_in_joint_i_2 * t88 + t89 *
         s_j_in_joint_i_1) - (t87 * g_i_dot_omega_i - t88 * h_i_dot_omega_i + (g_i_dot_omega_i * t90 -
-        h_i_dot_omega_i * t91) - (g_i_dot_omega_i * t92 - h_i_dot_omega_i * t93) + C_i[0] * v_i[1] - C_i[0] *
-        v_j[1]);
-    const jg_real t94 = h_i_in_j_2 * t80 + t86 * g_i_in_j_1 - (h_i_in_j_1 * t81 + t85 * g_i_in_j_2);
-    const jg_real t95 = h_i_in_j_0 * t81 + t84 * g_i_in_j_2 - (h_i_in_j_2 * t79 + t86 * g_i_in_j_0);
-    const jg_real t96 = h_i_in_j_1 * t79 + t85 * g_i_in_j_0 - (h_i_in_j_0 * t80 + t84 * g_i_in_j_1);
-    const jg_real t97 = s_j[0] * t94 + s_j[1] * t95 + s_j[2] * t96;
-    const jg_real t98 = omega_j[0] * t94 + omega_j[1] * t95 + omega_j[2] * t96;
-    const jg_real t99 = C_i[0] * r_j[1];
-    const jg_real t100 = C_i[0] * r_i[1];
-    jac_phi_q_v_A_i[6] = omega_j_in_joint_i_2 * t97 + t89 * s_j_in_joint_i_0 - (t87 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t98) - (h_i_dot_omega_i * t97 - t87 * f_i_dot_omega_i + (h_i_dot_omega_i * t99 - t90 *
-        f_i_dot_omega_i) - (h_i_dot_omega_i * t100 - t92 * f_i_dot_omega_i) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
-    const jg_real t101 = t84 * C_j[6] + t85 * C_j[7] + t86 * C_j[8];
-    const jg_real t102 = t79 * C_j[6] + t80 * C_j[7] + t81 * C_j[8];
-    jac_phi_q_v_A_i[7] = t82 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t101 - (t89 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t102) - (g_i_dot_omega_i * t101 - h_i_dot_omega_i * t102);
-    const jg_real t103 = t94 * C_j[6] + t95 * C_j[7] + t96 * C_j[8];
-    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t103 - (t98 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t101) - (h_i_dot_omega_i * t103 - f_i_dot_omega_i * t101);
-    const jg_real t104 = t94 * C_j[0] + t95 * C_j[1] + t96 * C_j[2];
-    const jg_real t105 = t79 * C_j[0] + t80 * C_j[1] + t81 * C_j[2];
-    const jg_real t106 = t84 * C_j[0] + t85 * C_j[1] + t86 * C_j[2];
-    const jg_real t107 = h_i_dot_f_j * t106;
-    jac_phi_q_v_A_i[9] = t88 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t98 - (omega_j_in_joint_i_1 * t97 + t82 *
-        s_j_in_joint_i_0) - ((t106 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t104 + g_i_dot_omega_i * t105 +
-        h_i_dot_omega_i * t106 - (t98 * f_i_dot_f_j + omega_j_in_joint_i_0 * t104 + (t82 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t105) + (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t106))) + t89) * t75 + (t107 +
-        t107) * t77 * pitch * t76 + (t91 * f_i_dot_omega_i - g_i_dot_omega_i * t99) + (t88 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t97) - (t93 * f_i_dot_omega_i - g_i_dot_omega_i * t100) + (t29 * v_i[0] - t83 * v_i[2]) -
-        (t29 * v_j[0] - t83 * v_j[2]));
-    const jg_real t108 = C_i[3] * A_j[2];
-    const jg_real t109 = C_i[3] * A_j[5];
-    const jg_real t110 = C_i[3] * A_j[8];
-    const jg_real t111 = t108 * omega_j[0] + t109 * omega_j[1] + t110 * omega_j[2];
-    const jg_real t112 = t30 * A_j[0] + t83 * A_j[1];
-    const jg_real t113 = t30 * A_j[3] + t83 * A_j[4];
-    const jg_real t114 = t30 * A_j[6] + t83 * A_j[7];
-    const jg_real t115 = t112 * s_j[0] + t113 * s_j[1] + t114 * s_j[2];
-    const jg_real t116 = s_j[0] * t108 + s_j[1] * t109 + s_j[2] * t110;
-    const jg_real t117 = t112 * omega_j[0] + t113 * omega_j[1] + t114 * omega_j[2];
-    const jg_real t118 = t30 * r_j[0] + t83 * r_j[1];
-    const jg_real t119 = C_i[3] * r_j[2];
-    const jg_real t120 = t30 * r_i[0] + t83 * r_i[1];
-    const jg_real t121 = C_i[3] * r_i[2];
-    jac_phi_q_v_A_i[10] = t115 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t111 - (omega_j_in_joint_i_2 * t116 +
-        t117 * s_j_in_joint_i_1) - (t115 * g_i_dot_omega_i - t116 * h_i_dot_omega_i + (g_i_dot_omega_i * t118 -
-        h_i_dot_omega_i * t119) - (g_i_dot_omega_i * t120 - h_i_dot_omega_i * t121) + C_i[0] * v_i[2] - C_i[0] *
-        v_j[2]);
-    const jg_real t122 = h_i_in_j_2 * t109 + t114 * g_i_in_j_1 - (h_i_in_j_1 * t110 + t113 * g_i_in_j_2);
-    const jg_real t123 = h_i_in_j_0 * t110 + t112 * g_i_in_j_2 - (h_i_in_j_2 * t108 + t114 * g_i_in_j_0);
-    const jg_real t124 = h_i_in_j_1 * t108 + t113 * g_i_in_j_0 - (h_i_in_j_0 * t109 + t112 * g_i_in_j_1);
-    const jg_real t125 = s_j[0] * t122 + s_j[1] * t123 + s_j[2] * t124;
-    const jg_real t126 = omega_j[0] * t122 + omega_j[1] * t123 + omega_j[2] * t124;
-    const jg_real t127 = C_i[0] * r_j[2];
-    const jg_real t128 = C_i[0] * r_i[2];
-    jac_phi_q_v_A_i[11] = omega_j_in_joint_i_2 * t125 + t117 * s_j_in_joint_i_0 - (t115 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t126) - (h_i_dot_omega_i * t125 - t115 * f_i_dot_omega_i + (h_i_dot_omega_i * t127 - t118
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t128 - t120 * f_i_dot_omega_i) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
-    const jg_real t129 = t112 * C_j[6] + t113 * C_j[7] + t114 * C_j[8];
-    const jg_real t130 = t108 * C_j[6] + t109 * C_j[7] + t110 * C_j[8];
-    jac_phi_q_v_A_i[12] = t111 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t129 - (t117 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t130) - (g_i_dot_omega_i * t129 - h_i_dot_omega_i * t130);
-    const jg_real t131 = t122 * C_j[6] + t123 * C_j[7] + t124 * C_j[8];
-    jac_phi_q_v_A_i[13] = t117 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t131 - (t126 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t129) - (h_i_dot_omega_i * t131 - f_i_dot_omega_i * t129);
-    const jg_real t132 = t122 * C_j[0] + t123 * C_j[1] + t124 * C_j[2];
-    const jg_real t133 = t108 * C_j[0] + t109 * C_j[1] + t110 * C_j[2];
-    const jg_real t134 = t112 * C_j[0] + t113 * C_j[1] + t114 * C_j[2];
-    const jg_real t135 = h_i_dot_f_j * t134;
-    jac_phi_q_v_A_i[14] = t116 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t126 - (omega_j_in_joint_i_1 * t125 +
-        t111 * s_j_in_joint_i_0) - ((t134 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t132 + g_i_dot_omega_i * t133 +
-        h_i_dot_omega_i * t134 - (t126 * f_i_dot_f_j + omega_j_in_joint_i_0 * t132 + (t111 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t133) + (t117 * h_i_dot_f_j + omega_j_in_joint_i_2 * t134))) + t117) * t75 + (t135 +
-        t135) * t77 * pitch * t76 + (t119 * f_i_dot_omega_i - g_i_dot_omega_i * t127) + (t116 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t125) - (t121 * f_i_dot_omega_i - g_i_dot_omega_i * t128) + (t30 * v_i[0] + t83 * v_i[1])
-        - (t30 * v_j[0] + t83 * v_j[1]));
-    const jg_real t136 = C_i[4] * A_j[0];
-    const jg_real t137 = C_i[4] * A_j[3];
-    const jg_real t138 = C_i[4] * A_j[6];
-    const jg_real t139 = t136 * omega_j[0] + t137 * omega_j[1] + t138 * omega_j[2];
-    const jg_real t140 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
-    const jg_real t141 = f_i_world_1 * C_i[4] - C_i[1] * g_i_world_1;
-    const jg_real t142 = t140 * A_j[1] + t141 * A_j[2];
-    const jg_real t143 = t140 * A_j[4] + t141 * A_j[5];
-    const jg_real t144 = t140 * A_j[7] + t141 * A_j[8];
-    const jg_real t145 = t142 * s_j[0] + t143 * s_j[1] + t144 * s_j[2];
-    const jg_real t146 = s_j[0] * t136 + s_j[1] * t137 + s_j[2] * t138;
-    const jg_real t147 = t142 * omega_j[0] + t143 * omega_j[1] + t144 * omega_j[2];
-    const jg_real t148 = t140 * r_j[1] + t141 * r_j[2];
-    const jg_real t149 = C_i[4] * r_j[0];
-    const jg_real t150 = t140 * r_i[1] + t141 * r_i[2];
-    const jg_real t151 = C_i[4] * r_i[0];
-    jac_phi_q_v_A_i[15] = s_j_in_joint_i_2 * t139 - t145 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t146 -
-        t147 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t150 + h_i_dot_omega_i * t151 - (t145 * g_i_dot_omega_i + t146
-        * h_i_dot_omega_i + (g_i_dot_omega_i * t148 + h_i_dot_omega_i * t149)) + C_i[1] * v_i[0] - C_i[1] * v_j[0]);
-    const jg_real t152 = h_i_in_j_2 * t137 - t144 * g_i_in_j_1 - (h_i_in_j_1 * t138 - t143 * g_i_in_j_2);
-    const jg_real t153 = h_i_in_j_0 * t138 - t142 * g_i_in_j_2 - (h_i_in_j_2 * t136 - t144 * g_i_in_j_0);
-    const jg_real t154 = h_i_in_j_1 * t136 - t143 * g_i_in_j_0 - (h_i_in_j_0 * t137 - t142 * g_i_in_j_1);
-    const jg_real t155 = s_j[0] * t152 + s_j[1] * t153 + s_j[2] * t154;
-    const jg_real t156 = omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154;
-    const jg_real t157 = C_i[1] * r_j[0];
-    const jg_real t158 = C_i[1] * r_i[0];
-    jac_phi_q_v_A_i[16] = omega_j_in_joint_i_2 * t155 - t147 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t156 - t145 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t155 + t145 * f_i_dot_omega_i + (t148 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t157) - (t150 * f_i_dot_omega_i + h_i_dot_omega_i * t158) + C_i[4] * v_i[0] - C_i[4] *
-        v_j[0]);
-    const jg_real t159 = t142 * C_j[6] + t143 * C_j[7] + t144 * C_j[8];
-    const jg_real t160 = t136 * C_j[6] + t137 * C_j[7] + t138 * C_j[8];
-    jac_phi_q_v_A_i[17] = t139 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t159 - (omega_j_in_joint_i_2 * t160 -
-        t147 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t159 + h_i_dot_omega_i * t160);
-    const jg_real t161 = t152 * C_j[6] + t153 * C_j[7] + t154 * C_j[8];
-    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t161 - t147 * h_j_in_joint_i_0 - (t156 * h_j_in_joint_i_2 -
-        omega_j_in_joint_i_0 * t159) - (h_i_dot_omega_i * t161 + f_i_dot_omega_i * t159);
-    const jg_real t162 = t152 * C_j[0] + t153 * C_j[1] + t154 * C_j[2];
-    const jg_real t163 = t136 * C_j[0] + t137 * C_j[1] + t138 * C_j[2];
-    const jg_real t164 = t142 * C_j[0] + t143 * C_j[1] + t144 * C_j[2];
-    const jg_real t165 = h_i_dot_f_j * t164;
-    jac_phi_q_v_A_i[19] = t146 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t156 - (omega_j_in_joint_i_1 * t155 +
-        t139 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t162 + g_i_dot_omega_i * t163 -
-        h_i_dot_omega_i * t164 - (t156 * f_i_dot_f_j + omega_j_in_joint_i_0 * t162 + (t139 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t163) - (t147 * h_i_dot_f_j + omega_j_in_joint_i_2 * t164))) - t164 * t73 - t147) *
-        t75 - (t165 + t165) * t77 * pitch * t76 + (t149 * f_i_dot_omega_i - g_i_dot_omega_i * t157) + (t146 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t155) - (t151 * f_i_dot_omega_i - g_i_dot_omega_i * t158) - (t140 *
-        v_i[1] + t141 * v_i[2]) + (t140 * v_j[1] + t141 * v_j[2]));
-    const jg_real t166 = C_i[4] * A_j[1];
-    const jg_real t167 = C_i[4] * A_j[4];
-    const jg_real t168 = C_i[4] * A_j[7];
-    const jg_real t169 = t166 * omega_j[0] + t167 * omega_j[1] + t168 * omega_j[2];
-    const jg_real t170 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
-    const jg_real t171 = t140 * A_j[0] - t170 * A_j[2];
-    const jg_real t172 = t140 * A_j[3] - t170 * A_j[5];
-    const jg_real t173 = t140 * A_j[6] - t170 * A_j[8];
-    const jg_real t174 = t171 * s_j[0] + t172 * s_j[1] + t173 * s_j[2];
-    const jg_real t175 = s_j[0] * t166 + s_j[1] * t167 + s_j[2] * t168;
-    const jg_real t176 = t171 * omega_j[0] + t172 * omega_j[1] + t173 * omega_j[2];
-    const jg_real t177 = t140 * r_j[0] - t170 * r_j[2];
-    const jg_real t178 = C_i[4] * r_j[1];
-    const jg_real t179 = t140 * r_i[0] - t170 * r_i[2];
-    const jg_real t180 = C_i[4] * r_i[1];
-    jac_phi_q_v_A_i[20] = t174 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t169 - (omega_j_in_joint_i_2 * t175 +
-        t176 * s_j_in_joint_i_1) - (t174 * g_i_dot_omega_i - t175 * h_i_dot_omega_i + (g_i_dot_omega_i * t177 -
-        h_i_dot_omega_i * t178) - (g_i_dot_omega_i * t179 - h_i_dot_omega_i * t180) + C_i[1] * v_i[1] - C_i[1] *
-        v_j[1]);
-    const jg_real t181 = h_i_in_j_2 * t167 + t173 * g_i_in_j_1 - (h_i_in_j_1 * t168 + t172 * g_i_in_j_2);
-    const jg_real t182 = h_i_in_j_0 * t168 + t171 * g_i_in_j_2 - (h_i_in_j_2 * t166 + t173 * g_i_in_j_0);
-    const jg_real t183 = h_i_in_j_1 * t166 + t172 * g_i_in_j_0 - (h_i_in_j_0 * t167 + t171 * g_i_in_j_1);
-    const jg_real t184 = s_j[0] * t181 + s_j[1] * t182 + s_j[2] * t183;
-    const jg_real t185 = omega_j[0] * t181 + omega_j[1] * t182 + omega_j[2] * t183;
-    const jg_real t186 = C_i[1] * r_j[1];
-    const jg_real t187 = C_i[1] * r_i[1];
-    jac_phi_q_v_A_i[21] = omega_j_in_joint_i_2 * t184 + t176 * s_j_in_joint_i_0 - (t174 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t185) - (h_i_dot_omega_i * t184 - t174 * f_i_dot_omega_i + (h_i_dot_omega_i * t186 - t177
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t187 - t179 * f_i_dot_omega_i) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
-    const jg_real t188 = t171 * C_j[6] + t172 * C_j[7] + t173 * C_j[8];
-    const jg_real t189 = t166 * C_j[6] + t167 * C_j[7] + t168 * C_j[8];
-    jac_phi_q_v_A_i[22] = t169 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t188 - (t176 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t189) - (g_i_dot_omega_i * t188 - h_i_dot_omega_i * t189);
-    const jg_real t190 = t181 * C_j[6] + t182 * C_j[7] + t183 * C_j[8];
-    jac_phi_q_v_A_i[23] = t176 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t190 - (t185 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t188) - (h_i_dot_omega_i * t190 - f_i_dot_omega_i * t188);
-    const jg_real t191 = t181 * C_j[0] + t182 * C_j[1] + t183 * C_j[2];
-    const jg_real t192 = t166 * C_j[0] + t167 * C_j[1] + t168 * C_j[2];
-    const jg_real t193 = t171 * C_j[0] + t172 * C_j[1] + t173 * C_j[2];
-    const jg_real t194 = h_i_dot_f_j * t193;
-    jac_phi_q_v_A_i[24] = t175 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t185 - (omega_j_in_joint_i_1 * t184 +
-        t169 * s_j_in_joint_i_0) - ((t193 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t191 + g_i_dot_omega_i * t192 +
-        h_i_dot_omega_i * t193 - (t185 * f_i_dot_f_j + omega_j_in_joint_i_0 * t191 + (t169 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t192) + (t176 * h_i_dot_f_j + omega_j_in_joint_i_2 * t193))) + t176) * t75 + (t194 +
-        t194) * t77 * pitch * t76 + (t178 * f_i_dot_omega_i - g_i_dot_omega_i * t186) + (t175 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t184) - (t180 * f_i_dot_omega_i - g_i_dot_omega_i * t187) + (t140 * v_i[0] - t170 *
-        v_i[2]) - (t140 * v_j[0] - t170 * v_j[2]));
-    const jg_real t195 = C_i[4] * A_j[2];
-    const jg_real t196 = C_i[4] * A_j[5];
-    const jg_real t197 = C_i[4] * A_j[8];
-    const jg_real t198 = t195 * omega_j[0] + t196 * omega_j[1] + t197 * omega_j[2];
-    const jg_real t199 = t141 * A_j[0] + t170 * A_j[1];
-    const jg_real t200 = t141 * A_j[3] + t170 * A_j[4];
-    const jg_real t201 = t141 * A_j[6] + t170 * A_j[7];
-    const jg_real t202 = t199 * s_j[0] + t200 * s_j[1] + t201 * s_j[2];
-    const jg_real t203 = s_j[0] * t195 + s_j[1] * t196 + s_j[2] * t197;
-    const jg_real t204 = t199 * omega_j[0] + t200 * omega_j[1] + t201 * omega_j[2];
-    const jg_real t205 = t141 * r_j[0] + t170 * r_j[1];
-    const jg_real t206 = C_i[4] * r_j[2];
-    const jg_real t207 = t141 * r_i[0] + t170 * r_i[1];
-    const jg_real t208 = C_i[4] * r_i[2];
-    jac_phi_q_v_A_i[25] = t202 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t198 - (omega_j_in_joint_i_2 * t203 +
-        t204 * s_j_in_joint_i_1) - (t202 * g_i_dot_omega_i - t203 * h_i_dot_omega_i + (g_i_dot_omega_i * t205 -
-        h_i_dot_omega_i * t206) - (g_i_dot_omega_i * t207 - h_i_dot_omega_i * t208) + C_i[1] * v_i[2] - C_i[1] *
-        v_j[2]);
-    const jg_real t209 = h_i_in_j_2 * t196 + t201 * g_i_in_j_1 - (h_i_in_j_1 * t197 + t200 * g_i_in_j_2);
-    const jg_real t210 = h_i_in_j_0 * t197 + t199 * g_i_in_j_2 - (h_i_in_j_2 * t195 + t201 * g_i_in_j_0);
-    const jg_real t211 = h_i_in_j_1 * t195 + t200 * g_i_in_j_0 - (h_i_in_j_0 * t196 + t199 * g_i_in_j_1);
-    const jg_real t212 = s_j[0] * t209 + s_j[1] * t210 + s_j[2] * t211;
-    const jg_real t213 = omega_j[0] * t209 + omega_j[1] * t210 + omega_j[2] * t211;
-    const jg_real t214 = C_i[1] * r_j[2];
-    const jg_real t215 = C_i[1] * r_i[2];
-    jac_phi_q_v_A_i[26] = omega_j_in_joint_i_2 * t212 + t204 * s_j_in_joint_i_0 - (t202 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t213) - (h_i_dot_omega_i * t212 - t202 * f_i_dot_omega_i + (h_i_dot_omega_i * t214 - t205
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t215 - t207 * f_i_dot_omega_i) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
-    const jg_real t216 = t199 * C_j[6] + t200 * C_j[7] + t201 * C_j[8];
-    const jg_real t217 = t195 * C_j[6] + t196 * C_j[7] + t197 * C_j[8];
-    jac_phi_q_v_A_i[27] = t198 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t216 - (t204 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t217) - (g_i_dot_omega_i * t216 - h_i_dot_omega_i * t217);
-    const jg_real t218 = t209 * C_j[6] + t210 * C_j[7] + t211 * C_j[8];
-    jac_phi_q_v_A_i[28] = t204 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t218 - (t213 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t216) - (h_i_dot_omega_i * t218 - f_i_dot_omega_i * t216);
-    const jg_real t219 = t209 * C_j[0] + t210 * C_j[1] + t211 * C_j[2];
-    const jg_real t220 = t195 * C_j[0] + t196 * C_j[1] + t197 * C_j[2];
-    const jg_real t221 = t199 * C_j[0] + t200 * C_j[1] + t201 * C_j[2];
-    const jg_real t222 = h_i_dot_f_j * t221;
-    jac_phi_q_v_A_i[29] = t203 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t213 - (omega_j_in_joint_i_1 * t212 +
-        t198 * s_j_in_joint_i_0) - ((t221 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t219 + g_i_dot_omega_i * t220 +
-        h_i_dot_omega_i * t221 - (t213 * f_i_dot_f_j + omega_j_in_joint_i_0 * t219 + (t198 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t220) + (t204 * h_i_dot_f_j + omega_j_in_joint_i_2 * t221))) + t204) * t75 + (t222 +
-        t222) * t77 * pitch * t76 + (t206 * f_i_dot_omega_i - g_i_dot_omega_i * t214) + (t203 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t212) - (t208 * f_i_dot_omega_i - g_i_dot_omega_i * t215) + (t141 * v_i[0] + t170 *
-        v_i[1]) - (t141 * v_j[0] + t170 * v_j[1]));
-    const jg_real t223 = C_i[5] * A_j[0];
-    const jg_real t224 = C_i[5] * A_j[3];
-    const jg_real t225 = C_i[5] * A_j[6];
-    const jg_real t226 = t223 * omega_j[0] + t224 * omega_j[1] + t225 * omega_j[2];
-    const jg_real t227 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
-    const jg_real t228 = f_i_world_1 * C_i[5] - C_i[2] * g_i_world_1;
-    const jg_real t229 = t227 * A_j[1] + t228 * A_j[2];
-    const jg_real t230 = t227 * A_j[4] + t228 * A_j[5];
-    const jg_real t231 = t227 * A_j[7] + t228 * A_j[8];
-    const jg_real t232 = t229 * s_j[0] + t230 * s_j[1] + t231 * s_j[2];
-    const jg_real t233 = s_j[0] * t223 + s_j[1] * t224 + s_j[2] * t225;
-    const jg_real t234 = t229 * omega_j[0] + t230 * omega_j[1] + t231 * omega_j[2];
-    const jg_real t235 = t227 * r_j[1] + t228 * r_j[2];
-    const jg_real t236 = C_i[5] * r_j[0];
-    const jg_real t237 = t227 * r_i[1] + t228 * r_i[2];
-    const jg_real t238 = C_i[5] * r_i[0];
-    jac_phi_q_v_A_i[30] = s_j_in_joint_i_2 * t226 - t232 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t233 -
-        t234 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t237 + h_i_dot_omega_i * t238 - (t232 * g_i_dot_omega_i + t233
-        * h_i_dot_omega_i + (g_i_dot_omega_i * t235 + h_i_dot_omega_i * t236)) + C_i[2] * v_i[0] - C_i[2] * v_j[0]);
-    const jg_real t239 = h_i_in_j_2 * t224 - t231 * g_i_in_j_1 - (h_i_in_j_1 * t225 - t230 * g_i_in_j_2);
-    const jg_real t240 = h_i_in_j_0 * t225 - t229 * g_i_in_j_2 - (h_i_in_j_2 * t223 - t231 * g_i_in_j_0);
-    const jg_real t241 = h_i_in_j_1 * t223 - t230 * g_i_in_j_0 - (h_i_in_j_0 * t224 - t229 * g_i_in_j_1);
-    const jg_real t242 = s_j[0] * t239 + s_j[1] * t240 + s_j[2] * t241;
-    const jg_real t243 = omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241;
-    const jg_real t244 = C_i[2] * r_j[0];
-    const jg_real t245 = C_i[2] * r_i[0];
-    jac_phi_q_v_A_i[31] = omega_j_in_joint_i_2 * t242 - t234 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t243 - t232 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t242 + t232 * f_i_dot_omega_i + (t235 * f_i_dot_omega_i +
-        h_i_dot_omega_i * t244) - (t237 * f_i_dot_omega_i + h_i_dot_omega_i * t245) + C_i[5] * v_i[0] - C_i[5] *
-        v_j[0]);
-    const jg_real t246 = t229 * C_j[6] + t230 * C_j[7] + t231 * C_j[8];
-    const jg_real t247 = t223 * C_j[6] + t224 * C_j[7] + t225 * C_j[8];
-    jac_phi_q_v_A_i[32] = t226 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t246 - (omega_j_in_joint_i_2 * t247 -
-        t234 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t246 + h_i_dot_omega_i * t247);
-    const jg_real t248 = t239 * C_j[6] + t240 * C_j[7] + t241 * C_j[8];
-    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t248 - t234 * h_j_in_joint_i_0 - (t243 * h_j_in_joint_i_2 -
-        omega_j_in_joint_i_0 * t246) - (h_i_dot_omega_i * t248 + f_i_dot_omega_i * t246);
-    const jg_real t249 = t239 * C_j[0] + t240 * C_j[1] + t241 * C_j[2];
-    const jg_real t250 = t223 * C_j[0] + t224 * C_j[1] + t225 * C_j[2];
-    const jg_real t251 = t229 * C_j[0] + t230 * C_j[1] + t231 * C_j[2];
-    const jg_real t252 = h_i_dot_f_j * t251;
-    jac_phi_q_v_A_i[34] = t233 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t243 - (omega_j_in_joint_i_1 * t242 +
-        t226 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t249 + g_i_dot_omega_i * t250 -
-        h_i_dot_omega_i * t251 - (t243 * f_i_dot_f_j + omega_j_in_joint_i_0 * t249 + (t226 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t250) - (t234 * h_i_dot_f_j + omega_j_in_joint_i_2 * t251))) - t251 * t73 - t234) *
-        t75 - (t252 + t252) * t77 * pitch * t76 + (t236 * f_i_dot_omega_i - g_i_dot_omega_i * t244) + (t233 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t242) - (t238 * f_i_dot_omega_i - g_i_dot_omega_i * t245) - (t227 *
-        v_i[1] + t228 * v_i[2]) + (t227 * v_j[1] + t228 * v_j[2]));
-    const jg_real t253 = C_i[5] * A_j[1];
-    const jg_real t254 = C_i[5] * A_j[4];
-    const jg_real t255 = C_i[5] * A_j[7];
-    const jg_real t256 = t253 * omega_j[0] + t254 * omega_j[1] + t255 * omega_j[2];
-    const jg_real t257 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
-    const jg_real t258 = t227 * A_j[0] - t257 * A_j[2];
-    const jg_real t259 = t227 * A_j[3] - t257 * A_j[5];
-    const jg_real t260 = t227 * A_j[6] - t257 * A_j[8];
-    const jg_real t261 = t258 * s_j[0] + t259 * s_j[1] + t260 * s_j[2];
-    const jg_real t262 = s_j[0] * t253 + s_j[1] * t254 + s_j[2] * t255;
-    const jg_real t263 = t258 * omega_j[0] + t259 * omega_j[1] + t260 * omega_j[2];
-    const jg_real t264 = t227 * r_j[0] - t257 * r_j[2];
-    const jg_real t265 = C_i[5] * r_j[1];
-    const jg_real t266 = t227 * r_i[0] - t257 * r_i[2];
-    const jg_real t267 = C_i[5] * r_i[1];
-    jac_phi_q_v_A_i[35] = t261 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t256 - (omega_j_in_joint_i_2 * t262 +
-        t263 * s_j_in_joint_i_1) - (t261 * g_i_dot_omega_i - t262 * h_i_dot_omega_i + (g_i_dot_omega_i * t264 -
-        h_i_dot_omega_i * t265) - (g_i_dot_omega_i * t266 - h_i_dot_omega_i * t267) + C_i[2] * v_i[1] - C_i[2] *
-        v_j[1]);
-    const jg_real t268 = h_i_in_j_2 * t254 + t260 * g_i_in_j_1 - (h_i_in_j_1 * t255 + t259 * g_i_in_j_2);
-    const jg_real t269 = h_i_in_j_0 * t255 + t258 * g_i_in_j_2 - (h_i_in_j_2 * t253 + t260 * g_i_in_j_0);
-    const jg_real t270 = h_i_in_j_1 * t253 + t259 * g_i_in_j_0 - (h_i_in_j_0 * t254 + t258 * g_i_in_j_1);
-    const jg_real t271 = s_j[0] * t268 + s_j[1] * t269 + s_j[2] * t270;
-    const jg_real t272 = omega_j[0] * t268 + omega_j[1] * t269 + omega_j[2] * t270;
-    const jg_real t273 = C_i[2] * r_j[1];
-    const jg_real t274 = C_i[2] * r_i[1];
-    jac_phi_q_v_A_i[36] = omega_j_in_joint_i_2 * t271 + t263 * s_j_in_joint_i_0 - (t261 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t272) - (h_i_dot_omega_i * t271 - t261 * f_i_dot_omega_i + (h_i_dot_omega_i * t273 - t264
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t274 - t266 * f_i_dot_omega_i) + C_i[5] * v_i[1] - C_i[5] * v_j[1]);
-    const jg_real t275 = t258 * C_j[6] + t259 * C_j[7] + t260 * C_j[8];
-    const jg_real t276 = t253 * C_j[6] + t254 * C_j[7] + t255 * C_j[8];
-    jac_phi_q_v_A_i[37] = t256 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t275 - (t263 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t276) - (g_i_dot_omega_i * t275 - h_i_dot_omega_i * t276);
-    const jg_real t277 = t268 * C_j[6] + t269 * C_j[7] + t270 * C_j[8];
-    jac_phi_q_v_A_i[38] = t263 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t277 - (t272 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t275) - (h_i_dot_omega_i * t277 - f_i_dot_omega_i * t275);
-    const jg_real t278 = t268 * C_j[0] + t269 * C_j[1] + t270 * C_j[2];
-    const jg_real t279 = t253 * C_j[0] + t254 * C_j[1] + t255 * C_j[2];
-    const jg_real t280 = t258 * C_j[0] + t259 * C_j[1] + t260 * C_j[2];
-    const jg_real t281 = h_i_dot_f_j * t280;
-    jac_phi_q_v_A_i[39] = t262 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t272 - (omega_j_in_joint_i_1 * t271 +
-        t256 * s_j_in_joint_i_0) - ((t280 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t278 + g_i_dot_omega_i * t279 +
-        h_i_dot_omega_i * t280 - (t272 * f_i_dot_f_j + omega_j_in_joint_i_0 * t278 + (t256 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t279) + (t263 * h_i_dot_f_j + omega_j_in_joint_i_2 * t280))) + t263) * t75 + (t281 +
-        t281) * t77 * pitch * t76 + (t265 * f_i_dot_omega_i - g_i_dot_omega_i * t273) + (t262 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t271) - (t267 * f_i_dot_omega_i - g_i_dot_omega_i * t274) + (t227 * v_i[0] - t257 *
-        v_i[2]) - (t227 * v_j[0] - t257 * v_j[2]));
-    const jg_real t282 = C_i[5] * A_j[2];
-    const jg_real t283 = C_i[5] * A_j[5];
-    const jg_real t284 = C_i[5] * A_j[8];
-    const jg_real t285 = t282 * omega_j[0] + t283 * omega_j[1] + t284 * omega_j[2];
-    const jg_real t286 = t228 * A_j[0] + t257 * A_j[1];
-    const jg_real t287 = t228 * A_j[3] + t257 * A_j[4];
-    const jg_real t288 = t228 * A_j[6] + t257 * A_j[7];
-    const jg_real t289 = t286 * s_j[0] + t287 * s_j[1] + t288 * s_j[2];
-    const jg_real t290 = s_j[0] * t282 + s_j[1] * t283 + s_j[2] * t284;
-    const jg_real t291 = t286 * omega_j[0] + t287 * omega_j[1] + t288 * omega_j[2];
-    const jg_real t292 = t228 * r_j[0] + t257 * r_j[1];
-    const jg_real t293 = C_i[5] * r_j[2];
-    const jg_real t294 = t228 * r_i[0] + t257 * r_i[1];
-    const jg_real t295 = C_i[5] * r_i[2];
-    jac_phi_q_v_A_i[40] = t289 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t285 - (omega_j_in_joint_i_2 * t290 +
-        t291 * s_j_in_joint_i_1) - (t289 * g_i_dot_omega_i - t290 * h_i_dot_omega_i + (g_i_dot_omega_i * t292 -
-        h_i_dot_omega_i * t293) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295) + C_i[2] * v_i[2] - C_i[2] *
-        v_j[2]);
-    const jg_real t296 = h_i_in_j_2 * t283 + t288 * g_i_in_j_1 - (h_i_in_j_1 * t284 + t287 * g_i_in_j_2);
-    const jg_real t297 = h_i_in_j_0 * t284 + t286 * g_i_in_j_2 - (h_i_in_j_2 * t282 + t288 * g_i_in_j_0);
-    const jg_real t298 = h_i_in_j_1 * t282 + t287 * g_i_in_j_0 - (h_i_in_j_0 * t283 + t286 * g_i_in_j_1);
-    const jg_real t299 = s_j[0] * t296 + s_j[1] * t297 + s_j[2] * t298;
-    const jg_real t300 = omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298;
-    const jg_real t301 = C_i[2] * r_j[2];
-    const jg_real t302 = C_i[2] * r_i[2];
-    jac_phi_q_v_A_i[41] = omega_j_in_joint_i_2 * t299 + t291 * s_j_in_joint_i_0 - (t289 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t300) - (h_i_dot_omega_i * t299 - t289 * f_i_dot_omega_i + (h_i_dot_omega_i * t301 - t292
-        * f_i_dot_omega_i) - (h_i_dot_omega_i * t302 - t294 * f_i_dot_omega_i) + C_i[5] * v_i[2] - C_i[5] * v_j[2]);
-    const jg_real t303 = t286 * C_j[6] + t287 * C_j[7] + t288 * C_j[8];
-    const jg_real t304 = t282 * C_j[6] + t283 * C_j[7] + t284 * C_j[8];
-    jac_phi_q_v_A_i[42] = t285 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t303 - (t291 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t304) - (g_i_dot_omega_i * t303 - h_i_dot_omega_i * t304);
-    const jg_real t305 = t296 * C_j[6] + t297 * C_j[7] + t298 * C_j[8];
-    jac_phi_q_v_A_i[43] = t291 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t305 - (t300 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t303) - (h_i_dot_omega_i * t305 - f_i_dot_omega_i * t303);
-    const jg_real t306 = t296 * C_j[0] + t297 * C_j[1] + t298 * C_j[2];
-    const jg_real t307 = t282 * C_j[0] + t283 * C_j[1] + t284 * C_j[2];
-    const jg_real t308 = t286 * C_j[0] + t287 * C_j[1] + t288 * C_j[2];
-    const jg_real t309 = h_i_dot_f_j * t308;
-    jac_phi_q_v_A_i[44] = t290 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t300 - (omega_j_in_joint_i_1 * t299 +
-        t285 * s_j_in_joint_i_0) - ((t308 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t306 + g_i_dot_omega_i * t307 +
-        h_i_dot_omega_i * t308 - (t300 * f_i_dot_f_j + omega_j_in_joint_i_0 * t306 + (t285 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t307) + (t291 * h_i_dot_f_j + omega_j_in_joint_i_2 * t308))) + t291) * t75 + (t309 +
-        t309) * t77 * pitch * t76 + (t293 * f_i_dot_omega_i - g_i_dot_omega_i * t301) + (t290 * f_i_dot_omega_i -
-        g_i_dot_omega_i * t299) - (t295 * f_i_dot_omega_i - g_i_dot_omega_i * t302) + (t228 * v_i[0] + t257 *
-        v_i[1]) - (t228 * v_j[0] + t257 * v_j[1]));
+        h_i_dot_omega_i * t91) + C_i[0] * v_i[1] - C_i[0] * v_j[1]);
+    const jg_real t92 = h_i_in_j_2 * t80 + t86 * g_i_in_j_1 - (h_i_in_j_1 * t81 + t85 * g_i_in_j_2);
+    const jg_real t93 = h_i_in_j_0 * t81 + t84 * g_i_in_j_2 - (h_i_in_j_2 * t79 + t86 * g_i_in_j_0);
+    const jg_real t94 = h_i_in_j_1 * t79 + t85 * g_i_in_j_0 - (h_i_in_j_0 * t80 + t84 * g_i_in_j_1);
+    const jg_real t95 = s_j[0] * t92 + s_j[1] * t93 + s_j[2] * t94;
+    const jg_real t96 = omega_j[0] * t92 + omega_j[1] * t93 + omega_j[2] * t94;
+    const jg_real t97 = C_i[0] * r_ij_world_1;
+    jac_phi_q_v_A_i[6] = omega_j_in_joint_i_2 * t95 + t89 * s_j_in_joint_i_0 - (t87 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t96) - (h_i_dot_omega_i * t95 - t87 * f_i_dot_omega_i + (h_i_dot_omega_i * t97 - t90 *
+        f_i_dot_omega_i) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
+    const jg_real t98 = t84 * C_j[6] + t85 * C_j[7] + t86 * C_j[8];
+    const jg_real t99 = t79 * C_j[6] + t80 * C_j[7] + t81 * C_j[8];
+    jac_phi_q_v_A_i[7] = t82 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t98 - (t89 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t99) - (g_i_dot_omega_i * t98 - h_i_dot_omega_i * t99);
+    const jg_real t100 = t92 * C_j[6] + t93 * C_j[7] + t94 * C_j[8];
+    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t100 - (t96 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t98) - (h_i_dot_omega_i * t100 - f_i_dot_omega_i * t98);
+    const jg_real t101 = t92 * C_j[0] + t93 * C_j[1] + t94 * C_j[2];
+    const jg_real t102 = t79 * C_j[0] + t80 * C_j[1] + t81 * C_j[2];
+    const jg_real t103 = t84 * C_j[0] + t85 * C_j[1] + t86 * C_j[2];
+    const jg_real t104 = h_i_dot_f_j * t103;
+    jac_phi_q_v_A_i[9] = t88 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t96 - (omega_j_in_joint_i_1 * t95 + t82 *
+        s_j_in_joint_i_0) - ((t103 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t101 + g_i_dot_omega_i * t102 +
+        h_i_dot_omega_i * t103 - (t96 * f_i_dot_f_j + omega_j_in_joint_i_0 * t101 + (t82 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t102) + (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t103))) + t89) * t75 + (t104 +
+        t104) * t77 * pitch * t76 + (t91 * f_i_dot_omega_i - g_i_dot_omega_i * t97) + (t88 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t95) + (t29 * v_i[0] - t83 * v_i[2]) - (t29 * v_j[0] - t83 * v_j[2]));
+    const jg_real t105 = C_i[3] * A_j[2];
+    const jg_real t106 = C_i[3] * A_j[5];
+    const jg_real t107 = C_i[3] * A_j[8];
+    const jg_real t108 = t105 * omega_j[0] + t106 * omega_j[1] + t107 * omega_j[2];
+    const jg_real t109 = t30 * A_j[0] + t83 * A_j[1];
+    const jg_real t110 = t30 * A_j[3] + t83 * A_j[4];
+    const jg_real t111 = t30 * A_j[6] + t83 * A_j[7];
+    const jg_real t112 = t109 * s_j[0] + t110 * s_j[1] + t111 * s_j[2];
+    const jg_real t113 = s_j[0] * t105 + s_j[1] * t106 + s_j[2] * t107;
+    const jg_real t114 = t109 * omega_j[0] + t110 * omega_j[1] + t111 * omega_j[2];
+    const jg_real t115 = t30 * r_ij_world_0 + t83 * r_ij_world_1;
+    const jg_real t116 = C_i[3] * r_ij_world_2;
+    jac_phi_q_v_A_i[10] = t112 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t108 - (omega_j_in_joint_i_2 * t113 +
+        t114 * s_j_in_joint_i_1) - (t112 * g_i_dot_omega_i - t113 * h_i_dot_omega_i + (g_i_dot_omega_i * t115 -
+        h_i_dot_omega_i * t116) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
+    const jg_real t117 = h_i_in_j_2 * t106 + t111 * g_i_in_j_1 - (h_i_in_j_1 * t107 + t110 * g_i_in_j_2);
+    const jg_real t118 = h_i_in_j_0 * t107 + t109 * g_i_in_j_2 - (h_i_in_j_2 * t105 + t111 * g_i_in_j_0);
+    const jg_real t119 = h_i_in_j_1 * t105 + t110 * g_i_in_j_0 - (h_i_in_j_0 * t106 + t109 * g_i_in_j_1);
+    const jg_real t120 = s_j[0] * t117 + s_j[1] * t118 + s_j[2] * t119;
+    const jg_real t121 = omega_j[0] * t117 + omega_j[1] * t118 + omega_j[2] * t119;
+    const jg_real t122 = C_i[0] * r_ij_world_2;
+    jac_phi_q_v_A_i[11] = omega_j_in_joint_i_2 * t120 + t114 * s_j_in_joint_i_0 - (t112 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t121) - (h_i_dot_omega_i * t120 - t112 * f_i_dot_omega_i + (h_i_dot_omega_i * t122 - t115
+        * f_i_dot_omega_i) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
+    const jg_real t123 = t109 * C_j[6] + t110 * C_j[7] + t111 * C_j[8];
+    const jg_real t124 = t105 * C_j[6] + t106 * C_j[7] + t107 * C_j[8];
+    jac_phi_q_v_A_i[12] = t108 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t123 - (t114 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t124) - (g_i_dot_omega_i * t123 - h_i_dot_omega_i * t124);
+    const jg_real t125 = t117 * C_j[6] + t118 * C_j[7] + t119 * C_j[8];
+    jac_phi_q_v_A_i[13] = t114 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t125 - (t121 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t123) - (h_i_dot_omega_i * t125 - f_i_dot_omega_i * t123);
+    const jg_real t126 = t117 * C_j[0] + t118 * C_j[1] + t119 * C_j[2];
+    const jg_real t127 = t105 * C_j[0] + t106 * C_j[1] + t107 * C_j[2];
+    const jg_real t128 = t109 * C_j[0] + t110 * C_j[1] + t111 * C_j[2];
+    const jg_real t129 = h_i_dot_f_j * t128;
+    jac_phi_q_v_A_i[14] = t113 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t121 - (omega_j_in_joint_i_1 * t120 +
+        t108 * s_j_in_joint_i_0) - ((t128 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t126 + g_i_dot_omega_i * t127 +
+        h_i_dot_omega_i * t128 - (t121 * f_i_dot_f_j + omega_j_in_joint_i_0 * t126 + (t108 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t127) + (t114 * h_i_dot_f_j + omega_j_in_joint_i_2 * t128))) + t114) * t75 + (t129 +
+        t129) * t77 * pitch * t76 + (t116 * f_i_dot_omega_i - g_i_dot_omega_i * t122) + (t113 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t120) + (t30 * v_i[0] + t83 * v_i[1]) - (t30 * v_j[0] + t83 * v_j[1]));
+    const jg_real t130 = C_i[4] * A_j[0];
+    const jg_real t131 = C_i[4] * A_j[3];
+    const jg_real t132 = C_i[4] * A_j[6];
+    const jg_real t133 = t130 * omega_j[0] + t131 * omega_j[1] + t132 * omega_j[2];
+    const jg_real t134 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
+    const jg_real t135 = f_i_world_1 * C_i[4] - C_i[1] * g_i_world_1;
+    const jg_real t136 = t134 * A_j[1] + t135 * A_j[2];
+    const jg_real t137 = t134 * A_j[4] + t135 * A_j[5];
+    const jg_real t138 = t134 * A_j[7] + t135 * A_j[8];
+    const jg_real t139 = t136 * s_j[0] + t137 * s_j[1] + t138 * s_j[2];
+    const jg_real t140 = s_j[0] * t130 + s_j[1] * t131 + s_j[2] * t132;
+    const jg_real t141 = t136 * omega_j[0] + t137 * omega_j[1] + t138 * omega_j[2];
+    const jg_real t142 = t134 * r_ij_world_1 + t135 * r_ij_world_2;
+    const jg_real t143 = C_i[4] * r_ij_world_0;
+    jac_phi_q_v_A_i[15] = s_j_in_joint_i_2 * t133 - t139 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t140 -
+        t141 * s_j_in_joint_i_1) - (C_i[1] * v_i[0] - (t139 * g_i_dot_omega_i + t140 * h_i_dot_omega_i +
+        (g_i_dot_omega_i * t142 + h_i_dot_omega_i * t143)) - C_i[1] * v_j[0]);
+    const jg_real t144 = h_i_in_j_2 * t131 - t138 * g_i_in_j_1 - (h_i_in_j_1 * t132 - t137 * g_i_in_j_2);
+    const jg_real t145 = h_i_in_j_0 * t132 - t136 * g_i_in_j_2 - (h_i_in_j_2 * t130 - t138 * g_i_in_j_0);
+    const jg_real t146 = h_i_in_j_1 * t130 - t137 * g_i_in_j_0 - (h_i_in_j_0 * t131 - t136 * g_i_in_j_1);
+    const jg_real t147 = s_j[0] * t144 + s_j[1] * t145 + s_j[2] * t146;
+    const jg_real t148 = omega_j[0] * t144 + omega_j[1] * t145 + omega_j[2] * t146;
+    const jg_real t149 = C_i[1] * r_ij_world_0;
+    jac_phi_q_v_A_i[16] = omega_j_in_joint_i_2 * t147 - t141 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t148 - t139 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t147 + t139 * f_i_dot_omega_i + (t142 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t149) + C_i[4] * v_i[0] - C_i[4] * v_j[0]);
+    const jg_real t150 = t136 * C_j[6] + t137 * C_j[7] + t138 * C_j[8];
+    const jg_real t151 = t130 * C_j[6] + t131 * C_j[7] + t132 * C_j[8];
+    jac_phi_q_v_A_i[17] = t133 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t150 - (omega_j_in_joint_i_2 * t151 -
+        t141 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t150 + h_i_dot_omega_i * t151);
+    const jg_real t152 = t144 * C_j[6] + t145 * C_j[7] + t146 * C_j[8];
+    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t152 - t141 * h_j_in_joint_i_0 - (t148 * h_j_in_joint_i_2 -
+        omega_j_in_joint_i_0 * t150) - (h_i_dot_omega_i * t152 + f_i_dot_omega_i * t150);
+    const jg_real t153 = t144 * C_j[0] + t145 * C_j[1] + t146 * C_j[2];
+    const jg_real t154 = t130 * C_j[0] + t131 * C_j[1] + t132 * C_j[2];
+    const jg_real t155 = t136 * C_j[0] + t137 * C_j[1] + t138 * C_j[2];
+    const jg_real t156 = h_i_dot_f_j * t155;
+    jac_phi_q_v_A_i[19] = t140 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t148 - (omega_j_in_joint_i_1 * t147 +
+        t133 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t153 + g_i_dot_omega_i * t154 -
+        h_i_dot_omega_i * t155 - (t148 * f_i_dot_f_j + omega_j_in_joint_i_0 * t153 + (t133 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t154) - (t141 * h_i_dot_f_j + omega_j_in_joint_i_2 * t155))) - t155 * t73 - t141) *
+        t75 - (t156 + t156) * t77 * pitch * t76 + (t143 * f_i_dot_omega_i - g_i_dot_omega_i * t149) + (t140 *
+        f_i_dot_omega_i - g_i_dot_omega_i * t147) - (t134 * v_i[1] + t135 * v_i[2]) + (t134 * v_j[1] + t135 *
+        v_j[2]));
+    const jg_real t157 = C_i[4] * A_j[1];
+    const jg_real t158 = C_i[4] * A_j[4];
+    const jg_real t159 = C_i[4] * A_j[7];
+    const jg_real t160 = t157 * omega_j[0] + t158 * omega_j[1] + t159 * omega_j[2];
+    const jg_real t161 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
+    const jg_real t162 = t134 * A_j[0] - t161 * A_j[2];
+    const jg_real t163 = t134 * A_j[3] - t161 * A_j[5];
+    const jg_real t164 = t134 * A_j[6] - t161 * A_j[8];
+    const jg_real t165 = t162 * s_j[0] + t163 * s_j[1] + t164 * s_j[2];
+    const jg_real t166 = s_j[0] * t157 + s_j[1] * t158 + s_j[2] * t159;
+    const jg_real t167 = t162 * omega_j[0] + t163 * omega_j[1] + t164 * omega_j[2];
+    const jg_real t168 = t134 * r_ij_world_0 - t161 * r_ij_world_2;
+    const jg_real t169 = C_i[4] * r_ij_world_1;
+    jac_phi_q_v_A_i[20] = t165 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t160 - (omega_j_in_joint_i_2 * t166 +
+        t167 * s_j_in_joint_i_1) - (t165 * g_i_dot_omega_i - t166 * h_i_dot_omega_i + (g_i_dot_omega_i * t168 -
+        h_i_dot_omega_i * t169) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
+    const jg_real t170 = h_i_in_j_2 * t158 + t164 * g_i_in_j_1 - (h_i_in_j_1 * t159 + t163 * g_i_in_j_2);
+    const jg_real t171 = h_i_in_j_0 * t159 + t162 * g_i_in_j_2 - (h_i_in_j_2 * t157 + t164 * g_i_in_j_0);
+    const jg_real t172 = h_i_in_j_1 * t157 + t163 * g_i_in_j_0 - (h_i_in_j_0 * t158 + t162 * g_i_in_j_1);
+    const jg_real t173 = s_j[0] * t170 + s_j[1] * t171 + s_j[2] * t172;
+    const jg_real t174 = omega_j[0] * t170 + omega_j[1] * t171 + omega_j[2] * t172;
+    const jg_real t175 = C_i[1] * r_ij_world_1;
+    jac_phi_q_v_A_i[21] = omega_j_in_joint_i_2 * t173 + t167 * s_j_in_joint_i_0 - (t165 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t174) - (h_i_dot_omega_i * t173 - t165 * f_i_dot_omega_i + (h_i_dot_omega_i * t175 - t168
+        * f_i_dot_omega_i) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
+    const jg_real t176 = t162 * C_j[6] + t163 * C_j[7] + t164 * C_j[8];
+    const jg_real t177 = t157 * C_j[6] + t158 * C_j[7] + t159 * C_j[8];
+    jac_phi_q_v_A_i[22] = t160 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t176 - (t167 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t177) - (g_i_dot_omega_i * t176 - h_i_dot_omega_i * t177);
+    const jg_real t178 = t170 * C_j[6] + t171 * C_j[7] + t172 * C_j[8];
+    jac_phi_q_v_A_i[23] = t167 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t178 - (t174 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t176) - (h_i_dot_omega_i * t178 - f_i_dot_omega_i * t176);
+    const jg_real t179 = t170 * C_j[0] + t171 * C_j[1] + t172 * C_j[2];
+    const jg_real t180 = t157 * C_j[0] + t158 * C_j[1] + t159 * C_j[2];
+    const jg_real t181 = t162 * C_j[0] + t163 * C_j[1] + t164 * C_j[2];
+    const jg_real t182 = h_i_dot_f_j * t181;
+    jac_phi_q_v_A_i[24] = t166 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t174 - (omega_j_in_joint_i_1 * t173 +
+        t160 * s_j_in_joint_i_0) - ((t181 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t179 + g_i_dot_omega_i * t180 +
+        h_i_dot_omega_i * t181 - (t174 * f_i_dot_f_j + omega_j_in_joint_i_0 * t179 + (t160 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t180) + (t167 * h_i_dot_f_j + omega_j_in_joint_i_2 * t181))) + t167) * t75 + (t182 +
+        t182) * t77 * pitch * t76 + (t169 * f_i_dot_omega_i - g_i_dot_omega_i * t175) + (t166 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t173) + (t134 * v_i[0] - t161 * v_i[2]) - (t134 * v_j[0] - t161 * v_j[2]));
+    const jg_real t183 = C_i[4] * A_j[2];
+    const jg_real t184 = C_i[4] * A_j[5];
+    const jg_real t185 = C_i[4] * A_j[8];
+    const jg_real t186 = t183 * omega_j[0] + t184 * omega_j[1] + t185 * omega_j[2];
+    const jg_real t187 = t135 * A_j[0] + t161 * A_j[1];
+    const jg_real t188 = t135 * A_j[3] + t161 * A_j[4];
+    const jg_real t189 = t135 * A_j[6] + t161 * A_j[7];
+    const jg_real t190 = t187 * s_j[0] + t188 * s_j[1] + t189 * s_j[2];
+    const jg_real t191 = s_j[0] * t183 + s_j[1] * t184 + s_j[2] * t185;
+    const jg_real t192 = t187 * omega_j[0] + t188 * omega_j[1] + t189 * omega_j[2];
+    const jg_real t193 = t135 * r_ij_world_0 + t161 * r_ij_world_1;
+    const jg_real t194 = C_i[4] * r_ij_world_2;
+    jac_phi_q_v_A_i[25] = t190 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t186 - (omega_j_in_joint_i_2 * t191 +
+        t192 * s_j_in_joint_i_1) - (t190 * g_i_dot_omega_i - t191 * h_i_dot_omega_i + (g_i_dot_omega_i * t193 -
+        h_i_dot_omega_i * t194) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
+    const jg_real t195 = h_i_in_j_2 * t184 + t189 * g_i_in_j_1 - (h_i_in_j_1 * t185 + t188 * g_i_in_j_2);
+    const jg_real t196 = h_i_in_j_0 * t185 + t187 * g_i_in_j_2 - (h_i_in_j_2 * t183 + t189 * g_i_in_j_0);
+    const jg_real t197 = h_i_in_j_1 * t183 + t188 * g_i_in_j_0 - (h_i_in_j_0 * t184 + t187 * g_i_in_j_1);
+    const jg_real t198 = s_j[0] * t195 + s_j[1] * t196 + s_j[2] * t197;
+    const jg_real t199 = omega_j[0] * t195 + omega_j[1] * t196 + omega_j[2] * t197;
+    const jg_real t200 = C_i[1] * r_ij_world_2;
+    jac_phi_q_v_A_i[26] = omega_j_in_joint_i_2 * t198 + t192 * s_j_in_joint_i_0 - (t190 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t199) - (h_i_dot_omega_i * t198 - t190 * f_i_dot_omega_i + (h_i_dot_omega_i * t200 - t193
+        * f_i_dot_omega_i) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
+    const jg_real t201 = t187 * C_j[6] + t188 * C_j[7] + t189 * C_j[8];
+    const jg_real t202 = t183 * C_j[6] + t184 * C_j[7] + t185 * C_j[8];
+    jac_phi_q_v_A_i[27] = t186 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t201 - (t192 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t202) - (g_i_dot_omega_i * t201 - h_i_dot_omega_i * t202);
+    const jg_real t203 = t195 * C_j[6] + t196 * C_j[7] + t197 * C_j[8];
+    jac_phi_q_v_A_i[28] = t192 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t203 - (t199 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t201) - (h_i_dot_omega_i * t203 - f_i_dot_omega_i * t201);
+    const jg_real t204 = t195 * C_j[0] + t196 * C_j[1] + t197 * C_j[2];
+    const jg_real t205 = t183 * C_j[0] + t184 * C_j[1] + t185 * C_j[2];
+    const jg_real t206 = t187 * C_j[0] + t188 * C_j[1] + t189 * C_j[2];
+    const jg_real t207 = h_i_dot_f_j * t206;
+    jac_phi_q_v_A_i[29] = t191 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t199 - (omega_j_in_joint_i_1 * t198 +
+        t186 * s_j_in_joint_i_0) - ((t206 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t204 + g_i_dot_omega_i * t205 +
+        h_i_dot_omega_i * t206 - (t199 * f_i_dot_f_j + omega_j_in_joint_i_0 * t204 + (t186 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t205) + (t192 * h_i_dot_f_j + omega_j_in_joint_i_2 * t206))) + t192) * t75 + (t207 +
+        t207) * t77 * pitch * t76 + (t194 * f_i_dot_omega_i - g_i_dot_omega_i * t200) + (t191 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t198) + (t135 * v_i[0] + t161 * v_i[1]) - (t135 * v_j[0] + t161 * v_j[1]));
+    const jg_real t208 = C_i[5] * A_j[0];
+    const jg_real t209 = C_i[5] * A_j[3];
+    const jg_real t210 = C_i[5] * A_j[6];
+    const jg_real t211 = t208 * omega_j[0] + t209 * omega_j[1] + t210 * omega_j[2];
+    const jg_real t212 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
+    const jg_real t213 = f_i_world_1 * C_i[5] - C_i[2] * g_i_world_1;
+    const jg_real t214 = t212 * A_j[1] + t213 * A_j[2];
+    const jg_real t215 = t212 * A_j[4] + t213 * A_j[5];
+    const jg_real t216 = t212 * A_j[7] + t213 * A_j[8];
+    const jg_real t217 = t214 * s_j[0] + t215 * s_j[1] + t216 * s_j[2];
+    const jg_real t218 = s_j[0] * t208 + s_j[1] * t209 + s_j[2] * t210;
+    const jg_real t219 = t214 * omega_j[0] + t215 * omega_j[1] + t216 * omega_j[2];
+    const jg_real t220 = t212 * r_ij_world_1 + t213 * r_ij_world_2;
+    const jg_real t221 = C_i[5] * r_ij_world_0;
+    jac_phi_q_v_A_i[30] = s_j_in_joint_i_2 * t211 - t217 * omega_j_in_joint_i_1 - (omega_j_in_joint_i_2 * t218 -
+        t219 * s_j_in_joint_i_1) - (C_i[2] * v_i[0] - (t217 * g_i_dot_omega_i + t218 * h_i_dot_omega_i +
+        (g_i_dot_omega_i * t220 + h_i_dot_omega_i * t221)) - C_i[2] * v_j[0]);
+    const jg_real t222 = h_i_in_j_2 * t209 - t216 * g_i_in_j_1 - (h_i_in_j_1 * t210 - t215 * g_i_in_j_2);
+    const jg_real t223 = h_i_in_j_0 * t210 - t214 * g_i_in_j_2 - (h_i_in_j_2 * t208 - t216 * g_i_in_j_0);
+    const jg_real t224 = h_i_in_j_1 * t208 - t215 * g_i_in_j_0 - (h_i_in_j_0 * t209 - t214 * g_i_in_j_1);
+    const jg_real t225 = s_j[0] * t222 + s_j[1] * t223 + s_j[2] * t224;
+    const jg_real t226 = omega_j[0] * t222 + omega_j[1] * t223 + omega_j[2] * t224;
+    const jg_real t227 = C_i[2] * r_ij_world_0;
+    jac_phi_q_v_A_i[31] = omega_j_in_joint_i_2 * t225 - t219 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t226 - t217 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t225 + t217 * f_i_dot_omega_i + (t220 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t227) + C_i[5] * v_i[0] - C_i[5] * v_j[0]);
+    const jg_real t228 = t214 * C_j[6] + t215 * C_j[7] + t216 * C_j[8];
+    const jg_real t229 = t208 * C_j[6] + t209 * C_j[7] + t210 * C_j[8];
+    jac_phi_q_v_A_i[32] = t211 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t228 - (omega_j_in_joint_i_2 * t229 -
+        t219 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t228 + h_i_dot_omega_i * t229);
+    const jg_real t230 = t222 * C_j[6] + t223 * C_j[7] + t224 * C_j[8];
+    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t230 - t219 * h_j_in_joint_i_0 - (t226 * h_j_in_joint_i_2 -
+        omega_j_in_joint_i_0 * t228) - (h_i_dot_omega_i * t230 + f_i_dot_omega_i * t228);
+    const jg_real t231 = t222 * C_j[0] + t223 * C_j[1] + t224 * C_j[2];
+    const jg_real t232 = t208 * C_j[0] + t209 * C_j[1] + t210 * C_j[2];
+    const jg_real t233 = t214 * C_j[0] + t215 * C_j[1] + t216 * C_j[2];
+    const jg_real t234 = h_i_dot_f_j * t233;
+    jac_phi_q_v_A_i[34] = t218 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t226 - (omega_j_in_joint_i_1 * t225 +
+        t211 * s_j_in_joint_i_0) - ((h_i_dot_f_j * (f_i_dot_omega_i * t231 + g_i_dot_omega_i * t232 -
+        h_i_dot_omega_i * t233 - (t226 * f_i_dot_f_j + omega_j_in_joint_i_0 * t231 + (t211 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t232) - (t219 * h_i_dot_f_j + omega_j_in_joint_i_2 * t233))) - t233 * t73 - t219) *
+        t75 - (t234 + t234) * t77 * pitch * t76 + (t221 * f_i_dot_omega_i - g_i_dot_omega_i * t227) + (t218 *
+        f_i_dot_omega_i - g_i_dot_omega_i * t225) - (t212 * v_i[1] + t213 * v_i[2]) + (t212 * v_j[1] + t213 *
+        v_j[2]));
+    const jg_real t235 = C_i[5] * A_j[1];
+    const jg_real t236 = C_i[5] * A_j[4];
+    const jg_real t237 = C_i[5] * A_j[7];
+    const jg_real t238 = t235 * omega_j[0] + t236 * omega_j[1] + t237 * omega_j[2];
+    const jg_real t239 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
+    const jg_real t240 = t212 * A_j[0] - t239 * A_j[2];
+    const jg_real t241 = t212 * A_j[3] - t239 * A_j[5];
+    const jg_real t242 = t212 * A_j[6] - t239 * A_j[8];
+    const jg_real t243 = t240 * s_j[0] + t241 * s_j[1] + t242 * s_j[2];
+    const jg_real t244 = s_j[0] * t235 + s_j[1] * t236 + s_j[2] * t237;
+    const jg_real t245 = t240 * omega_j[0] + t241 * omega_j[1] + t242 * omega_j[2];
+    const jg_real t246 = t212 * r_ij_world_0 - t239 * r_ij_world_2;
+    const jg_real t247 = C_i[5] * r_ij_world_1;
+    jac_phi_q_v_A_i[35] = t243 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t238 - (omega_j_in_joint_i_2 * t244 +
+        t245 * s_j_in_joint_i_1) - (t243 * g_i_dot_omega_i - t244 * h_i_dot_omega_i + (g_i_dot_omega_i * t246 -
+        h_i_dot_omega_i * t247) + C_i[2] * v_i[1] - C_i[2] * v_j[1]);
+    const jg_real t248 = h_i_in_j_2 * t236 + t242 * g_i_in_j_1 - (h_i_in_j_1 * t237 + t241 * g_i_in_j_2);
+    const jg_real t249 = h_i_in_j_0 * t237 + t240 * g_i_in_j_2 - (h_i_in_j_2 * t235 + t242 * g_i_in_j_0);
+    const jg_real t250 = h_i_in_j_1 * t235 + t241 * g_i_in_j_0 - (h_i_in_j_0 * t236 + t240 * g_i_in_j_1);
+    const jg_real t251 = s_j[0] * t248 + s_j[1] * t249 + s_j[2] * t250;
+    const jg_real t252 = omega_j[0] * t248 + omega_j[1] * t249 + omega_j[2] * t250;
+    const jg_real t253 = C_i[2] * r_ij_world_1;
+    jac_phi_q_v_A_i[36] = omega_j_in_joint_i_2 * t251 + t245 * s_j_in_joint_i_0 - (t243 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t252) - (h_i_dot_omega_i * t251 - t243 * f_i_dot_omega_i + (h_i_dot_omega_i * t253 - t246
+        * f_i_dot_omega_i) + C_i[5] * v_i[1] - C_i[5] * v_j[1]);
+    const jg_real t254 = t240 * C_j[6] + t241 * C_j[7] + t242 * C_j[8];
+    const jg_real t255 = t235 * C_j[6] + t236 * C_j[7] + t237 * C_j[8];
+    jac_phi_q_v_A_i[37] = t238 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t254 - (t245 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t255) - (g_i_dot_omega_i * t254 - h_i_dot_omega_i * t255);
+    const jg_real t256 = t248 * C_j[6] + t249 * C_j[7] + t250 * C_j[8];
+    jac_phi_q_v_A_i[38] = t245 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t256 - (t252 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t254) - (h_i_dot_omega_i * t256 - f_i_dot_omega_i * t254);
+    const jg_real t257 = t248 * C_j[0] + t249 * C_j[1] + t250 * C_j[2];
+    const jg_real t258 = t235 * C_j[0] + t236 * C_j[1] + t237 * C_j[2];
+    const jg_real t259 = t240 * C_j[0] + t241 * C_j[1] + t242 * C_j[2];
+    const jg_real t260 = h_i_dot_f_j * t259;
+    jac_phi_q_v_A_i[39] = t244 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t252 - (omega_j_in_joint_i_1 * t251 +
+        t238 * s_j_in_joint_i_0) - ((t259 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t257 + g_i_dot_omega_i * t258 +
+        h_i_dot_omega_i * t259 - (t252 * f_i_dot_f_j + omega_j_in_joint_i_0 * t257 + (t238 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t258) + (t245 * h_i_dot_f_j + omega_j_in_joint_i_2 * t259))) + t245) * t75 + (t260 +
+        t260) * t77 * pitch * t76 + (t247 * f_i_dot_omega_i - g_i_dot_omega_i * t253) + (t244 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t251) + (t212 * v_i[0] - t239 * v_i[2]) - (t212 * v_j[0] - t239 * v_j[2]));
+    const jg_real t261 = C_i[5] * A_j[2];
+    const jg_real t262 = C_i[5] * A_j[5];
+    const jg_real t263 = C_i[5] * A_j[8];
+    const jg_real t264 = t261 * omega_j[0] + t262 * omega_j[1] + t263 * omega_j[2];
+    const jg_real t265 = t213 * A_j[0] + t239 * A_j[1];
+    const jg_real t266 = t213 * A_j[3] + t239 * A_j[4];
+    const jg_real t267 = t213 * A_j[6] + t239 * A_j[7];
+    const jg_real t268 = t265 * s_j[0] + t266 * s_j[1] + t267 * s_j[2];
+    const jg_real t269 = s_j[0] * t261 + s_j[1] * t262 + s_j[2] * t263;
+    const jg_real t270 = t265 * omega_j[0] + t266 * omega_j[1] + t267 * omega_j[2];
+    const jg_real t271 = t213 * r_ij_world_0 + t239 * r_ij_world_1;
+    const jg_real t272 = C_i[5] * r_ij_world_2;
+    jac_phi_q_v_A_i[40] = t268 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t264 - (omega_j_in_joint_i_2 * t269 +
+        t270 * s_j_in_joint_i_1) - (t268 * g_i_dot_omega_i - t269 * h_i_dot_omega_i + (g_i_dot_omega_i * t271 -
+        h_i_dot_omega_i * t272) + C_i[2] * v_i[2] - C_i[2] * v_j[2]);
+    const jg_real t273 = h_i_in_j_2 * t262 + t267 * g_i_in_j_1 - (h_i_in_j_1 * t263 + t266 * g_i_in_j_2);
+    const jg_real t274 = h_i_in_j_0 * t263 + t265 * g_i_in_j_2 - (h_i_in_j_2 * t261 + t267 * g_i_in_j_0);
+    const jg_real t275 = h_i_in_j_1 * t261 + t266 * g_i_in_j_0 - (h_i_in_j_0 * t262 + t265 * g_i_in_j_1);
+    const jg_real t276 = s_j[0] * t273 + s_j[1] * t274 + s_j[2] * t275;
+    const jg_real t277 = omega_j[0] * t273 + omega_j[1] * t274 + omega_j[2] * t275;
+    const jg_real t278 = C_i[2] * r_ij_world_2;
+    jac_phi_q_v_A_i[41] = omega_j_in_joint_i_2 * t276 + t270 * s_j_in_joint_i_0 - (t268 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t277) - (h_i_dot_omega_i * t276 - t268 * f_i_dot_omega_i + (h_i_dot_omega_i * t278 - t271
+        * f_i_dot_omega_i) + C_i[5] * v_i[2] - C_i[5] * v_j[2]);
+    const jg_real t279 = t265 * C_j[6] + t266 * C_j[7] + t267 * C_j[8];
+    const jg_real t280 = t261 * C_j[6] + t262 * C_j[7] + t263 * C_j[8];
+    jac_phi_q_v_A_i[42] = t264 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t279 - (t270 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t280) - (g_i_dot_omega_i * t279 - h_i_dot_omega_i * t280);
+    const jg_real t281 = t273 * C_j[6] + t274 * C_j[7] + t275 * C_j[8];
+    jac_phi_q_v_A_i[43] = t270 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t281 - (t277 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t279) - (h_i_dot_omega_i * t281 - f_i_dot_omega_i * t279);
+    const jg_real t282 = t273 * C_j[0] + t274 * C_j[1] + t275 * C_j[2];
+    const jg_real t283 = t261 * C_j[0] + t262 * C_j[1] + t263 * C_j[2];
+    const jg_real t284 = t265 * C_j[0] + t266 * C_j[1] + t267 * C_j[2];
+    const jg_real t285 = h_i_dot_f_j * t284;
+    jac_phi_q_v_A_i[44] = t269 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t277 - (omega_j_in_joint_i_1 * t276 +
+        t264 * s_j_in_joint_i_0) - ((t284 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t282 + g_i_dot_omega_i * t283 +
+        h_i_dot_omega_i * t284 - (t277 * f_i_dot_f_j + omega_j_in_joint_i_0 * t282 + (t264 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t283) + (t270 * h_i_dot_f_j + omega_j_in_joint_i_2 * t284))) + t270) * t75 + (t285 +
+        t285) * t77 * pitch * t76 + (t272 * f_i_dot_omega_i - g_i_dot_omega_i * t278) + (t269 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t276) + (t213 * v_i[0] + t239 * v_i[1]) - (t213 * v_j[0] + t239 * v_j[1]));
     jac_phi_q_v_r_j[0] = -t8;
     jac_phi_q_v_r_j[1] = -t11;
     jac_phi_q_v_r_j[2] = -t12;
@@ -834,596 +796,571 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_r_j[6] = -t18;
     jac_phi_q_v_r_j[7] = -t19;
     jac_phi_q_v_r_j[8] = -t20;
-    const jg_real t310 = g_i_world_0 * omega_j[0];
-    const jg_real t311 = h_i_world_0 * s_j[0];
-    const jg_real t312 = g_i_world_0 * s_j[0];
-    const jg_real t313 = h_i_world_0 * omega_j[0];
-    jac_phi_q_v_A_j[0] = t311 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t310 - (omega_j_in_joint_i_2 * t312 + t313
-        * s_j_in_joint_i_1) - (t311 * g_i_dot_omega_i - t312 * h_i_dot_omega_i);
-    const jg_real t314 = g_i_world_0 * h_i_in_j_2 - h_i_world_0 * g_i_in_j_2;
-    const jg_real t315 = h_i_world_0 * g_i_in_j_1 - g_i_world_0 * h_i_in_j_1;
-    const jg_real t316 = s_j[1] * t314 + s_j[2] * t315;
-    const jg_real t317 = omega_j[1] * t314 + omega_j[2] * t315;
-    jac_phi_q_v_A_j[1] = t313 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t316 - (t311 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t317) + (h_i_dot_omega_i * t316 + t311 * f_i_dot_omega_i);
-    const jg_real t318 = h_i_world_0 * C_j[6];
-    const jg_real t319 = g_i_world_0 * C_j[6];
-    jac_phi_q_v_A_j[2] = t310 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t318 - (t313 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t319) - (g_i_dot_omega_i * t318 - h_i_dot_omega_i * t319);
-    const jg_real t320 = t314 * C_j[7] + t315 * C_j[8];
-    jac_phi_q_v_A_j[3] = t313 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t320 - (omega_j_in_joint_i_0 * t318 - t317
-        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t320 + f_i_dot_omega_i * t318);
-    const jg_real t321 = h_i_world_0 * C_j[0];
-    const jg_real t322 = t314 * C_j[1] + t315 * C_j[2];
-    const jg_real t323 = g_i_world_0 * C_j[0];
-    const jg_real t324 = t321 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[4] = t312 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t317 - (t310 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t316) - ((t321 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t323 - f_i_dot_omega_i * t322
-        + h_i_dot_omega_i * t321 - (t310 * g_i_dot_f_j + omega_j_in_joint_i_1 * t323 - (t317 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t322) + (t313 * h_i_dot_f_j + omega_j_in_joint_i_2 * t321))) + t313) * t75 + (t324 +
-        t324) * t77 * pitch * t76 + (g_i_dot_omega_i * t316 + t312 * f_i_dot_omega_i));
-    const jg_real t325 = g_i_world_1 * omega_j[0];
-    const jg_real t326 = h_i_world_1 * s_j[0];
-    const jg_real t327 = g_i_world_1 * s_j[0];
-    const jg_real t328 = h_i_world_1 * omega_j[0];
-    jac_phi_q_v_A_j[5] = t326 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t325 - (omega_j_in_joint_i_2 * t327 + t328
-        * s_j_in_joint_i_1) - (t326 * g_i_dot_omega_i - t327 * h_i_dot_omega_i);
-    const jg_real t329 = g_i_world_1 * h_i_in_j_2 - h_i_world_1 * g_i_in_j_2;
-    const jg_real t330 = h_i_world_1 * g_i_in_j_1 - g_i_world_1 * h_i_in_j_1;
-    const jg_real t331 = s_j[1] * t329 + s_j[2] * t330;
-    const jg_real t332 = omega_j[1] * t329 + omega_j[2] * t330;
-    jac_phi_q_v_A_j[6] = t328 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t331 - (t326 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t332) + (h_i_dot_omega_i * t331 + t326 * f_i_dot_omega_i);
-    const jg_real t333 = h_i_world_1 * C_j[6];
-    const jg_real t334 = g_i_world_1 * C_j[6];
-    jac_phi_q_v_A_j[7] = t325 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t333 - (t328 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t334) - (g_i_dot_omega_i * t333 - h_i_dot_omega_i * t334);
-    const jg_real t335 = t329 * C_j[7] + t330 * C_j[8];
-    jac_phi_q_v_A_j[8] = t328 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t335 - (omega_j_in_joint_i_0 * t333 - t332
-        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t335 + f_i_dot_omega_i * t333);
-    const jg_real t336 = h_i_world_1 * C_j[0];
-    const jg_real t337 = t329 * C_j[1] + t330 * C_j[2];
-    const jg_real t338 = g_i_world_1 * C_j[0];
-    const jg_real t339 = t336 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[9] = t327 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t332 - (t325 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t331) - ((t336 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t338 - f_i_dot_omega_i * t337
-        + h_i_dot_omega_i * t336 - (t325 * g_i_dot_f_j + omega_j_in_joint_i_1 * t338 - (t332 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t337) + (t328 * h_i_dot_f_j + omega_j_in_joint_i_2 * t336))) + t328) * t75 + (t339 +
-        t339) * t77 * pitch * t76 + (g_i_dot_omega_i * t331 + t327 * f_i_dot_omega_i));
-    const jg_real t340 = g_i_world_2 * omega_j[0];
-    const jg_real t341 = h_i_world_2 * s_j[0];
-    const jg_real t342 = g_i_world_2 * s_j[0];
-    const jg_real t343 = h_i_world_2 * omega_j[0];
-    jac_phi_q_v_A_j[10] = t341 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t340 - (omega_j_in_joint_i_2 * t342 +
-        t343 * s_j_in_joint_i_1) - (t341 * g_i_dot_omega_i - t342 * h_i_dot_omega_i);
-    const jg_real t344 = g_i_world_2 * h_i_in_j_2 - h_i_world_2 * g_i_in_j_2;
-    const jg_real t345 = h_i_world_2 * g_i_in_j_1 - g_i_world_2 * h_i_in_j_1;
-    const jg_real t346 = s_j[1] * t344 + s_j[2] * t345;
-    const jg_real t347 = omega_j[1] * t344 + omega_j[2] * t345;
-    jac_phi_q_v_A_j[11] = t343 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t346 - (t341 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t347) + (h_i_dot_omega_i * t346 + t341 * f_i_dot_omega_i);
-    const jg_real t348 = h_i_world_2 * C_j[6];
-    const jg_real t349 = g_i_world_2 * C_j[6];
-    jac_phi_q_v_A_j[12] = t340 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t348 - (t343 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t349) - (g_i_dot_omega_i * t348 - h_i_dot_omega_i * t349);
-    const jg_real t350 = t344 * C_j[7] + t345 * C_j[8];
-    jac_phi_q_v_A_j[13] = t343 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t350 - (omega_j_in_joint_i_0 * t348 -
-        t347 * h_j_in_joint_i_2) + (h_i_dot_omega_i * t350 + f_i_dot_omega_i * t348);
-    const jg_real t351 = h_i_world_2 * C_j[0];
-    const jg_real t352 = t344 * C_j[1] + t345 * C_j[2];
-    const jg_real t353 = g_i_world_2 * C_j[0];
-    const jg_real t354 = t351 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[14] = t342 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t347 - (t340 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t346) - ((t351 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t353 - f_i_dot_omega_i * t352
-        + h_i_dot_omega_i * t351 - (t340 * g_i_dot_f_j + omega_j_in_joint_i_1 * t353 - (t347 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t352) + (t343 * h_i_dot_f_j + omega_j_in_joint_i_2 * t351))) + t343) * t75 + (t354 +
-        t354) * t77 * pitch * t76 + (g_i_dot_omega_i * t346 + t342 * f_i_dot_omega_i));
-    const jg_real t355 = g_i_world_0 * omega_j[1];
-    const jg_real t356 = h_i_world_0 * s_j[1];
-    const jg_real t357 = g_i_world_0 * s_j[1];
-    const jg_real t358 = h_i_world_0 * omega_j[1];
-    jac_phi_q_v_A_j[15] = t356 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t355 - (omega_j_in_joint_i_2 * t357 +
-        t358 * s_j_in_joint_i_1) - (t356 * g_i_dot_omega_i - t357 * h_i_dot_omega_i);
-    const jg_real t359 = g_i_world_0 * h_i_in_j_0 - h_i_world_0 * g_i_in_j_0;
-    const jg_real t360 = s_j[0] * t314 - s_j[2] * t359;
-    const jg_real t361 = omega_j[0] * t314 - omega_j[2] * t359;
-    jac_phi_q_v_A_j[16] = omega_j_in_joint_i_2 * t360 + t358 * s_j_in_joint_i_0 - (t356 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t361) - (h_i_dot_omega_i * t360 - t356 * f_i_dot_omega_i);
-    const jg_real t362 = h_i_world_0 * C_j[7];
-    const jg_real t363 = g_i_world_0 * C_j[7];
-    jac_phi_q_v_A_j[17] = t355 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t362 - (t358 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t363) - (g_i_dot_omega_i * t362 - h_i_dot_omega_i * t363);
-    const jg_real t364 = t314 * C_j[6] - t359 * C_j[8];
-    jac_phi_q_v_A_j[18] = t358 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t364 - (t361 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t362) - (h_i_dot_omega_i * t364 - f_i_dot_omega_i * t362);
-    const jg_real t365 = h_i_world_0 * C_j[1];
-    const jg_real t366 = t314 * C_j[0] - t359 * C_j[2];
-    const jg_real t367 = g_i_world_0 * C_j[1];
-    const jg_real t368 = t365 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[19] = t357 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t361 - (omega_j_in_joint_i_1 * t360 +
-        t355 * s_j_in_joint_i_0) - ((t365 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t366 + g_i_dot_omega_i * t367 +
-        h_i_dot_omega_i * t365 - (t361 * f_i_dot_f_j + omega_j_in_joint_i_0 * t366 + (t355 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t367) + (t358 * h_i_dot_f_j + omega_j_in_joint_i_2 * t365))) + t358) * t75 + (t368 +
-        t368) * t77 * pitch * t76 + (t357 * f_i_dot_omega_i - g_i_dot_omega_i * t360));
-    const jg_real t369 = g_i_world_1 * omega_j[1];
-    const jg_real t370 = h_i_world_1 * s_j[1];
-    const jg_real t371 = g_i_world_1 * s_j[1];
-    const jg_real t372 = h_i_world_1 * omega_j[1];
-    jac_phi_q_v_A_j[20] = t370 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t369 - (omega_j_in_joint_i_2 * t371 +
-        t372 * s_j_in_joint_i_1) - (t370 * g_i_dot_omega_i - t371 * h_i_dot_omega_i);
-    const jg_real t373 = g_i_world_1 * h_i_in_j_0 - h_i_world_1 * g_i_in_j_0;
-    const jg_real t374 = s_j[0] * t329 - s_j[2] * t373;
-    const jg_real t375 = omega_j[0] * t329 - omega_j[2] * t373;
-    jac_phi_q_v_A_j[21] = omega_j_in_joint_i_2 * t374 + t372 * s_j_in_joint_i_0 - (t370 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t375) - (h_i_dot_omega_i * t374 - t370 * f_i_dot_omega_i);
-    const jg_real t376 = h_i_world_1 * C_j[7];
-    const jg_real t377 = g_i_world_1 * C_j[7];
-    jac_phi_q_v_A_j[22] = t369 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t376 - (t372 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t377) - (g_i_dot_omega_i * t376 - h_i_dot_omega_i * t377);
-    const jg_real t378 = t329 * C_j[6] - t373 * C_j[8];
-    jac_phi_q_v_A_j[23] = t372 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t378 - (t375 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t376) - (h_i_dot_omega_i * t378 - f_i_dot_omega_i * t376);
-    const jg_real t379 = h_i_world_1 * C_j[1];
-    const jg_real t380 = t329 * C_j[0] - t373 * C_j[2];
-    const jg_real t381 = g_i_world_1 * C_j[1];
-    const jg_real t382 = t379 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[24] = t371 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t375 - (omega_j_in_joint_i_1 * t374 +
-        t369 * s_j_in_joint_i_0) - ((t379 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t380 + g_i_dot_omega_i * t381 +
-        h_i_dot_omega_i * t379 - (t375 * f_i_dot_f_j + omega_j_in_joint_i_0 * t380 + (t369 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t381) + (t372 * h_i_dot_f_j + omega_j_in_joint_i_2 * t379))) + t372) * t75 + (t382 +
-        t382) * t77 * pitch * t76 + (t371 * f_i_dot_omega_i - g_i_dot_omega_i * t374));
-    const jg_real t383 = g_i_world_2 * omega_j[1];
-    const jg_real t384 = h_i_world_2 * s_j[1];
-    const jg_real t385 = g_i_world_2 * s_j[1];
-    const jg_real t386 = h_i_world_2 * omega_j[1];
-    jac_phi_q_v_A_j[25] = t384 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t383 - (omega_j_in_joint_i_2 * t385 +
-        t386 * s_j_in_joint_i_1) - (t384 * g_i_dot_omega_i - t385 * h_i_dot_omega_i);
-    const jg_real t387 = g_i_world_2 * h_i_in_j_0 - h_i_world_2 * g_i_in_j_0;
-    const jg_real t388 = s_j[0] * t344 - s_j[2] * t387;
-    const jg_real t389 = omega_j[0] * t344 - omega_j[2] * t387;
-    jac_phi_q_v_A_j[26] = omega_j_in_joint_i_2 * t388 + t386 * s_j_in_joint_i_0 - (t384 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t389) - (h_i_dot_omega_i * t388 - t384 * f_i_dot_omega_i);
-    const jg_real t390 = h_i_world_2 * C_j[7];
-    const jg_real t391 = g_i_world_2 * C_j[7];
-    jac_phi_q_v_A_j[27] = t383 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t390 - (t386 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t391) - (g_i_dot_omega_i * t390 - h_i_dot_omega_i * t391);
-    const jg_real t392 = t344 * C_j[6] - t387 * C_j[8];
-    jac_phi_q_v_A_j[28] = t386 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t392 - (t389 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t390) - (h_i_dot_omega_i * t392 - f_i_dot_omega_i * t390);
-    const jg_real t393 = h_i_world_2 * C_j[1];
-    const jg_real t394 = t344 * C_j[0] - t387 * C_j[2];
-    const jg_real t395 = g_i_world_2 * C_j[1];
-    const jg_real t396 = t393 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[29] = t385 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t389 - (omega_j_in_joint_i_1 * t388 +
-        t383 * s_j_in_joint_i_0) - ((t393 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t394 + g_i_dot_omega_i * t395 +
-        h_i_dot_omega_i * t393 - (t389 * f_i_dot_f_j + omega_j_in_joint_i_0 * t394 + (t383 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t395) + (t386 * h_i_dot_f_j + omega_j_in_joint_i_2 * t393))) + t386) * t75 + (t396 +
-        t396) * t77 * pitch * t76 + (t385 * f_i_dot_omega_i - g_i_dot_omega_i * t388));
-    const jg_real t397 = g_i_world_0 * omega_j[2];
-    const jg_real t398 = h_i_world_0 * s_j[2];
-    const jg_real t399 = g_i_world_0 * s_j[2];
-    const jg_real t400 = h_i_world_0 * omega_j[2];
-    jac_phi_q_v_A_j[30] = t398 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t397 - (omega_j_in_joint_i_2 * t399 +
-        t400 * s_j_in_joint_i_1) - (t398 * g_i_dot_omega_i - t399 * h_i_dot_omega_i);
-    const jg_real t401 = s_j[0] * t315 + s_j[1] * t359;
-    const jg_real t402 = omega_j[0] * t315 + omega_j[1] * t359;
-    jac_phi_q_v_A_j[31] = omega_j_in_joint_i_2 * t401 + t400 * s_j_in_joint_i_0 - (t398 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t402) - (h_i_dot_omega_i * t401 - t398 * f_i_dot_omega_i);
-    const jg_real t403 = h_i_world_0 * C_j[8];
-    const jg_real t404 = g_i_world_0 * C_j[8];
-    jac_phi_q_v_A_j[32] = t397 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t403 - (t400 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t404) - (g_i_dot_omega_i * t403 - h_i_dot_omega_i * t404);
-    const jg_real t405 = t315 * C_j[6] + t359 * C_j[7];
-    jac_phi_q_v_A_j[33] = t400 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t405 - (t402 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t403) - (h_i_dot_omega_i * t405 - f_i_dot_omega_i * t403);
-    const jg_real t406 = h_i_world_0 * C_j[2];
-    const jg_real t407 = t315 * C_j[0] + t359 * C_j[1];
-    const jg_real t408 = g_i_world_0 * C_j[2];
-    const jg_real t409 = t406 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[34] = t399 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t402 - (omega_j_in_joint_i_1 * t401 +
-        t397 * s_j_in_joint_i_0) - ((t406 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t407 + g_i_dot_omega_i * t408 +
-        h_i_dot_omega_i * t406 - (t402 * f_i_dot_f_j + omega_j_in_joint_i_0 * t407 + (t397 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t408) + (t400 * h_i_dot_f_j + omega_j_in_joint_i_2 * t406))) + t400) * t75 + (t409 +
-        t409) * t77 * pitch * t76 + (t399 * f_i_dot_omega_i - g_i_dot_omega_i * t401));
-    const jg_real t410 = g_i_world_1 * omega_j[2];
-    const jg_real t411 = h_i_world_1 * s_j[2];
-    const jg_real t412 = g_i_world_1 * s_j[2];
-    const jg_real t413 = h_i_world_1 * omega_j[2];
-    jac_phi_q_v_A_j[35] = t411 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t410 - (omega_j_in_joint_i_2 * t412 +
-        t413 * s_j_in_joint_i_1) - (t411 * g_i_dot_omega_i - t412 * h_i_dot_omega_i);
-    const jg_real t414 = s_j[0] * t330 + s_j[1] * t373;
-    const jg_real t415 = omega_j[0] * t330 + omega_j[1] * t373;
-    jac_phi_q_v_A_j[36] = omega_j_in_joint_i_2 * t414 + t413 * s_j_in_joint_i_0 - (t411 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t415) - (h_i_dot_omega_i * t414 - t411 * f_i_dot_omega_i);
-    const jg_real t416 = h_i_world_1 * C_j[8];
-    const jg_real t417 = g_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[37] = t410 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t416 - (t413 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t417) - (g_i_dot_omega_i * t416 - h_i_dot_omega_i * t417);
-    const jg_real t418 = t330 * C_j[6] + t373 * C_j[7];
-    jac_phi_q_v_A_j[38] = t413 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t418 - (t415 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t416) - (h_i_dot_omega_i * t418 - f_i_dot_omega_i * t416);
-    const jg_real t419 = h_i_world_1 * C_j[2];
-    const jg_real t420 = t330 * C_j[0] + t373 * C_j[1];
-    const jg_real t421 = g_i_world_1 * C_j[2];
-    const jg_real t422 = t419 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[39] = t412 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t415 - (omega_j_in_joint_i_1 * t414 +
-        t410 * s_j_in_joint_i_0) - ((t419 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t420 + g_i_dot_omega_i * t421 +
-        h_i_dot_omega_i * t419 - (t415 * f_i_dot_f_j + omega_j_in_joint_i_0 * t420 + (t410 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t421) + (t413 * h_i_dot_f_j + omega_j_in_joint_i_2 * t419))) + t413) * t75 + (t422 +
-        t422) * t77 * pitch * t76 + (t412 * f_i_dot_omega_i - g_i_dot_omega_i * t414));
-    const jg_real t423 = g_i_world_2 * omega_j[2];
-    const jg_real t424 = h_i_world_2 * s_j[2];
-    const jg_real t425 = g_i_world_2 * s_j[2];
-    const jg_real t426 = h_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_j[40] = t424 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t423 - (omega_j_in_joint_i_2 * t425 +
-        t426 * s_j_in_joint_i_1) - (t424 * g_i_dot_omega_i - t425 * h_i_dot_omega_i);
-    const jg_real t427 = s_j[0] * t345 + s_j[1] * t387;
-    const jg_real t428 = omega_j[0] * t345 + omega_j[1] * t387;
-    jac_phi_q_v_A_j[41] = omega_j_in_joint_i_2 * t427 + t426 * s_j_in_joint_i_0 - (t424 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t428) - (h_i_dot_omega_i * t427 - t424 * f_i_dot_omega_i);
-    const jg_real t429 = h_i_world_2 * C_j[8];
-    const jg_real t430 = g_i_world_2 * C_j[8];
-    jac_phi_q_v_A_j[42] = t423 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t429 - (t426 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t430) - (g_i_dot_omega_i * t429 - h_i_dot_omega_i * t430);
-    const jg_real t431 = t345 * C_j[6] + t387 * C_j[7];
-    jac_phi_q_v_A_j[43] = t426 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t431 - (t428 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t429) - (h_i_dot_omega_i * t431 - f_i_dot_omega_i * t429);
-    const jg_real t432 = h_i_world_2 * C_j[2];
-    const jg_real t433 = t345 * C_j[0] + t387 * C_j[1];
-    const jg_real t434 = g_i_world_2 * C_j[2];
-    const jg_real t435 = t432 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[44] = t425 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t428 - (omega_j_in_joint_i_1 * t427 +
-        t423 * s_j_in_joint_i_0) - ((t432 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t433 + g_i_dot_omega_i * t434 +
-        h_i_dot_omega_i * t432 - (t428 * f_i_dot_f_j + omega_j_in_joint_i_0 * t433 + (t423 * g_i_dot_f_j +
-        omega_j_in_joint_i_1 * t434) + (t426 * h_i_dot_f_j + omega_j_in_joint_i_2 * t432))) + t426) * t75 + (t435 +
-        t435) * t77 * pitch * t76 + (t425 * f_i_dot_omega_i - g_i_dot_omega_i * t427));
-    const jg_real t436 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
-    const jg_real t437 = A_i[2] * g_i_world_0 - g_i_world_2 * A_i[0];
-    const jg_real t438 = g_i_world_1 * A_i[0] - A_i[1] * g_i_world_0;
-    const jg_real t439 = t436 * A_j[0] + t437 * A_j[1] + t438 * A_j[2];
-    const jg_real t440 = t436 * A_j[3] + t437 * A_j[4] + t438 * A_j[5];
-    const jg_real t441 = t436 * A_j[6] + t437 * A_j[7] + t438 * A_j[8];
-    const jg_real t442 = t439 * s_j[0] + t440 * s_j[1] + t441 * s_j[2];
-    const jg_real t443 = t439 * omega_j[0] + t440 * omega_j[1] + t441 * omega_j[2];
-    const jg_real t444 = t436 * r_j[0] + t437 * r_j[1] + t438 * r_j[2];
-    const jg_real t445 = t436 * r_i[0] + t437 * r_i[1] + t438 * r_i[2];
-    const jg_real t446 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
-    const jg_real t447 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = t442 * omega_j_in_joint_i_1 - t443 * s_j_in_joint_i_1 - (t442 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t444 - g_i_dot_omega_i * t445 + t446 - t447);
-    const jg_real t448 = t441 * g_i_in_j_1 - t440 * g_i_in_j_2;
-    const jg_real t449 = t439 * g_i_in_j_2 - t441 * g_i_in_j_0;
-    const jg_real t450 = t440 * g_i_in_j_0 - t439 * g_i_in_j_1;
-    const jg_real t451 = s_j[0] * t448 + s_j[1] * t449 + s_j[2] * t450;
-    const jg_real t452 = omega_j[0] * t448 + omega_j[1] * t449 + omega_j[2] * t450;
-    const jg_real t453 = s_j_in_joint_i_2 * omega_i[0];
-    /* r_j_in_joint_i = r_j, axes of joint i */
-    const jg_real r_j_in_joint_i_2 = h_i_world_0 * r_j[0] + h_i_world_1 * r_j[1] + h_i_world_2 * r_j[2];
-    const jg_real t455 = omega_i[0] * r_j_in_joint_i_2;
-    const jg_real t456 = A_i[0] * r_j[0] + A_i[1] * r_j[1] + A_i[2] * r_j[2];
-    const jg_real t457 = h_i_dot_omega_i * t456;
-    /* r_i_in_joint_i = r_i, axes of joint i */
-    const jg_real r_i_in_joint_i_2 = h_i_world_0 * r_i[0] + h_i_world_1 * r_i[1] + h_i_world_2 * r_i[2];
-    const jg_real t459 = omega_i[0] * r_i_in_joint_i_2;
-    const jg_real t460 = A_i[0] * r_i[0] + A_i[1] * r_i[1] + A_i[2] * r_i[2];
+    const jg_real t286 = g_i_world_0 * omega_j[0];
+    const jg_real t287 = h_i_world_0 * s_j[0];
+    const jg_real t288 = g_i_world_0 * s_j[0];
+    const jg_real t289 = h_i_world_0 * omega_j[0];
+    jac_phi_q_v_A_j[0] = t287 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t286 - (omega_j_in_joint_i_2 * t288 + t289
+        * s_j_in_joint_i_1) - (t287 * g_i_dot_omega_i - t288 * h_i_dot_omega_i);
+    const jg_real t290 = g_i_world_0 * h_i_in_j_2 - h_i_world_0 * g_i_in_j_2;
+    const jg_real t291 = h_i_world_0 * g_i_in_j_1 - g_i_world_0 * h_i_in_j_1;
+    const jg_real t292 = s_j[1] * t290 + s_j[2] * t291;
+    const jg_real t293 = omega_j[1] * t290 + omega_j[2] * t291;
+    jac_phi_q_v_A_j[1] = t289 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t292 - (t287 * omega_j_in_joint_i_0 -
+        s_j_in_joint_i_2 * t293) + (h_i_dot_omega_i * t292 + t287 * f_i_dot_omega_i);
+    const jg_real t294 = h_i_world_0 * C_j[6];
+    const jg_real t295 = g_i_world_0 * C_j[6];
+    jac_phi_q_v_A_j[2] = t286 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t294 - (t289 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t295) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295);
+    const jg_real t296 = t290 * C_j[7] + t291 * C_j[8];
+    jac_phi_q_v_A_j[3] = t289 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t296 - (omega_j_in_joint_i_0 * t294 - t293
+        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t296 + f_i_dot_omega_i * t294);
+    const jg_real t297 = h_i_world_0 * C_j[0];
+    const jg_real t298 = t290 * C_j[1] + t291 * C_j[2];
+    const jg_real t299 = g_i_world_0 * C_j[0];
+    const jg_real t300 = t297 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[4] = t288 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t293 - (t286 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t292) - ((t297 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t299 - f_i_dot_omega_i * t298
+        + h_i_dot_omega_i * t297 - (t286 * g_i_dot_f_j + omega_j_in_joint_i_1 * t299 - (t293 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t298) + (t289 * h_i_dot_f_j + omega_j_in_joint_i_2 * t297))) + t289) * t75 + (t300 +
+        t300) * t77 * pitch * t76 + (g_i_dot_omega_i * t292 + t288 * f_i_dot_omega_i));
+    const jg_real t301 = g_i_world_1 * omega_j[0];
+    const jg_real t302 = h_i_world_1 * s_j[0];
+    const jg_real t303 = g_i_world_1 * s_j[0];
+    const jg_real t304 = h_i_world_1 * omega_j[0];
+    jac_phi_q_v_A_j[5] = t302 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t301 - (omega_j_in_joint_i_2 * t303 + t304
+        * s_j_in_joint_i_1) - (t302 * g_i_dot_omega_i - t303 * h_i_dot_omega_i);
+    const jg_real t305 = g_i_world_1 * h_i_in_j_2 - h_i_world_1 * g_i_in_j_2;
+    const jg_real t306 = h_i_world_1 * g_i_in_j_1 - g_i_world_1 * h_i_in_j_1;
+    const jg_real t307 = s_j[1] * t305 + s_j[2] * t306;
+    const jg_real t308 = omega_j[1] * t305 + omega_j[2] * t306;
+    jac_phi_q_v_A_j[6] = t304 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t307 - (t302 * omega_j_in_joint_i_0 -
+        s_j_in_joint_i_2 * t308) + (h_i_dot_omega_i * t307 + t302 * f_i_dot_omega_i);
+    const jg_real t309 = h_i_world_1 * C_j[6];
+    const jg_real t310 = g_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[7] = t301 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t309 - (t304 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t310) - (g_i_dot_omega_i * t309 - h_i_dot_omega_i * t310);
+    const jg_real t311 = t305 * C_j[7] + t306 * C_j[8];
+    jac_phi_q_v_A_j[8] = t304 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t311 - (omega_j_in_joint_i_0 * t309 - t308
+        * h_j_in_joint_i_2) + (h_i_dot_omega_i * t311 + f_i_dot_omega_i * t309);
+    const jg_real t312 = h_i_world_1 * C_j[0];
+    const jg_real t313 = t305 * C_j[1] + t306 * C_j[2];
+    const jg_real t314 = g_i_world_1 * C_j[0];
+    const jg_real t315 = t312 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[9] = t303 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t308 - (t301 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t307) - ((t312 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t314 - f_i_dot_omega_i * t313
+        + h_i_dot_omega_i * t312 - (t301 * g_i_dot_f_j + omega_j_in_joint_i_1 * t314 - (t308 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t313) + (t304 * h_i_dot_f_j + omega_j_in_joint_i_2 * t312))) + t304) * t75 + (t315 +
+        t315) * t77 * pitch * t76 + (g_i_dot_omega_i * t307 + t303 * f_i_dot_omega_i));
+    const jg_real t316 = g_i_world_2 * omega_j[0];
+    const jg_real t317 = h_i_world_2 * s_j[0];
+    const jg_real t318 = g_i_world_2 * s_j[0];
+    const jg_real t319 = h_i_world_2 * omega_j[0];
+    jac_phi_q_v_A_j[10] = t317 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t316 - (omega_j_in_joint_i_2 * t318 +
+        t319 * s_j_in_joint_i_1) - (t317 * g_i_dot_omega_i - t318 * h_i_dot_omega_i);
+    const jg_real t320 = g_i_world_2 * h_i_in_j_2 - h_i_world_2 * g_i_in_j_2;
+    const jg_real t321 = h_i_world_2 * g_i_in_j_1 - g_i_world_2 * h_i_in_j_1;
+    const jg_real t322 = s_j[1] * t320 + s_j[2] * t321;
+    const jg_real t323 = omega_j[1] * t320 + omega_j[2] * t321;
+    jac_phi_q_v_A_j[11] = t319 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t322 - (t317 * omega_j_in_joint_i_0 -
+        s_j_in_joint_i_2 * t323) + (h_i_dot_omega_i * t322 + t317 * f_i_dot_omega_i);
+    const jg_real t324 = h_i_world_2 * C_j[6];
+    const jg_real t325 = g_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[12] = t316 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t324 - (t319 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t325) - (g_i_dot_omega_i * t324 - h_i_dot_omega_i * t325);
+    const jg_real t326 = t320 * C_j[7] + t321 * C_j[8];
+    jac_phi_q_v_A_j[13] = t319 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t326 - (omega_j_in_joint_i_0 * t324 -
+        t323 * h_j_in_joint_i_2) + (h_i_dot_omega_i * t326 + f_i_dot_omega_i * t324);
+    const jg_real t327 = h_i_world_2 * C_j[0];
+    const jg_real t328 = t320 * C_j[1] + t321 * C_j[2];
+    const jg_real t329 = g_i_world_2 * C_j[0];
+    const jg_real t330 = t327 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[14] = t318 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t323 - (t316 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t322) - ((t327 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t329 - f_i_dot_omega_i * t328
+        + h_i_dot_omega_i * t327 - (t316 * g_i_dot_f_j + omega_j_in_joint_i_1 * t329 - (t323 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t328) + (t319 * h_i_dot_f_j + omega_j_in_joint_i_2 * t327))) + t319) * t75 + (t330 +
+        t330) * t77 * pitch * t76 + (g_i_dot_omega_i * t322 + t318 * f_i_dot_omega_i));
+    const jg_real t331 = g_i_world_0 * omega_j[1];
+    const jg_real t332 = h_i_world_0 * s_j[1];
+    const jg_real t333 = g_i_world_0 * s_j[1];
+    const jg_real t334 = h_i_world_0 * omega_j[1];
+    jac_phi_q_v_A_j[15] = t332 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t331 - (omega_j_in_joint_i_2 * t333 +
+        t334 * s_j_in_joint_i_1) - (t332 * g_i_dot_omega_i - t333 * h_i_dot_omega_i);
+    const jg_real t335 = g_i_world_0 * h_i_in_j_0 - h_i_world_0 * g_i_in_j_0;
+    const jg_real t336 = s_j[0] * t290 - s_j[2] * t335;
+    const jg_real t337 = omega_j[0] * t290 - omega_j[2] * t335;
+    jac_phi_q_v_A_j[16] = omega_j_in_joint_i_2 * t336 + t334 * s_j_in_joint_i_0 - (t332 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t337) - (h_i_dot_omega_i * t336 - t332 * f_i_dot_omega_i);
+    const jg_real t338 = h_i_world_0 * C_j[7];
+    const jg_real t339 = g_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[17] = t331 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t338 - (t334 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t339) - (g_i_dot_omega_i * t338 - h_i_dot_omega_i * t339);
+    const jg_real t340 = t290 * C_j[6] - t335 * C_j[8];
+    jac_phi_q_v_A_j[18] = t334 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t340 - (t337 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t338) - (h_i_dot_omega_i * t340 - f_i_dot_omega_i * t338);
+    const jg_real t341 = h_i_world_0 * C_j[1];
+    const jg_real t342 = t290 * C_j[0] - t335 * C_j[2];
+    const jg_real t343 = g_i_world_0 * C_j[1];
+    const jg_real t344 = t341 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[19] = t333 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t337 - (omega_j_in_joint_i_1 * t336 +
+        t331 * s_j_in_joint_i_0) - ((t341 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t342 + g_i_dot_omega_i * t343 +
+        h_i_dot_omega_i * t341 - (t337 * f_i_dot_f_j + omega_j_in_joint_i_0 * t342 + (t331 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t343) + (t334 * h_i_dot_f_j + omega_j_in_joint_i_2 * t341))) + t334) * t75 + (t344 +
+        t344) * t77 * pitch * t76 + (t333 * f_i_dot_omega_i - g_i_dot_omega_i * t336));
+    const jg_real t345 = g_i_world_1 * omega_j[1];
+    const jg_real t346 = h_i_world_1 * s_j[1];
+    const jg_real t347 = g_i_world_1 * s_j[1];
+    const jg_real t348 = h_i_world_1 * omega_j[1];
+    jac_phi_q_v_A_j[20] = t346 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t345 - (omega_j_in_joint_i_2 * t347 +
+        t348 * s_j_in_joint_i_1) - (t346 * g_i_dot_omega_i - t347 * h_i_dot_omega_i);
+    const jg_real t349 = g_i_world_1 * h_i_in_j_0 - h_i_world_1 * g_i_in_j_0;
+    const jg_real t350 = s_j[0] * t305 - s_j[2] * t349;
+    const jg_real t351 = omega_j[0] * t305 - omega_j[2] * t349;
+    jac_phi_q_v_A_j[21] = omega_j_in_joint_i_2 * t350 + t348 * s_j_in_joint_i_0 - (t346 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t351) - (h_i_dot_omega_i * t350 - t346 * f_i_dot_omega_i);
+    const jg_real t352 = h_i_world_1 * C_j[7];
+    const jg_real t353 = g_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[22] = t345 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t352 - (t348 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t353) - (g_i_dot_omega_i * t352 - h_i_dot_omega_i * t353);
+    const jg_real t354 = t305 * C_j[6] - t349 * C_j[8];
+    jac_phi_q_v_A_j[23] = t348 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t354 - (t351 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t352) - (h_i_dot_omega_i * t354 - f_i_dot_omega_i * t352);
+    const jg_real t355 = h_i_world_1 * C_j[1];
+    const jg_real t356 = t305 * C_j[0] - t349 * C_j[2];
+    const jg_real t357 = g_i_world_1 * C_j[1];
+    const jg_real t358 = t355 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[24] = t347 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t351 - (omega_j_in_joint_i_1 * t350 +
+        t345 * s_j_in_joint_i_0) - ((t355 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t356 + g_i_dot_omega_i * t357 +
+        h_i_dot_omega_i * t355 - (t351 * f_i_dot_f_j + omega_j_in_joint_i_0 * t356 + (t345 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t357) + (t348 * h_i_dot_f_j + omega_j_in_joint_i_2 * t355))) + t348) * t75 + (t358 +
+        t358) * t77 * pitch * t76 + (t347 * f_i_dot_omega_i - g_i_dot_omega_i * t350));
+    const jg_real t359 = g_i_world_2 * omega_j[1];
+    const jg_real t360 = h_i_world_2 * s_j[1];
+    const jg_real t361 = g_i_world_2 * s_j[1];
+    const jg_real t362 = h_i_world_2 * omega_j[1];
+    jac_phi_q_v_A_j[25] = t360 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t359 - (omega_j_in_joint_i_2 * t361 +
+        t362 * s_j_in_joint_i_1) - (t360 * g_i_dot_omega_i - t361 * h_i_dot_omega_i);
+    const jg_real t363 = g_i_world_2 * h_i_in_j_0 - h_i_world_2 * g_i_in_j_0;
+    const jg_real t364 = s_j[0] * t320 - s_j[2] * t363;
+    const jg_real t365 = omega_j[0] * t320 - omega_j[2] * t363;
+    jac_phi_q_v_A_j[26] = omega_j_in_joint_i_2 * t364 + t362 * s_j_in_joint_i_0 - (t360 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t365) - (h_i_dot_omega_i * t364 - t360 * f_i_dot_omega_i);
+    const jg_real t366 = h_i_world_2 * C_j[7];
+    const jg_real t367 = g_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[27] = t359 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t366 - (t362 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t367) - (g_i_dot_omega_i * t366 - h_i_dot_omega_i * t367);
+    const jg_real t368 = t320 * C_j[6] - t363 * C_j[8];
+    jac_phi_q_v_A_j[28] = t362 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t368 - (t365 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t366) - (h_i_dot_omega_i * t368 - f_i_dot_omega_i * t366);
+    const jg_real t369 = h_i_world_2 * C_j[1];
+    const jg_real t370 = t320 * C_j[0] - t363 * C_j[2];
+    const jg_real t371 = g_i_world_2 * C_j[1];
+    const jg_real t372 = t369 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[29] = t361 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t365 - (omega_j_in_joint_i_1 * t364 +
+        t359 * s_j_in_joint_i_0) - ((t369 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t370 + g_i_dot_omega_i * t371 +
+        h_i_dot_omega_i * t369 - (t365 * f_i_dot_f_j + omega_j_in_joint_i_0 * t370 + (t359 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t371) + (t362 * h_i_dot_f_j + omega_j_in_joint_i_2 * t369))) + t362) * t75 + (t372 +
+        t372) * t77 * pitch * t76 + (t361 * f_i_dot_omega_i - g_i_dot_omega_i * t364));
+    const jg_real t373 = g_i_world_0 * omega_j[2];
+    const jg_real t374 = h_i_world_0 * s_j[2];
+    const jg_real t375 = g_i_world_0 * s_j[2];
+    const jg_real t376 = h_i_world_0 * omega_j[2];
+    jac_phi_q_v_A_j[30] = t374 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t373 - (omega_j_in_joint_i_2 * t375 +
+        t376 * s_j_in_joint_i_1) - (t374 * g_i_dot_omega_i - t375 * h_i_dot_omega_i);
+    const jg_real t377 = s_j[0] * t291 + s_j[1] * t335;
+    const jg_real t378 = omega_j[0] * t291 + omega_j[1] * t335;
+    jac_phi_q_v_A_j[31] = omega_j_in_joint_i_2 * t377 + t376 * s_j_in_joint_i_0 - (t374 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t378) - (h_i_dot_omega_i * t377 - t374 * f_i_dot_omega_i);
+    const jg_real t379 = h_i_world_0 * C_j[8];
+    const jg_real t380 = g_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[32] = t373 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t379 - (t376 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t380) - (g_i_dot_omega_i * t379 - h_i_dot_omega_i * t380);
+    const jg_real t381 = t291 * C_j[6] + t335 * C_j[7];
+    jac_phi_q_v_A_j[33] = t376 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t381 - (t378 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t379) - (h_i_dot_omega_i * t381 - f_i_dot_omega_i * t379);
+    const jg_real t382 = h_i_world_0 * C_j[2];
+    const jg_real t383 = t291 * C_j[0] + t335 * C_j[1];
+    const jg_real t384 = g_i_world_0 * C_j[2];
+    const jg_real t385 = t382 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[34] = t375 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t378 - (omega_j_in_joint_i_1 * t377 +
+        t373 * s_j_in_joint_i_0) - ((t382 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t383 + g_i_dot_omega_i * t384 +
+        h_i_dot_omega_i * t382 - (t378 * f_i_dot_f_j + omega_j_in_joint_i_0 * t383 + (t373 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t384) + (t376 * h_i_dot_f_j + omega_j_in_joint_i_2 * t382))) + t376) * t75 + (t385 +
+        t385) * t77 * pitch * t76 + (t375 * f_i_dot_omega_i - g_i_dot_omega_i * t377));
+    const jg_real t386 = g_i_world_1 * omega_j[2];
+    const jg_real t387 = h_i_world_1 * s_j[2];
+    const jg_real t388 = g_i_world_1 * s_j[2];
+    const jg_real t389 = h_i_world_1 * omega_j[2];
+    jac_phi_q_v_A_j[35] = t387 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t386 - (omega_j_in_joint_i_2 * t388 +
+        t389 * s_j_in_joint_i_1) - (t387 * g_i_dot_omega_i - t388 * h_i_dot_omega_i);
+    const jg_real t390 = s_j[0] * t306 + s_j[1] * t349;
+    const jg_real t391 = omega_j[0] * t306 + omega_j[1] * t349;
+    jac_phi_q_v_A_j[36] = omega_j_in_joint_i_2 * t390 + t389 * s_j_in_joint_i_0 - (t387 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t391) - (h_i_dot_omega_i * t390 - t387 * f_i_dot_omega_i);
+    const jg_real t392 = h_i_world_1 * C_j[8];
+    const jg_real t393 = g_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[37] = t386 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t392 - (t389 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t393) - (g_i_dot_omega_i * t392 - h_i_dot_omega_i * t393);
+    const jg_real t394 = t306 * C_j[6] + t349 * C_j[7];
+    jac_phi_q_v_A_j[38] = t389 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t394 - (t391 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t392) - (h_i_dot_omega_i * t394 - f_i_dot_omega_i * t392);
+    const jg_real t395 = h_i_world_1 * C_j[2];
+    const jg_real t396 = t306 * C_j[0] + t349 * C_j[1];
+    const jg_real t397 = g_i_world_1 * C_j[2];
+    const jg_real t398 = t395 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[39] = t388 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t391 - (omega_j_in_joint_i_1 * t390 +
+        t386 * s_j_in_joint_i_0) - ((t395 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t396 + g_i_dot_omega_i * t397 +
+        h_i_dot_omega_i * t395 - (t391 * f_i_dot_f_j + omega_j_in_joint_i_0 * t396 + (t386 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t397) + (t389 * h_i_dot_f_j + omega_j_in_joint_i_2 * t395))) + t389) * t75 + (t398 +
+        t398) * t77 * pitch * t76 + (t388 * f_i_dot_omega_i - g_i_dot_omega_i * t390));
+    const jg_real t399 = g_i_world_2 * omega_j[2];
+    const jg_real t400 = h_i_world_2 * s_j[2];
+    const jg_real t401 = g_i_world_2 * s_j[2];
+    const jg_real t402 = h_i_world_2 * omega_j[2];
+    jac_phi_q_v_A_j[40] = t400 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t399 - (omega_j_in_joint_i_2 * t401 +
+        t402 * s_j_in_joint_i_1) - (t400 * g_i_dot_omega_i - t401 * h_i_dot_omega_i);
+    const jg_real t403 = s_j[0] * t321 + s_j[1] * t363;
+    const jg_real t404 = omega_j[0] * t321 + omega_j[1] * t363;
+    jac_phi_q_v_A_j[41] = omega_j_in_joint_i_2 * t403 + t402 * s_j_in_joint_i_0 - (t400 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t404) - (h_i_dot_omega_i * t403 - t400 * f_i_dot_omega_i);
+    const jg_real t405 = h_i_world_2 * C_j[8];
+    const jg_real t406 = g_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[42] = t399 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t405 - (t402 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t406) - (g_i_dot_omega_i * t405 - h_i_dot_omega_i * t406);
+    const jg_real t407 = t321 * C_j[6] + t363 * C_j[7];
+    jac_phi_q_v_A_j[43] = t402 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t407 - (t404 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t405) - (h_i_dot_omega_i * t407 - f_i_dot_omega_i * t405);
+    const jg_real t408 = h_i_world_2 * C_j[2];
+    const jg_real t409 = t321 * C_j[0] + t363 * C_j[1];
+    const jg_real t410 = g_i_world_2 * C_j[2];
+    const jg_real t411 = t408 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[44] = t401 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t404 - (omega_j_in_joint_i_1 * t403 +
+        t399 * s_j_in_joint_i_0) - ((t408 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t409 + g_i_dot_omega_i * t410 +
+        h_i_dot_omega_i * t408 - (t404 * f_i_dot_f_j + omega_j_in_joint_i_0 * t409 + (t399 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t410) + (t402 * h_i_dot_f_j + omega_j_in_joint_i_2 * t408))) + t402) * t75 + (t411 +
+        t411) * t77 * pitch * t76 + (t401 * f_i_dot_omega_i - g_i_dot_omega_i * t403));
+    const jg_real t412 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
+    const jg_real t413 = A_i[2] * g_i_world_0 - g_i_world_2 * A_i[0];
+    const jg_real t414 = g_i_world_1 * A_i[0] - A_i[1] * g_i_world_0;
+    const jg_real t415 = t412 * A_j[0] + t413 * A_j[1] + t414 * A_j[2];
+    const jg_real t416 = t412 * A_j[3] + t413 * A_j[4] + t414 * A_j[5];
+    const jg_real t417 = t412 * A_j[6] + t413 * A_j[7] + t414 * A_j[8];
+    const jg_real t418 = t415 * s_j[0] + t416 * s_j[1] + t417 * s_j[2];
+    const jg_real t419 = t415 * omega_j[0] + t416 * omega_j[1] + t417 * omega_j[2];
+    const jg_real t420 = t412 * r_ij_world_0 + t413 * r_ij_world_1 + t414 * r_ij_world_2;
+    const jg_real t421 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
+    const jg_real t422 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
+    jac_phi_q_v_geometry[0] = t418 * omega_j_in_joint_i_1 - t419 * s_j_in_joint_i_1 - (t418 * g_i_dot_omega_i +
+        g_i_dot_omega_i * t420 + t421 - t422);
+    const jg_real t423 = t417 * g_i_in_j_1 - t416 * g_i_in_j_2;
+    const jg_real t424 = t415 * g_i_in_j_2 - t417 * g_i_in_j_0;
+    const jg_real t425 = t416 * g_i_in_j_0 - t415 * g_i_in_j_1;
+    const jg_real t426 = s_j[0] * t423 + s_j[1] * t424 + s_j[2] * t425;
+    const jg_real t427 = omega_j[0] * t423 + omega_j[1] * t424 + omega_j[2] * t425;
+    const jg_real t428 = s_j_in_joint_i_2 * omega_i[0];
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_2 = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
+    const jg_real t430 = omega_i[0] * r_ij_in_joint_i_2;
+    const jg_real t431 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
+    const jg_real t432 = h_i_dot_omega_i * t431;
+    jac_phi_q_v_geometry[1] = omega_j_in_joint_i_2 * t426 + t419 * s_j_in_joint_i_0 - (t418 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t427) - (h_i_dot_omega_i * t426 - (t428 + t418 * f_i_dot_omega_i) + (t432 - (t430 + t420
+        * f_i_dot_omega_i)));
+    const jg_real t433 = t415 * C_j[6] + t416 * C_j[7] + t417 * C_j[8];
+    jac_phi_q_v_geometry[2] = omega_j_in_joint_i_1 * t433 - t419 * h_j_in_joint_i_1 - g_i_dot_omega_i * t433;
+    const jg_real t434 = t423 * C_j[6] + t424 * C_j[7] + t425 * C_j[8];
+    const jg_real t435 = omega_i[0] * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[3] = t419 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t434 - (t427 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t433) - (h_i_dot_omega_i * t434 - (t435 + f_i_dot_omega_i * t433));
+    const jg_real t436 = t415 * C_j[0] + t416 * C_j[1] + t417 * C_j[2];
+    const jg_real t437 = t423 * C_j[0] + t424 * C_j[1] + t425 * C_j[2];
+    const jg_real t438 = h_i_dot_f_j * t436;
+    const jg_real r_ij_in_joint_i_1 = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
+    const jg_real t440 = omega_i[0] * r_ij_in_joint_i_1;
+    const jg_real t441 = s_j_in_joint_i_1 * omega_i[0];
+    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t427 - omega_j_in_joint_i_1 * t426 - ((t436 * t73 + h_i_dot_f_j *
+        (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t437 + h_i_dot_omega_i * t436 - (t427 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t437 + (t419 * h_i_dot_f_j + omega_j_in_joint_i_2 * t436))) + t419) * t75 + (t438 +
+        t438) * t77 * pitch * t76 + (t440 - g_i_dot_omega_i * t431) + (t441 - g_i_dot_omega_i * t426) + (t412 *
+        v_i[0] + t413 * v_i[1] + t414 * v_i[2]) - (t412 * v_j[0] + t413 * v_j[1] + t414 * v_j[2]));
+    const jg_real t442 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
+    const jg_real t443 = A_i[5] * g_i_world_0 - g_i_world_2 * A_i[3];
+    const jg_real t444 = g_i_world_1 * A_i[3] - A_i[4] * g_i_world_0;
+    const jg_real t445 = t442 * A_j[0] + t443 * A_j[1] + t444 * A_j[2];
+    const jg_real t446 = t442 * A_j[3] + t443 * A_j[4] + t444 * A_j[5];
+    const jg_real t447 = t442 * A_j[6] + t443 * A_j[7] + t444 * A_j[8];
+    const jg_real t448 = t445 * s_j[0] + t446 * s_j[1] + t447 * s_j[2];
+    const jg_real t449 = t445 * omega_j[0] + t446 * omega_j[1] + t447 * omega_j[2];
+    const jg_real t450 = t442 * r_ij_world_0 + t443 * r_ij_world_1 + t444 * r_ij_world_2;
+    const jg_real t451 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
+    const jg_real t452 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
+    jac_phi_q_v_geometry[5] = t448 * omega_j_in_joint_i_1 - t449 * s_j_in_joint_i_1 - (t448 * g_i_dot_omega_i +
+        g_i_dot_omega_i * t450 + t451 - t452);
+    const jg_real t453 = t447 * g_i_in_j_1 - t446 * g_i_in_j_2;
+    const jg_real t454 = t445 * g_i_in_j_2 - t447 * g_i_in_j_0;
+    const jg_real t455 = t446 * g_i_in_j_0 - t445 * g_i_in_j_1;
+    const jg_real t456 = s_j[0] * t453 + s_j[1] * t454 + s_j[2] * t455;
+    const jg_real t457 = omega_j[0] * t453 + omega_j[1] * t454 + omega_j[2] * t455;
+    const jg_real t458 = s_j_in_joint_i_2 * omega_i[1];
+    const jg_real t459 = omega_i[1] * r_ij_in_joint_i_2;
+    const jg_real t460 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
     const jg_real t461 = h_i_dot_omega_i * t460;
-    jac_phi_q_v_geometry[1] = omega_j_in_joint_i_2 * t451 + t443 * s_j_in_joint_i_0 - (t442 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t452) - (h_i_dot_omega_i * t451 - (t453 + t442 * f_i_dot_omega_i) + (t457 - (t455 + t444
-        * f_i_dot_omega_i)) - (t461 - (t459 + t445 * f_i_dot_omega_i)));
-    const jg_real t462 = t439 * C_j[6] + t440 * C_j[7] + t441 * C_j[8];
-    jac_phi_q_v_geometry[2] = omega_j_in_joint_i_1 * t462 - t443 * h_j_in_joint_i_1 - g_i_dot_omega_i * t462;
-    const jg_real t463 = t448 * C_j[6] + t449 * C_j[7] + t450 * C_j[8];
-    const jg_real t464 = omega_i[0] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[3] = t443 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (t452 * h_j_in_joint_i_2 +
+    jac_phi_q_v_geometry[6] = omega_j_in_joint_i_2 * t456 + t449 * s_j_in_joint_i_0 - (t448 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t457) - (h_i_dot_omega_i * t456 - (t458 + t448 * f_i_dot_omega_i) + (t461 - (t459 + t450
+        * f_i_dot_omega_i)));
+    const jg_real t462 = t445 * C_j[6] + t446 * C_j[7] + t447 * C_j[8];
+    jac_phi_q_v_geometry[7] = omega_j_in_joint_i_1 * t462 - t449 * h_j_in_joint_i_1 - g_i_dot_omega_i * t462;
+    const jg_real t463 = t453 * C_j[6] + t454 * C_j[7] + t455 * C_j[8];
+    const jg_real t464 = omega_i[1] * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[8] = t449 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (t457 * h_j_in_joint_i_2 +
         omega_j_in_joint_i_0 * t462) - (h_i_dot_omega_i * t463 - (t464 + f_i_dot_omega_i * t462));
-    const jg_real t465 = t439 * C_j[0] + t440 * C_j[1] + t441 * C_j[2];
-    const jg_real t466 = t448 * C_j[0] + t449 * C_j[1] + t450 * C_j[2];
+    const jg_real t465 = t445 * C_j[0] + t446 * C_j[1] + t447 * C_j[2];
+    const jg_real t466 = t453 * C_j[0] + t454 * C_j[1] + t455 * C_j[2];
     const jg_real t467 = h_i_dot_f_j * t465;
-    const jg_real r_j_in_joint_i_1 = g_i_world_0 * r_j[0] + g_i_world_1 * r_j[1] + g_i_world_2 * r_j[2];
-    const jg_real t469 = omega_i[0] * r_j_in_joint_i_1;
-    const jg_real t470 = s_j_in_joint_i_1 * omega_i[0];
-    const jg_real r_i_in_joint_i_1 = g_i_world_0 * r_i[0] + g_i_world_1 * r_i[1] + g_i_world_2 * r_i[2];
-    const jg_real t472 = omega_i[0] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t452 - omega_j_in_joint_i_1 * t451 - ((t465 * t73 + h_i_dot_f_j *
-        (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t452 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t466 + (t443 * h_i_dot_f_j + omega_j_in_joint_i_2 * t465))) + t443) * t75 + (t467 +
-        t467) * t77 * pitch * t76 + (t469 - g_i_dot_omega_i * t456) + (t470 - g_i_dot_omega_i * t451) - (t472 -
-        g_i_dot_omega_i * t460) + (t436 * v_i[0] + t437 * v_i[1] + t438 * v_i[2]) - (t436 * v_j[0] + t437 * v_j[1] +
-        t438 * v_j[2]));
-    const jg_real t473 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
-    const jg_real t474 = A_i[5] * g_i_world_0 - g_i_world_2 * A_i[3];
-    const jg_real t475 = g_i_world_1 * A_i[3] - A_i[4] * g_i_world_0;
-    const jg_real t476 = t473 * A_j[0] + t474 * A_j[1] + t475 * A_j[2];
-    const jg_real t477 = t473 * A_j[3] + t474 * A_j[4] + t475 * A_j[5];
-    const jg_real t478 = t473 * A_j[6] + t474 * A_j[7] + t475 * A_j[8];
-    const jg_real t479 = t476 * s_j[0] + t477 * s_j[1] + t478 * s_j[2];
-    const jg_real t480 = t476 * omega_j[0] + t477 * omega_j[1] + t478 * omega_j[2];
-    const jg_real t481 = t473 * r_j[0] + t474 * r_j[1] + t475 * r_j[2];
-    const jg_real t482 = t473 * r_i[0] + t474 * r_i[1] + t475 * r_i[2];
-    const jg_real t483 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
-    const jg_real t484 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = t479 * omega_j_in_joint_i_1 - t480 * s_j_in_joint_i_1 - (t479 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t481 - g_i_dot_omega_i * t482 + t483 - t484);
-    const jg_real t485 = t478 * g_i_in_j_1 - t477 * g_i_in_j_2;
-    const jg_real t486 = t476 * g_i_in_j_2 - t478 * g_i_in_j_0;
-    const jg_real t487 = t477 * g_i_in_j_0 - t476 * g_i_in_j_1;
-    const jg_real t488 = s_j[0] * t485 + s_j[1] * t486 + s_j[2] * t487;
-    const jg_real t489 = omega_j[0] * t485 + omega_j[1] * t486 + omega_j[2] * t487;
-    const jg_real t490 = s_j_in_joint_i_2 * omega_i[1];
-    const jg_real t491 = omega_i[1] * r_j_in_joint_i_2;
-    const jg_real t492 = A_i[3] * r_j[0] + A_i[4] * r_j[1] + A_i[5] * r_j[2];
-    const jg_real t493 = h_i_dot_omega_i * t492;
-    const jg_real t494 = omega_i[1] * r_i_in_joint_i_2;
-    const jg_real t495 = A_i[3] * r_i[0] + A_i[4] * r_i[1] + A_i[5] * r_i[2];
-    const jg_real t496 = h_i_dot_omega_i * t495;
-    jac_phi_q_v_geometry[6] = omega_j_in_joint_i_2 * t488 + t480 * s_j_in_joint_i_0 - (t479 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t489) - (h_i_dot_omega_i * t488 - (t490 + t479 * f_i_dot_omega_i) + (t493 - (t491 + t481
-        * f_i_dot_omega_i)) - (t496 - (t494 + t482 * f_i_dot_omega_i)));
-    const jg_real t497 = t476 * C_j[6] + t477 * C_j[7] + t478 * C_j[8];
-    jac_phi_q_v_geometry[7] = omega_j_in_joint_i_1 * t497 - t480 * h_j_in_joint_i_1 - g_i_dot_omega_i * t497;
-    const jg_real t498 = t485 * C_j[6] + t486 * C_j[7] + t487 * C_j[8];
-    const jg_real t499 = omega_i[1] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[8] = t480 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t498 - (t489 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t497) - (h_i_dot_omega_i * t498 - (t499 + f_i_dot_omega_i * t497));
-    const jg_real t500 = t476 * C_j[0] + t477 * C_j[1] + t478 * C_j[2];
-    const jg_real t501 = t485 * C_j[0] + t486 * C_j[1] + t487 * C_j[2];
-    const jg_real t502 = h_i_dot_f_j * t500;
-    const jg_real t503 = omega_i[1] * r_j_in_joint_i_1;
-    const jg_real t504 = s_j_in_joint_i_1 * omega_i[1];
-    const jg_real t505 = omega_i[1] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t489 - omega_j_in_joint_i_1 * t488 - ((t500 * t73 + h_i_dot_f_j *
-        (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t501 + h_i_dot_omega_i * t500 - (t489 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t501 + (t480 * h_i_dot_f_j + omega_j_in_joint_i_2 * t500))) + t480) * t75 + (t502 +
-        t502) * t77 * pitch * t76 + (t503 - g_i_dot_omega_i * t492) + (t504 - g_i_dot_omega_i * t488) - (t505 -
-        g_i_dot_omega_i * t495) + (t473 * v_i[0] + t474 * v_i[1] + t475 * v_i[2]) - (t473 * v_j[0] + t474 * v_j[1] +
-        t475 * v_j[2]));
-    const jg_real t506 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
-    const jg_real t507 = A_i[8] * g_i_world_0 - g_i_world_2 * A_i[6];
-    const jg_real t508 = g_i_world_1 * A_i[6] - A_i[7] * g_i_world_0;
-    const jg_real t509 = t506 * A_j[0] + t507 * A_j[1] + t508 * A_j[2];
-    const jg_real t510 = t506 * A_j[3] + t507 * A_j[4] + t508 * A_j[5];
-    const jg_real t511 = t506 * A_j[6] + t507 * A_j[7] + t508 * A_j[8];
-    const jg_real t512 = t509 * s_j[0] + t510 * s_j[1] + t511 * s_j[2];
-    const jg_real t513 = t509 * omega_j[0] + t510 * omega_j[1] + t511 * omega_j[2];
-    const jg_real t514 = t506 * r_j[0] + t507 * r_j[1] + t508 * r_j[2];
-    const jg_real t515 = t506 * r_i[0] + t507 * r_i[1] + t508 * r_i[2];
-    const jg_real t516 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
-    const jg_real t517 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    jac_phi_q_v_geometry[10] = t512 * omega_j_in_joint_i_1 - t513 * s_j_in_joint_i_1 - (t512 * g_i_dot_omega_i +
-        g_i_dot_omega_i * t514 - g_i_dot_omega_i * t515 + t516 - t517);
-    const jg_real t518 = t511 * g_i_in_j_1 - t510 * g_i_in_j_2;
-    const jg_real t519 = t509 * g_i_in_j_2 - t511 * g_i_in_j_0;
-    const jg_real t520 = t510 * g_i_in_j_0 - t509 * g_i_in_j_1;
-    const jg_real t521 = s_j[0] * t518 + s_j[1] * t519 + s_j[2] * t520;
-    const jg_real t522 = omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] * t520;
-    const jg_real t523 = s_j_in_joint_i_2 * omega_i[2];
-    const jg_real t524 = omega_i[2] * r_j_in_joint_i_2;
-    const jg_real t525 = A_i[6] * r_j[0] + A_i[7] * r_j[1] + A_i[8] * r_j[2];
-    const jg_real t526 = h_i_dot_omega_i * t525;
-    const jg_real t527 = omega_i[2] * r_i_in_joint_i_2;
-    const jg_real t528 = A_i[6] * r_i[0] + A_i[7] * r_i[1] + A_i[8] * r_i[2];
-    const jg_real t529 = h_i_dot_omega_i * t528;
-    jac_phi_q_v_geometry[11] = omega_j_in_joint_i_2 * t521 + t513 * s_j_in_joint_i_0 - (t512 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t522) - (h_i_dot_omega_i * t521 - (t523 + t512 * f_i_dot_omega_i) + (t526 - (t524 +
-        t514 * f_i_dot_omega_i)) - (t529 - (t527 + t515 * f_i_dot_omega_i)));
-    const jg_real t530 = t509 * C_j[6] + t510 * C_j[7] + t511 * C_j[8];
-    jac_phi_q_v_geometry[12] = omega_j_in_joint_i_1 * t530 - t513 * h_j_in_joint_i_1 - g_i_dot_omega_i * t530;
-    const jg_real t531 = t518 * C_j[6] + t519 * C_j[7] + t520 * C_j[8];
-    const jg_real t532 = omega_i[2] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[13] = t513 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t531 - (t522 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t530) - (h_i_dot_omega_i * t531 - (t532 + f_i_dot_omega_i * t530));
-    const jg_real t533 = t509 * C_j[0] + t510 * C_j[1] + t511 * C_j[2];
-    const jg_real t534 = t518 * C_j[0] + t519 * C_j[1] + t520 * C_j[2];
-    const jg_real t535 = h_i_dot_f_j * t533;
-    const jg_real t536 = omega_i[2] * r_j_in_joint_i_1;
-    const jg_real t537 = s_j_in_joint_i_1 * omega_i[2];
-    const jg_real t538 = omega_i[2] * r_i_in_joint_i_1;
-    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t522 - omega_j_in_joint_i_1 * t521 - ((t533 * t73 + h_i_dot_f_j *
-        (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t534 + h_i_dot_omega_i * t533 - (t522 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t534 + (t513 * h_i_dot_f_j + omega_j_in_joint_i_2 * t533))) + t513) * t75 + (t535 +
-        t535) * t77 * pitch * t76 + (t536 - g_i_dot_omega_i * t525) + (t537 - g_i_dot_omega_i * t521) - (t538 -
-        g_i_dot_omega_i * t528) + (t506 * v_i[0] + t507 * v_i[1] + t508 * v_i[2]) - (t506 * v_j[0] + t507 * v_j[1] +
-        t508 * v_j[2]));
-    const jg_real t539 = A_j[0] * A_i[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t540 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t541 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t542 = t539 * omega_j[0] + t540 * omega_j[1] + t541 * omega_j[2];
-    const jg_real t543 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
-    const jg_real t544 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
-    const jg_real t545 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
-    const jg_real t546 = t543 * A_j[0] + t544 * A_j[1] + t545 * A_j[2];
-    const jg_real t547 = t543 * A_j[3] + t544 * A_j[4] + t545 * A_j[5];
-    const jg_real t548 = t543 * A_j[6] + t544 * A_j[7] + t545 * A_j[8];
-    const jg_real t549 = t546 * s_j[0] + t547 * s_j[1] + t548 * s_j[2];
-    const jg_real t550 = s_j[0] * t539 + s_j[1] * t540 + s_j[2] * t541;
-    const jg_real t551 = t546 * omega_j[0] + t547 * omega_j[1] + t548 * omega_j[2];
-    const jg_real t552 = t543 * r_j[0] + t544 * r_j[1] + t545 * r_j[2];
-    const jg_real t553 = t543 * r_i[0] + t544 * r_i[1] + t545 * r_i[2];
-    jac_phi_q_v_geometry[15] = t549 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t542 - (omega_j_in_joint_i_2 * t550
-        + t551 * s_j_in_joint_i_1) - (t453 + t549 * g_i_dot_omega_i - t550 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t552 + t455 - t457) - (t459 + g_i_dot_omega_i * t553 - t461));
-    const jg_real t554 = h_i_in_j_2 * t540 + t548 * g_i_in_j_1 - (h_i_in_j_1 * t541 + t547 * g_i_in_j_2);
-    const jg_real t555 = h_i_in_j_0 * t541 + t546 * g_i_in_j_2 - (h_i_in_j_2 * t539 + t548 * g_i_in_j_0);
-    const jg_real t556 = h_i_in_j_1 * t539 + t547 * g_i_in_j_0 - (h_i_in_j_0 * t540 + t546 * g_i_in_j_1);
-    const jg_real t557 = s_j[0] * t554 + s_j[1] * t555 + s_j[2] * t556;
-    const jg_real t558 = omega_j[0] * t554 + omega_j[1] * t555 + omega_j[2] * t556;
-    jac_phi_q_v_geometry[16] = omega_j_in_joint_i_2 * t557 + t551 * s_j_in_joint_i_0 - (t549 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t558) - (h_i_dot_omega_i * t557 - t549 * f_i_dot_omega_i - t552 * f_i_dot_omega_i +
-        t553 * f_i_dot_omega_i + t446 - t447);
-    const jg_real t559 = t546 * C_j[6] + t547 * C_j[7] + t548 * C_j[8];
-    const jg_real t560 = t539 * C_j[6] + t540 * C_j[7] + t541 * C_j[8];
-    jac_phi_q_v_geometry[17] = t542 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t559 - (t551 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t560) - (t464 + g_i_dot_omega_i * t559 - h_i_dot_omega_i * t560);
-    const jg_real t561 = t554 * C_j[6] + t555 * C_j[7] + t556 * C_j[8];
-    jac_phi_q_v_geometry[18] = t551 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t561 - (t558 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t559) - (h_i_dot_omega_i * t561 - f_i_dot_omega_i * t559);
-    const jg_real t562 = t554 * C_j[0] + t555 * C_j[1] + t556 * C_j[2];
-    const jg_real t563 = t539 * C_j[0] + t540 * C_j[1] + t541 * C_j[2];
-    const jg_real t564 = t546 * C_j[0] + t547 * C_j[1] + t548 * C_j[2];
-    const jg_real t565 = h_i_dot_f_j * t564;
-    const jg_real r_j_in_joint_i_0 = f_i_world_0 * r_j[0] + f_i_world_1 * r_j[1] + f_i_world_2 * r_j[2];
-    const jg_real t567 = omega_i[0] * r_j_in_joint_i_0;
-    const jg_real t568 = omega_i[0] * s_j_in_joint_i_0;
-    const jg_real r_i_in_joint_i_0 = f_i_world_0 * r_i[0] + f_i_world_1 * r_i[1] + f_i_world_2 * r_i[2];
-    const jg_real t570 = omega_i[0] * r_i_in_joint_i_0;
-    jac_phi_q_v_geometry[19] = t550 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t558 - (omega_j_in_joint_i_1 * t557
-        + t542 * s_j_in_joint_i_0) - ((t564 * t73 + h_i_dot_f_j * (omega_i[0] * g_i_dot_f_j + g_i_dot_omega_i * t563
-        + f_i_dot_omega_i * t562 + h_i_dot_omega_i * t564 - (t558 * f_i_dot_f_j + omega_j_in_joint_i_0 * t562 +
-        (t542 * g_i_dot_f_j + omega_j_in_joint_i_1 * t563) + (t551 * h_i_dot_f_j + omega_j_in_joint_i_2 * t564))) +
-        t551) * t75 + (t565 + t565) * t77 * pitch * t76 + (t456 * f_i_dot_omega_i - t567) + (t550 * f_i_dot_omega_i
-        - (t568 + g_i_dot_omega_i * t557)) - (t460 * f_i_dot_omega_i - t570) + (t543 * v_i[0] + t544 * v_i[1] + t545
-        * v_i[2]) - (t543 * v_j[0] + t544 * v_j[1] + t545 * v_j[2]));
-    const jg_real t571 = A_j[0] * A_i[3] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t572 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real t573 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t574 = t571 * omega_j[0] + t572 * omega_j[1] + t573 * omega_j[2];
-    const jg_real t575 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
-    const jg_real t576 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
-    const jg_real t577 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
-    const jg_real t578 = t575 * A_j[0] + t576 * A_j[1] + t577 * A_j[2];
-    const jg_real t579 = t575 * A_j[3] + t576 * A_j[4] + t577 * A_j[5];
-    const jg_real t580 = t575 * A_j[6] + t576 * A_j[7] + t577 * A_j[8];
-    const jg_real t581 = t578 * s_j[0] + t579 * s_j[1] + t580 * s_j[2];
-    const jg_real t582 = s_j[0] * t571 + s_j[1] * t572 + s_j[2] * t573;
-    const jg_real t583 = t578 * omega_j[0] + t579 * omega_j[1] + t580 * omega_j[2];
-    const jg_real t584 = t575 * r_j[0] + t576 * r_j[1] + t577 * r_j[2];
-    const jg_real t585 = t575 * r_i[0] + t576 * r_i[1] + t577 * r_i[2];
-    jac_phi_q_v_geometry[20] = t581 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t574 - (omega_j_in_joint_i_2 * t582
-        + t583 * s_j_in_joint_i_1) - (t490 + t581 * g_i_dot_omega_i - t582 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t584 + t491 - t493) - (t494 + g_i_dot_omega_i * t585 - t496));
-    const jg_real t586 = h_i_in_j_2 * t572 + t580 * g_i_in_j_1 - (h_i_in_j_1 * t573 + t579 * g_i_in_j_2);
-    const jg_real t587 = h_i_in_j_0 * t573 + t578 * g_i_in_j_2 - (h_i_in_j_2 * t571 + t580 * g_i_in_j_0);
-    const jg_real t588 = h_i_in_j_1 * t571 + t579 * g_i_in_j_0 - (h_i_in_j_0 * t572 + t578 * g_i_in_j_1);
-    const jg_real t589 = s_j[0] * t586 + s_j[1] * t587 + s_j[2] * t588;
-    const jg_real t590 = omega_j[0] * t586 + omega_j[1] * t587 + omega_j[2] * t588;
-    jac_phi_q_v_geometry[21] = omega_j_in_joint_i_2 * t589 + t583 * s_j_in_joint_i_0 - (t581 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t590) - (h_i_dot_omega_i * t589 - t581 * f_i_dot_omega_i - t584 * f_i_dot_omega_i +
-        t585 * f_i_dot_omega_i + t483 - t484);
-    const jg_real t591 = t578 * C_j[6] + t579 * C_j[7] + t580 * C_j[8];
-    const jg_real t592 = t571 * C_j[6] + t572 * C_j[7] + t573 * C_j[8];
-    jac_phi_q_v_geometry[22] = t574 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t591 - (t583 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t592) - (t499 + g_i_dot_omega_i * t591 - h_i_dot_omega_i * t592);
-    const jg_real t593 = t586 * C_j[6] + t587 * C_j[7] + t588 * C_j[8];
-    jac_phi_q_v_geometry[23] = t583 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t593 - (t590 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t591) - (h_i_dot_omega_i * t593 - f_i_dot_omega_i * t591);
-    const jg_real t594 = t586 * C_j[0] + t587 * C_j[1] + t588 * C_j[2];
-    const jg_real t595 = t571 * C_j[0] + t572 * C_j[1] + t573 * C_j[2];
-    const jg_real t596 = t578 * C_j[0] + t579 * C_j[1] + t580 * C_j[2];
-    const jg_real t597 = h_i_dot_f_j * t596;
-    const jg_real t598 = omega_i[1] * r_j_in_joint_i_0;
-    const jg_real t599 = omega_i[1] * s_j_in_joint_i_0;
-    const jg_real t600 = omega_i[1] * r_i_in_joint_i_0;
-    jac_phi_q_v_geometry[24] = t582 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t590 - (omega_j_in_joint_i_1 * t589
-        + t574 * s_j_in_joint_i_0) - ((t596 * t73 + h_i_dot_f_j * (omega_i[1] * g_i_dot_f_j + g_i_dot_omega_i * t595
-        + f_i_dot_omega_i * t594 + h_i_dot_omega_i * t596 - (t590 * f_i_dot_f_j + omega_j_in_joint_i_0 * t594 +
-        (t574 * g_i_dot_f_j + omega_j_in_joint_i_1 * t595) + (t583 * h_i_dot_f_j + omega_j_in_joint_i_2 * t596))) +
-        t583) * t75 + (t597 + t597) * t77 * pitch * t76 + (t492 * f_i_dot_omega_i - t598) + (t582 * f_i_dot_omega_i
-        - (t599 + g_i_dot_omega_i * t589)) - (t495 * f_i_dot_omega_i - t600) + (t575 * v_i[0] + t576 * v_i[1] + t577
-        * v_i[2]) - (t575 * v_j[0] + t576 * v_j[1] + t577 * v_j[2]));
-    const jg_real t601 = A_j[0] * A_i[6] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t602 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t603 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t604 = t601 * omega_j[0] + t602 * omega_j[1] + t603 * omega_j[2];
-    const jg_real t605 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
-    const jg_real t606 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
-    const jg_real t607 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
-    const jg_real t608 = t605 * A_j[0] + t606 * A_j[1] + t607 * A_j[2];
-    const jg_real t609 = t605 * A_j[3] + t606 * A_j[4] + t607 * A_j[5];
-    const jg_real t610 = t605 * A_j[6] + t606 * A_j[7] + t607 * A_j[8];
-    const jg_real t611 = t608 * s_j[0] + t609 * s_j[1] + t610 * s_j[2];
-    const jg_real t612 = s_j[0] * t601 + s_j[1] * t602 + s_j[2] * t603;
-    const jg_real t613 = t608 * omega_j[0] + t609 * omega_j[1] + t610 * omega_j[2];
-    const jg_real t614 = t605 * r_j[0] + t606 * r_j[1] + t607 * r_j[2];
-    const jg_real t615 = t605 * r_i[0] + t606 * r_i[1] + t607 * r_i[2];
-    jac_phi_q_v_geometry[25] = t611 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t604 - (omega_j_in_joint_i_2 * t612
-        + t613 * s_j_in_joint_i_1) - (t523 + t611 * g_i_dot_omega_i - t612 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        t614 + t524 - t526) - (t527 + g_i_dot_omega_i * t615 - t529));
-    const jg_real t616 = h_i_in_j_2 * t602 + t610 * g_i_in_j_1 - (h_i_in_j_1 * t603 + t609 * g_i_in_j_2);
-    const jg_real t617 = h_i_in_j_0 * t603 + t608 * g_i_in_j_2 - (h_i_in_j_2 * t601 + t610 * g_i_in_j_0);
-    const jg_real t618 = h_i_in_j_1 * t601 + t609 * g_i_in_j_0 - (h_i_in_j_0 * t602 + t608 * g_i_in_j_1);
-    const jg_real t619 = s_j[0] * t616 + s_j[1] * t617 + s_j[2] * t618;
-    const jg_real t620 = omega_j[0] * t616 + omega_j[1] * t617 + omega_j[2] * t618;
-    jac_phi_q_v_geometry[26] = omega_j_in_joint_i_2 * t619 + t613 * s_j_in_joint_i_0 - (t611 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t620) - (h_i_dot_omega_i * t619 - t611 * f_i_dot_omega_i - t614 * f_i_dot_omega_i +
-        t615 * f_i_dot_omega_i + t516 - t517);
-    const jg_real t621 = t608 * C_j[6] + t609 * C_j[7] + t610 * C_j[8];
-    const jg_real t622 = t601 * C_j[6] + t602 * C_j[7] + t603 * C_j[8];
-    jac_phi_q_v_geometry[27] = t604 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t621 - (t613 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t622) - (t532 + g_i_dot_omega_i * t621 - h_i_dot_omega_i * t622);
-    const jg_real t623 = t616 * C_j[6] + t617 * C_j[7] + t618 * C_j[8];
-    jac_phi_q_v_geometry[28] = t613 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t623 - (t620 * h_j_in_joint_i_2 +
-        omega_j_in_joint_i_0 * t621) - (h_i_dot_omega_i * t623 - f_i_dot_omega_i * t621);
-    const jg_real t624 = t616 * C_j[0] + t617 * C_j[1] + t618 * C_j[2];
-    const jg_real t625 = t601 * C_j[0] + t602 * C_j[1] + t603 * C_j[2];
-    const jg_real t626 = t608 * C_j[0] + t609 * C_j[1] + t610 * C_j[2];
-    const jg_real t627 = h_i_dot_f_j * t626;
-    const jg_real t628 = omega_i[2] * r_j_in_joint_i_0;
-    const jg_real t629 = omega_i[2] * s_j_in_joint_i_0;
-    const jg_real t630 = omega_i[2] * r_i_in_joint_i_0;
-    jac_phi_q_v_geometry[29] = t612 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t620 - (omega_j_in_joint_i_1 * t619
-        + t604 * s_j_in_joint_i_0) - ((t626 * t73 + h_i_dot_f_j * (omega_i[2] * g_i_dot_f_j + g_i_dot_omega_i * t625
-        + f_i_dot_omega_i * t624 + h_i_dot_omega_i * t626 - (t620 * f_i_dot_f_j + omega_j_in_joint_i_0 * t624 +
-        (t604 * g_i_dot_f_j + omega_j_in_joint_i_1 * t625) + (t613 * h_i_dot_f_j + omega_j_in_joint_i_2 * t626))) +
-        t613) * t75 + (t627 + t627) * t77 * pitch * t76 + (t525 * f_i_dot_omega_i - t628) + (t612 * f_i_dot_omega_i
-        - (t629 + g_i_dot_omega_i * t619)) - (t528 * f_i_dot_omega_i - t630) + (t605 * v_i[0] + t606 * v_i[1] + t607
-        * v_i[2]) - (t605 * v_j[0] + t606 * v_j[1] + t607 * v_j[2]));
-    jac_phi_q_v_geometry[30] = t470 + t469 - t472;
-    jac_phi_q_v_geometry[31] = t570 - (t568 + t567);
+    const jg_real t468 = omega_i[1] * r_ij_in_joint_i_1;
+    const jg_real t469 = s_j_in_joint_i_1 * omega_i[1];
+    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t457 - omega_j_in_joint_i_1 * t456 - ((t465 * t73 + h_i_dot_f_j *
+        (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t457 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t466 + (t449 * h_i_dot_f_j + omega_j_in_joint_i_2 * t465))) + t449) * t75 + (t467 +
+        t467) * t77 * pitch * t76 + (t468 - g_i_dot_omega_i * t460) + (t469 - g_i_dot_omega_i * t456) + (t442 *
+        v_i[0] + t443 * v_i[1] + t444 * v_i[2]) - (t442 * v_j[0] + t443 * v_j[1] + t444 * v_j[2]));
+    const jg_real t470 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
+    const jg_real t471 = A_i[8] * g_i_world_0 - g_i_world_2 * A_i[6];
+    const jg_real t472 = g_i_world_1 * A_i[6] - A_i[7] * g_i_world_0;
+    const jg_real t473 = t470 * A_j[0] + t471 * A_j[1] + t472 * A_j[2];
+    const jg_real t474 = t470 * A_j[3] + t471 * A_j[4] + t472 * A_j[5];
+    const jg_real t475 = t470 * A_j[6] + t471 * A_j[7] + t472 * A_j[8];
+    const jg_real t476 = t473 * s_j[0] + t474 * s_j[1] + t475 * s_j[2];
+    const jg_real t477 = t473 * omega_j[0] + t474 * omega_j[1] + t475 * omega_j[2];
+    const jg_real t478 = t470 * r_ij_world_0 + t471 * r_ij_world_1 + t472 * r_ij_world_2;
+    const jg_real t479 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
+    const jg_real t480 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
+    jac_phi_q_v_geometry[10] = t476 * omega_j_in_joint_i_1 - t477 * s_j_in_joint_i_1 - (t476 * g_i_dot_omega_i +
+        g_i_dot_omega_i * t478 + t479 - t480);
+    const jg_real t481 = t475 * g_i_in_j_1 - t474 * g_i_in_j_2;
+    const jg_real t482 = t473 * g_i_in_j_2 - t475 * g_i_in_j_0;
+    const jg_real t483 = t474 * g_i_in_j_0 - t473 * g_i_in_j_1;
+    const jg_real t484 = s_j[0] * t481 + s_j[1] * t482 + s_j[2] * t483;
+    const jg_real t485 = omega_j[0] * t481 + omega_j[1] * t482 + omega_j[2] * t483;
+    const jg_real t486 = s_j_in_joint_i_2 * omega_i[2];
+    const jg_real t487 = omega_i[2] * r_ij_in_joint_i_2;
+    const jg_real t488 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
+    const jg_real t489 = h_i_dot_omega_i * t488;
+    jac_phi_q_v_geometry[11] = omega_j_in_joint_i_2 * t484 + t477 * s_j_in_joint_i_0 - (t476 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t485) - (h_i_dot_omega_i * t484 - (t486 + t476 * f_i_dot_omega_i) + (t489 - (t487 +
+        t478 * f_i_dot_omega_i)));
+    const jg_real t490 = t473 * C_j[6] + t474 * C_j[7] + t475 * C_j[8];
+    jac_phi_q_v_geometry[12] = omega_j_in_joint_i_1 * t490 - t477 * h_j_in_joint_i_1 - g_i_dot_omega_i * t490;
+    const jg_real t491 = t481 * C_j[6] + t482 * C_j[7] + t483 * C_j[8];
+    const jg_real t492 = omega_i[2] * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[13] = t477 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t491 - (t485 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t490) - (h_i_dot_omega_i * t491 - (t492 + f_i_dot_omega_i * t490));
+    const jg_real t493 = t473 * C_j[0] + t474 * C_j[1] + t475 * C_j[2];
+    const jg_real t494 = t481 * C_j[0] + t482 * C_j[1] + t483 * C_j[2];
+    const jg_real t495 = h_i_dot_f_j * t493;
+    const jg_real t496 = omega_i[2] * r_ij_in_joint_i_1;
+    const jg_real t497 = s_j_in_joint_i_1 * omega_i[2];
+    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t485 - omega_j_in_joint_i_1 * t484 - ((t493 * t73 + h_i_dot_f_j *
+        (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t494 + h_i_dot_omega_i * t493 - (t485 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t494 + (t477 * h_i_dot_f_j + omega_j_in_joint_i_2 * t493))) + t477) * t75 + (t495 +
+        t495) * t77 * pitch * t76 + (t496 - g_i_dot_omega_i * t488) + (t497 - g_i_dot_omega_i * t484) + (t470 *
+        v_i[0] + t471 * v_i[1] + t472 * v_i[2]) - (t470 * v_j[0] + t471 * v_j[1] + t472 * v_j[2]));
+    const jg_real t498 = A_j[0] * A_i[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real t499 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real t500 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real t501 = t498 * omega_j[0] + t499 * omega_j[1] + t500 * omega_j[2];
+    const jg_real t502 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
+    const jg_real t503 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
+    const jg_real t504 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
+    const jg_real t505 = t502 * A_j[0] + t503 * A_j[1] + t504 * A_j[2];
+    const jg_real t506 = t502 * A_j[3] + t503 * A_j[4] + t504 * A_j[5];
+    const jg_real t507 = t502 * A_j[6] + t503 * A_j[7] + t504 * A_j[8];
+    const jg_real t508 = t505 * s_j[0] + t506 * s_j[1] + t507 * s_j[2];
+    const jg_real t509 = s_j[0] * t498 + s_j[1] * t499 + s_j[2] * t500;
+    const jg_real t510 = t505 * omega_j[0] + t506 * omega_j[1] + t507 * omega_j[2];
+    const jg_real t511 = t502 * r_ij_world_0 + t503 * r_ij_world_1 + t504 * r_ij_world_2;
+    jac_phi_q_v_geometry[15] = t508 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t501 - (omega_j_in_joint_i_2 * t509
+        + t510 * s_j_in_joint_i_1) - (t428 + t508 * g_i_dot_omega_i - t509 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        t511 + t430 - t432));
+    const jg_real t512 = h_i_in_j_2 * t499 + t507 * g_i_in_j_1 - (h_i_in_j_1 * t500 + t506 * g_i_in_j_2);
+    const jg_real t513 = h_i_in_j_0 * t500 + t505 * g_i_in_j_2 - (h_i_in_j_2 * t498 + t507 * g_i_in_j_0);
+    const jg_real t514 = h_i_in_j_1 * t498 + t506 * g_i_in_j_0 - (h_i_in_j_0 * t499 + t505 * g_i_in_j_1);
+    const jg_real t515 = s_j[0] * t512 + s_j[1] * t513 + s_j[2] * t514;
+    const jg_real t516 = omega_j[0] * t512 + omega_j[1] * t513 + omega_j[2] * t514;
+    jac_phi_q_v_geometry[16] = omega_j_in_joint_i_2 * t515 + t510 * s_j_in_joint_i_0 - (t508 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t516) - (h_i_dot_omega_i * t515 - t508 * f_i_dot_omega_i - t511 * f_i_dot_omega_i +
+        t421 - t422);
+    const jg_real t517 = t505 * C_j[6] + t506 * C_j[7] + t507 * C_j[8];
+    const jg_real t518 = t498 * C_j[6] + t499 * C_j[7] + t500 * C_j[8];
+    jac_phi_q_v_geometry[17] = t501 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t517 - (t510 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t518) - (t435 + g_i_dot_omega_i * t517 - h_i_dot_omega_i * t518);
+    const jg_real t519 = t512 * C_j[6] + t513 * C_j[7] + t514 * C_j[8];
+    jac_phi_q_v_geometry[18] = t510 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t519 - (t516 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t517) - (h_i_dot_omega_i * t519 - f_i_dot_omega_i * t517);
+    const jg_real t520 = t512 * C_j[0] + t513 * C_j[1] + t514 * C_j[2];
+    const jg_real t521 = t498 * C_j[0] + t499 * C_j[1] + t500 * C_j[2];
+    const jg_real t522 = t505 * C_j[0] + t506 * C_j[1] + t507 * C_j[2];
+    const jg_real t523 = h_i_dot_f_j * t522;
+    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    const jg_real t525 = omega_i[0] * r_ij_in_joint_i_0;
+    const jg_real t526 = omega_i[0] * s_j_in_joint_i_0;
+    jac_phi_q_v_geometry[19] = t509 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t516 - (omega_j_in_joint_i_1 * t515
+        + t501 * s_j_in_joint_i_0) - ((t522 * t73 + h_i_dot_f_j * (omega_i[0] * g_i_dot_f_j + g_i_dot_omega_i * t521
+        + f_i_dot_omega_i * t520 + h_i_dot_omega_i * t522 - (t516 * f_i_dot_f_j + omega_j_in_joint_i_0 * t520 +
+        (t501 * g_i_dot_f_j + omega_j_in_joint_i_1 * t521) + (t510 * h_i_dot_f_j + omega_j_in_joint_i_2 * t522))) +
+        t510) * t75 + (t523 + t523) * t77 * pitch * t76 + (t431 * f_i_dot_omega_i - t525) + (t509 * f_i_dot_omega_i
+        - (t526 + g_i_dot_omega_i * t515)) + (t502 * v_i[0] + t503 * v_i[1] + t504 * v_i[2]) - (t502 * v_j[0] + t503
+        * v_j[1] + t504 * v_j[2]));
+    const jg_real t527 = A_j[0] * A_i[3] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real t528 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real t529 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real t530 = t527 * omega_j[0] + t528 * omega_j[1] + t529 * omega_j[2];
+    const jg_real t531 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
+    const jg_real t532 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
+    const jg_real t533 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
+    const jg_real t534 = t531 * A_j[0] + t532 * A_j[1] + t533 * A_j[2];
+    const jg_real t535 = t531 * A_j[3] + t532 * A_j[4] + t533 * A_j[5];
+    const jg_real t536 = t531 * A_j[6] + t532 * A_j[7] + t533 * A_j[8];
+    const jg_real t537 = t534 * s_j[0] + t535 * s_j[1] + t536 * s_j[2];
+    const jg_real t538 = s_j[0] * t527 + s_j[1] * t528 + s_j[2] * t529;
+    const jg_real t539 = t534 * omega_j[0] + t535 * omega_j[1] + t536 * omega_j[2];
+    const jg_real t540 = t531 * r_ij_world_0 + t532 * r_ij_world_1 + t533 * r_ij_world_2;
+    jac_phi_q_v_geometry[20] = t537 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t530 - (omega_j_in_joint_i_2 * t538
+        + t539 * s_j_in_joint_i_1) - (t458 + t537 * g_i_dot_omega_i - t538 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        t540 + t459 - t461));
+    const jg_real t541 = h_i_in_j_2 * t528 + t536 * g_i_in_j_1 - (h_i_in_j_1 * t529 + t535 * g_i_in_j_2);
+    const jg_real t542 = h_i_in_j_0 * t529 + t534 * g_i_in_j_2 - (h_i_in_j_2 * t527 + t536 * g_i_in_j_0);
+    const jg_real t543 = h_i_in_j_1 * t527 + t535 * g_i_in_j_0 - (h_i_in_j_0 * t528 + t534 * g_i_in_j_1);
+    const jg_real t544 = s_j[0] * t541 + s_j[1] * t542 + s_j[2] * t543;
+    const jg_real t545 = omega_j[0] * t541 + omega_j[1] * t542 + omega_j[2] * t543;
+    jac_phi_q_v_geometry[21] = omega_j_in_joint_i_2 * t544 + t539 * s_j_in_joint_i_0 - (t537 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t545) - (h_i_dot_omega_i * t544 - t537 * f_i_dot_omega_i - t540 * f_i_dot_omega_i +
+        t451 - t452);
+    const jg_real t546 = t534 * C_j[6] + t535 * C_j[7] + t536 * C_j[8];
+    const jg_real t547 = t527 * C_j[6] + t528 * C_j[7] + t529 * C_j[8];
+    jac_phi_q_v_geometry[22] = t530 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t546 - (t539 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t547) - (t464 + g_i_dot_omega_i * t546 - h_i_dot_omega_i * t547);
+    const jg_real t548 = t541 * C_j[6] + t542 * C_j[7] + t543 * C_j[8];
+    jac_phi_q_v_geometry[23] = t539 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t548 - (t545 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t546) - (h_i_dot_omega_i * t548 - f_i_dot_omega_i * t546);
+    const jg_real t549 = t541 * C_j[0] + t542 * C_j[1] + t543 * C_j[2];
+    const jg_real t550 = t527 * C_j[0] + t528 * C_j[1] + t529 * C_j[2];
+    const jg_real t551 = t534 * C_j[0] + t535 * C_j[1] + t536 * C_j[2];
+    const jg_real t552 = h_i_dot_f_j * t551;
+    const jg_real t553 = omega_i[1] * r_ij_in_joint_i_0;
+    const jg_real t554 = omega_i[1] * s_j_in_joint_i_0;
+    jac_phi_q_v_geometry[24] = t538 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t545 - (omega_j_in_joint_i_1 * t544
+        + t530 * s_j_in_joint_i_0) - ((t551 * t73 + h_i_dot_f_j * (omega_i[1] * g_i_dot_f_j + g_i_dot_omega_i * t550
+        + f_i_dot_omega_i * t549 + h_i_dot_omega_i * t551 - (t545 * f_i_dot_f_j + omega_j_in_joint_i_0 * t549 +
+        (t530 * g_i_dot_f_j + omega_j_in_joint_i_1 * t550) + (t539 * h_i_dot_f_j + omega_j_in_joint_i_2 * t551))) +
+        t539) * t75 + (t552 + t552) * t77 * pitch * t76 + (t460 * f_i_dot_omega_i - t553) + (t538 * f_i_dot_omega_i
+        - (t554 + g_i_dot_omega_i * t544)) + (t531 * v_i[0] + t532 * v_i[1] + t533 * v_i[2]) - (t531 * v_j[0] + t532
+        * v_j[1] + t533 * v_j[2]));
+    const jg_real t555 = A_j[0] * A_i[6] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real t556 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real t557 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real t558 = t555 * omega_j[0] + t556 * omega_j[1] + t557 * omega_j[2];
+    const jg_real t559 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
+    const jg_real t560 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
+    const jg_real t561 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
+    const jg_real t562 = t559 * A_j[0] + t560 * A_j[1] + t561 * A_j[2];
+    const jg_real t563 = t559 * A_j[3] + t560 * A_j[4] + t561 * A_j[5];
+    const jg_real t564 = t559 * A_j[6] + t560 * A_j[7] + t561 * A_j[8];
+    const jg_real t565 = t562 * s_j[0] + t563 * s_j[1] + t564 * s_j[2];
+    const jg_real t566 = s_j[0] * t555 + s_j[1] * t556 + s_j[2] * t557;
+    const jg_real t567 = t562 * omega_j[0] + t563 * omega_j[1] + t564 * omega_j[2];
+    const jg_real t568 = t559 * r_ij_world_0 + t560 * r_ij_world_1 + t561 * r_ij_world_2;
+    jac_phi_q_v_geometry[25] = t565 * omega_j_in_joint_i_1 + s_j_in_joint_i_2 * t558 - (omega_j_in_joint_i_2 * t566
+        + t567 * s_j_in_joint_i_1) - (t486 + t565 * g_i_dot_omega_i - t566 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        t568 + t487 - t489));
+    const jg_real t569 = h_i_in_j_2 * t556 + t564 * g_i_in_j_1 - (h_i_in_j_1 * t557 + t563 * g_i_in_j_2);
+    const jg_real t570 = h_i_in_j_0 * t557 + t562 * g_i_in_j_2 - (h_i_in_j_2 * t555 + t564 * g_i_in_j_0);
+    const jg_real t571 = h_i_in_j_1 * t555 + t563 * g_i_in_j_0 - (h_i_in_j_0 * t556 + t562 * g_i_in_j_1);
+    const jg_real t572 = s_j[0] * t569 + s_j[1] * t570 + s_j[2] * t571;
+    const jg_real t573 = omega_j[0] * t569 + omega_j[1] * t570 + omega_j[2] * t571;
+    jac_phi_q_v_geometry[26] = omega_j_in_joint_i_2 * t572 + t567 * s_j_in_joint_i_0 - (t565 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t573) - (h_i_dot_omega_i * t572 - t565 * f_i_dot_omega_i - t568 * f_i_dot_omega_i +
+        t479 - t480);
+    const jg_real t574 = t562 * C_j[6] + t563 * C_j[7] + t564 * C_j[8];
+    const jg_real t575 = t555 * C_j[6] + t556 * C_j[7] + t557 * C_j[8];
+    jac_phi_q_v_geometry[27] = t558 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t574 - (t567 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t575) - (t492 + g_i_dot_omega_i * t574 - h_i_dot_omega_i * t575);
+    const jg_real t576 = t569 * C_j[6] + t570 * C_j[7] + t571 * C_j[8];
+    jac_phi_q_v_geometry[28] = t567 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t576 - (t573 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t574) - (h_i_dot_omega_i * t576 - f_i_dot_omega_i * t574);
+    const jg_real t577 = t569 * C_j[0] + t570 * C_j[1] + t571 * C_j[2];
+    const jg_real t578 = t555 * C_j[0] + t556 * C_j[1] + t557 * C_j[2];
+    const jg_real t579 = t562 * C_j[0] + t563 * C_j[1] + t564 * C_j[2];
+    const jg_real t580 = h_i_dot_f_j * t579;
+    const jg_real t581 = omega_i[2] * r_ij_in_joint_i_0;
+    const jg_real t582 = omega_i[2] * s_j_in_joint_i_0;
+    jac_phi_q_v_geometry[29] = t566 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t573 - (omega_j_in_joint_i_1 * t572
+        + t558 * s_j_in_joint_i_0) - ((t579 * t73 + h_i_dot_f_j * (omega_i[2] * g_i_dot_f_j + g_i_dot_omega_i * t578
+        + f_i_dot_omega_i * t577 + h_i_dot_omega_i * t579 - (t573 * f_i_dot_f_j + omega_j_in_joint_i_0 * t577 +
+        (t558 * g_i_dot_f_j + omega_j_in_joint_i_1 * t578) + (t567 * h_i_dot_f_j + omega_j_in_joint_i_2 * t579))) +
+        t567) * t75 + (t580 + t580) * t77 * pitch * t76 + (t488 * f_i_dot_omega_i - t581) + (t566 * f_i_dot_omega_i
+        - (t582 + g_i_dot_omega_i * t572)) + (t559 * v_i[0] + t560 * v_i[1] + t561 * v_i[2]) - (t559 * v_j[0] + t560
+        * v_j[1] + t561 * v_j[2]));
+    jac_phi_q_v_geometry[30] = t441 + t440;
+    jac_phi_q_v_geometry[31] = -(t526 + t525);
     jac_phi_q_v_geometry[32] = omega_i[0] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[33] = -(omega_i[0] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[34] = -((omega_i[0] * h_i_dot_f_j * h_i_dot_f_j - omega_i[0]) * t75);
-    jac_phi_q_v_geometry[35] = t504 + t503 - t505;
-    jac_phi_q_v_geometry[36] = t600 - (t599 + t598);
+    jac_phi_q_v_geometry[35] = t469 + t468;
+    jac_phi_q_v_geometry[36] = -(t554 + t553);
     jac_phi_q_v_geometry[37] = omega_i[1] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[38] = -(omega_i[1] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[39] = -((omega_i[1] * h_i_dot_f_j * h_i_dot_f_j - omega_i[1]) * t75);
-    jac_phi_q_v_geometry[40] = t537 + t536 - t538;
-    jac_phi_q_v_geometry[41] = t630 - (t629 + t628);
+    jac_phi_q_v_geometry[40] = t497 + t496;
+    jac_phi_q_v_geometry[41] = -(t582 + t581);
     jac_phi_q_v_geometry[42] = omega_i[2] * h_j_in_joint_i_1;
     jac_phi_q_v_geometry[43] = -(omega_i[2] * h_j_in_joint_i_0);
     jac_phi_q_v_geometry[44] = -((omega_i[2] * h_i_dot_f_j * h_i_dot_f_j - omega_i[2]) * t75);
-    const jg_real t631 = h_i_in_j_0 * omega_j_in_joint_i_1 - g_i_in_j_0 * omega_j_in_joint_i_2 - (h_i_in_j_0 *
+    const jg_real t583 = h_i_in_j_0 * omega_j_in_joint_i_1 - g_i_in_j_0 * omega_j_in_joint_i_2 - (h_i_in_j_0 *
         g_i_dot_omega_i - g_i_in_j_0 * h_i_dot_omega_i);
-    jac_phi_q_v_geometry[45] = t631;
-    jac_phi_q_v_geometry[57] = t631;
-    const jg_real t632 = omega_j_in_joint_i_2 * f_i_in_j_0 - h_i_in_j_0 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+    jac_phi_q_v_geometry[45] = t583;
+    jac_phi_q_v_geometry[57] = t583;
+    const jg_real t584 = omega_j_in_joint_i_2 * f_i_in_j_0 - h_i_in_j_0 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
         f_i_in_j_0 - h_i_in_j_0 * f_i_dot_omega_i);
-    jac_phi_q_v_geometry[46] = t632;
-    jac_phi_q_v_geometry[58] = t632;
+    jac_phi_q_v_geometry[46] = t584;
+    jac_phi_q_v_geometry[58] = t584;
     jac_phi_q_v_geometry[47] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 - (g_i_in_j_0 *
         f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_0);
-    const jg_real t633 = h_i_in_j_1 * omega_j_in_joint_i_1 - g_i_in_j_1 * omega_j_in_joint_i_2 - (h_i_in_j_1 *
+    const jg_real t585 = h_i_in_j_1 * omega_j_in_joint_i_1 - g_i_in_j_1 * omega_j_in_joint_i_2 - (h_i_in_j_1 *
         g_i_dot_omega_i - g_i_in_j_1 * h_i_dot_omega_i);
-    jac_phi_q_v_geometry[48] = t633;
-    jac_phi_q_v_geometry[59] = t633;
-    const jg_real t634 = omega_j_in_joint_i_2 * f_i_in_j_1 - h_i_in_j_1 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+    jac_phi_q_v_geometry[48] = t585;
+    jac_phi_q_v_geometry[59] = t585;
+    const jg_real t586 = omega_j_in_joint_i_2 * f_i_in_j_1 - h_i_in_j_1 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
         f_i_in_j_1 - h_i_in_j_1 * f_i_dot_omega_i);
-    jac_phi_q_v_geometry[49] = t634;
-    jac_phi_q_v_geometry[60] = t634;
+    jac_phi_q_v_geometry[49] = t586;
+    jac_phi_q_v_geometry[60] = t586;
     jac_phi_q_v_geometry[50] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 - (g_i_in_j_1 *
         f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_1);
-    const jg_real t635 = h_i_in_j_2 * omega_j_in_joint_i_1 - g_i_in_j_2 * omega_j_in_joint_i_2 - (h_i_in_j_2 *
+    const jg_real t587 = h_i_in_j_2 * omega_j_in_joint_i_1 - g_i_in_j_2 * omega_j_in_joint_i_2 - (h_i_in_j_2 *
         g_i_dot_omega_i - g_i_in_j_2 * h_i_dot_omega_i);
-    jac_phi_q_v_geometry[51] = t635;
-    jac_phi_q_v_geometry[61] = t635;
-    const jg_real t636 = omega_j_in_joint_i_2 * f_i_in_j_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+    jac_phi_q_v_geometry[51] = t587;
+    jac_phi_q_v_geometry[61] = t587;
+    const jg_real t588 = omega_j_in_joint_i_2 * f_i_in_j_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
         f_i_in_j_2 - h_i_in_j_2 * f_i_dot_omega_i);
-    jac_phi_q_v_geometry[52] = t636;
-    jac_phi_q_v_geometry[62] = t636;
+    jac_phi_q_v_geometry[52] = t588;
+    jac_phi_q_v_geometry[62] = t588;
     jac_phi_q_v_geometry[53] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 - (g_i_in_j_2 *
         f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_2);
-    const jg_real t637 = h_i_in_j_0 * h_i_dot_f_j;
+    const jg_real t589 = h_i_in_j_0 * h_i_dot_f_j;
     jac_phi_q_v_geometry[54] = -((h_i_in_j_0 * t73 + h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_omega_i + g_i_in_j_0 *
         g_i_dot_omega_i + h_i_in_j_0 * h_i_dot_omega_i - (f_i_in_j_0 * omega_j_in_joint_i_0 + g_i_in_j_0 *
-        omega_j_in_joint_i_1 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t637 + t637) * t77 * pitch * t76);
-    const jg_real t638 = h_i_in_j_1 * h_i_dot_f_j;
+        omega_j_in_joint_i_1 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t589 + t589) * t77 * pitch * t76);
+    const jg_real t590 = h_i_in_j_1 * h_i_dot_f_j;
     jac_phi_q_v_geometry[55] = -((h_i_in_j_1 * t73 + h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_omega_i + g_i_in_j_1 *
         g_i_dot_omega_i + h_i_in_j_1 * h_i_dot_omega_i - (f_i_in_j_1 * omega_j_in_joint_i_0 + g_i_in_j_1 *
-        omega_j_in_joint_i_1 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t638 + t638) * t77 * pitch * t76);
-    const jg_real t639 = h_i_in_j_2 * h_i_dot_f_j;
+        omega_j_in_joint_i_1 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t590 + t590) * t77 * pitch * t76);
+    const jg_real t591 = h_i_in_j_2 * h_i_dot_f_j;
     jac_phi_q_v_geometry[56] = -((h_i_in_j_2 * t73 + h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_omega_i + g_i_in_j_2 *
         g_i_dot_omega_i + h_i_in_j_2 * h_i_dot_omega_i - (f_i_in_j_2 * omega_j_in_joint_i_0 + g_i_in_j_2 *
-        omega_j_in_joint_i_1 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t639 + t639) * t77 * pitch * t76);
+        omega_j_in_joint_i_1 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t591 + t591) * t77 * pitch * t76);
     jac_phi_q_v_geometry[63] = -(t76 * spread);
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
@@ -1434,51 +1371,51 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[6] = -f_i_world_2;
     jac_phi_q_v_velocity[7] = -g_i_world_2;
     jac_phi_q_v_velocity[8] = -h_i_world_2;
-    jac_phi_q_v_velocity[9] = C_i[3] * r_i_in_joint_i_2 - C_i[6] * r_i_in_joint_i_1 - (C_i[3] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[6] + (C_i[3] * r_j_in_joint_i_2 - C_i[6] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[10] = C_i[6] * r_i_in_joint_i_0 - C_i[0] * r_i_in_joint_i_2 - (C_i[6] * s_j_in_joint_i_0 -
-        C_i[0] * s_j_in_joint_i_2 + (C_i[6] * r_j_in_joint_i_0 - C_i[0] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[9] = -(C_i[3] * s_j_in_joint_i_2 - s_j_in_joint_i_1 * C_i[6] + (C_i[3] * r_ij_in_joint_i_2
+        - C_i[6] * r_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[10] = -(C_i[6] * s_j_in_joint_i_0 - C_i[0] * s_j_in_joint_i_2 + (C_i[6] * r_ij_in_joint_i_0
+        - C_i[0] * r_ij_in_joint_i_2));
     jac_phi_q_v_velocity[11] = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[12] = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[13] = C_i[0] * r_i_in_joint_i_1 - C_i[3] * r_i_in_joint_i_0 - (C_i[0] * r_j_in_joint_i_1 -
-        C_i[3] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[0] * f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] *
-        h_i_dot_f_j) - C_i[6]) * t75 + (C_i[0] * s_j_in_joint_i_1 - C_i[3] * s_j_in_joint_i_0));
-    jac_phi_q_v_velocity[14] = C_i[4] * r_i_in_joint_i_2 - C_i[7] * r_i_in_joint_i_1 - (C_i[4] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[7] + (C_i[4] * r_j_in_joint_i_2 - C_i[7] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[15] = C_i[7] * r_i_in_joint_i_0 - C_i[1] * r_i_in_joint_i_2 - (C_i[7] * s_j_in_joint_i_0 -
-        C_i[1] * s_j_in_joint_i_2 + (C_i[7] * r_j_in_joint_i_0 - C_i[1] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[13] = -(C_i[0] * r_ij_in_joint_i_1 - C_i[3] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[0] *
+        f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] * h_i_dot_f_j) - C_i[6]) * t75 + (C_i[0] * s_j_in_joint_i_1 -
+        C_i[3] * s_j_in_joint_i_0));
+    jac_phi_q_v_velocity[14] = -(C_i[4] * s_j_in_joint_i_2 - s_j_in_joint_i_1 * C_i[7] + (C_i[4] * r_ij_in_joint_i_2
+        - C_i[7] * r_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[15] = -(C_i[7] * s_j_in_joint_i_0 - C_i[1] * s_j_in_joint_i_2 + (C_i[7] * r_ij_in_joint_i_0
+        - C_i[1] * r_ij_in_joint_i_2));
     jac_phi_q_v_velocity[16] = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[17] = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[18] = C_i[1] * r_i_in_joint_i_1 - C_i[4] * r_i_in_joint_i_0 - (C_i[1] * r_j_in_joint_i_1 -
-        C_i[4] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[1] * f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] *
-        h_i_dot_f_j) - C_i[7]) * t75 + (C_i[1] * s_j_in_joint_i_1 - C_i[4] * s_j_in_joint_i_0));
-    jac_phi_q_v_velocity[19] = C_i[5] * r_i_in_joint_i_2 - C_i[8] * r_i_in_joint_i_1 - (C_i[5] * s_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * C_i[8] + (C_i[5] * r_j_in_joint_i_2 - C_i[8] * r_j_in_joint_i_1));
-    jac_phi_q_v_velocity[20] = C_i[8] * r_i_in_joint_i_0 - C_i[2] * r_i_in_joint_i_2 - (C_i[8] * s_j_in_joint_i_0 -
-        C_i[2] * s_j_in_joint_i_2 + (C_i[8] * r_j_in_joint_i_0 - C_i[2] * r_j_in_joint_i_2));
+    jac_phi_q_v_velocity[18] = -(C_i[1] * r_ij_in_joint_i_1 - C_i[4] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[1] *
+        f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] * h_i_dot_f_j) - C_i[7]) * t75 + (C_i[1] * s_j_in_joint_i_1 -
+        C_i[4] * s_j_in_joint_i_0));
+    jac_phi_q_v_velocity[19] = -(C_i[5] * s_j_in_joint_i_2 - s_j_in_joint_i_1 * C_i[8] + (C_i[5] * r_ij_in_joint_i_2
+        - C_i[8] * r_ij_in_joint_i_1));
+    jac_phi_q_v_velocity[20] = -(C_i[8] * s_j_in_joint_i_0 - C_i[2] * s_j_in_joint_i_2 + (C_i[8] * r_ij_in_joint_i_0
+        - C_i[2] * r_ij_in_joint_i_2));
     jac_phi_q_v_velocity[21] = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[22] = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
-    jac_phi_q_v_velocity[23] = C_i[2] * r_i_in_joint_i_1 - C_i[5] * r_i_in_joint_i_0 - (C_i[2] * r_j_in_joint_i_1 -
-        C_i[5] * r_j_in_joint_i_0 + (h_i_dot_f_j * (C_i[2] * f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] *
-        h_i_dot_f_j) - C_i[8]) * t75 + (C_i[2] * s_j_in_joint_i_1 - C_i[5] * s_j_in_joint_i_0));
+    jac_phi_q_v_velocity[23] = -(C_i[2] * r_ij_in_joint_i_1 - C_i[5] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[2] *
+        f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] * h_i_dot_f_j) - C_i[8]) * t75 + (C_i[2] * s_j_in_joint_i_1 -
+        C_i[5] * s_j_in_joint_i_0));
     jac_phi_q_v_velocity[33] = s_j_in_joint_i_2 * g_i_in_j_0 - h_i_in_j_0 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[34] = h_i_in_j_0 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_0;
     jac_phi_q_v_velocity[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * f_i_in_j_0 - g_i_in_j_0 * s_j_in_joint_i_0 - (h_i_in_j_0 -
-        h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_f_j + g_i_in_j_0 * g_i_dot_f_j + t637)) * t75;
+        h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_f_j + g_i_in_j_0 * g_i_dot_f_j + t589)) * t75;
     jac_phi_q_v_velocity[38] = s_j_in_joint_i_2 * g_i_in_j_1 - h_i_in_j_1 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[39] = h_i_in_j_1 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_1;
     jac_phi_q_v_velocity[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[42] = s_j_in_joint_i_1 * f_i_in_j_1 - g_i_in_j_1 * s_j_in_joint_i_0 - (h_i_in_j_1 -
-        h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_f_j + g_i_in_j_1 * g_i_dot_f_j + t638)) * t75;
+        h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_f_j + g_i_in_j_1 * g_i_dot_f_j + t590)) * t75;
     jac_phi_q_v_velocity[43] = s_j_in_joint_i_2 * g_i_in_j_2 - h_i_in_j_2 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[44] = h_i_in_j_2 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_2;
     jac_phi_q_v_velocity[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[47] = s_j_in_joint_i_1 * f_i_in_j_2 - g_i_in_j_2 * s_j_in_joint_i_0 - (h_i_in_j_2 -
-        h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_f_j + g_i_in_j_2 * g_i_dot_f_j + t639)) * t75;
+        h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_f_j + g_i_in_j_2 * g_i_dot_f_j + t591)) * t75;
 }
 
 static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -1560,970 +1497,825 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t26 = t25 * lambda[1];
     jac_phi_q_t_lambda_A_i[2] = t26;
     jac_phi_q_t_lambda_A_i[30] = t26;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* v_1_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, world axes */
+    const jg_real v_1_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_0 = g_i_world_0 * lambda[3] + f_i_world_0 * lambda[2];
     const jg_real v_2_world_1 = g_i_world_1 * lambda[3] + f_i_world_1 * lambda[2];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real v_2_world_2 = g_i_world_2 * lambda[3] + f_i_world_2 * lambda[2];
-    /* v_2_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_2_in_j_1 = v_2_world_0 * A_j[3] + v_2_world_1 * A_j[4] + v_2_world_2 * A_j[5];
-    jac_phi_q_t_lambda_geometry[109] = v_2_in_j_1;
-    const jg_real v_2_in_j_2 = v_2_world_0 * A_j[6] + v_2_world_1 * A_j[7] + v_2_world_2 * A_j[8];
-    jac_phi_q_t_lambda_geometry[113] = v_2_in_j_2;
-    /* v_3_in_j = lambda_2 f_i x h_j + lambda_3 g_i x h_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_2_in_j_1 * C_j[8] - v_2_in_j_2 * C_j[7];
-    /* v_0_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
-    jac_phi_q_t_lambda_geometry[80] = v_0_in_j_2;
-    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
-    jac_phi_q_t_lambda_geometry[76] = v_0_in_j_1;
-    /* v_1_in_j = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, axes of body j */
-    const jg_real v_1_in_j_0 = v_0_in_j_2 * s_j[1] - v_0_in_j_1 * s_j[2];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
-    const jg_real t37 = h_i_in_j_0 * C_j[0];
-    const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
-    const jg_real t39 = h_i_in_j_1 * C_j[1];
-    const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
-    const jg_real t41 = h_i_in_j_2 * C_j[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* v_3_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
+    const jg_real v_3_world_0 = v_2_world_1 * h_j_world_2 - v_2_world_2 * h_j_world_1;
+    /* v_4_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i - lambda_2 f_i x h_j - ... */
+    const jg_real v_4_world_0 = v_1_world_0 - v_3_world_0;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = t37 + t39 + t41;
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t44 = lambda[4] * spread;
-    const jg_real t45 = t44 * pitch;
-    /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_0 = h_i_in_j_0 - C_j[0] * h_i_dot_f_j;
-    /* v_4_in_j = lambda_4 spread pitch across, axes of body j */
-    const jg_real v_4_in_j_0 = t45 * across_in_j_0;
-    /* v_5_in_j = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ... */
-    const jg_real v_5_in_j_0 = v_3_in_j_0 - v_1_in_j_0 + v_4_in_j_0;
-    const jg_real v_2_in_j_0 = v_2_world_0 * A_j[0] + v_2_world_1 * A_j[1] + v_2_world_2 * A_j[2];
-    jac_phi_q_t_lambda_geometry[119] = v_2_in_j_0;
-    const jg_real v_3_in_j_1 = v_2_in_j_2 * C_j[6] - C_j[8] * v_2_in_j_0;
-    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
-    jac_phi_q_t_lambda_geometry[86] = v_0_in_j_0;
-    const jg_real v_1_in_j_1 = s_j[2] * v_0_in_j_0 - v_0_in_j_2 * s_j[0];
-    const jg_real across_in_j_1 = h_i_in_j_1 - C_j[1] * h_i_dot_f_j;
-    const jg_real v_4_in_j_1 = t45 * across_in_j_1;
-    const jg_real v_5_in_j_1 = v_3_in_j_1 - v_1_in_j_1 + v_4_in_j_1;
-    const jg_real v_3_in_j_2 = C_j[7] * v_2_in_j_0 - v_2_in_j_1 * C_j[6];
-    const jg_real v_1_in_j_2 = v_0_in_j_1 * s_j[0] - s_j[1] * v_0_in_j_0;
-    const jg_real across_in_j_2 = h_i_in_j_2 - C_j[2] * h_i_dot_f_j;
-    const jg_real v_4_in_j_2 = t45 * across_in_j_2;
-    const jg_real v_5_in_j_2 = v_3_in_j_2 - v_1_in_j_2 + v_4_in_j_2;
-    /* v_5_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
+    const jg_real t41 = lambda[4] * spread;
+    const jg_real t42 = t41 * pitch;
+    /* across_world = across, world axes */
+    const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
+    /* v_5_world = lambda_4 spread pitch across, world axes */
+    const jg_real v_5_world_0 = t42 * across_world_0;
+    /* v_6_world = lambda_4 spread pitch across - lambda_0 s_j x f_i - lambda_1 s_j x g_i - lambda_4 s_j x h_i ...
         */
-    const jg_real v_5_world_0 = A_j[0] * v_5_in_j_0 + A_j[3] * v_5_in_j_1 + A_j[6] * v_5_in_j_2;
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    /* v_7_world = lambda_0 r_j x f_i + lambda_1 r_j x g_i + lambda_4 r_j x h_i - lambda_0 r_i x f_i - ... */
-    const jg_real v_7_world_0 = v_0_world_2 * v_6_world_1 - v_0_world_1 * v_6_world_2;
-    /* v_8_world = lambda_4 spread pitch across - lambda_0 r_j x f_i - lambda_1 r_j x g_i - lambda_4 r_j x h_i ...
-        */
-    const jg_real v_8_world_0 = v_5_world_0 - v_7_world_0;
-    const jg_real t66 = t23 * lambda[3];
-    const jg_real t67 = C_i[0] * lambda[2];
-    const jg_real t68 = t25 * lambda[3];
-    const jg_real t69 = t67 * A_j[3] - t66 * A_j[4] - t68 * A_j[5];
-    const jg_real t70 = t67 * A_j[6] - t66 * A_j[7] - t68 * A_j[8];
-    const jg_real t71 = t21 * A_j[6] - t24 * A_j[7] - t26 * A_j[8];
-    const jg_real t72 = t21 * A_j[3] - t24 * A_j[4] - t26 * A_j[5];
-    const jg_real t73 = spread * spread;
-    const jg_real t74 = C_i[6] * A_j[0];
-    const jg_real t75 = C_i[6] * A_j[3];
-    const jg_real t76 = C_i[6] * A_j[6];
-    const jg_real t77 = t74 * C_j[0] + t75 * C_j[1] + t76 * C_j[2];
-    const jg_real t78 = h_i_dot_f_j * t77;
-    const jg_real t79 = (t78 + t78) * t73 * lambda[4] * pitch;
-    const jg_real t80 = t69 * C_j[8] - t70 * C_j[7] - (t71 * s_j[1] - t72 * s_j[2]) + (t79 * across_in_j_0 + t45 *
-        (t74 - C_j[0] * t77));
-    const jg_real t81 = t67 * A_j[0] - t66 * A_j[1] - t68 * A_j[2];
-    const jg_real t82 = t21 * A_j[0] - t24 * A_j[1] - t26 * A_j[2];
-    const jg_real t83 = t70 * C_j[6] - C_j[8] * t81 - (s_j[2] * t82 - t71 * s_j[0]) + (t79 * across_in_j_1 + t45 *
-        (t75 - C_j[1] * t77));
-    const jg_real t84 = C_j[7] * t81 - t69 * C_j[6] - (t72 * s_j[0] - s_j[1] * t82) + (t79 * across_in_j_2 + t45 *
-        (t76 - C_j[2] * t77));
-    const jg_real t85 = t24 * v_6_world_2;
-    const jg_real t86 = t26 * v_6_world_1;
-    const jg_real t87 = A_j[0] * t80 + A_j[3] * t83 + A_j[6] * t84 - (t85 - t86);
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t89 = t21 * v_6_world_2;
-    const jg_real t90 = A_j[1] * t80 + A_j[4] * t83 + A_j[7] * t84 - (t89 + t26 * v_6_world_0);
-    const jg_real t91 = t21 * v_6_world_1;
-    const jg_real t92 = A_j[2] * t80 + A_j[5] * t83 + A_j[8] * t84 + (t91 + t24 * v_6_world_0);
-    jac_phi_q_t_lambda_A_i[3] = v_8_world_0 + A_i[0] * t87 + A_i[1] * t90 + A_i[2] * t92;
-    jac_phi_q_t_lambda_A_i[4] = A_i[3] * t87 + A_i[4] * t90 + A_i[5] * t92;
-    jac_phi_q_t_lambda_A_i[5] = A_i[6] * t87 + A_i[7] * t90 + A_i[8] * t92;
-    const jg_real t93 = -t24;
-    jac_phi_q_t_lambda_A_i[7] = t93;
-    jac_phi_q_t_lambda_A_i[12] = t93;
-    const jg_real t94 = -t26;
-    jac_phi_q_t_lambda_A_i[8] = t94;
-    jac_phi_q_t_lambda_A_i[24] = t94;
-    jac_phi_q_t_lambda_A_i[9] = -t80;
-    jac_phi_q_t_lambda_A_i[10] = -t83;
-    jac_phi_q_t_lambda_A_i[11] = -t84;
-    const jg_real t95 = C_i[6] * f_i_world_0 - C_i[0] * h_i_world_0;
-    const jg_real t96 = lambda[1] * t95;
-    jac_phi_q_t_lambda_A_i[14] = t96;
-    jac_phi_q_t_lambda_A_i[31] = t96;
-    const jg_real v_5_world_1 = A_j[1] * v_5_in_j_0 + A_j[4] * v_5_in_j_1 + A_j[7] * v_5_in_j_2;
-    const jg_real v_7_world_1 = v_0_world_0 * v_6_world_2 - v_0_world_2 * v_6_world_0;
-    const jg_real v_8_world_1 = v_5_world_1 - v_7_world_1;
-    const jg_real t100 = t95 * lambda[3];
-    const jg_real t101 = t66 * A_j[3] + t67 * A_j[4] - t100 * A_j[5];
-    const jg_real t102 = t66 * A_j[6] + t67 * A_j[7] - t100 * A_j[8];
-    const jg_real t103 = t24 * A_j[6] + t21 * A_j[7] - t96 * A_j[8];
-    const jg_real t104 = t24 * A_j[3] + t21 * A_j[4] - t96 * A_j[5];
-    const jg_real t105 = C_i[6] * A_j[1];
-    const jg_real t106 = C_i[6] * A_j[4];
-    const jg_real t107 = C_i[6] * A_j[7];
-    const jg_real t108 = t105 * C_j[0] + t106 * C_j[1] + t107 * C_j[2];
-    const jg_real t109 = h_i_dot_f_j * t108;
-    const jg_real t110 = (t109 + t109) * t73 * lambda[4] * pitch;
-    const jg_real t111 = t101 * C_j[8] - t102 * C_j[7] - (t103 * s_j[1] - t104 * s_j[2]) + (t110 * across_in_j_0 +
-        t45 * (t105 - C_j[0] * t108));
-    const jg_real t112 = t66 * A_j[0] + t67 * A_j[1] - t100 * A_j[2];
-    const jg_real t113 = t24 * A_j[0] + t21 * A_j[1] - t96 * A_j[2];
-    const jg_real t114 = t102 * C_j[6] - C_j[8] * t112 - (s_j[2] * t113 - t103 * s_j[0]) + (t110 * across_in_j_1 +
-        t45 * (t106 - C_j[1] * t108));
-    const jg_real t115 = C_j[7] * t112 - t101 * C_j[6] - (t104 * s_j[0] - s_j[1] * t113) + (t110 * across_in_j_2 +
-        t45 * (t107 - C_j[2] * t108));
-    const jg_real t116 = t96 * v_6_world_0;
-    const jg_real t117 = A_j[1] * t111 + A_j[4] * t114 + A_j[7] * t115 - (t85 + t116);
-    const jg_real t118 = A_j[0] * t111 + A_j[3] * t114 + A_j[6] * t115 + (t96 * v_6_world_1 + t89);
-    const jg_real t119 = t21 * v_6_world_0;
-    const jg_real t120 = A_j[2] * t111 + A_j[5] * t114 + A_j[8] * t115 - (t119 - t24 * v_6_world_1);
-    jac_phi_q_t_lambda_A_i[15] = v_8_world_1 + A_i[1] * t117 + A_i[0] * t118 + A_i[2] * t120;
-    jac_phi_q_t_lambda_A_i[16] = A_i[3] * t118 + A_i[4] * t117 + A_i[5] * t120;
-    jac_phi_q_t_lambda_A_i[17] = A_i[6] * t118 + A_i[7] * t117 + A_i[8] * t120;
-    const jg_real t121 = -t96;
-    jac_phi_q_t_lambda_A_i[20] = t121;
-    jac_phi_q_t_lambda_A_i[25] = t121;
-    jac_phi_q_t_lambda_A_i[21] = -t111;
-    jac_phi_q_t_lambda_A_i[22] = -t114;
-    jac_phi_q_t_lambda_A_i[23] = -t115;
-    const jg_real t122 = t68 * A_j[3] + t100 * A_j[4] + t67 * A_j[5];
-    const jg_real t123 = t68 * A_j[6] + t100 * A_j[7] + t67 * A_j[8];
-    const jg_real t124 = t26 * A_j[6] + t96 * A_j[7] + t21 * A_j[8];
-    const jg_real t125 = t26 * A_j[3] + t96 * A_j[4] + t21 * A_j[5];
-    const jg_real t126 = C_i[6] * A_j[2];
-    const jg_real t127 = C_i[6] * A_j[5];
-    const jg_real t128 = C_i[6] * A_j[8];
-    const jg_real t129 = t126 * C_j[0] + t127 * C_j[1] + t128 * C_j[2];
-    const jg_real t130 = h_i_dot_f_j * t129;
-    const jg_real t131 = (t130 + t130) * t73 * lambda[4] * pitch;
-    const jg_real t132 = t122 * C_j[8] - t123 * C_j[7] - (t124 * s_j[1] - t125 * s_j[2]) + (t131 * across_in_j_0 +
-        t45 * (t126 - C_j[0] * t129));
-    const jg_real t133 = t68 * A_j[0] + t100 * A_j[1] + t67 * A_j[2];
-    const jg_real t134 = t26 * A_j[0] + t96 * A_j[1] + t21 * A_j[2];
-    const jg_real t135 = t123 * C_j[6] - C_j[8] * t133 - (s_j[2] * t134 - t124 * s_j[0]) + (t131 * across_in_j_1 +
-        t45 * (t127 - C_j[1] * t129));
-    const jg_real t136 = C_j[7] * t133 - t122 * C_j[6] - (t125 * s_j[0] - s_j[1] * t134) + (t131 * across_in_j_2 +
-        t45 * (t128 - C_j[2] * t129));
-    const jg_real t137 = A_j[0] * t132 + A_j[3] * t135 + A_j[6] * t136 - (t91 - t96 * v_6_world_2);
-    const jg_real t138 = A_j[1] * t132 + A_j[4] * t135 + A_j[7] * t136 - (t26 * v_6_world_2 - t119);
-    const jg_real v_5_world_2 = A_j[2] * v_5_in_j_0 + A_j[5] * v_5_in_j_1 + A_j[8] * v_5_in_j_2;
-    const jg_real v_7_world_2 = v_0_world_1 * v_6_world_0 - v_0_world_0 * v_6_world_1;
-    const jg_real v_8_world_2 = v_5_world_2 - v_7_world_2;
-    const jg_real t142 = A_j[2] * t132 + A_j[5] * t135 + A_j[8] * t136 - (t116 - t86);
-    jac_phi_q_t_lambda_A_i[27] = A_i[0] * t137 + A_i[1] * t138 + (v_8_world_2 + A_i[2] * t142);
-    jac_phi_q_t_lambda_A_i[28] = A_i[3] * t137 + A_i[4] * t138 + A_i[5] * t142;
-    jac_phi_q_t_lambda_A_i[29] = A_i[6] * t137 + A_i[7] * t138 + A_i[8] * t142;
-    jac_phi_q_t_lambda_A_i[33] = -t132;
-    jac_phi_q_t_lambda_A_i[34] = -t135;
-    jac_phi_q_t_lambda_A_i[35] = -t136;
-    const jg_real t143 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
-    jac_phi_q_t_lambda_A_i[42] = t143;
-    jac_phi_q_t_lambda_A_i[55] = t143;
-    jac_phi_q_t_lambda_A_i[68] = t143;
-    const jg_real t144 = -t143;
-    jac_phi_q_t_lambda_A_i[36] = t144;
-    jac_phi_q_t_lambda_A_i[49] = t144;
-    jac_phi_q_t_lambda_A_i[62] = t144;
-    const jg_real t145 = f_i_world_2 * C_i[7] - C_i[1] * h_i_world_2;
-    const jg_real t146 = t145 * lambda[1];
-    jac_phi_q_t_lambda_A_i[37] = t146;
-    jac_phi_q_t_lambda_A_i[54] = t146;
-    const jg_real t147 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
-    const jg_real t148 = t147 * lambda[1];
-    jac_phi_q_t_lambda_A_i[38] = t148;
-    jac_phi_q_t_lambda_A_i[66] = t148;
-    const jg_real t149 = t145 * lambda[3];
-    const jg_real t150 = C_i[1] * lambda[2];
-    const jg_real t151 = t147 * lambda[3];
-    const jg_real t152 = t150 * A_j[3] - t149 * A_j[4] - t151 * A_j[5];
-    const jg_real t153 = t150 * A_j[6] - t149 * A_j[7] - t151 * A_j[8];
-    const jg_real t154 = t143 * A_j[6] - t146 * A_j[7] - t148 * A_j[8];
-    const jg_real t155 = t143 * A_j[3] - t146 * A_j[4] - t148 * A_j[5];
-    const jg_real t156 = C_i[7] * A_j[0];
-    const jg_real t157 = C_i[7] * A_j[3];
-    const jg_real t158 = C_i[7] * A_j[6];
-    const jg_real t159 = t156 * C_j[0] + t157 * C_j[1] + t158 * C_j[2];
-    const jg_real t160 = h_i_dot_f_j * t159;
-    const jg_real t161 = (t160 + t160) * t73 * lambda[4] * pitch;
-    const jg_real t162 = t152 * C_j[8] - t153 * C_j[7] - (t154 * s_j[1] - t155 * s_j[2]) + (t161 * across_in_j_0 +
-        t45 * (t156 - C_j[0] * t159));
-    const jg_real t163 = t150 * A_j[0] - t149 * A_j[1] - t151 * A_j[2];
-    const jg_real t164 = t143 * A_j[0] - t146 * A_j[1] - t148 * A_j[2];
-    const jg_real t165 = t153 * C_j[6] - C_j[8] * t163 - (s_j[2] * t164 - t154 * s_j[0]) + (t161 * across_in_j_1 +
-        t45 * (t157 - C_j[1] * t159));
-    const jg_real t166 = C_j[7] * t163 - t152 * C_j[6] - (t155 * s_j[0] - s_j[1] * t164) + (t161 * across_in_j_2 +
-        t45 * (t158 - C_j[2] * t159));
-    const jg_real t167 = t146 * v_6_world_2;
-    const jg_real t168 = t148 * v_6_world_1;
-    const jg_real t169 = A_j[0] * t162 + A_j[3] * t165 + A_j[6] * t166 - (t167 - t168);
-    const jg_real t170 = t143 * v_6_world_2;
-    const jg_real t171 = A_j[1] * t162 + A_j[4] * t165 + A_j[7] * t166 - (t170 + t148 * v_6_world_0);
-    const jg_real t172 = t143 * v_6_world_1;
-    const jg_real t173 = A_j[2] * t162 + A_j[5] * t165 + A_j[8] * t166 + (t172 + t146 * v_6_world_0);
-    jac_phi_q_t_lambda_A_i[39] = A_i[0] * t169 + A_i[1] * t171 + A_i[2] * t173;
-    jac_phi_q_t_lambda_A_i[40] = v_8_world_0 + A_i[3] * t169 + A_i[4] * t171 + A_i[5] * t173;
-    jac_phi_q_t_lambda_A_i[41] = A_i[6] * t169 + A_i[7] * t171 + A_i[8] * t173;
-    const jg_real t174 = -t146;
-    jac_phi_q_t_lambda_A_i[43] = t174;
-    jac_phi_q_t_lambda_A_i[48] = t174;
-    const jg_real t175 = -t148;
-    jac_phi_q_t_lambda_A_i[44] = t175;
-    jac_phi_q_t_lambda_A_i[60] = t175;
-    jac_phi_q_t_lambda_A_i[45] = -t162;
-    jac_phi_q_t_lambda_A_i[46] = -t165;
-    jac_phi_q_t_lambda_A_i[47] = -t166;
-    const jg_real t176 = C_i[7] * f_i_world_0 - C_i[1] * h_i_world_0;
-    const jg_real t177 = lambda[1] * t176;
-    jac_phi_q_t_lambda_A_i[50] = t177;
-    jac_phi_q_t_lambda_A_i[67] = t177;
-    const jg_real t178 = t176 * lambda[3];
-    const jg_real t179 = t149 * A_j[3] + t150 * A_j[4] - t178 * A_j[5];
-    const jg_real t180 = t149 * A_j[6] + t150 * A_j[7] - t178 * A_j[8];
-    const jg_real t181 = t146 * A_j[6] + t143 * A_j[7] - t177 * A_j[8];
-    const jg_real t182 = t146 * A_j[3] + t143 * A_j[4] - t177 * A_j[5];
-    const jg_real t183 = C_i[7] * A_j[1];
-    const jg_real t184 = C_i[7] * A_j[4];
-    const jg_real t185 = C_i[7] * A_j[7];
-    const jg_real t186 = t183 * C_j[0] + t184 * C_j[1] + t185 * C_j[2];
-    const jg_real t187 = h_i_dot_f_j * t186;
-    const jg_real t188 = (t187 + t187) * t73 * lambda[4] * pitch;
-    const jg_real t189 = t179 * C_j[8] - t180 * C_j[7] - (t181 * s_j[1] - t182 * s_j[2]) + (t188 * across_in_j_0 +
-        t45 * (t183 - C_j[0] * t186));
-    const jg_real t190 = t149 * A_j[0] + t150 * A_j[1] - t178 * A_j[2];
-    const jg_real t191 = t146 * A_j[0] + t143 * A_j[1] - t177 * A_j[2];
-    const jg_real t192 = t180 * C_j[6] - C_j[8] * t190 - (s_j[2] * t191 - t181 * s_j[0]) + (t188 * across_in_j_1 +
-        t45 * (t184 - C_j[1] * t186));
-    const jg_real t193 = C_j[7] * t190 - t179 * C_j[6] - (t182 * s_j[0] - s_j[1] * t191) + (t188 * across_in_j_2 +
-        t45 * (t185 - C_j[2] * t186));
-    const jg_real t194 = A_j[0] * t189 + A_j[3] * t192 + A_j[6] * t193 + (t177 * v_6_world_1 + t170);
-    const jg_real t195 = t177 * v_6_world_0;
-    const jg_real t196 = A_j[1] * t189 + A_j[4] * t192 + A_j[7] * t193 - (t167 + t195);
-    const jg_real t197 = t143 * v_6_world_0;
-    const jg_real t198 = A_j[2] * t189 + A_j[5] * t192 + A_j[8] * t193 - (t197 - t146 * v_6_world_1);
-    jac_phi_q_t_lambda_A_i[51] = A_i[0] * t194 + A_i[1] * t196 + A_i[2] * t198;
-    jac_phi_q_t_lambda_A_i[52] = v_8_world_1 + A_i[4] * t196 + A_i[3] * t194 + A_i[5] * t198;
-    jac_phi_q_t_lambda_A_i[53] = A_i[6] * t194 + A_i[7] * t196 + A_i[8] * t198;
-    const jg_real t199 = -t177;
-    jac_phi_q_t_lambda_A_i[56] = t199;
-    jac_phi_q_t_lambda_A_i[61] = t199;
-    jac_phi_q_t_lambda_A_i[57] = -t189;
-    jac_phi_q_t_lambda_A_i[58] = -t192;
-    jac_phi_q_t_lambda_A_i[59] = -t193;
-    const jg_real t200 = t151 * A_j[3] + t178 * A_j[4] + t150 * A_j[5];
-    const jg_real t201 = t151 * A_j[6] + t178 * A_j[7] + t150 * A_j[8];
-    const jg_real t202 = t148 * A_j[6] + t177 * A_j[7] + t143 * A_j[8];
-    const jg_real t203 = t148 * A_j[3] + t177 * A_j[4] + t143 * A_j[5];
-    const jg_real t204 = C_i[7] * A_j[2];
-    const jg_real t205 = C_i[7] * A_j[5];
-    const jg_real t206 = C_i[7] * A_j[8];
-    const jg_real t207 = t204 * C_j[0] + t205 * C_j[1] + t206 * C_j[2];
-    const jg_real t208 = h_i_dot_f_j * t207;
-    const jg_real t209 = (t208 + t208) * t73 * lambda[4] * pitch;
-    const jg_real t210 = t200 * C_j[8] - t201 * C_j[7] - (t202 * s_j[1] - t203 * s_j[2]) + (t209 * across_in_j_0 +
-        t45 * (t204 - C_j[0] * t207));
-    const jg_real t211 = t151 * A_j[0] + t178 * A_j[1] + t150 * A_j[2];
-    const jg_real t212 = t148 * A_j[0] + t177 * A_j[1] + t143 * A_j[2];
-    const jg_real t213 = t201 * C_j[6] - C_j[8] * t211 - (s_j[2] * t212 - t202 * s_j[0]) + (t209 * across_in_j_1 +
-        t45 * (t205 - C_j[1] * t207));
-    const jg_real t214 = C_j[7] * t211 - t200 * C_j[6] - (t203 * s_j[0] - s_j[1] * t212) + (t209 * across_in_j_2 +
-        t45 * (t206 - C_j[2] * t207));
-    const jg_real t215 = A_j[0] * t210 + A_j[3] * t213 + A_j[6] * t214 - (t172 - t177 * v_6_world_2);
-    const jg_real t216 = A_j[1] * t210 + A_j[4] * t213 + A_j[7] * t214 - (t148 * v_6_world_2 - t197);
-    const jg_real t217 = A_j[2] * t210 + A_j[5] * t213 + A_j[8] * t214 - (t195 - t168);
-    jac_phi_q_t_lambda_A_i[63] = A_i[0] * t215 + A_i[1] * t216 + A_i[2] * t217;
-    jac_phi_q_t_lambda_A_i[64] = A_i[3] * t215 + A_i[4] * t216 + (v_8_world_2 + A_i[5] * t217);
-    jac_phi_q_t_lambda_A_i[65] = A_i[6] * t215 + A_i[7] * t216 + A_i[8] * t217;
-    jac_phi_q_t_lambda_A_i[69] = -t210;
-    jac_phi_q_t_lambda_A_i[70] = -t213;
-    jac_phi_q_t_lambda_A_i[71] = -t214;
-    const jg_real t218 = C_i[2] * lambda[0] + C_i[8] * lambda[4];
-    jac_phi_q_t_lambda_A_i[78] = t218;
-    jac_phi_q_t_lambda_A_i[91] = t218;
-    jac_phi_q_t_lambda_A_i[104] = t218;
-    const jg_real t219 = -t218;
-    jac_phi_q_t_lambda_A_i[72] = t219;
-    jac_phi_q_t_lambda_A_i[85] = t219;
-    jac_phi_q_t_lambda_A_i[98] = t219;
-    const jg_real t220 = f_i_world_2 * C_i[8] - C_i[2] * h_i_world_2;
-    const jg_real t221 = t220 * lambda[1];
-    jac_phi_q_t_lambda_A_i[73] = t221;
-    jac_phi_q_t_lambda_A_i[90] = t221;
-    const jg_real t222 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
-    const jg_real t223 = t222 * lambda[1];
-    jac_phi_q_t_lambda_A_i[74] = t223;
-    jac_phi_q_t_lambda_A_i[102] = t223;
-    const jg_real t224 = t220 * lambda[3];
-    const jg_real t225 = C_i[2] * lambda[2];
-    const jg_real t226 = t222 * lambda[3];
-    const jg_real t227 = t225 * A_j[3] - t224 * A_j[4] - t226 * A_j[5];
-    const jg_real t228 = t225 * A_j[6] - t224 * A_j[7] - t226 * A_j[8];
-    const jg_real t229 = t218 * A_j[6] - t221 * A_j[7] - t223 * A_j[8];
-    const jg_real t230 = t218 * A_j[3] - t221 * A_j[4] - t223 * A_j[5];
-    const jg_real t231 = C_i[8] * A_j[0];
-    const jg_real t232 = C_i[8] * A_j[3];
-    const jg_real t233 = C_i[8] * A_j[6];
-    const jg_real t234 = t231 * C_j[0] + t232 * C_j[1] + t233 * C_j[2];
-    const jg_real t235 = h_i_dot_f_j * t234;
-    const jg_real t236 = (t235 + t235) * t73 * lambda[4] * pitch;
-    const jg_real t237 = t227 * C_j[8] - t228 * C_j[7] - (t229 * s_j[1] - t230 * s_j[2]) + (t236 * across_in_j_0 +
-        t45 * (t231 - C_j[0] * t234));
-    const jg_real t238 = t225 * A_j[0] - t224 * A_j[1] - t226 * A_j[2];
-    const jg_real t239 = t218 * A_j[0] - t221 * A_j[1] - t223 * A_j[2];
-    const jg_real t240 = t228 * C_j[6] - C_j[8] * t238 - (s_j[2] * t239 - t229 * s_j[0]) + (t236 * across_in_j_1 +
-        t45 * (t232 - C_j[1] * t234));
-    const jg_real t241 = C_j[7] * t238 - t227 * C_j[6] - (t230 * s_j[0] - s_j[1] * t239) + (t236 * across_in_j_2 +
-        t45 * (t233 - C_j[2] * t234));
-    const jg_real t242 = t221 * v_6_world_2;
-    const jg_real t243 = t223 * v_6_world_1;
-    const jg_real t244 = A_j[0] * t237 + A_j[3] * t240 + A_j[6] * t241 - (t242 - t243);
-    const jg_real t245 = t218 * v_6_world_2;
-    const jg_real t246 = A_j[1] * t237 + A_j[4] * t240 + A_j[7] * t241 - (t245 + t223 * v_6_world_0);
-    const jg_real t247 = t218 * v_6_world_1;
-    const jg_real t248 = A_j[2] * t237 + A_j[5] * t240 + A_j[8] * t241 + (t247 + t221 * v_6_world_0);
-    jac_phi_q_t_lambda_A_i[75] = A_i[0] * t244 + A_i[1] * t246 + A_i[2] * t248;
-    jac_phi_q_t_lambda_A_i[76] = A_i[3] * t244 + A_i[4] * t246 + A_i[5] * t248;
-    jac_phi_q_t_lambda_A_i[77] = v_8_world_0 + A_i[6] * t244 + A_i[7] * t246 + A_i[8] * t248;
-    const jg_real t249 = -t221;
-    jac_phi_q_t_lambda_A_i[79] = t249;
-    jac_phi_q_t_lambda_A_i[84] = t249;
-    const jg_real t250 = -t223;
-    jac_phi_q_t_lambda_A_i[80] = t250;
-    jac_phi_q_t_lambda_A_i[96] = t250;
-    jac_phi_q_t_lambda_A_i[81] = -t237;
-    jac_phi_q_t_lambda_A_i[82] = -t240;
-    jac_phi_q_t_lambda_A_i[83] = -t241;
-    const jg_real t251 = C_i[8] * f_i_world_0 - C_i[2] * h_i_world_0;
-    const jg_real t252 = lambda[1] * t251;
-    jac_phi_q_t_lambda_A_i[86] = t252;
-    jac_phi_q_t_lambda_A_i[103] = t252;
-    const jg_real t253 = t251 * lambda[3];
-    const jg_real t254 = t224 * A_j[3] + t225 * A_j[4] - t253 * A_j[5];
-    const jg_real t255 = t224 * A_j[6] + t225 * A_j[7] - t253 * A_j[8];
-    const jg_real t256 = t221 * A_j[6] + t218 * A_j[7] - t252 * A_j[8];
-    const jg_real t257 = t221 * A_j[3] + t218 * A_j[4] - t252 * A_j[5];
-    const jg_real t258 = C_i[8] * A_j[1];
-    const jg_real t259 = C_i[8] * A_j[4];
-    const jg_real t260 = C_i[8] * A_j[7];
-    const jg_real t261 = t258 * C_j[0] + t259 * C_j[1] + t260 * C_j[2];
-    const jg_real t262 = h_i_dot_f_j * t261;
-    const jg_real t263 = (t262 + t262) * t73 * lambda[4] * pitch;
-    const jg_real t264 = t254 * C_j[8] - t255 * C_j[7] - (t256 * s_j[1] - t257 * s_j[2]) + (t263 * across_in_j_0 +
-        t45 * (t258 - C_j[0] * t261));
-    const jg_real t265 = t224 * A_j[0] + t225 * A_j[1] - t253 * A_j[2];
-    const jg_real t266 = t221 * A_j[0] + t218 * A_j[1] - t252 * A_j[2];
-    const jg_real t267 = t255 * C_j[6] - C_j[8] * t265 - (s_j[2] * t266 - t256 * s_j[0]) + (t263 * across_in_j_1 +
-        t45 * (t259 - C_j[1] * t261));
-    const jg_real t268 = C_j[7] * t265 - t254 * C_j[6] - (t257 * s_j[0] - s_j[1] * t266) + (t263 * across_in_j_2 +
-        t45 * (t260 - C_j[2] * t261));
-    const jg_real t269 = A_j[0] * t264 + A_j[3] * t267 + A_j[6] * t268 + (t252 * v_6_world_1 + t245);
-    const jg_real t270 = t252 * v_6_world_0;
-    const jg_real t271 = A_j[1] * t264 + A_j[4] * t267 + A_j[7] * t268 - (t242 + t270);
-    const jg_real t272 = t218 * v_6_world_0;
-    const jg_real t273 = A_j[2] * t264 + A_j[5] * t267 + A_j[8] * t268 - (t272 - t221 * v_6_world_1);
-    jac_phi_q_t_lambda_A_i[87] = A_i[0] * t269 + A_i[1] * t271 + A_i[2] * t273;
-    jac_phi_q_t_lambda_A_i[88] = A_i[3] * t269 + A_i[4] * t271 + A_i[5] * t273;
-    jac_phi_q_t_lambda_A_i[89] = v_8_world_1 + A_i[7] * t271 + A_i[6] * t269 + A_i[8] * t273;
-    const jg_real t274 = -t252;
-    jac_phi_q_t_lambda_A_i[92] = t274;
-    jac_phi_q_t_lambda_A_i[97] = t274;
-    jac_phi_q_t_lambda_A_i[93] = -t264;
-    jac_phi_q_t_lambda_A_i[94] = -t267;
-    jac_phi_q_t_lambda_A_i[95] = -t268;
-    const jg_real t275 = t226 * A_j[3] + t253 * A_j[4] + t225 * A_j[5];
-    const jg_real t276 = t226 * A_j[6] + t253 * A_j[7] + t225 * A_j[8];
-    const jg_real t277 = t223 * A_j[6] + t252 * A_j[7] + t218 * A_j[8];
-    const jg_real t278 = t223 * A_j[3] + t252 * A_j[4] + t218 * A_j[5];
-    const jg_real t279 = C_i[8] * A_j[2];
-    const jg_real t280 = C_i[8] * A_j[5];
-    const jg_real t281 = C_i[8] * A_j[8];
-    const jg_real t282 = t279 * C_j[0] + t280 * C_j[1] + t281 * C_j[2];
-    const jg_real t283 = h_i_dot_f_j * t282;
-    const jg_real t284 = (t283 + t283) * t73 * lambda[4] * pitch;
-    const jg_real t285 = t275 * C_j[8] - t276 * C_j[7] - (t277 * s_j[1] - t278 * s_j[2]) + (t284 * across_in_j_0 +
-        t45 * (t279 - C_j[0] * t282));
-    const jg_real t286 = t226 * A_j[0] + t253 * A_j[1] + t225 * A_j[2];
-    const jg_real t287 = t223 * A_j[0] + t252 * A_j[1] + t218 * A_j[2];
-    const jg_real t288 = t276 * C_j[6] - C_j[8] * t286 - (s_j[2] * t287 - t277 * s_j[0]) + (t284 * across_in_j_1 +
-        t45 * (t280 - C_j[1] * t282));
-    const jg_real t289 = C_j[7] * t286 - t275 * C_j[6] - (t278 * s_j[0] - s_j[1] * t287) + (t284 * across_in_j_2 +
-        t45 * (t281 - C_j[2] * t282));
-    const jg_real t290 = A_j[0] * t285 + A_j[3] * t288 + A_j[6] * t289 - (t247 - t252 * v_6_world_2);
-    const jg_real t291 = A_j[1] * t285 + A_j[4] * t288 + A_j[7] * t289 - (t223 * v_6_world_2 - t272);
-    const jg_real t292 = A_j[2] * t285 + A_j[5] * t288 + A_j[8] * t289 - (t270 - t243);
-    jac_phi_q_t_lambda_A_i[99] = A_i[0] * t290 + A_i[1] * t291 + A_i[2] * t292;
-    jac_phi_q_t_lambda_A_i[100] = A_i[3] * t290 + A_i[4] * t291 + A_i[5] * t292;
-    jac_phi_q_t_lambda_A_i[101] = A_i[6] * t290 + A_i[7] * t291 + (v_8_world_2 + A_i[8] * t292);
-    jac_phi_q_t_lambda_A_i[105] = -t285;
-    jac_phi_q_t_lambda_A_i[106] = -t288;
-    jac_phi_q_t_lambda_A_i[107] = -t289;
-    const jg_real t293 = h_i_world_0 * C_j[0];
-    const jg_real t294 = t293 * h_i_dot_f_j;
-    const jg_real t295 = (t294 + t294) * t73 * lambda[4] * pitch;
-    const jg_real t296 = t295 * across_in_j_0 + t45 * (h_i_world_0 - C_j[0] * t293);
-    const jg_real t297 = v_2_world_0 * C_j[8] + v_0_world_0 * s_j[2];
-    const jg_real t298 = t295 * across_in_j_1 - t293 * C_j[1] * t45 - t297;
-    const jg_real t299 = v_2_world_0 * C_j[7] + v_0_world_0 * s_j[1];
-    const jg_real t300 = t295 * across_in_j_2 - t293 * C_j[2] * t45 + t299;
-    const jg_real t301 = v_5_in_j_0 + A_j[0] * t296 + A_j[3] * t298 + A_j[6] * t300;
-    const jg_real t302 = A_j[1] * t296 + A_j[4] * t298 + A_j[7] * t300;
-    const jg_real t303 = A_j[2] * t296 + A_j[5] * t298 + A_j[8] * t300;
-    jac_phi_q_t_lambda_A_j[0] = A_i[0] * t301 + A_i[1] * t302 + A_i[2] * t303;
-    jac_phi_q_t_lambda_A_j[1] = A_i[3] * t301 + A_i[4] * t302 + A_i[5] * t303;
-    jac_phi_q_t_lambda_A_j[2] = A_i[6] * t301 + A_i[7] * t302 + A_i[8] * t303;
-    jac_phi_q_t_lambda_A_j[3] = -t296;
-    jac_phi_q_t_lambda_A_j[4] = -t298;
-    jac_phi_q_t_lambda_A_j[5] = -t300;
-    const jg_real t304 = h_i_world_1 * C_j[0];
-    const jg_real t305 = t304 * h_i_dot_f_j;
-    const jg_real t306 = (t305 + t305) * t73 * lambda[4] * pitch;
-    const jg_real t307 = t306 * across_in_j_0 + t45 * (h_i_world_1 - C_j[0] * t304);
-    const jg_real t308 = v_2_world_1 * C_j[8] + v_0_world_1 * s_j[2];
-    const jg_real t309 = t306 * across_in_j_1 - t304 * C_j[1] * t45 - t308;
-    const jg_real t310 = v_2_world_1 * C_j[7] + v_0_world_1 * s_j[1];
-    const jg_real t311 = t306 * across_in_j_2 - t304 * C_j[2] * t45 + t310;
-    const jg_real t312 = A_j[0] * t307 + A_j[3] * t309 + A_j[6] * t311;
-    const jg_real t313 = v_5_in_j_0 + A_j[1] * t307 + A_j[4] * t309 + A_j[7] * t311;
-    const jg_real t314 = A_j[2] * t307 + A_j[5] * t309 + A_j[8] * t311;
-    jac_phi_q_t_lambda_A_j[6] = A_i[0] * t312 + A_i[1] * t313 + A_i[2] * t314;
-    jac_phi_q_t_lambda_A_j[7] = A_i[3] * t312 + A_i[4] * t313 + A_i[5] * t314;
-    jac_phi_q_t_lambda_A_j[8] = A_i[6] * t312 + A_i[7] * t313 + A_i[8] * t314;
-    jac_phi_q_t_lambda_A_j[9] = -t307;
-    jac_phi_q_t_lambda_A_j[10] = -t309;
-    jac_phi_q_t_lambda_A_j[11] = -t311;
-    const jg_real t315 = h_i_world_2 * C_j[0];
-    const jg_real t316 = t315 * h_i_dot_f_j;
-    const jg_real t317 = (t316 + t316) * t73 * lambda[4] * pitch;
-    const jg_real t318 = t317 * across_in_j_0 + t45 * (h_i_world_2 - C_j[0] * t315);
-    const jg_real t319 = v_2_world_2 * C_j[8] + v_0_world_2 * s_j[2];
-    const jg_real t320 = t317 * across_in_j_1 - t315 * C_j[1] * t45 - t319;
-    const jg_real t321 = v_2_world_2 * C_j[7] + v_0_world_2 * s_j[1];
-    const jg_real t322 = t317 * across_in_j_2 - t315 * C_j[2] * t45 + t321;
-    const jg_real t323 = A_j[0] * t318 + A_j[3] * t320 + A_j[6] * t322;
-    const jg_real t324 = A_j[1] * t318 + A_j[4] * t320 + A_j[7] * t322;
-    const jg_real t325 = v_5_in_j_0 + A_j[2] * t318 + A_j[5] * t320 + A_j[8] * t322;
-    jac_phi_q_t_lambda_A_j[12] = A_i[0] * t323 + A_i[1] * t324 + A_i[2] * t325;
-    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t323 + A_i[4] * t324 + A_i[5] * t325;
-    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t323 + A_i[7] * t324 + A_i[8] * t325;
-    jac_phi_q_t_lambda_A_j[15] = -t318;
-    jac_phi_q_t_lambda_A_j[16] = -t320;
-    jac_phi_q_t_lambda_A_j[17] = -t322;
-    const jg_real t326 = h_i_world_0 * C_j[1];
-    const jg_real t327 = t326 * h_i_dot_f_j;
-    const jg_real t328 = (t327 + t327) * t73 * lambda[4] * pitch;
-    const jg_real t329 = t328 * across_in_j_1 + t45 * (h_i_world_0 - C_j[1] * t326);
-    const jg_real t330 = t328 * across_in_j_0 - C_j[0] * t326 * t45 + t297;
-    const jg_real t331 = v_2_world_0 * C_j[6] + v_0_world_0 * s_j[0];
-    const jg_real t332 = t328 * across_in_j_2 - t326 * C_j[2] * t45 - t331;
-    const jg_real t333 = v_5_in_j_1 + A_j[3] * t329 + A_j[0] * t330 + A_j[6] * t332;
-    const jg_real t334 = A_j[1] * t330 + A_j[4] * t329 + A_j[7] * t332;
-    const jg_real t335 = A_j[2] * t330 + A_j[5] * t329 + A_j[8] * t332;
-    jac_phi_q_t_lambda_A_j[18] = A_i[0] * t333 + A_i[1] * t334 + A_i[2] * t335;
-    jac_phi_q_t_lambda_A_j[19] = A_i[3] * t333 + A_i[4] * t334 + A_i[5] * t335;
-    jac_phi_q_t_lambda_A_j[20] = A_i[6] * t333 + A_i[7] * t334 + A_i[8] * t335;
-    jac_phi_q_t_lambda_A_j[21] = -t330;
-    jac_phi_q_t_lambda_A_j[22] = -t329;
-    jac_phi_q_t_lambda_A_j[23] = -t332;
-    const jg_real t336 = h_i_world_1 * C_j[1];
-    const jg_real t337 = t336 * h_i_dot_f_j;
-    const jg_real t338 = (t337 + t337) * t73 * lambda[4] * pitch;
-    const jg_real t339 = t338 * across_in_j_0 - C_j[0] * t336 * t45 + t308;
-    const jg_real t340 = t338 * across_in_j_1 + t45 * (h_i_world_1 - C_j[1] * t336);
-    const jg_real t341 = v_2_world_1 * C_j[6] + v_0_world_1 * s_j[0];
-    const jg_real t342 = t338 * across_in_j_2 - t336 * C_j[2] * t45 - t341;
-    const jg_real t343 = A_j[0] * t339 + A_j[3] * t340 + A_j[6] * t342;
-    const jg_real t344 = v_5_in_j_1 + A_j[4] * t340 + A_j[1] * t339 + A_j[7] * t342;
-    const jg_real t345 = A_j[2] * t339 + A_j[5] * t340 + A_j[8] * t342;
-    jac_phi_q_t_lambda_A_j[24] = A_i[0] * t343 + A_i[1] * t344 + A_i[2] * t345;
-    jac_phi_q_t_lambda_A_j[25] = A_i[3] * t343 + A_i[4] * t344 + A_i[5] * t345;
-    jac_phi_q_t_lambda_A_j[26] = A_i[6] * t343 + A_i[7] * t344 + A_i[8] * t345;
-    jac_phi_q_t_lambda_A_j[27] = -t339;
-    jac_phi_q_t_lambda_A_j[28] = -t340;
-    jac_phi_q_t_lambda_A_j[29] = -t342;
-    const jg_real t346 = h_i_world_2 * C_j[1];
-    const jg_real t347 = t346 * h_i_dot_f_j;
-    const jg_real t348 = (t347 + t347) * t73 * lambda[4] * pitch;
-    const jg_real t349 = t348 * across_in_j_0 - C_j[0] * t346 * t45 + t319;
-    const jg_real t350 = t348 * across_in_j_1 + t45 * (h_i_world_2 - C_j[1] * t346);
-    const jg_real t351 = v_2_world_2 * C_j[6] + v_0_world_2 * s_j[0];
-    const jg_real t352 = t348 * across_in_j_2 - t346 * C_j[2] * t45 - t351;
-    const jg_real t353 = A_j[0] * t349 + A_j[3] * t350 + A_j[6] * t352;
-    const jg_real t354 = A_j[1] * t349 + A_j[4] * t350 + A_j[7] * t352;
-    const jg_real t355 = v_5_in_j_1 + A_j[5] * t350 + A_j[2] * t349 + A_j[8] * t352;
-    jac_phi_q_t_lambda_A_j[30] = A_i[0] * t353 + A_i[1] * t354 + A_i[2] * t355;
-    jac_phi_q_t_lambda_A_j[31] = A_i[3] * t353 + A_i[4] * t354 + A_i[5] * t355;
-    jac_phi_q_t_lambda_A_j[32] = A_i[6] * t353 + A_i[7] * t354 + A_i[8] * t355;
-    jac_phi_q_t_lambda_A_j[33] = -t349;
-    jac_phi_q_t_lambda_A_j[34] = -t350;
-    jac_phi_q_t_lambda_A_j[35] = -t352;
-    const jg_real t356 = h_i_world_0 * C_j[2];
-    const jg_real t357 = t356 * h_i_dot_f_j;
-    const jg_real t358 = (t357 + t357) * t73 * lambda[4] * pitch;
-    const jg_real t359 = t358 * across_in_j_0 - C_j[0] * t356 * t45 - t299;
-    const jg_real t360 = t358 * across_in_j_1 - C_j[1] * t356 * t45 + t331;
-    const jg_real t361 = t358 * across_in_j_2 + t45 * (h_i_world_0 - C_j[2] * t356);
-    const jg_real t362 = A_j[0] * t359 + A_j[3] * t360 + (v_5_in_j_2 + A_j[6] * t361);
-    const jg_real t363 = A_j[1] * t359 + A_j[4] * t360 + A_j[7] * t361;
-    const jg_real t364 = A_j[2] * t359 + A_j[5] * t360 + A_j[8] * t361;
-    jac_phi_q_t_lambda_A_j[36] = A_i[0] * t362 + A_i[1] * t363 + A_i[2] * t364;
-    jac_phi_q_t_lambda_A_j[37] = A_i[3] * t362 + A_i[4] * t363 + A_i[5] * t364;
-    jac_phi_q_t_lambda_A_j[38] = A_i[6] * t362 + A_i[7] * t363 + A_i[8] * t364;
-    jac_phi_q_t_lambda_A_j[39] = -t359;
-    jac_phi_q_t_lambda_A_j[40] = -t360;
-    jac_phi_q_t_lambda_A_j[41] = -t361;
-    const jg_real t365 = h_i_world_1 * C_j[2];
-    const jg_real t366 = t365 * h_i_dot_f_j;
-    const jg_real t367 = (t366 + t366) * t73 * lambda[4] * pitch;
-    const jg_real t368 = t367 * across_in_j_0 - C_j[0] * t365 * t45 - t310;
-    const jg_real t369 = t367 * across_in_j_1 - C_j[1] * t365 * t45 + t341;
-    const jg_real t370 = t367 * across_in_j_2 + t45 * (h_i_world_1 - C_j[2] * t365);
-    const jg_real t371 = A_j[1] * t368 + A_j[4] * t369 + (v_5_in_j_2 + A_j[7] * t370);
-    const jg_real t372 = A_j[0] * t368 + A_j[3] * t369 + A_j[6] * t370;
-    const jg_real t373 = A_j[2] * t368 + A_j[5] * t369 + A_j[8] * t370;
-    jac_phi_q_t_lambda_A_j[42] = A_i[0] * t372 + A_i[1] * t371 + A_i[2] * t373;
-    jac_phi_q_t_lambda_A_j[43] = A_i[3] * t372 + A_i[4] * t371 + A_i[5] * t373;
-    jac_phi_q_t_lambda_A_j[44] = A_i[6] * t372 + A_i[7] * t371 + A_i[8] * t373;
-    jac_phi_q_t_lambda_A_j[45] = -t368;
-    jac_phi_q_t_lambda_A_j[46] = -t369;
-    jac_phi_q_t_lambda_A_j[47] = -t370;
-    const jg_real t374 = h_i_world_2 * C_j[2];
-    const jg_real t375 = t374 * h_i_dot_f_j;
-    const jg_real t376 = (t375 + t375) * t73 * lambda[4] * pitch;
-    const jg_real t377 = t376 * across_in_j_0 - C_j[0] * t374 * t45 - t321;
-    const jg_real t378 = t376 * across_in_j_1 - C_j[1] * t374 * t45 + t351;
-    const jg_real t379 = t376 * across_in_j_2 + t45 * (h_i_world_2 - C_j[2] * t374);
-    const jg_real t380 = A_j[0] * t377 + A_j[3] * t378 + A_j[6] * t379;
-    const jg_real t381 = A_j[1] * t377 + A_j[4] * t378 + A_j[7] * t379;
-    const jg_real t382 = A_j[2] * t377 + A_j[5] * t378 + (v_5_in_j_2 + A_j[8] * t379);
-    jac_phi_q_t_lambda_A_j[48] = A_i[0] * t380 + A_i[1] * t381 + A_i[2] * t382;
-    jac_phi_q_t_lambda_A_j[49] = A_i[3] * t380 + A_i[4] * t381 + A_i[5] * t382;
-    jac_phi_q_t_lambda_A_j[50] = A_i[6] * t380 + A_i[7] * t381 + A_i[8] * t382;
-    jac_phi_q_t_lambda_A_j[51] = -t377;
-    jac_phi_q_t_lambda_A_j[52] = -t378;
-    jac_phi_q_t_lambda_A_j[53] = -t379;
-    const jg_real t383 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
-    const jg_real t384 = t383 * lambda[1] + A_i[0] * lambda[0];
-    jac_phi_q_t_lambda_geometry[6] = t384;
-    jac_phi_q_t_lambda_geometry[0] = -t384;
-    const jg_real t385 = h_i_world_2 * A_i[0] - A_i[2] * h_i_world_0;
-    const jg_real t386 = lambda[1] * t385 + A_i[1] * lambda[0];
-    jac_phi_q_t_lambda_geometry[7] = t386;
-    jac_phi_q_t_lambda_geometry[1] = -t386;
-    const jg_real t387 = A_i[1] * h_i_world_0 - h_i_world_1 * A_i[0];
-    const jg_real t388 = lambda[1] * t387 + A_i[2] * lambda[0];
-    jac_phi_q_t_lambda_geometry[8] = t388;
-    jac_phi_q_t_lambda_geometry[2] = -t388;
-    const jg_real t389 = t383 * lambda[3] + A_i[0] * lambda[2];
-    const jg_real t390 = t385 * lambda[3] + A_i[1] * lambda[2];
-    const jg_real t391 = t387 * lambda[3] + A_i[2] * lambda[2];
-    const jg_real t392 = t389 * A_j[3] + t390 * A_j[4] + t391 * A_j[5];
-    const jg_real t393 = t389 * A_j[6] + t390 * A_j[7] + t391 * A_j[8];
-    const jg_real t394 = t384 * A_j[6] + t386 * A_j[7] + t388 * A_j[8];
-    const jg_real t395 = t384 * A_j[3] + t386 * A_j[4] + t388 * A_j[5];
-    const jg_real t396 = t392 * C_j[8] - t393 * C_j[7] - (t394 * s_j[1] - t395 * s_j[2]);
-    const jg_real t397 = t389 * A_j[0] + t390 * A_j[1] + t391 * A_j[2];
-    const jg_real t398 = t384 * A_j[0] + t386 * A_j[1] + t388 * A_j[2];
-    const jg_real t399 = t393 * C_j[6] - C_j[8] * t397 - (s_j[2] * t398 - t394 * s_j[0]);
-    const jg_real t400 = C_j[7] * t397 - t392 * C_j[6] - (t395 * s_j[0] - s_j[1] * t398);
-    const jg_real t401 = t396 * A_j[0] + A_j[3] * t399 + A_j[6] * t400 - (t388 * v_6_world_1 - t386 * v_6_world_2);
-    const jg_real t402 = t396 * A_j[1] + A_j[4] * t399 + A_j[7] * t400 - (t384 * v_6_world_2 - t388 * v_6_world_0);
-    const jg_real t403 = t396 * A_j[2] + A_j[5] * t399 + A_j[8] * t400 - (t386 * v_6_world_0 - t384 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[3] = A_i[0] * t401 + A_i[1] * t402 + A_i[2] * t403;
-    jac_phi_q_t_lambda_geometry[4] = A_i[3] * t401 + A_i[4] * t402 + A_i[5] * t403;
-    jac_phi_q_t_lambda_geometry[5] = A_i[6] * t401 + A_i[7] * t402 + A_i[8] * t403;
-    jac_phi_q_t_lambda_geometry[9] = -t396;
-    jac_phi_q_t_lambda_geometry[10] = -t399;
-    jac_phi_q_t_lambda_geometry[11] = -t400;
-    const jg_real t404 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
-    const jg_real t405 = t404 * lambda[1] + A_i[3] * lambda[0];
-    jac_phi_q_t_lambda_geometry[18] = t405;
-    jac_phi_q_t_lambda_geometry[12] = -t405;
-    const jg_real t406 = h_i_world_2 * A_i[3] - A_i[5] * h_i_world_0;
-    const jg_real t407 = lambda[1] * t406 + A_i[4] * lambda[0];
-    jac_phi_q_t_lambda_geometry[19] = t407;
-    jac_phi_q_t_lambda_geometry[13] = -t407;
-    const jg_real t408 = A_i[4] * h_i_world_0 - h_i_world_1 * A_i[3];
-    const jg_real t409 = lambda[1] * t408 + A_i[5] * lambda[0];
-    jac_phi_q_t_lambda_geometry[20] = t409;
-    jac_phi_q_t_lambda_geometry[14] = -t409;
-    const jg_real t410 = t404 * lambda[3] + A_i[3] * lambda[2];
-    const jg_real t411 = t406 * lambda[3] + A_i[4] * lambda[2];
-    const jg_real t412 = t408 * lambda[3] + A_i[5] * lambda[2];
-    const jg_real t413 = t410 * A_j[3] + t411 * A_j[4] + t412 * A_j[5];
-    const jg_real t414 = t410 * A_j[6] + t411 * A_j[7] + t412 * A_j[8];
-    const jg_real t415 = t405 * A_j[6] + t407 * A_j[7] + t409 * A_j[8];
-    const jg_real t416 = t405 * A_j[3] + t407 * A_j[4] + t409 * A_j[5];
-    const jg_real t417 = t413 * C_j[8] - t414 * C_j[7] - (t415 * s_j[1] - t416 * s_j[2]);
-    const jg_real t418 = t410 * A_j[0] + t411 * A_j[1] + t412 * A_j[2];
-    const jg_real t419 = t405 * A_j[0] + t407 * A_j[1] + t409 * A_j[2];
-    const jg_real t420 = t414 * C_j[6] - C_j[8] * t418 - (s_j[2] * t419 - t415 * s_j[0]);
-    const jg_real t421 = C_j[7] * t418 - t413 * C_j[6] - (t416 * s_j[0] - s_j[1] * t419);
-    const jg_real t422 = t417 * A_j[0] + A_j[3] * t420 + A_j[6] * t421 - (t409 * v_6_world_1 - t407 * v_6_world_2);
-    const jg_real t423 = t417 * A_j[1] + A_j[4] * t420 + A_j[7] * t421 - (t405 * v_6_world_2 - t409 * v_6_world_0);
-    const jg_real t424 = t417 * A_j[2] + A_j[5] * t420 + A_j[8] * t421 - (t407 * v_6_world_0 - t405 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[15] = A_i[0] * t422 + A_i[1] * t423 + A_i[2] * t424;
-    jac_phi_q_t_lambda_geometry[16] = A_i[3] * t422 + A_i[4] * t423 + A_i[5] * t424;
-    jac_phi_q_t_lambda_geometry[17] = A_i[6] * t422 + A_i[7] * t423 + A_i[8] * t424;
-    jac_phi_q_t_lambda_geometry[21] = -t417;
-    jac_phi_q_t_lambda_geometry[22] = -t420;
-    jac_phi_q_t_lambda_geometry[23] = -t421;
-    const jg_real t425 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
-    const jg_real t426 = t425 * lambda[1] + A_i[6] * lambda[0];
-    jac_phi_q_t_lambda_geometry[30] = t426;
-    jac_phi_q_t_lambda_geometry[24] = -t426;
-    const jg_real t427 = h_i_world_2 * A_i[6] - A_i[8] * h_i_world_0;
-    const jg_real t428 = lambda[1] * t427 + A_i[7] * lambda[0];
-    jac_phi_q_t_lambda_geometry[31] = t428;
-    jac_phi_q_t_lambda_geometry[25] = -t428;
-    const jg_real t429 = A_i[7] * h_i_world_0 - h_i_world_1 * A_i[6];
-    const jg_real t430 = lambda[1] * t429 + A_i[8] * lambda[0];
-    jac_phi_q_t_lambda_geometry[32] = t430;
-    jac_phi_q_t_lambda_geometry[26] = -t430;
-    const jg_real t431 = t425 * lambda[3] + A_i[6] * lambda[2];
-    const jg_real t432 = t427 * lambda[3] + A_i[7] * lambda[2];
-    const jg_real t433 = t429 * lambda[3] + A_i[8] * lambda[2];
-    const jg_real t434 = t431 * A_j[3] + t432 * A_j[4] + t433 * A_j[5];
-    const jg_real t435 = t431 * A_j[6] + t432 * A_j[7] + t433 * A_j[8];
-    const jg_real t436 = t426 * A_j[6] + t428 * A_j[7] + t430 * A_j[8];
-    const jg_real t437 = t426 * A_j[3] + t428 * A_j[4] + t430 * A_j[5];
-    const jg_real t438 = t434 * C_j[8] - t435 * C_j[7] - (t436 * s_j[1] - t437 * s_j[2]);
-    const jg_real t439 = t431 * A_j[0] + t432 * A_j[1] + t433 * A_j[2];
-    const jg_real t440 = t426 * A_j[0] + t428 * A_j[1] + t430 * A_j[2];
-    const jg_real t441 = t435 * C_j[6] - C_j[8] * t439 - (s_j[2] * t440 - t436 * s_j[0]);
-    const jg_real t442 = C_j[7] * t439 - t434 * C_j[6] - (t437 * s_j[0] - s_j[1] * t440);
-    const jg_real t443 = t438 * A_j[0] + A_j[3] * t441 + A_j[6] * t442 - (t430 * v_6_world_1 - t428 * v_6_world_2);
-    const jg_real t444 = t438 * A_j[1] + A_j[4] * t441 + A_j[7] * t442 - (t426 * v_6_world_2 - t430 * v_6_world_0);
-    const jg_real t445 = t438 * A_j[2] + A_j[5] * t441 + A_j[8] * t442 - (t428 * v_6_world_0 - t426 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[27] = A_i[0] * t443 + A_i[1] * t444 + A_i[2] * t445;
-    jac_phi_q_t_lambda_geometry[28] = A_i[3] * t443 + A_i[4] * t444 + A_i[5] * t445;
-    jac_phi_q_t_lambda_geometry[29] = A_i[6] * t443 + A_i[7] * t444 + A_i[8] * t445;
-    jac_phi_q_t_lambda_geometry[33] = -t438;
-    jac_phi_q_t_lambda_geometry[34] = -t441;
-    jac_phi_q_t_lambda_geometry[35] = -t442;
-    const jg_real t446 = f_i_world_2 * A_i[1] - A_i[2] * f_i_world_1;
-    const jg_real t447 = t446 * lambda[1] + A_i[0] * lambda[4];
-    jac_phi_q_t_lambda_geometry[42] = t447;
-    jac_phi_q_t_lambda_geometry[36] = -t447;
-    const jg_real t448 = A_i[2] * f_i_world_0 - f_i_world_2 * A_i[0];
-    const jg_real t449 = lambda[1] * t448 + A_i[1] * lambda[4];
-    jac_phi_q_t_lambda_geometry[43] = t449;
-    jac_phi_q_t_lambda_geometry[37] = -t449;
-    const jg_real t450 = f_i_world_1 * A_i[0] - A_i[1] * f_i_world_0;
-    const jg_real t451 = lambda[1] * t450 + A_i[2] * lambda[4];
-    jac_phi_q_t_lambda_geometry[44] = t451;
-    jac_phi_q_t_lambda_geometry[38] = -t451;
-    const jg_real t452 = t446 * lambda[3];
-    const jg_real t453 = t448 * lambda[3];
-    const jg_real t454 = t450 * lambda[3];
-    const jg_real t455 = t452 * A_j[3] + t453 * A_j[4] + t454 * A_j[5];
-    const jg_real t456 = t452 * A_j[6] + t453 * A_j[7] + t454 * A_j[8];
-    const jg_real t457 = t447 * A_j[6] + t449 * A_j[7] + t451 * A_j[8];
-    const jg_real t458 = t447 * A_j[3] + t449 * A_j[4] + t451 * A_j[5];
-    const jg_real t459 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real t460 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t461 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t462 = t459 * C_j[0] + t460 * C_j[1] + t461 * C_j[2];
-    const jg_real t463 = h_i_dot_f_j * t462;
-    const jg_real t464 = (t463 + t463) * t73 * lambda[4] * pitch;
-    const jg_real t465 = t455 * C_j[8] - t456 * C_j[7] - (t457 * s_j[1] - t458 * s_j[2]) + (t464 * across_in_j_0 +
-        t45 * (t459 - C_j[0] * t462));
-    const jg_real t466 = t452 * A_j[0] + t453 * A_j[1] + t454 * A_j[2];
-    const jg_real t467 = t447 * A_j[0] + t449 * A_j[1] + t451 * A_j[2];
-    const jg_real t468 = t456 * C_j[6] - C_j[8] * t466 - (s_j[2] * t467 - t457 * s_j[0]) + (t464 * across_in_j_1 +
-        t45 * (t460 - C_j[1] * t462));
-    const jg_real t469 = C_j[7] * t466 - t455 * C_j[6] - (t458 * s_j[0] - s_j[1] * t467) + (t464 * across_in_j_2 +
-        t45 * (t461 - C_j[2] * t462));
-    const jg_real t470 = A_j[0] * t465 + A_j[3] * t468 + A_j[6] * t469 - (t451 * v_6_world_1 - t449 * v_6_world_2);
-    const jg_real t471 = A_j[1] * t465 + A_j[4] * t468 + A_j[7] * t469 - (t447 * v_6_world_2 - t451 * v_6_world_0);
-    const jg_real t472 = A_j[2] * t465 + A_j[5] * t468 + A_j[8] * t469 - (t449 * v_6_world_0 - t447 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[39] = A_i[0] * t470 + A_i[1] * t471 + A_i[2] * t472;
-    jac_phi_q_t_lambda_geometry[40] = A_i[3] * t470 + A_i[4] * t471 + A_i[5] * t472;
-    jac_phi_q_t_lambda_geometry[41] = A_i[6] * t470 + A_i[7] * t471 + A_i[8] * t472;
-    jac_phi_q_t_lambda_geometry[45] = -t465;
-    jac_phi_q_t_lambda_geometry[46] = -t468;
-    jac_phi_q_t_lambda_geometry[47] = -t469;
-    const jg_real t473 = f_i_world_2 * A_i[4] - A_i[5] * f_i_world_1;
-    const jg_real t474 = t473 * lambda[1] + A_i[3] * lambda[4];
-    jac_phi_q_t_lambda_geometry[54] = t474;
-    jac_phi_q_t_lambda_geometry[48] = -t474;
-    const jg_real t475 = A_i[5] * f_i_world_0 - f_i_world_2 * A_i[3];
-    const jg_real t476 = lambda[1] * t475 + A_i[4] * lambda[4];
-    jac_phi_q_t_lambda_geometry[55] = t476;
-    jac_phi_q_t_lambda_geometry[49] = -t476;
-    const jg_real t477 = f_i_world_1 * A_i[3] - A_i[4] * f_i_world_0;
-    const jg_real t478 = lambda[1] * t477 + A_i[5] * lambda[4];
-    jac_phi_q_t_lambda_geometry[56] = t478;
-    jac_phi_q_t_lambda_geometry[50] = -t478;
-    const jg_real t479 = t473 * lambda[3];
-    const jg_real t480 = t475 * lambda[3];
-    const jg_real t481 = t477 * lambda[3];
-    const jg_real t482 = t479 * A_j[3] + t480 * A_j[4] + t481 * A_j[5];
-    const jg_real t483 = t479 * A_j[6] + t480 * A_j[7] + t481 * A_j[8];
-    const jg_real t484 = t474 * A_j[6] + t476 * A_j[7] + t478 * A_j[8];
-    const jg_real t485 = t474 * A_j[3] + t476 * A_j[4] + t478 * A_j[5];
-    const jg_real t486 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real t487 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real t488 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t489 = t486 * C_j[0] + t487 * C_j[1] + t488 * C_j[2];
-    const jg_real t490 = h_i_dot_f_j * t489;
-    const jg_real t491 = (t490 + t490) * t73 * lambda[4] * pitch;
-    const jg_real t492 = t482 * C_j[8] - t483 * C_j[7] - (t484 * s_j[1] - t485 * s_j[2]) + (t491 * across_in_j_0 +
-        t45 * (t486 - C_j[0] * t489));
-    const jg_real t493 = t479 * A_j[0] + t480 * A_j[1] + t481 * A_j[2];
-    const jg_real t494 = t474 * A_j[0] + t476 * A_j[1] + t478 * A_j[2];
-    const jg_real t495 = t483 * C_j[6] - C_j[8] * t493 - (s_j[2] * t494 - t484 * s_j[0]) + (t491 * across_in_j_1 +
-        t45 * (t487 - C_j[1] * t489));
-    const jg_real t496 = C_j[7] * t493 - t482 * C_j[6] - (t485 * s_j[0] - s_j[1] * t494) + (t491 * across_in_j_2 +
-        t45 * (t488 - C_j[2] * t489));
-    const jg_real t497 = A_j[0] * t492 + A_j[3] * t495 + A_j[6] * t496 - (t478 * v_6_world_1 - t476 * v_6_world_2);
-    const jg_real t498 = A_j[1] * t492 + A_j[4] * t495 + A_j[7] * t496 - (t474 * v_6_world_2 - t478 * v_6_world_0);
-    const jg_real t499 = A_j[2] * t492 + A_j[5] * t495 + A_j[8] * t496 - (t476 * v_6_world_0 - t474 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[51] = A_i[0] * t497 + A_i[1] * t498 + A_i[2] * t499;
-    jac_phi_q_t_lambda_geometry[52] = A_i[3] * t497 + A_i[4] * t498 + A_i[5] * t499;
-    jac_phi_q_t_lambda_geometry[53] = A_i[6] * t497 + A_i[7] * t498 + A_i[8] * t499;
-    jac_phi_q_t_lambda_geometry[57] = -t492;
-    jac_phi_q_t_lambda_geometry[58] = -t495;
-    jac_phi_q_t_lambda_geometry[59] = -t496;
-    const jg_real t500 = f_i_world_2 * A_i[7] - A_i[8] * f_i_world_1;
-    const jg_real t501 = t500 * lambda[1] + A_i[6] * lambda[4];
-    jac_phi_q_t_lambda_geometry[66] = t501;
-    jac_phi_q_t_lambda_geometry[60] = -t501;
-    const jg_real t502 = A_i[8] * f_i_world_0 - f_i_world_2 * A_i[6];
-    const jg_real t503 = lambda[1] * t502 + A_i[7] * lambda[4];
-    jac_phi_q_t_lambda_geometry[67] = t503;
-    jac_phi_q_t_lambda_geometry[61] = -t503;
-    const jg_real t504 = f_i_world_1 * A_i[6] - A_i[7] * f_i_world_0;
-    const jg_real t505 = lambda[1] * t504 + A_i[8] * lambda[4];
-    jac_phi_q_t_lambda_geometry[68] = t505;
-    jac_phi_q_t_lambda_geometry[62] = -t505;
-    const jg_real t506 = t500 * lambda[3];
-    const jg_real t507 = t502 * lambda[3];
-    const jg_real t508 = t504 * lambda[3];
-    const jg_real t509 = t506 * A_j[3] + t507 * A_j[4] + t508 * A_j[5];
-    const jg_real t510 = t506 * A_j[6] + t507 * A_j[7] + t508 * A_j[8];
-    const jg_real t511 = t501 * A_j[6] + t503 * A_j[7] + t505 * A_j[8];
-    const jg_real t512 = t501 * A_j[3] + t503 * A_j[4] + t505 * A_j[5];
-    const jg_real t513 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t514 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t515 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t516 = t513 * C_j[0] + t514 * C_j[1] + t515 * C_j[2];
-    const jg_real t517 = h_i_dot_f_j * t516;
-    const jg_real t518 = (t517 + t517) * t73 * lambda[4] * pitch;
-    const jg_real t519 = t509 * C_j[8] - t510 * C_j[7] - (t511 * s_j[1] - t512 * s_j[2]) + (t518 * across_in_j_0 +
-        t45 * (t513 - C_j[0] * t516));
-    const jg_real t520 = t506 * A_j[0] + t507 * A_j[1] + t508 * A_j[2];
-    const jg_real t521 = t501 * A_j[0] + t503 * A_j[1] + t505 * A_j[2];
-    const jg_real t522 = t510 * C_j[6] - C_j[8] * t520 - (s_j[2] * t521 - t511 * s_j[0]) + (t518 * across_in_j_1 +
-        t45 * (t514 - C_j[1] * t516));
-    const jg_real t523 = C_j[7] * t520 - t509 * C_j[6] - (t512 * s_j[0] - s_j[1] * t521) + (t518 * across_in_j_2 +
-        t45 * (t515 - C_j[2] * t516));
-    const jg_real t524 = A_j[0] * t519 + A_j[3] * t522 + A_j[6] * t523 - (t505 * v_6_world_1 - t503 * v_6_world_2);
-    const jg_real t525 = A_j[1] * t519 + A_j[4] * t522 + A_j[7] * t523 - (t501 * v_6_world_2 - t505 * v_6_world_0);
-    const jg_real t526 = A_j[2] * t519 + A_j[5] * t522 + A_j[8] * t523 - (t503 * v_6_world_0 - t501 * v_6_world_1);
-    jac_phi_q_t_lambda_geometry[63] = A_i[0] * t524 + A_i[1] * t525 + A_i[2] * t526;
-    jac_phi_q_t_lambda_geometry[64] = A_i[3] * t524 + A_i[4] * t525 + A_i[5] * t526;
-    jac_phi_q_t_lambda_geometry[65] = A_i[6] * t524 + A_i[7] * t525 + A_i[8] * t526;
-    jac_phi_q_t_lambda_geometry[69] = -t519;
-    jac_phi_q_t_lambda_geometry[70] = -t522;
-    jac_phi_q_t_lambda_geometry[71] = -t523;
-    const jg_real t527 = A_j[3] * v_0_in_j_2 - A_j[6] * v_0_in_j_1;
-    const jg_real t528 = A_j[4] * v_0_in_j_2 - A_j[7] * v_0_in_j_1;
-    const jg_real t529 = A_j[5] * v_0_in_j_2 - A_j[8] * v_0_in_j_1;
-    jac_phi_q_t_lambda_geometry[72] = A_i[0] * t527 + A_i[1] * t528 + A_i[2] * t529;
-    jac_phi_q_t_lambda_geometry[73] = A_i[3] * t527 + A_i[4] * t528 + A_i[5] * t529;
-    jac_phi_q_t_lambda_geometry[74] = A_i[6] * t527 + A_i[7] * t528 + A_i[8] * t529;
-    jac_phi_q_t_lambda_geometry[75] = -v_0_in_j_2;
-    const jg_real t530 = A_j[6] * v_0_in_j_0 - v_0_in_j_2 * A_j[0];
-    const jg_real t531 = A_j[7] * v_0_in_j_0 - v_0_in_j_2 * A_j[1];
-    const jg_real t532 = A_j[8] * v_0_in_j_0 - v_0_in_j_2 * A_j[2];
-    jac_phi_q_t_lambda_geometry[77] = A_i[0] * t530 + A_i[1] * t531 + A_i[2] * t532;
-    jac_phi_q_t_lambda_geometry[78] = A_i[3] * t530 + A_i[4] * t531 + A_i[5] * t532;
-    jac_phi_q_t_lambda_geometry[79] = A_i[6] * t530 + A_i[7] * t531 + A_i[8] * t532;
-    jac_phi_q_t_lambda_geometry[81] = -v_0_in_j_0;
-    const jg_real t533 = v_0_in_j_1 * A_j[0] - A_j[3] * v_0_in_j_0;
-    const jg_real t534 = v_0_in_j_1 * A_j[1] - A_j[4] * v_0_in_j_0;
-    const jg_real t535 = v_0_in_j_1 * A_j[2] - A_j[5] * v_0_in_j_0;
-    jac_phi_q_t_lambda_geometry[82] = A_i[0] * t533 + A_i[1] * t534 + A_i[2] * t535;
-    jac_phi_q_t_lambda_geometry[83] = A_i[3] * t533 + A_i[4] * t534 + A_i[5] * t535;
-    jac_phi_q_t_lambda_geometry[84] = A_i[6] * t533 + A_i[7] * t534 + A_i[8] * t535;
-    jac_phi_q_t_lambda_geometry[85] = -v_0_in_j_1;
-    const jg_real t536 = h_i_in_j_0 * h_i_dot_f_j;
-    const jg_real t537 = (t536 + t536) * t73 * lambda[4] * pitch;
-    const jg_real t538 = t537 * across_in_j_0 - t45 * (t37 + h_i_dot_f_j);
-    const jg_real t539 = t537 * across_in_j_1 - h_i_in_j_0 * C_j[1] * t45;
-    const jg_real t540 = t537 * across_in_j_2 - h_i_in_j_0 * C_j[2] * t45;
-    const jg_real t541 = A_j[0] * t538 + A_j[3] * t539 + A_j[6] * t540;
-    const jg_real t542 = A_j[1] * t538 + A_j[4] * t539 + A_j[7] * t540;
-    const jg_real t543 = A_j[2] * t538 + A_j[5] * t539 + A_j[8] * t540;
-    jac_phi_q_t_lambda_geometry[87] = A_i[0] * t541 + A_i[1] * t542 + A_i[2] * t543;
-    jac_phi_q_t_lambda_geometry[88] = A_i[3] * t541 + A_i[4] * t542 + A_i[5] * t543;
-    jac_phi_q_t_lambda_geometry[89] = A_i[6] * t541 + A_i[7] * t542 + A_i[8] * t543;
-    jac_phi_q_t_lambda_geometry[90] = -t538;
-    jac_phi_q_t_lambda_geometry[91] = -t539;
-    jac_phi_q_t_lambda_geometry[92] = -t540;
-    const jg_real t544 = h_i_in_j_1 * h_i_dot_f_j;
-    const jg_real t545 = (t544 + t544) * t73 * lambda[4] * pitch;
-    const jg_real t546 = t545 * across_in_j_0 - h_i_in_j_1 * C_j[0] * t45;
-    const jg_real t547 = t545 * across_in_j_1 - t45 * (t39 + h_i_dot_f_j);
-    const jg_real t548 = t545 * across_in_j_2 - h_i_in_j_1 * C_j[2] * t45;
-    const jg_real t549 = A_j[0] * t546 + A_j[3] * t547 + A_j[6] * t548;
-    const jg_real t550 = A_j[1] * t546 + A_j[4] * t547 + A_j[7] * t548;
-    const jg_real t551 = A_j[2] * t546 + A_j[5] * t547 + A_j[8] * t548;
-    jac_phi_q_t_lambda_geometry[93] = A_i[0] * t549 + A_i[1] * t550 + A_i[2] * t551;
-    jac_phi_q_t_lambda_geometry[94] = A_i[3] * t549 + A_i[4] * t550 + A_i[5] * t551;
-    jac_phi_q_t_lambda_geometry[95] = A_i[6] * t549 + A_i[7] * t550 + A_i[8] * t551;
-    jac_phi_q_t_lambda_geometry[96] = -t546;
-    jac_phi_q_t_lambda_geometry[97] = -t547;
-    jac_phi_q_t_lambda_geometry[98] = -t548;
-    const jg_real t552 = h_i_in_j_2 * h_i_dot_f_j;
-    const jg_real t553 = (t552 + t552) * t73 * lambda[4] * pitch;
-    const jg_real t554 = t553 * across_in_j_0 - h_i_in_j_2 * C_j[0] * t45;
-    const jg_real t555 = t553 * across_in_j_1 - h_i_in_j_2 * C_j[1] * t45;
-    const jg_real t556 = t553 * across_in_j_2 - t45 * (t41 + h_i_dot_f_j);
-    const jg_real t557 = A_j[0] * t554 + A_j[3] * t555 + A_j[6] * t556;
-    const jg_real t558 = A_j[1] * t554 + A_j[4] * t555 + A_j[7] * t556;
-    const jg_real t559 = A_j[2] * t554 + A_j[5] * t555 + A_j[8] * t556;
-    jac_phi_q_t_lambda_geometry[99] = A_i[0] * t557 + A_i[1] * t558 + A_i[2] * t559;
-    jac_phi_q_t_lambda_geometry[100] = A_i[3] * t557 + A_i[4] * t558 + A_i[5] * t559;
-    jac_phi_q_t_lambda_geometry[101] = A_i[6] * t557 + A_i[7] * t558 + A_i[8] * t559;
-    jac_phi_q_t_lambda_geometry[102] = -t554;
-    jac_phi_q_t_lambda_geometry[103] = -t555;
-    jac_phi_q_t_lambda_geometry[104] = -t556;
-    const jg_real t560 = A_j[3] * v_2_in_j_2 - v_2_in_j_1 * A_j[6];
-    const jg_real t561 = A_j[4] * v_2_in_j_2 - v_2_in_j_1 * A_j[7];
-    const jg_real t562 = A_j[5] * v_2_in_j_2 - v_2_in_j_1 * A_j[8];
-    jac_phi_q_t_lambda_geometry[105] = A_i[0] * t560 + A_i[1] * t561 + A_i[2] * t562;
-    jac_phi_q_t_lambda_geometry[106] = A_i[3] * t560 + A_i[4] * t561 + A_i[5] * t562;
-    jac_phi_q_t_lambda_geometry[107] = A_i[6] * t560 + A_i[7] * t561 + A_i[8] * t562;
-    jac_phi_q_t_lambda_geometry[108] = -v_2_in_j_2;
-    const jg_real t563 = A_j[6] * v_2_in_j_0 - v_2_in_j_2 * A_j[0];
-    const jg_real t564 = A_j[7] * v_2_in_j_0 - v_2_in_j_2 * A_j[1];
-    const jg_real t565 = A_j[8] * v_2_in_j_0 - v_2_in_j_2 * A_j[2];
-    jac_phi_q_t_lambda_geometry[110] = A_i[0] * t563 + A_i[1] * t564 + A_i[2] * t565;
-    jac_phi_q_t_lambda_geometry[111] = A_i[3] * t563 + A_i[4] * t564 + A_i[5] * t565;
-    jac_phi_q_t_lambda_geometry[112] = A_i[6] * t563 + A_i[7] * t564 + A_i[8] * t565;
-    jac_phi_q_t_lambda_geometry[114] = -v_2_in_j_0;
-    const jg_real t566 = v_2_in_j_1 * A_j[0] - A_j[3] * v_2_in_j_0;
-    const jg_real t567 = v_2_in_j_1 * A_j[1] - A_j[4] * v_2_in_j_0;
-    const jg_real t568 = v_2_in_j_1 * A_j[2] - A_j[5] * v_2_in_j_0;
-    jac_phi_q_t_lambda_geometry[115] = A_i[0] * t566 + A_i[1] * t567 + A_i[2] * t568;
-    jac_phi_q_t_lambda_geometry[116] = A_i[3] * t566 + A_i[4] * t567 + A_i[5] * t568;
-    jac_phi_q_t_lambda_geometry[117] = A_i[6] * t566 + A_i[7] * t567 + A_i[8] * t568;
-    jac_phi_q_t_lambda_geometry[118] = -v_2_in_j_1;
-    const jg_real t569 = t44 * across_in_j_0;
-    const jg_real t570 = t44 * across_in_j_1;
-    const jg_real t571 = t44 * across_in_j_2;
-    const jg_real t572 = A_j[0] * t569 + A_j[3] * t570 + A_j[6] * t571;
-    const jg_real t573 = A_j[1] * t569 + A_j[4] * t570 + A_j[7] * t571;
-    const jg_real t574 = A_j[2] * t569 + A_j[5] * t570 + A_j[8] * t571;
-    jac_phi_q_t_lambda_geometry[120] = A_i[0] * t572 + A_i[1] * t573 + A_i[2] * t574;
-    jac_phi_q_t_lambda_geometry[121] = A_i[3] * t572 + A_i[4] * t573 + A_i[5] * t574;
-    jac_phi_q_t_lambda_geometry[122] = A_i[6] * t572 + A_i[7] * t573 + A_i[8] * t574;
-    jac_phi_q_t_lambda_geometry[123] = -t569;
-    jac_phi_q_t_lambda_geometry[124] = -t570;
-    jac_phi_q_t_lambda_geometry[125] = -t571;
+    const jg_real v_6_world_0 = v_5_world_0 - v_4_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_7_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_4 r_ij x h_i, world axes */
+    const jg_real v_7_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
+    /* v_8_world = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_1 r_ij x g_i - lambda_4 r_ij x ... */
+    const jg_real v_8_world_0 = v_6_world_0 - v_7_world_0;
+    const jg_real t50 = spread * spread;
+    const jg_real t51 = C_i[6] * f_j_world_0;
+    const jg_real t52 = t51 * h_i_dot_f_j;
+    const jg_real t53 = (t52 + t52) * t50 * lambda[4] * pitch;
+    const jg_real t54 = t24 * s_j_world_2;
+    const jg_real t55 = t26 * s_j_world_1;
+    const jg_real t56 = t25 * lambda[3];
+    const jg_real t57 = t56 * h_j_world_1;
+    const jg_real t58 = t23 * lambda[3];
+    const jg_real t59 = t58 * h_j_world_2;
+    const jg_real t60 = t53 * across_world_0 + t42 * (C_i[6] - f_j_world_0 * t51) - (t54 - t55 - (t57 - t59));
+    const jg_real t61 = t24 * r_ij_world_2;
+    const jg_real t62 = t26 * r_ij_world_1;
+    const jg_real t63 = t60 - (t61 - t62);
+    const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
+    const jg_real t65 = t21 * s_j_world_2;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    const jg_real t68 = C_i[0] * lambda[2];
+    const jg_real t69 = t68 * h_j_world_2;
+    const jg_real t70 = t53 * across_world_1 - t51 * f_j_world_1 * t42 - (t65 + t26 * s_j_world_0 + (t69 + t56 *
+        h_j_world_0));
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t72 = t21 * r_ij_world_2;
+    const jg_real t73 = t70 - (t72 + t26 * r_ij_world_0);
+    const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
+    const jg_real t75 = t21 * s_j_world_1;
+    const jg_real t76 = t68 * h_j_world_1;
+    const jg_real t77 = t75 + t24 * s_j_world_0 + (t76 + t58 * h_j_world_0) + (t53 * across_world_2 - t51 *
+        f_j_world_2 * t42);
+    const jg_real t78 = t21 * r_ij_world_1;
+    const jg_real t79 = t78 + t24 * r_ij_world_0 + t77;
+    jac_phi_q_t_lambda_A_i[3] = v_8_world_0 + A_i[0] * t63 + A_i[1] * t73 + A_i[2] * t79;
+    jac_phi_q_t_lambda_A_i[4] = A_i[3] * t63 + A_i[4] * t73 + A_i[5] * t79;
+    jac_phi_q_t_lambda_A_i[5] = A_i[6] * t63 + A_i[7] * t73 + A_i[8] * t79;
+    const jg_real t80 = -t24;
+    jac_phi_q_t_lambda_A_i[7] = t80;
+    jac_phi_q_t_lambda_A_i[12] = t80;
+    const jg_real t81 = -t26;
+    jac_phi_q_t_lambda_A_i[8] = t81;
+    jac_phi_q_t_lambda_A_i[24] = t81;
+    jac_phi_q_t_lambda_A_i[9] = -(A_j[0] * t60 + A_j[1] * t70 + A_j[2] * t77);
+    jac_phi_q_t_lambda_A_i[10] = -(A_j[3] * t60 + A_j[4] * t70 + A_j[5] * t77);
+    jac_phi_q_t_lambda_A_i[11] = -(A_j[6] * t60 + A_j[7] * t70 + A_j[8] * t77);
+    const jg_real t82 = C_i[6] * f_i_world_0 - C_i[0] * h_i_world_0;
+    const jg_real t83 = lambda[1] * t82;
+    jac_phi_q_t_lambda_A_i[14] = t83;
+    jac_phi_q_t_lambda_A_i[31] = t83;
+    const jg_real v_1_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
+    const jg_real v_2_world_0 = g_i_world_0 * lambda[3] + f_i_world_0 * lambda[2];
+    const jg_real v_3_world_1 = v_2_world_2 * h_j_world_0 - h_j_world_2 * v_2_world_0;
+    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
+    const jg_real v_5_world_1 = t42 * across_world_1;
+    const jg_real v_6_world_1 = v_5_world_1 - v_4_world_1;
+    const jg_real v_7_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_8_world_1 = v_6_world_1 - v_7_world_1;
+    const jg_real t92 = C_i[6] * f_j_world_1;
+    const jg_real t93 = t92 * h_i_dot_f_j;
+    const jg_real t94 = (t93 + t93) * t50 * lambda[4] * pitch;
+    const jg_real t95 = t83 * s_j_world_0;
+    const jg_real t96 = t82 * lambda[3];
+    const jg_real t97 = t96 * h_j_world_0;
+    const jg_real t98 = t94 * across_world_1 + t42 * (C_i[6] - f_j_world_1 * t92) - (t54 + t95 + (t59 + t97));
+    const jg_real t99 = t83 * r_ij_world_0;
+    const jg_real t100 = t98 - (t61 + t99);
+    const jg_real t101 = t83 * s_j_world_1 + t65 + (t69 + t96 * h_j_world_1) + (t94 * across_world_0 - f_j_world_0 *
+        t92 * t42);
+    const jg_real t102 = t83 * r_ij_world_1 + t72 + t101;
+    const jg_real t103 = t21 * s_j_world_0;
+    const jg_real t104 = t68 * h_j_world_0;
+    const jg_real t105 = t94 * across_world_2 - t92 * f_j_world_2 * t42 - (t103 - t24 * s_j_world_1 - (t58 *
+        h_j_world_1 - t104));
+    const jg_real t106 = t21 * r_ij_world_0;
+    const jg_real t107 = t105 - (t106 - t24 * r_ij_world_1);
+    jac_phi_q_t_lambda_A_i[15] = v_8_world_1 + A_i[1] * t100 + A_i[0] * t102 + A_i[2] * t107;
+    jac_phi_q_t_lambda_A_i[16] = A_i[3] * t102 + A_i[4] * t100 + A_i[5] * t107;
+    jac_phi_q_t_lambda_A_i[17] = A_i[6] * t102 + A_i[7] * t100 + A_i[8] * t107;
+    const jg_real t108 = -t83;
+    jac_phi_q_t_lambda_A_i[20] = t108;
+    jac_phi_q_t_lambda_A_i[25] = t108;
+    jac_phi_q_t_lambda_A_i[21] = -(A_j[0] * t101 + A_j[1] * t98 + A_j[2] * t105);
+    jac_phi_q_t_lambda_A_i[22] = -(A_j[3] * t101 + A_j[4] * t98 + A_j[5] * t105);
+    jac_phi_q_t_lambda_A_i[23] = -(A_j[6] * t101 + A_j[7] * t98 + A_j[8] * t105);
+    const jg_real t109 = C_i[6] * f_j_world_2;
+    const jg_real t110 = t109 * h_i_dot_f_j;
+    const jg_real t111 = (t110 + t110) * t50 * lambda[4] * pitch;
+    const jg_real t112 = t111 * across_world_0 - f_j_world_0 * t109 * t42 - (t75 - t83 * s_j_world_2 - (t96 *
+        h_j_world_2 - t76));
+    const jg_real t113 = t112 - (t78 - t83 * r_ij_world_2);
+    const jg_real t114 = t111 * across_world_1 - f_j_world_1 * t109 * t42 - (t26 * s_j_world_2 - t103 - (t104 -
+        h_j_world_2 * t56));
+    const jg_real t115 = t114 - (t26 * r_ij_world_2 - t106);
+    const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
+    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - v_2_world_1 * h_j_world_0;
+    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
+    const jg_real v_5_world_2 = t42 * across_world_2;
+    const jg_real v_6_world_2 = v_5_world_2 - v_4_world_2;
+    const jg_real v_7_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_8_world_2 = v_6_world_2 - v_7_world_2;
+    const jg_real t123 = t111 * across_world_2 + t42 * (C_i[6] - f_j_world_2 * t109) - (t95 - t55 - (t57 - t97));
+    const jg_real t124 = t123 - (t99 - t62);
+    jac_phi_q_t_lambda_A_i[27] = A_i[0] * t113 + A_i[1] * t115 + (v_8_world_2 + A_i[2] * t124);
+    jac_phi_q_t_lambda_A_i[28] = A_i[3] * t113 + A_i[4] * t115 + A_i[5] * t124;
+    jac_phi_q_t_lambda_A_i[29] = A_i[6] * t113 + A_i[7] * t115 + A_i[8] * t124;
+    jac_phi_q_t_lambda_A_i[33] = -(A_j[0] * t112 + A_j[1] * t114 + A_j[2] * t123);
+    jac_phi_q_t_lambda_A_i[34] = -(A_j[3] * t112 + A_j[4] * t114 + A_j[5] * t123);
+    jac_phi_q_t_lambda_A_i[35] = -(A_j[6] * t112 + A_j[7] * t114 + A_j[8] * t123);
+    const jg_real t125 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
+    jac_phi_q_t_lambda_A_i[42] = t125;
+    jac_phi_q_t_lambda_A_i[55] = t125;
+    jac_phi_q_t_lambda_A_i[68] = t125;
+    const jg_real t126 = -t125;
+    jac_phi_q_t_lambda_A_i[36] = t126;
+    jac_phi_q_t_lambda_A_i[49] = t126;
+    jac_phi_q_t_lambda_A_i[62] = t126;
+    const jg_real t127 = f_i_world_2 * C_i[7] - C_i[1] * h_i_world_2;
+    const jg_real t128 = t127 * lambda[1];
+    jac_phi_q_t_lambda_A_i[37] = t128;
+    jac_phi_q_t_lambda_A_i[54] = t128;
+    const jg_real t129 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
+    const jg_real t130 = t129 * lambda[1];
+    jac_phi_q_t_lambda_A_i[38] = t130;
+    jac_phi_q_t_lambda_A_i[66] = t130;
+    const jg_real t131 = C_i[7] * f_j_world_0;
+    const jg_real t132 = t131 * h_i_dot_f_j;
+    const jg_real t133 = (t132 + t132) * t50 * lambda[4] * pitch;
+    const jg_real t134 = t128 * s_j_world_2;
+    const jg_real t135 = t130 * s_j_world_1;
+    const jg_real t136 = t129 * lambda[3];
+    const jg_real t137 = t136 * h_j_world_1;
+    const jg_real t138 = t127 * lambda[3];
+    const jg_real t139 = t138 * h_j_world_2;
+    const jg_real t140 = t133 * across_world_0 + t42 * (C_i[7] - f_j_world_0 * t131) - (t134 - t135 - (t137 -
+        t139));
+    const jg_real t141 = t128 * r_ij_world_2;
+    const jg_real t142 = t130 * r_ij_world_1;
+    const jg_real t143 = t140 - (t141 - t142);
+    const jg_real t144 = t125 * s_j_world_2;
+    const jg_real t145 = C_i[1] * lambda[2];
+    const jg_real t146 = t145 * h_j_world_2;
+    const jg_real t147 = t133 * across_world_1 - t131 * f_j_world_1 * t42 - (t144 + t130 * s_j_world_0 + (t146 +
+        t136 * h_j_world_0));
+    const jg_real t148 = t125 * r_ij_world_2;
+    const jg_real t149 = t147 - (t148 + t130 * r_ij_world_0);
+    const jg_real t150 = t125 * s_j_world_1;
+    const jg_real t151 = t145 * h_j_world_1;
+    const jg_real t152 = t150 + t128 * s_j_world_0 + (t151 + t138 * h_j_world_0) + (t133 * across_world_2 - t131 *
+        f_j_world_2 * t42);
+    const jg_real t153 = t125 * r_ij_world_1;
+    const jg_real t154 = t153 + t128 * r_ij_world_0 + t152;
+    jac_phi_q_t_lambda_A_i[39] = A_i[0] * t143 + A_i[1] * t149 + A_i[2] * t154;
+    jac_phi_q_t_lambda_A_i[40] = v_8_world_0 + A_i[3] * t143 + A_i[4] * t149 + A_i[5] * t154;
+    jac_phi_q_t_lambda_A_i[41] = A_i[6] * t143 + A_i[7] * t149 + A_i[8] * t154;
+    const jg_real t155 = -t128;
+    jac_phi_q_t_lambda_A_i[43] = t155;
+    jac_phi_q_t_lambda_A_i[48] = t155;
+    const jg_real t156 = -t130;
+    jac_phi_q_t_lambda_A_i[44] = t156;
+    jac_phi_q_t_lambda_A_i[60] = t156;
+    jac_phi_q_t_lambda_A_i[45] = -(A_j[0] * t140 + A_j[1] * t147 + A_j[2] * t152);
+    jac_phi_q_t_lambda_A_i[46] = -(A_j[3] * t140 + A_j[4] * t147 + A_j[5] * t152);
+    jac_phi_q_t_lambda_A_i[47] = -(A_j[6] * t140 + A_j[7] * t147 + A_j[8] * t152);
+    const jg_real t157 = C_i[7] * f_i_world_0 - C_i[1] * h_i_world_0;
+    const jg_real t158 = lambda[1] * t157;
+    jac_phi_q_t_lambda_A_i[50] = t158;
+    jac_phi_q_t_lambda_A_i[67] = t158;
+    const jg_real t159 = C_i[7] * f_j_world_1;
+    const jg_real t160 = t159 * h_i_dot_f_j;
+    const jg_real t161 = (t160 + t160) * t50 * lambda[4] * pitch;
+    const jg_real t162 = t157 * lambda[3];
+    const jg_real t163 = t158 * s_j_world_1 + t144 + (t146 + t162 * h_j_world_1) + (t161 * across_world_0 -
+        f_j_world_0 * t159 * t42);
+    const jg_real t164 = t158 * r_ij_world_1 + t148 + t163;
+    const jg_real t165 = t158 * s_j_world_0;
+    const jg_real t166 = t162 * h_j_world_0;
+    const jg_real t167 = t161 * across_world_1 + t42 * (C_i[7] - f_j_world_1 * t159) - (t134 + t165 + (t139 +
+        t166));
+    const jg_real t168 = t158 * r_ij_world_0;
+    const jg_real t169 = t167 - (t141 + t168);
+    const jg_real t170 = t125 * s_j_world_0;
+    const jg_real t171 = t145 * h_j_world_0;
+    const jg_real t172 = t161 * across_world_2 - t159 * f_j_world_2 * t42 - (t170 - t128 * s_j_world_1 - (t138 *
+        h_j_world_1 - t171));
+    const jg_real t173 = t125 * r_ij_world_0;
+    const jg_real t174 = t172 - (t173 - t128 * r_ij_world_1);
+    jac_phi_q_t_lambda_A_i[51] = A_i[0] * t164 + A_i[1] * t169 + A_i[2] * t174;
+    jac_phi_q_t_lambda_A_i[52] = v_8_world_1 + A_i[4] * t169 + A_i[3] * t164 + A_i[5] * t174;
+    jac_phi_q_t_lambda_A_i[53] = A_i[6] * t164 + A_i[7] * t169 + A_i[8] * t174;
+    const jg_real t175 = -t158;
+    jac_phi_q_t_lambda_A_i[56] = t175;
+    jac_phi_q_t_lambda_A_i[61] = t175;
+    jac_phi_q_t_lambda_A_i[57] = -(A_j[0] * t163 + A_j[1] * t167 + A_j[2] * t172);
+    jac_phi_q_t_lambda_A_i[58] = -(A_j[3] * t163 + A_j[4] * t167 + A_j[5] * t172);
+    jac_phi_q_t_lambda_A_i[59] = -(A_j[6] * t163 + A_j[7] * t167 + A_j[8] * t172);
+    const jg_real t176 = C_i[7] * f_j_world_2;
+    const jg_real t177 = t176 * h_i_dot_f_j;
+    const jg_real t178 = (t177 + t177) * t50 * lambda[4] * pitch;
+    const jg_real t179 = t178 * across_world_0 - f_j_world_0 * t176 * t42 - (t150 - t158 * s_j_world_2 - (t162 *
+        h_j_world_2 - t151));
+    const jg_real t180 = t179 - (t153 - t158 * r_ij_world_2);
+    const jg_real t181 = t178 * across_world_1 - f_j_world_1 * t176 * t42 - (t130 * s_j_world_2 - t170 - (t171 -
+        h_j_world_2 * t136));
+    const jg_real t182 = t181 - (t130 * r_ij_world_2 - t173);
+    const jg_real t183 = t178 * across_world_2 + t42 * (C_i[7] - f_j_world_2 * t176) - (t165 - t135 - (t137 -
+        t166));
+    const jg_real t184 = t183 - (t168 - t142);
+    jac_phi_q_t_lambda_A_i[63] = A_i[0] * t180 + A_i[1] * t182 + A_i[2] * t184;
+    jac_phi_q_t_lambda_A_i[64] = A_i[3] * t180 + A_i[4] * t182 + (v_8_world_2 + A_i[5] * t184);
+    jac_phi_q_t_lambda_A_i[65] = A_i[6] * t180 + A_i[7] * t182 + A_i[8] * t184;
+    jac_phi_q_t_lambda_A_i[69] = -(A_j[0] * t179 + A_j[1] * t181 + A_j[2] * t183);
+    jac_phi_q_t_lambda_A_i[70] = -(A_j[3] * t179 + A_j[4] * t181 + A_j[5] * t183);
+    jac_phi_q_t_lambda_A_i[71] = -(A_j[6] * t179 + A_j[7] * t181 + A_j[8] * t183);
+    const jg_real t185 = C_i[2] * lambda[0] + C_i[8] * lambda[4];
+    jac_phi_q_t_lambda_A_i[78] = t185;
+    jac_phi_q_t_lambda_A_i[91] = t185;
+    jac_phi_q_t_lambda_A_i[104] = t185;
+    const jg_real t186 = -t185;
+    jac_phi_q_t_lambda_A_i[72] = t186;
+    jac_phi_q_t_lambda_A_i[85] = t186;
+    jac_phi_q_t_lambda_A_i[98] = t186;
+    const jg_real t187 = f_i_world_2 * C_i[8] - C_i[2] * h_i_world_2;
+    const jg_real t188 = t187 * lambda[1];
+    jac_phi_q_t_lambda_A_i[73] = t188;
+    jac_phi_q_t_lambda_A_i[90] = t188;
+    const jg_real t189 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
+    const jg_real t190 = t189 * lambda[1];
+    jac_phi_q_t_lambda_A_i[74] = t190;
+    jac_phi_q_t_lambda_A_i[102] = t190;
+    const jg_real t191 = C_i[8] * f_j_world_0;
+    const jg_real t192 = t191 * h_i_dot_f_j;
+    const jg_real t193 = (t192 + t192) * t50 * lambda[4] * pitch;
+    const jg_real t194 = t188 * s_j_world_2;
+    const jg_real t195 = t190 * s_j_world_1;
+    const jg_real t196 = t189 * lambda[3];
+    const jg_real t197 = t196 * h_j_world_1;
+    const jg_real t198 = t187 * lambda[3];
+    const jg_real t199 = t198 * h_j_world_2;
+    const jg_real t200 = t193 * across_world_0 + t42 * (C_i[8] - f_j_world_0 * t191) - (t194 - t195 - (t197 -
+        t199));
+    const jg_real t201 = t188 * r_ij_world_2;
+    const jg_real t202 = t190 * r_ij_world_1;
+    const jg_real t203 = t200 - (t201 - t202);
+    const jg_real t204 = t185 * s_j_world_2;
+    const jg_real t205 = C_i[2] * lambda[2];
+    const jg_real t206 = t205 * h_j_world_2;
+    const jg_real t207 = t193 * across_world_1 - t191 * f_j_world_1 * t42 - (t204 + t190 * s_j_world_0 + (t206 +
+        t196 * h_j_world_0));
+    const jg_real t208 = t185 * r_ij_world_2;
+    const jg_real t209 = t207 - (t208 + t190 * r_ij_world_0);
+    const jg_real t210 = t185 * s_j_world_1;
+    const jg_real t211 = t205 * h_j_world_1;
+    const jg_real t212 = t210 + t188 * s_j_world_0 + (t211 + t198 * h_j_world_0) + (t193 * across_world_2 - t191 *
+        f_j_world_2 * t42);
+    const jg_real t213 = t185 * r_ij_world_1;
+    const jg_real t214 = t213 + t188 * r_ij_world_0 + t212;
+    jac_phi_q_t_lambda_A_i[75] = A_i[0] * t203 + A_i[1] * t209 + A_i[2] * t214;
+    jac_phi_q_t_lambda_A_i[76] = A_i[3] * t203 + A_i[4] * t209 + A_i[5] * t214;
+    jac_phi_q_t_lambda_A_i[77] = v_8_world_0 + A_i[6] * t203 + A_i[7] * t209 + A_i[8] * t214;
+    const jg_real t215 = -t188;
+    jac_phi_q_t_lambda_A_i[79] = t215;
+    jac_phi_q_t_lambda_A_i[84] = t215;
+    const jg_real t216 = -t190;
+    jac_phi_q_t_lambda_A_i[80] = t216;
+    jac_phi_q_t_lambda_A_i[96] = t216;
+    jac_phi_q_t_lambda_A_i[81] = -(A_j[0] * t200 + A_j[1] * t207 + A_j[2] * t212);
+    jac_phi_q_t_lambda_A_i[82] = -(A_j[3] * t200 + A_j[4] * t207 + A_j[5] * t212);
+    jac_phi_q_t_lambda_A_i[83] = -(A_j[6] * t200 + A_j[7] * t207 + A_j[8] * t212);
+    const jg_real t217 = C_i[8] * f_i_world_0 - C_i[2] * h_i_world_0;
+    const jg_real t218 = lambda[1] * t217;
+    jac_phi_q_t_lambda_A_i[86] = t218;
+    jac_phi_q_t_lambda_A_i[103] = t218;
+    const jg_real t219 = C_i[8] * f_j_world_1;
+    const jg_real t220 = t219 * h_i_dot_f_j;
+    const jg_real t221 = (t220 + t220) * t50 * lambda[4] * pitch;
+    const jg_real t222 = t217 * lambda[3];
+    const jg_real t223 = t218 * s_j_world_1 + t204 + (t206 + t222 * h_j_world_1) + (t221 * across_world_0 -
+        f_j_world_0 * t219 * t42);
+    const jg_real t224 = t218 * r_ij_world_1 + t208 + t223;
+    const jg_real t225 = t218 * s_j_world_0;
+    const jg_real t226 = t222 * h_j_world_0;
+    const jg_real t227 = t221 * across_world_1 + t42 * (C_i[8] - f_j_world_1 * t219) - (t194 + t225 + (t199 +
+        t226));
+    const jg_real t228 = t218 * r_ij_world_0;
+    const jg_real t229 = t227 - (t201 + t228);
+    const jg_real t230 = t185 * s_j_world_0;
+    const jg_real t231 = t205 * h_j_world_0;
+    const jg_real t232 = t221 * across_world_2 - t219 * f_j_world_2 * t42 - (t230 - t188 * s_j_world_1 - (t198 *
+        h_j_world_1 - t231));
+    const jg_real t233 = t185 * r_ij_world_0;
+    const jg_real t234 = t232 - (t233 - t188 * r_ij_world_1);
+    jac_phi_q_t_lambda_A_i[87] = A_i[0] * t224 + A_i[1] * t229 + A_i[2] * t234;
+    jac_phi_q_t_lambda_A_i[88] = A_i[3] * t224 + A_i[4] * t229 + A_i[5] * t234;
+    jac_phi_q_t_lambda_A_i[89] = v_8_world_1 + A_i[7] * t229 + A_i[6] * t224 + A_i[8] * t234;
+    const jg_real t235 = -t218;
+    jac_phi_q_t_lambda_A_i[92] = t235;
+    jac_phi_q_t_lambda_A_i[97] = t235;
+    jac_phi_q_t_lambda_A_i[93] = -(A_j[0] * t223 + A_j[1] * t227 + A_j[2] * t232);
+    jac_phi_q_t_lambda_A_i[94] = -(A_j[3] * t223 + A_j[4] * t227 + A_j[5] * t232);
+    jac_phi_q_t_lambda_A_i[95] = -(A_j[6] * t223 + A_j[7] * t227 + A_j[8] * t232);
+    const jg_real t236 = C_i[8] * f_j_world_2;
+    const jg_real t237 = t236 * h_i_dot_f_j;
+    const jg_real t238 = (t237 + t237) * t50 * lambda[4] * pitch;
+    const jg_real t239 = t238 * across_world_0 - f_j_world_0 * t236 * t42 - (t210 - t218 * s_j_world_2 - (t222 *
+        h_j_world_2 - t211));
+    const jg_real t240 = t239 - (t213 - t218 * r_ij_world_2);
+    const jg_real t241 = t238 * across_world_1 - f_j_world_1 * t236 * t42 - (t190 * s_j_world_2 - t230 - (t231 -
+        h_j_world_2 * t196));
+    const jg_real t242 = t241 - (t190 * r_ij_world_2 - t233);
+    const jg_real t243 = t238 * across_world_2 + t42 * (C_i[8] - f_j_world_2 * t236) - (t225 - t195 - (t197 -
+        t226));
+    const jg_real t244 = t243 - (t228 - t202);
+    jac_phi_q_t_lambda_A_i[99] = A_i[0] * t240 + A_i[1] * t242 + A_i[2] * t244;
+    jac_phi_q_t_lambda_A_i[100] = A_i[3] * t240 + A_i[4] * t242 + A_i[5] * t244;
+    jac_phi_q_t_lambda_A_i[101] = A_i[6] * t240 + A_i[7] * t242 + (v_8_world_2 + A_i[8] * t244);
+    jac_phi_q_t_lambda_A_i[105] = -(A_j[0] * t239 + A_j[1] * t241 + A_j[2] * t243);
+    jac_phi_q_t_lambda_A_i[106] = -(A_j[3] * t239 + A_j[4] * t241 + A_j[5] * t243);
+    jac_phi_q_t_lambda_A_i[107] = -(A_j[6] * t239 + A_j[7] * t241 + A_j[8] * t243);
+    const jg_real t245 = h_i_world_0 * C_j[0];
+    const jg_real t246 = t245 * h_i_dot_f_j;
+    const jg_real t247 = (t246 + t246) * t50 * lambda[4] * pitch;
+    const jg_real t248 = C_j[0] * h_i_dot_f_j;
+    const jg_real t249 = t247 * across_world_0 - t42 * (t248 + f_j_world_0 * t245);
+    const jg_real t250 = v_0_world_2 * s_j[0] + C_j[6] * v_2_world_2;
+    const jg_real t251 = t247 * across_world_1 - t245 * f_j_world_1 * t42 + t250;
+    const jg_real t252 = v_0_world_1 * s_j[0] + v_2_world_1 * C_j[6];
+    const jg_real t253 = t247 * across_world_2 - t245 * f_j_world_2 * t42 - t252;
+    jac_phi_q_t_lambda_A_j[0] = A_i[0] * t249 + A_i[1] * t251 + A_i[2] * t253;
+    jac_phi_q_t_lambda_A_j[1] = A_i[3] * t249 + A_i[4] * t251 + A_i[5] * t253;
+    jac_phi_q_t_lambda_A_j[2] = A_i[6] * t249 + A_i[7] * t251 + A_i[8] * t253;
+    jac_phi_q_t_lambda_A_j[3] = -(v_6_world_0 + A_j[0] * t249 + A_j[1] * t251 + A_j[2] * t253);
+    jac_phi_q_t_lambda_A_j[4] = -(A_j[3] * t249 + A_j[4] * t251 + A_j[5] * t253);
+    jac_phi_q_t_lambda_A_j[5] = -(A_j[6] * t249 + A_j[7] * t251 + A_j[8] * t253);
+    const jg_real t254 = h_i_world_1 * C_j[0];
+    const jg_real t255 = t254 * h_i_dot_f_j;
+    const jg_real t256 = (t255 + t255) * t50 * lambda[4] * pitch;
+    const jg_real t257 = t256 * across_world_0 - f_j_world_0 * t254 * t42 - t250;
+    const jg_real t258 = t256 * across_world_1 - t42 * (t248 + f_j_world_1 * t254);
+    const jg_real t259 = v_0_world_0 * s_j[0] + C_j[6] * v_2_world_0;
+    const jg_real t260 = t256 * across_world_2 - t254 * f_j_world_2 * t42 + t259;
+    jac_phi_q_t_lambda_A_j[6] = A_i[0] * t257 + A_i[1] * t258 + A_i[2] * t260;
+    jac_phi_q_t_lambda_A_j[7] = A_i[3] * t257 + A_i[4] * t258 + A_i[5] * t260;
+    jac_phi_q_t_lambda_A_j[8] = A_i[6] * t257 + A_i[7] * t258 + A_i[8] * t260;
+    jac_phi_q_t_lambda_A_j[9] = -(v_6_world_1 + A_j[1] * t258 + A_j[0] * t257 + A_j[2] * t260);
+    jac_phi_q_t_lambda_A_j[10] = -(A_j[3] * t257 + A_j[4] * t258 + A_j[5] * t260);
+    jac_phi_q_t_lambda_A_j[11] = -(A_j[6] * t257 + A_j[7] * t258 + A_j[8] * t260);
+    const jg_real t261 = h_i_world_2 * C_j[0];
+    const jg_real t262 = t261 * h_i_dot_f_j;
+    const jg_real t263 = (t262 + t262) * t50 * lambda[4] * pitch;
+    const jg_real t264 = t263 * across_world_0 - f_j_world_0 * t261 * t42 + t252;
+    const jg_real t265 = t263 * across_world_1 - f_j_world_1 * t261 * t42 - t259;
+    const jg_real t266 = t263 * across_world_2 - t42 * (t248 + f_j_world_2 * t261);
+    jac_phi_q_t_lambda_A_j[12] = A_i[0] * t264 + A_i[1] * t265 + A_i[2] * t266;
+    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t264 + A_i[4] * t265 + A_i[5] * t266;
+    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t264 + A_i[7] * t265 + A_i[8] * t266;
+    jac_phi_q_t_lambda_A_j[15] = -(A_j[0] * t264 + A_j[1] * t265 + (v_6_world_2 + A_j[2] * t266));
+    jac_phi_q_t_lambda_A_j[16] = -(A_j[3] * t264 + A_j[4] * t265 + A_j[5] * t266);
+    jac_phi_q_t_lambda_A_j[17] = -(A_j[6] * t264 + A_j[7] * t265 + A_j[8] * t266);
+    const jg_real t267 = h_i_world_0 * C_j[1];
+    const jg_real t268 = t267 * h_i_dot_f_j;
+    const jg_real t269 = (t268 + t268) * t50 * lambda[4] * pitch;
+    const jg_real t270 = C_j[1] * h_i_dot_f_j;
+    const jg_real t271 = t269 * across_world_0 - t42 * (t270 + f_j_world_0 * t267);
+    const jg_real t272 = v_0_world_2 * s_j[1] + C_j[7] * v_2_world_2;
+    const jg_real t273 = t269 * across_world_1 - t267 * f_j_world_1 * t42 + t272;
+    const jg_real t274 = v_0_world_1 * s_j[1] + v_2_world_1 * C_j[7];
+    const jg_real t275 = t269 * across_world_2 - t267 * f_j_world_2 * t42 - t274;
+    jac_phi_q_t_lambda_A_j[18] = A_i[0] * t271 + A_i[1] * t273 + A_i[2] * t275;
+    jac_phi_q_t_lambda_A_j[19] = A_i[3] * t271 + A_i[4] * t273 + A_i[5] * t275;
+    jac_phi_q_t_lambda_A_j[20] = A_i[6] * t271 + A_i[7] * t273 + A_i[8] * t275;
+    jac_phi_q_t_lambda_A_j[21] = -(A_j[0] * t271 + A_j[1] * t273 + A_j[2] * t275);
+    jac_phi_q_t_lambda_A_j[22] = -(v_6_world_0 + A_j[3] * t271 + A_j[4] * t273 + A_j[5] * t275);
+    jac_phi_q_t_lambda_A_j[23] = -(A_j[6] * t271 + A_j[7] * t273 + A_j[8] * t275);
+    const jg_real t276 = h_i_world_1 * C_j[1];
+    const jg_real t277 = t276 * h_i_dot_f_j;
+    const jg_real t278 = (t277 + t277) * t50 * lambda[4] * pitch;
+    const jg_real t279 = t278 * across_world_0 - f_j_world_0 * t276 * t42 - t272;
+    const jg_real t280 = t278 * across_world_1 - t42 * (t270 + f_j_world_1 * t276);
+    const jg_real t281 = v_0_world_0 * s_j[1] + C_j[7] * v_2_world_0;
+    const jg_real t282 = t278 * across_world_2 - t276 * f_j_world_2 * t42 + t281;
+    jac_phi_q_t_lambda_A_j[24] = A_i[0] * t279 + A_i[1] * t280 + A_i[2] * t282;
+    jac_phi_q_t_lambda_A_j[25] = A_i[3] * t279 + A_i[4] * t280 + A_i[5] * t282;
+    jac_phi_q_t_lambda_A_j[26] = A_i[6] * t279 + A_i[7] * t280 + A_i[8] * t282;
+    jac_phi_q_t_lambda_A_j[27] = -(A_j[0] * t279 + A_j[1] * t280 + A_j[2] * t282);
+    jac_phi_q_t_lambda_A_j[28] = -(v_6_world_1 + A_j[4] * t280 + A_j[3] * t279 + A_j[5] * t282);
+    jac_phi_q_t_lambda_A_j[29] = -(A_j[6] * t279 + A_j[7] * t280 + A_j[8] * t282);
+    const jg_real t283 = h_i_world_2 * C_j[1];
+    const jg_real t284 = t283 * h_i_dot_f_j;
+    const jg_real t285 = (t284 + t284) * t50 * lambda[4] * pitch;
+    const jg_real t286 = t285 * across_world_0 - f_j_world_0 * t283 * t42 + t274;
+    const jg_real t287 = t285 * across_world_1 - f_j_world_1 * t283 * t42 - t281;
+    const jg_real t288 = t285 * across_world_2 - t42 * (t270 + f_j_world_2 * t283);
+    jac_phi_q_t_lambda_A_j[30] = A_i[0] * t286 + A_i[1] * t287 + A_i[2] * t288;
+    jac_phi_q_t_lambda_A_j[31] = A_i[3] * t286 + A_i[4] * t287 + A_i[5] * t288;
+    jac_phi_q_t_lambda_A_j[32] = A_i[6] * t286 + A_i[7] * t287 + A_i[8] * t288;
+    jac_phi_q_t_lambda_A_j[33] = -(A_j[0] * t286 + A_j[1] * t287 + A_j[2] * t288);
+    jac_phi_q_t_lambda_A_j[34] = -(A_j[3] * t286 + A_j[4] * t287 + (v_6_world_2 + A_j[5] * t288));
+    jac_phi_q_t_lambda_A_j[35] = -(A_j[6] * t286 + A_j[7] * t287 + A_j[8] * t288);
+    const jg_real t289 = h_i_world_0 * C_j[2];
+    const jg_real t290 = t289 * h_i_dot_f_j;
+    const jg_real t291 = (t290 + t290) * t50 * lambda[4] * pitch;
+    const jg_real t292 = C_j[2] * h_i_dot_f_j;
+    const jg_real t293 = t291 * across_world_0 - t42 * (t292 + f_j_world_0 * t289);
+    const jg_real t294 = v_0_world_2 * s_j[2] + C_j[8] * v_2_world_2;
+    const jg_real t295 = t291 * across_world_1 - t289 * f_j_world_1 * t42 + t294;
+    const jg_real t296 = v_0_world_1 * s_j[2] + v_2_world_1 * C_j[8];
+    const jg_real t297 = t291 * across_world_2 - t289 * f_j_world_2 * t42 - t296;
+    jac_phi_q_t_lambda_A_j[36] = A_i[0] * t293 + A_i[1] * t295 + A_i[2] * t297;
+    jac_phi_q_t_lambda_A_j[37] = A_i[3] * t293 + A_i[4] * t295 + A_i[5] * t297;
+    jac_phi_q_t_lambda_A_j[38] = A_i[6] * t293 + A_i[7] * t295 + A_i[8] * t297;
+    jac_phi_q_t_lambda_A_j[39] = -(A_j[0] * t293 + A_j[1] * t295 + A_j[2] * t297);
+    jac_phi_q_t_lambda_A_j[40] = -(A_j[3] * t293 + A_j[4] * t295 + A_j[5] * t297);
+    jac_phi_q_t_lambda_A_j[41] = -(v_6_world_0 + A_j[6] * t293 + A_j[7] * t295 + A_j[8] * t297);
+    const jg_real t298 = h_i_world_1 * C_j[2];
+    const jg_real t299 = t298 * h_i_dot_f_j;
+    const jg_real t300 = (t299 + t299) * t50 * lambda[4] * pitch;
+    const jg_real t301 = t300 * across_world_0 - f_j_world_0 * t298 * t42 - t294;
+    const jg_real t302 = t300 * across_world_1 - t42 * (t292 + f_j_world_1 * t298);
+    const jg_real t303 = v_0_world_0 * s_j[2] + C_j[8] * v_2_world_0;
+    const jg_real t304 = t300 * across_world_2 - t298 * f_j_world_2 * t42 + t303;
+    jac_phi_q_t_lambda_A_j[42] = A_i[0] * t301 + A_i[1] * t302 + A_i[2] * t304;
+    jac_phi_q_t_lambda_A_j[43] = A_i[3] * t301 + A_i[4] * t302 + A_i[5] * t304;
+    jac_phi_q_t_lambda_A_j[44] = A_i[6] * t301 + A_i[7] * t302 + A_i[8] * t304;
+    jac_phi_q_t_lambda_A_j[45] = -(A_j[0] * t301 + A_j[1] * t302 + A_j[2] * t304);
+    jac_phi_q_t_lambda_A_j[46] = -(A_j[3] * t301 + A_j[4] * t302 + A_j[5] * t304);
+    jac_phi_q_t_lambda_A_j[47] = -(v_6_world_1 + A_j[7] * t302 + A_j[6] * t301 + A_j[8] * t304);
+    const jg_real t305 = h_i_world_2 * C_j[2];
+    const jg_real t306 = t305 * h_i_dot_f_j;
+    const jg_real t307 = (t306 + t306) * t50 * lambda[4] * pitch;
+    const jg_real t308 = t307 * across_world_0 - f_j_world_0 * t305 * t42 + t296;
+    const jg_real t309 = t307 * across_world_1 - f_j_world_1 * t305 * t42 - t303;
+    const jg_real t310 = t307 * across_world_2 - t42 * (t292 + f_j_world_2 * t305);
+    jac_phi_q_t_lambda_A_j[48] = A_i[0] * t308 + A_i[1] * t309 + A_i[2] * t310;
+    jac_phi_q_t_lambda_A_j[49] = A_i[3] * t308 + A_i[4] * t309 + A_i[5] * t310;
+    jac_phi_q_t_lambda_A_j[50] = A_i[6] * t308 + A_i[7] * t309 + A_i[8] * t310;
+    jac_phi_q_t_lambda_A_j[51] = -(A_j[0] * t308 + A_j[1] * t309 + A_j[2] * t310);
+    jac_phi_q_t_lambda_A_j[52] = -(A_j[3] * t308 + A_j[4] * t309 + A_j[5] * t310);
+    jac_phi_q_t_lambda_A_j[53] = -(A_j[6] * t308 + A_j[7] * t309 + (v_6_world_2 + A_j[8] * t310));
+    const jg_real t311 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
+    const jg_real t312 = t311 * lambda[1] + A_i[0] * lambda[0];
+    jac_phi_q_t_lambda_geometry[6] = t312;
+    jac_phi_q_t_lambda_geometry[0] = -t312;
+    const jg_real t313 = h_i_world_2 * A_i[0] - A_i[2] * h_i_world_0;
+    const jg_real t314 = lambda[1] * t313 + A_i[1] * lambda[0];
+    jac_phi_q_t_lambda_geometry[7] = t314;
+    jac_phi_q_t_lambda_geometry[1] = -t314;
+    const jg_real t315 = A_i[1] * h_i_world_0 - h_i_world_1 * A_i[0];
+    const jg_real t316 = lambda[1] * t315 + A_i[2] * lambda[0];
+    jac_phi_q_t_lambda_geometry[8] = t316;
+    jac_phi_q_t_lambda_geometry[2] = -t316;
+    const jg_real t317 = t313 * lambda[3] + A_i[1] * lambda[2];
+    const jg_real t318 = t315 * lambda[3] + A_i[2] * lambda[2];
+    const jg_real t319 = t316 * s_j_world_1 - t314 * s_j_world_2 - (t317 * h_j_world_2 - t318 * h_j_world_1);
+    const jg_real t320 = t316 * r_ij_world_1 - t314 * r_ij_world_2 + t319;
+    const jg_real t321 = t311 * lambda[3] + A_i[0] * lambda[2];
+    const jg_real t322 = t312 * s_j_world_2 - t316 * s_j_world_0 - (t318 * h_j_world_0 - h_j_world_2 * t321);
+    const jg_real t323 = t312 * r_ij_world_2 - t316 * r_ij_world_0 + t322;
+    const jg_real t324 = t314 * s_j_world_0 - t312 * s_j_world_1 - (h_j_world_1 * t321 - t317 * h_j_world_0);
+    const jg_real t325 = t314 * r_ij_world_0 - t312 * r_ij_world_1 + t324;
+    jac_phi_q_t_lambda_geometry[3] = -(A_i[0] * t320 + A_i[1] * t323 + A_i[2] * t325);
+    jac_phi_q_t_lambda_geometry[4] = -(A_i[3] * t320 + A_i[4] * t323 + A_i[5] * t325);
+    jac_phi_q_t_lambda_geometry[5] = -(A_i[6] * t320 + A_i[7] * t323 + A_i[8] * t325);
+    jac_phi_q_t_lambda_geometry[9] = t319 * A_j[0] + A_j[1] * t322 + A_j[2] * t324;
+    jac_phi_q_t_lambda_geometry[10] = t319 * A_j[3] + A_j[4] * t322 + A_j[5] * t324;
+    jac_phi_q_t_lambda_geometry[11] = t319 * A_j[6] + A_j[7] * t322 + A_j[8] * t324;
+    const jg_real t326 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
+    const jg_real t327 = t326 * lambda[1] + A_i[3] * lambda[0];
+    jac_phi_q_t_lambda_geometry[18] = t327;
+    jac_phi_q_t_lambda_geometry[12] = -t327;
+    const jg_real t328 = h_i_world_2 * A_i[3] - A_i[5] * h_i_world_0;
+    const jg_real t329 = lambda[1] * t328 + A_i[4] * lambda[0];
+    jac_phi_q_t_lambda_geometry[19] = t329;
+    jac_phi_q_t_lambda_geometry[13] = -t329;
+    const jg_real t330 = A_i[4] * h_i_world_0 - h_i_world_1 * A_i[3];
+    const jg_real t331 = lambda[1] * t330 + A_i[5] * lambda[0];
+    jac_phi_q_t_lambda_geometry[20] = t331;
+    jac_phi_q_t_lambda_geometry[14] = -t331;
+    const jg_real t332 = t328 * lambda[3] + A_i[4] * lambda[2];
+    const jg_real t333 = t330 * lambda[3] + A_i[5] * lambda[2];
+    const jg_real t334 = t331 * s_j_world_1 - t329 * s_j_world_2 - (t332 * h_j_world_2 - t333 * h_j_world_1);
+    const jg_real t335 = t331 * r_ij_world_1 - t329 * r_ij_world_2 + t334;
+    const jg_real t336 = t326 * lambda[3] + A_i[3] * lambda[2];
+    const jg_real t337 = t327 * s_j_world_2 - t331 * s_j_world_0 - (t333 * h_j_world_0 - h_j_world_2 * t336);
+    const jg_real t338 = t327 * r_ij_world_2 - t331 * r_ij_world_0 + t337;
+    const jg_real t339 = t329 * s_j_world_0 - t327 * s_j_world_1 - (h_j_world_1 * t336 - t332 * h_j_world_0);
+    const jg_real t340 = t329 * r_ij_world_0 - t327 * r_ij_world_1 + t339;
+    jac_phi_q_t_lambda_geometry[15] = -(A_i[0] * t335 + A_i[1] * t338 + A_i[2] * t340);
+    jac_phi_q_t_lambda_geometry[16] = -(A_i[3] * t335 + A_i[4] * t338 + A_i[5] * t340);
+    jac_phi_q_t_lambda_geometry[17] = -(A_i[6] * t335 + A_i[7] * t338 + A_i[8] * t340);
+    jac_phi_q_t_lambda_geometry[21] = t334 * A_j[0] + A_j[1] * t337 + A_j[2] * t339;
+    jac_phi_q_t_lambda_geometry[22] = t334 * A_j[3] + A_j[4] * t337 + A_j[5] * t339;
+    jac_phi_q_t_lambda_geometry[23] = t334 * A_j[6] + A_j[7] * t337 + A_j[8] * t339;
+    const jg_real t341 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
+    const jg_real t342 = t341 * lambda[1] + A_i[6] * lambda[0];
+    jac_phi_q_t_lambda_geometry[30] = t342;
+    jac_phi_q_t_lambda_geometry[24] = -t342;
+    const jg_real t343 = h_i_world_2 * A_i[6] - A_i[8] * h_i_world_0;
+    const jg_real t344 = lambda[1] * t343 + A_i[7] * lambda[0];
+    jac_phi_q_t_lambda_geometry[31] = t344;
+    jac_phi_q_t_lambda_geometry[25] = -t344;
+    const jg_real t345 = A_i[7] * h_i_world_0 - h_i_world_1 * A_i[6];
+    const jg_real t346 = lambda[1] * t345 + A_i[8] * lambda[0];
+    jac_phi_q_t_lambda_geometry[32] = t346;
+    jac_phi_q_t_lambda_geometry[26] = -t346;
+    const jg_real t347 = t343 * lambda[3] + A_i[7] * lambda[2];
+    const jg_real t348 = t345 * lambda[3] + A_i[8] * lambda[2];
+    const jg_real t349 = t346 * s_j_world_1 - t344 * s_j_world_2 - (t347 * h_j_world_2 - t348 * h_j_world_1);
+    const jg_real t350 = t346 * r_ij_world_1 - t344 * r_ij_world_2 + t349;
+    const jg_real t351 = t341 * lambda[3] + A_i[6] * lambda[2];
+    const jg_real t352 = t342 * s_j_world_2 - t346 * s_j_world_0 - (t348 * h_j_world_0 - h_j_world_2 * t351);
+    const jg_real t353 = t342 * r_ij_world_2 - t346 * r_ij_world_0 + t352;
+    const jg_real t354 = t344 * s_j_world_0 - t342 * s_j_world_1 - (h_j_world_1 * t351 - t347 * h_j_world_0);
+    const jg_real t355 = t344 * r_ij_world_0 - t342 * r_ij_world_1 + t354;
+    jac_phi_q_t_lambda_geometry[27] = -(A_i[0] * t350 + A_i[1] * t353 + A_i[2] * t355);
+    jac_phi_q_t_lambda_geometry[28] = -(A_i[3] * t350 + A_i[4] * t353 + A_i[5] * t355);
+    jac_phi_q_t_lambda_geometry[29] = -(A_i[6] * t350 + A_i[7] * t353 + A_i[8] * t355);
+    jac_phi_q_t_lambda_geometry[33] = t349 * A_j[0] + A_j[1] * t352 + A_j[2] * t354;
+    jac_phi_q_t_lambda_geometry[34] = t349 * A_j[3] + A_j[4] * t352 + A_j[5] * t354;
+    jac_phi_q_t_lambda_geometry[35] = t349 * A_j[6] + A_j[7] * t352 + A_j[8] * t354;
+    const jg_real t356 = f_i_world_2 * A_i[1] - A_i[2] * f_i_world_1;
+    const jg_real t357 = t356 * lambda[1] + A_i[0] * lambda[4];
+    jac_phi_q_t_lambda_geometry[42] = t357;
+    jac_phi_q_t_lambda_geometry[36] = -t357;
+    const jg_real t358 = A_i[2] * f_i_world_0 - f_i_world_2 * A_i[0];
+    const jg_real t359 = lambda[1] * t358 + A_i[1] * lambda[4];
+    jac_phi_q_t_lambda_geometry[43] = t359;
+    jac_phi_q_t_lambda_geometry[37] = -t359;
+    const jg_real t360 = f_i_world_1 * A_i[0] - A_i[1] * f_i_world_0;
+    const jg_real t361 = lambda[1] * t360 + A_i[2] * lambda[4];
+    jac_phi_q_t_lambda_geometry[44] = t361;
+    jac_phi_q_t_lambda_geometry[38] = -t361;
+    const jg_real t362 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real t363 = h_i_dot_f_j * t362;
+    const jg_real t364 = (t363 + t363) * t50 * lambda[4] * pitch;
+    const jg_real t365 = t358 * lambda[3];
+    const jg_real t366 = t360 * lambda[3];
+    const jg_real t367 = t364 * across_world_0 + t42 * (A_i[0] - f_j_world_0 * t362) - (t361 * s_j_world_1 - t359 *
+        s_j_world_2 - (t365 * h_j_world_2 - t366 * h_j_world_1));
+    const jg_real t368 = t367 - (t361 * r_ij_world_1 - t359 * r_ij_world_2);
+    const jg_real t369 = t356 * lambda[3];
+    const jg_real t370 = t364 * across_world_1 + t42 * (A_i[1] - f_j_world_1 * t362) - (t357 * s_j_world_2 - t361 *
+        s_j_world_0 - (t366 * h_j_world_0 - h_j_world_2 * t369));
+    const jg_real t371 = t370 - (t357 * r_ij_world_2 - t361 * r_ij_world_0);
+    const jg_real t372 = t364 * across_world_2 + t42 * (A_i[2] - f_j_world_2 * t362) - (t359 * s_j_world_0 - t357 *
+        s_j_world_1 - (h_j_world_1 * t369 - t365 * h_j_world_0));
+    const jg_real t373 = t372 - (t359 * r_ij_world_0 - t357 * r_ij_world_1);
+    jac_phi_q_t_lambda_geometry[39] = A_i[0] * t368 + A_i[1] * t371 + A_i[2] * t373;
+    jac_phi_q_t_lambda_geometry[40] = A_i[3] * t368 + A_i[4] * t371 + A_i[5] * t373;
+    jac_phi_q_t_lambda_geometry[41] = A_i[6] * t368 + A_i[7] * t371 + A_i[8] * t373;
+    jac_phi_q_t_lambda_geometry[45] = -(A_j[0] * t367 + A_j[1] * t370 + A_j[2] * t372);
+    jac_phi_q_t_lambda_geometry[46] = -(A_j[3] * t367 + A_j[4] * t370 + A_j[5] * t372);
+    jac_phi_q_t_lambda_geometry[47] = -(A_j[6] * t367 + A_j[7] * t370 + A_j[8] * t372);
+    const jg_real t374 = f_i_world_2 * A_i[4] - A_i[5] * f_i_world_1;
+    const jg_real t375 = t374 * lambda[1] + A_i[3] * lambda[4];
+    jac_phi_q_t_lambda_geometry[54] = t375;
+    jac_phi_q_t_lambda_geometry[48] = -t375;
+    const jg_real t376 = A_i[5] * f_i_world_0 - f_i_world_2 * A_i[3];
+    const jg_real t377 = lambda[1] * t376 + A_i[4] * lambda[4];
+    jac_phi_q_t_lambda_geometry[55] = t377;
+    jac_phi_q_t_lambda_geometry[49] = -t377;
+    const jg_real t378 = f_i_world_1 * A_i[3] - A_i[4] * f_i_world_0;
+    const jg_real t379 = lambda[1] * t378 + A_i[5] * lambda[4];
+    jac_phi_q_t_lambda_geometry[56] = t379;
+    jac_phi_q_t_lambda_geometry[50] = -t379;
+    const jg_real t380 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real t381 = h_i_dot_f_j * t380;
+    const jg_real t382 = (t381 + t381) * t50 * lambda[4] * pitch;
+    const jg_real t383 = t376 * lambda[3];
+    const jg_real t384 = t378 * lambda[3];
+    const jg_real t385 = t382 * across_world_0 + t42 * (A_i[3] - f_j_world_0 * t380) - (t379 * s_j_world_1 - t377 *
+        s_j_world_2 - (t383 * h_j_world_2 - t384 * h_j_world_1));
+    const jg_real t386 = t385 - (t379 * r_ij_world_1 - t377 * r_ij_world_2);
+    const jg_real t387 = t374 * lambda[3];
+    const jg_real t388 = t382 * across_world_1 + t42 * (A_i[4] - f_j_world_1 * t380) - (t375 * s_j_world_2 - t379 *
+        s_j_world_0 - (t384 * h_j_world_0 - h_j_world_2 * t387));
+    const jg_real t389 = t388 - (t375 * r_ij_world_2 - t379 * r_ij_world_0);
+    const jg_real t390 = t382 * across_world_2 + t42 * (A_i[5] - f_j_world_2 * t380) - (t377 * s_j_world_0 - t375 *
+        s_j_world_1 - (h_j_world_1 * t387 - t383 * h_j_world_0));
+    const jg_real t391 = t390 - (t377 * r_ij_world_0 - t375 * r_ij_world_1);
+    jac_phi_q_t_lambda_geometry[51] = A_i[0] * t386 + A_i[1] * t389 + A_i[2] * t391;
+    jac_phi_q_t_lambda_geometry[52] = A_i[3] * t386 + A_i[4] * t389 + A_i[5] * t391;
+    jac_phi_q_t_lambda_geometry[53] = A_i[6] * t386 + A_i[7] * t389 + A_i[8] * t391;
+    jac_phi_q_t_lambda_geometry[57] = -(A_j[0] * t385 + A_j[1] * t388 + A_j[2] * t390);
+    jac_phi_q_t_lambda_geometry[58] = -(A_j[3] * t385 + A_j[4] * t388 + A_j[5] * t390);
+    jac_phi_q_t_lambda_geometry[59] = -(A_j[6] * t385 + A_j[7] * t388 + A_j[8] * t390);
+    const jg_real t392 = f_i_world_2 * A_i[7] - A_i[8] * f_i_world_1;
+    const jg_real t393 = t392 * lambda[1] + A_i[6] * lambda[4];
+    jac_phi_q_t_lambda_geometry[66] = t393;
+    jac_phi_q_t_lambda_geometry[60] = -t393;
+    const jg_real t394 = A_i[8] * f_i_world_0 - f_i_world_2 * A_i[6];
+    const jg_real t395 = lambda[1] * t394 + A_i[7] * lambda[4];
+    jac_phi_q_t_lambda_geometry[67] = t395;
+    jac_phi_q_t_lambda_geometry[61] = -t395;
+    const jg_real t396 = f_i_world_1 * A_i[6] - A_i[7] * f_i_world_0;
+    const jg_real t397 = lambda[1] * t396 + A_i[8] * lambda[4];
+    jac_phi_q_t_lambda_geometry[68] = t397;
+    jac_phi_q_t_lambda_geometry[62] = -t397;
+    const jg_real t398 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    const jg_real t399 = h_i_dot_f_j * t398;
+    const jg_real t400 = (t399 + t399) * t50 * lambda[4] * pitch;
+    const jg_real t401 = t394 * lambda[3];
+    const jg_real t402 = t396 * lambda[3];
+    const jg_real t403 = t400 * across_world_0 + t42 * (A_i[6] - f_j_world_0 * t398) - (t397 * s_j_world_1 - t395 *
+        s_j_world_2 - (t401 * h_j_world_2 - t402 * h_j_world_1));
+    const jg_real t404 = t403 - (t397 * r_ij_world_1 - t395 * r_ij_world_2);
+    const jg_real t405 = t392 * lambda[3];
+    const jg_real t406 = t400 * across_world_1 + t42 * (A_i[7] - f_j_world_1 * t398) - (t393 * s_j_world_2 - t397 *
+        s_j_world_0 - (t402 * h_j_world_0 - h_j_world_2 * t405));
+    const jg_real t407 = t406 - (t393 * r_ij_world_2 - t397 * r_ij_world_0);
+    const jg_real t408 = t400 * across_world_2 + t42 * (A_i[8] - f_j_world_2 * t398) - (t395 * s_j_world_0 - t393 *
+        s_j_world_1 - (h_j_world_1 * t405 - t401 * h_j_world_0));
+    const jg_real t409 = t408 - (t395 * r_ij_world_0 - t393 * r_ij_world_1);
+    jac_phi_q_t_lambda_geometry[63] = A_i[0] * t404 + A_i[1] * t407 + A_i[2] * t409;
+    jac_phi_q_t_lambda_geometry[64] = A_i[3] * t404 + A_i[4] * t407 + A_i[5] * t409;
+    jac_phi_q_t_lambda_geometry[65] = A_i[6] * t404 + A_i[7] * t407 + A_i[8] * t409;
+    jac_phi_q_t_lambda_geometry[69] = -(A_j[0] * t403 + A_j[1] * t406 + A_j[2] * t408);
+    jac_phi_q_t_lambda_geometry[70] = -(A_j[3] * t403 + A_j[4] * t406 + A_j[5] * t408);
+    jac_phi_q_t_lambda_geometry[71] = -(A_j[6] * t403 + A_j[7] * t406 + A_j[8] * t408);
+    const jg_real t410 = v_0_world_2 * A_j[1] - v_0_world_1 * A_j[2];
+    const jg_real t411 = v_0_world_0 * A_j[2] - v_0_world_2 * A_j[0];
+    const jg_real t412 = v_0_world_1 * A_j[0] - v_0_world_0 * A_j[1];
+    jac_phi_q_t_lambda_geometry[72] = -(A_i[0] * t410 + A_i[1] * t411 + A_i[2] * t412);
+    jac_phi_q_t_lambda_geometry[73] = -(A_i[3] * t410 + A_i[4] * t411 + A_i[5] * t412);
+    jac_phi_q_t_lambda_geometry[74] = -(A_i[6] * t410 + A_i[7] * t411 + A_i[8] * t412);
+    jac_phi_q_t_lambda_geometry[75] = t410 * A_j[0] + A_j[1] * t411 + A_j[2] * t412;
+    jac_phi_q_t_lambda_geometry[76] = t410 * A_j[3] + A_j[4] * t411 + A_j[5] * t412;
+    jac_phi_q_t_lambda_geometry[77] = t410 * A_j[6] + A_j[7] * t411 + A_j[8] * t412;
+    const jg_real t413 = v_0_world_2 * A_j[4] - v_0_world_1 * A_j[5];
+    const jg_real t414 = v_0_world_0 * A_j[5] - v_0_world_2 * A_j[3];
+    const jg_real t415 = v_0_world_1 * A_j[3] - v_0_world_0 * A_j[4];
+    jac_phi_q_t_lambda_geometry[78] = -(A_i[0] * t413 + A_i[1] * t414 + A_i[2] * t415);
+    jac_phi_q_t_lambda_geometry[79] = -(A_i[3] * t413 + A_i[4] * t414 + A_i[5] * t415);
+    jac_phi_q_t_lambda_geometry[80] = -(A_i[6] * t413 + A_i[7] * t414 + A_i[8] * t415);
+    jac_phi_q_t_lambda_geometry[81] = t413 * A_j[0] + A_j[1] * t414 + A_j[2] * t415;
+    jac_phi_q_t_lambda_geometry[82] = t413 * A_j[3] + A_j[4] * t414 + A_j[5] * t415;
+    jac_phi_q_t_lambda_geometry[83] = t413 * A_j[6] + A_j[7] * t414 + A_j[8] * t415;
+    const jg_real t416 = v_0_world_2 * A_j[7] - v_0_world_1 * A_j[8];
+    const jg_real t417 = v_0_world_0 * A_j[8] - v_0_world_2 * A_j[6];
+    const jg_real t418 = v_0_world_1 * A_j[6] - v_0_world_0 * A_j[7];
+    jac_phi_q_t_lambda_geometry[84] = -(A_i[0] * t416 + A_i[1] * t417 + A_i[2] * t418);
+    jac_phi_q_t_lambda_geometry[85] = -(A_i[3] * t416 + A_i[4] * t417 + A_i[5] * t418);
+    jac_phi_q_t_lambda_geometry[86] = -(A_i[6] * t416 + A_i[7] * t417 + A_i[8] * t418);
+    jac_phi_q_t_lambda_geometry[87] = t416 * A_j[0] + A_j[1] * t417 + A_j[2] * t418;
+    jac_phi_q_t_lambda_geometry[88] = t416 * A_j[3] + A_j[4] * t417 + A_j[5] * t418;
+    jac_phi_q_t_lambda_geometry[89] = t416 * A_j[6] + A_j[7] * t417 + A_j[8] * t418;
+    const jg_real t419 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
+    const jg_real t420 = h_i_dot_f_j * t419;
+    const jg_real t421 = (t420 + t420) * t50 * lambda[4] * pitch;
+    const jg_real t422 = t421 * across_world_0 - t42 * (A_j[0] * h_i_dot_f_j + f_j_world_0 * t419);
+    const jg_real t423 = t421 * across_world_1 - t42 * (A_j[1] * h_i_dot_f_j + f_j_world_1 * t419);
+    const jg_real t424 = t421 * across_world_2 - t42 * (A_j[2] * h_i_dot_f_j + f_j_world_2 * t419);
+    jac_phi_q_t_lambda_geometry[90] = A_i[0] * t422 + A_i[1] * t423 + A_i[2] * t424;
+    jac_phi_q_t_lambda_geometry[91] = A_i[3] * t422 + A_i[4] * t423 + A_i[5] * t424;
+    jac_phi_q_t_lambda_geometry[92] = A_i[6] * t422 + A_i[7] * t423 + A_i[8] * t424;
+    jac_phi_q_t_lambda_geometry[93] = -(A_j[0] * t422 + A_j[1] * t423 + A_j[2] * t424);
+    jac_phi_q_t_lambda_geometry[94] = -(A_j[3] * t422 + A_j[4] * t423 + A_j[5] * t424);
+    jac_phi_q_t_lambda_geometry[95] = -(A_j[6] * t422 + A_j[7] * t423 + A_j[8] * t424);
+    const jg_real t425 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
+    const jg_real t426 = h_i_dot_f_j * t425;
+    const jg_real t427 = (t426 + t426) * t50 * lambda[4] * pitch;
+    const jg_real t428 = t427 * across_world_0 - t42 * (A_j[3] * h_i_dot_f_j + f_j_world_0 * t425);
+    const jg_real t429 = t427 * across_world_1 - t42 * (A_j[4] * h_i_dot_f_j + f_j_world_1 * t425);
+    const jg_real t430 = t427 * across_world_2 - t42 * (A_j[5] * h_i_dot_f_j + f_j_world_2 * t425);
+    jac_phi_q_t_lambda_geometry[96] = A_i[0] * t428 + A_i[1] * t429 + A_i[2] * t430;
+    jac_phi_q_t_lambda_geometry[97] = A_i[3] * t428 + A_i[4] * t429 + A_i[5] * t430;
+    jac_phi_q_t_lambda_geometry[98] = A_i[6] * t428 + A_i[7] * t429 + A_i[8] * t430;
+    jac_phi_q_t_lambda_geometry[99] = -(A_j[0] * t428 + A_j[1] * t429 + A_j[2] * t430);
+    jac_phi_q_t_lambda_geometry[100] = -(A_j[3] * t428 + A_j[4] * t429 + A_j[5] * t430);
+    jac_phi_q_t_lambda_geometry[101] = -(A_j[6] * t428 + A_j[7] * t429 + A_j[8] * t430);
+    const jg_real t431 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real t432 = h_i_dot_f_j * t431;
+    const jg_real t433 = (t432 + t432) * t50 * lambda[4] * pitch;
+    const jg_real t434 = t433 * across_world_0 - t42 * (A_j[6] * h_i_dot_f_j + f_j_world_0 * t431);
+    const jg_real t435 = t433 * across_world_1 - t42 * (A_j[7] * h_i_dot_f_j + f_j_world_1 * t431);
+    const jg_real t436 = t433 * across_world_2 - t42 * (A_j[8] * h_i_dot_f_j + f_j_world_2 * t431);
+    jac_phi_q_t_lambda_geometry[102] = A_i[0] * t434 + A_i[1] * t435 + A_i[2] * t436;
+    jac_phi_q_t_lambda_geometry[103] = A_i[3] * t434 + A_i[4] * t435 + A_i[5] * t436;
+    jac_phi_q_t_lambda_geometry[104] = A_i[6] * t434 + A_i[7] * t435 + A_i[8] * t436;
+    jac_phi_q_t_lambda_geometry[105] = -(A_j[0] * t434 + A_j[1] * t435 + A_j[2] * t436);
+    jac_phi_q_t_lambda_geometry[106] = -(A_j[3] * t434 + A_j[4] * t435 + A_j[5] * t436);
+    jac_phi_q_t_lambda_geometry[107] = -(A_j[6] * t434 + A_j[7] * t435 + A_j[8] * t436);
+    const jg_real t437 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
+    const jg_real t438 = v_2_world_2 * A_j[0] - A_j[2] * v_2_world_0;
+    const jg_real t439 = A_j[1] * v_2_world_0 - v_2_world_1 * A_j[0];
+    jac_phi_q_t_lambda_geometry[108] = A_i[0] * t437 + A_i[1] * t438 + A_i[2] * t439;
+    jac_phi_q_t_lambda_geometry[109] = A_i[3] * t437 + A_i[4] * t438 + A_i[5] * t439;
+    jac_phi_q_t_lambda_geometry[110] = A_i[6] * t437 + A_i[7] * t438 + A_i[8] * t439;
+    jac_phi_q_t_lambda_geometry[111] = -(t437 * A_j[0] + A_j[1] * t438 + A_j[2] * t439);
+    jac_phi_q_t_lambda_geometry[112] = -(t437 * A_j[3] + A_j[4] * t438 + A_j[5] * t439);
+    jac_phi_q_t_lambda_geometry[113] = -(t437 * A_j[6] + A_j[7] * t438 + A_j[8] * t439);
+    const jg_real t440 = A_j[5] * v_2_world_1 - A_j[4] * v_2_world_2;
+    const jg_real t441 = v_2_world_2 * A_j[3] - A_j[5] * v_2_world_0;
+    const jg_real t442 = A_j[4] * v_2_world_0 - v_2_world_1 * A_j[3];
+    jac_phi_q_t_lambda_geometry[114] = A_i[0] * t440 + A_i[1] * t441 + A_i[2] * t442;
+    jac_phi_q_t_lambda_geometry[115] = A_i[3] * t440 + A_i[4] * t441 + A_i[5] * t442;
+    jac_phi_q_t_lambda_geometry[116] = A_i[6] * t440 + A_i[7] * t441 + A_i[8] * t442;
+    jac_phi_q_t_lambda_geometry[117] = -(t440 * A_j[0] + A_j[1] * t441 + A_j[2] * t442);
+    jac_phi_q_t_lambda_geometry[118] = -(t440 * A_j[3] + A_j[4] * t441 + A_j[5] * t442);
+    jac_phi_q_t_lambda_geometry[119] = -(t440 * A_j[6] + A_j[7] * t441 + A_j[8] * t442);
+    const jg_real t443 = A_j[8] * v_2_world_1 - A_j[7] * v_2_world_2;
+    const jg_real t444 = v_2_world_2 * A_j[6] - A_j[8] * v_2_world_0;
+    const jg_real t445 = A_j[7] * v_2_world_0 - v_2_world_1 * A_j[6];
+    jac_phi_q_t_lambda_geometry[120] = A_i[0] * t443 + A_i[1] * t444 + A_i[2] * t445;
+    jac_phi_q_t_lambda_geometry[121] = A_i[3] * t443 + A_i[4] * t444 + A_i[5] * t445;
+    jac_phi_q_t_lambda_geometry[122] = A_i[6] * t443 + A_i[7] * t444 + A_i[8] * t445;
+    jac_phi_q_t_lambda_geometry[123] = -(t443 * A_j[0] + A_j[1] * t444 + A_j[2] * t445);
+    jac_phi_q_t_lambda_geometry[124] = -(t443 * A_j[3] + A_j[4] * t444 + A_j[5] * t445);
+    jac_phi_q_t_lambda_geometry[125] = -(t443 * A_j[6] + A_j[7] * t444 + A_j[8] * t445);
+    const jg_real t446 = t41 * across_world_0;
+    const jg_real t447 = t41 * across_world_1;
+    const jg_real t448 = t41 * across_world_2;
+    jac_phi_q_t_lambda_geometry[126] = A_i[0] * t446 + A_i[1] * t447 + A_i[2] * t448;
+    jac_phi_q_t_lambda_geometry[127] = A_i[3] * t446 + A_i[4] * t447 + A_i[5] * t448;
+    jac_phi_q_t_lambda_geometry[128] = A_i[6] * t446 + A_i[7] * t447 + A_i[8] * t448;
+    jac_phi_q_t_lambda_geometry[129] = -(A_j[0] * t446 + A_j[1] * t447 + A_j[2] * t448);
+    jac_phi_q_t_lambda_geometry[130] = -(A_j[3] * t446 + A_j[4] * t447 + A_j[5] * t448);
+    jac_phi_q_t_lambda_geometry[131] = -(A_j[6] * t446 + A_j[7] * t447 + A_j[8] * t448);
     jac_phi_q_t_lambda_lambda[0] = -f_i_world_0;
     jac_phi_q_t_lambda_lambda[1] = -f_i_world_1;
     jac_phi_q_t_lambda_lambda[2] = -f_i_world_2;
-    const jg_real t575 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    const jg_real t576 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
-    const jg_real t577 = t575 * s_j[1] - t576 * s_j[2];
-    jac_phi_q_t_lambda_lambda[9] = t577;
-    const jg_real t578 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    const jg_real t579 = s_j[2] * t578 - t575 * s_j[0];
-    jac_phi_q_t_lambda_lambda[10] = t579;
-    const jg_real t580 = t576 * s_j[0] - s_j[1] * t578;
-    jac_phi_q_t_lambda_lambda[11] = t580;
-    const jg_real t581 = t577 * A_j[0] + A_j[3] * t579 + A_j[6] * t580 + (f_i_world_2 * v_6_world_1 - f_i_world_1 *
-        v_6_world_2);
-    const jg_real t582 = t577 * A_j[1] + A_j[4] * t579 + A_j[7] * t580 + (f_i_world_0 * v_6_world_2 - f_i_world_2 *
-        v_6_world_0);
-    const jg_real t583 = t577 * A_j[2] + A_j[5] * t579 + A_j[8] * t580 + (f_i_world_1 * v_6_world_0 - f_i_world_0 *
-        v_6_world_1);
-    jac_phi_q_t_lambda_lambda[3] = -(A_i[0] * t581 + A_i[1] * t582 + A_i[2] * t583);
-    jac_phi_q_t_lambda_lambda[4] = -(A_i[3] * t581 + A_i[4] * t582 + A_i[5] * t583);
-    jac_phi_q_t_lambda_lambda[5] = -(A_i[6] * t581 + A_i[7] * t582 + A_i[8] * t583);
+    const jg_real t449 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    const jg_real t450 = f_i_world_2 * r_ij_world_1 - f_i_world_1 * r_ij_world_2 + t449;
+    const jg_real t451 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
+    const jg_real t452 = f_i_world_0 * r_ij_world_2 - f_i_world_2 * r_ij_world_0 + t451;
+    const jg_real t453 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    const jg_real t454 = f_i_world_1 * r_ij_world_0 - f_i_world_0 * r_ij_world_1 + t453;
+    jac_phi_q_t_lambda_lambda[3] = -(A_i[0] * t450 + A_i[1] * t452 + A_i[2] * t454);
+    jac_phi_q_t_lambda_lambda[4] = -(A_i[3] * t450 + A_i[4] * t452 + A_i[5] * t454);
+    jac_phi_q_t_lambda_lambda[5] = -(A_i[6] * t450 + A_i[7] * t452 + A_i[8] * t454);
+    jac_phi_q_t_lambda_lambda[9] = t449 * A_j[0] + A_j[1] * t451 + A_j[2] * t453;
+    jac_phi_q_t_lambda_lambda[10] = t449 * A_j[3] + A_j[4] * t451 + A_j[5] * t453;
+    jac_phi_q_t_lambda_lambda[11] = t449 * A_j[6] + A_j[7] * t451 + A_j[8] * t453;
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
-    const jg_real t584 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
-    const jg_real t585 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
-    const jg_real t586 = t584 * s_j[1] - t585 * s_j[2];
-    jac_phi_q_t_lambda_lambda[21] = t586;
-    const jg_real t587 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    const jg_real t588 = s_j[2] * t587 - t584 * s_j[0];
-    jac_phi_q_t_lambda_lambda[22] = t588;
-    const jg_real t589 = t585 * s_j[0] - s_j[1] * t587;
-    jac_phi_q_t_lambda_lambda[23] = t589;
-    const jg_real t590 = t586 * A_j[0] + A_j[3] * t588 + A_j[6] * t589 + (g_i_world_2 * v_6_world_1 - g_i_world_1 *
-        v_6_world_2);
-    const jg_real t591 = t586 * A_j[1] + A_j[4] * t588 + A_j[7] * t589 + (g_i_world_0 * v_6_world_2 - g_i_world_2 *
-        v_6_world_0);
-    const jg_real t592 = t586 * A_j[2] + A_j[5] * t588 + A_j[8] * t589 + (g_i_world_1 * v_6_world_0 - g_i_world_0 *
-        v_6_world_1);
-    jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t590 + A_i[1] * t591 + A_i[2] * t592);
-    jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t590 + A_i[4] * t591 + A_i[5] * t592);
-    jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t590 + A_i[7] * t591 + A_i[8] * t592);
-    const jg_real t593 = t576 * C_j[8] - t575 * C_j[7];
-    const jg_real t594 = t575 * C_j[6] - C_j[8] * t578;
-    const jg_real t595 = C_j[7] * t578 - t576 * C_j[6];
-    const jg_real t596 = t593 * A_j[0] + A_j[3] * t594 + A_j[6] * t595;
-    const jg_real t597 = t593 * A_j[1] + A_j[4] * t594 + A_j[7] * t595;
-    const jg_real t598 = t593 * A_j[2] + A_j[5] * t594 + A_j[8] * t595;
-    jac_phi_q_t_lambda_lambda[24] = A_i[0] * t596 + A_i[1] * t597 + A_i[2] * t598;
-    jac_phi_q_t_lambda_lambda[25] = A_i[3] * t596 + A_i[4] * t597 + A_i[5] * t598;
-    jac_phi_q_t_lambda_lambda[26] = A_i[6] * t596 + A_i[7] * t597 + A_i[8] * t598;
-    jac_phi_q_t_lambda_lambda[27] = -t593;
-    jac_phi_q_t_lambda_lambda[28] = -t594;
-    jac_phi_q_t_lambda_lambda[29] = -t595;
-    const jg_real t599 = t585 * C_j[8] - t584 * C_j[7];
-    const jg_real t600 = t584 * C_j[6] - C_j[8] * t587;
-    const jg_real t601 = C_j[7] * t587 - t585 * C_j[6];
-    const jg_real t602 = t599 * A_j[0] + A_j[3] * t600 + A_j[6] * t601;
-    const jg_real t603 = t599 * A_j[1] + A_j[4] * t600 + A_j[7] * t601;
-    const jg_real t604 = t599 * A_j[2] + A_j[5] * t600 + A_j[8] * t601;
-    jac_phi_q_t_lambda_lambda[30] = A_i[0] * t602 + A_i[1] * t603 + A_i[2] * t604;
-    jac_phi_q_t_lambda_lambda[31] = A_i[3] * t602 + A_i[4] * t603 + A_i[5] * t604;
-    jac_phi_q_t_lambda_lambda[32] = A_i[6] * t602 + A_i[7] * t603 + A_i[8] * t604;
-    jac_phi_q_t_lambda_lambda[33] = -t599;
-    jac_phi_q_t_lambda_lambda[34] = -t600;
-    jac_phi_q_t_lambda_lambda[35] = -t601;
+    const jg_real t455 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
+    const jg_real t456 = g_i_world_2 * r_ij_world_1 - g_i_world_1 * r_ij_world_2 + t455;
+    const jg_real t457 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
+    const jg_real t458 = g_i_world_0 * r_ij_world_2 - g_i_world_2 * r_ij_world_0 + t457;
+    const jg_real t459 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
+    const jg_real t460 = g_i_world_1 * r_ij_world_0 - g_i_world_0 * r_ij_world_1 + t459;
+    jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t456 + A_i[1] * t458 + A_i[2] * t460);
+    jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t456 + A_i[4] * t458 + A_i[5] * t460);
+    jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t456 + A_i[7] * t458 + A_i[8] * t460);
+    jac_phi_q_t_lambda_lambda[21] = t455 * A_j[0] + A_j[1] * t457 + A_j[2] * t459;
+    jac_phi_q_t_lambda_lambda[22] = t455 * A_j[3] + A_j[4] * t457 + A_j[5] * t459;
+    jac_phi_q_t_lambda_lambda[23] = t455 * A_j[6] + A_j[7] * t457 + A_j[8] * t459;
+    const jg_real t461 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    const jg_real t462 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real t463 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    jac_phi_q_t_lambda_lambda[24] = A_i[0] * t461 + A_i[1] * t462 + A_i[2] * t463;
+    jac_phi_q_t_lambda_lambda[25] = A_i[3] * t461 + A_i[4] * t462 + A_i[5] * t463;
+    jac_phi_q_t_lambda_lambda[26] = A_i[6] * t461 + A_i[7] * t462 + A_i[8] * t463;
+    jac_phi_q_t_lambda_lambda[27] = -(t461 * A_j[0] + A_j[1] * t462 + A_j[2] * t463);
+    jac_phi_q_t_lambda_lambda[28] = -(t461 * A_j[3] + A_j[4] * t462 + A_j[5] * t463);
+    jac_phi_q_t_lambda_lambda[29] = -(t461 * A_j[6] + A_j[7] * t462 + A_j[8] * t463);
+    const jg_real t464 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
+    const jg_real t465 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real t466 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
+    jac_phi_q_t_lambda_lambda[30] = A_i[0] * t464 + A_i[1] * t465 + A_i[2] * t466;
+    jac_phi_q_t_lambda_lambda[31] = A_i[3] * t464 + A_i[4] * t465 + A_i[5] * t466;
+    jac_phi_q_t_lambda_lambda[32] = A_i[6] * t464 + A_i[7] * t465 + A_i[8] * t466;
+    jac_phi_q_t_lambda_lambda[33] = -(t464 * A_j[0] + A_j[1] * t465 + A_j[2] * t466);
+    jac_phi_q_t_lambda_lambda[34] = -(t464 * A_j[3] + A_j[4] * t465 + A_j[5] * t466);
+    jac_phi_q_t_lambda_lambda[35] = -(t464 * A_j[6] + A_j[7] * t465 + A_j[8] * t466);
     jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
-    const jg_real t605 = spread * pitch;
-    const jg_real t606 = t605 * across_in_j_0 - (h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2]);
-    const jg_real t607 = t605 * across_in_j_1 - (s_j[2] * h_i_in_j_0 - h_i_in_j_2 * s_j[0]);
-    const jg_real t608 = t605 * across_in_j_2 - (h_i_in_j_1 * s_j[0] - s_j[1] * h_i_in_j_0);
-    const jg_real t609 = A_j[0] * t606 + A_j[3] * t607 + A_j[6] * t608 - (h_i_world_2 * v_6_world_1 - h_i_world_1 *
-        v_6_world_2);
-    const jg_real t610 = A_j[1] * t606 + A_j[4] * t607 + A_j[7] * t608 - (h_i_world_0 * v_6_world_2 - h_i_world_2 *
-        v_6_world_0);
-    const jg_real t611 = A_j[2] * t606 + A_j[5] * t607 + A_j[8] * t608 - (h_i_world_1 * v_6_world_0 - h_i_world_0 *
-        v_6_world_1);
-    jac_phi_q_t_lambda_lambda[39] = A_i[0] * t609 + A_i[1] * t610 + A_i[2] * t611;
-    jac_phi_q_t_lambda_lambda[40] = A_i[3] * t609 + A_i[4] * t610 + A_i[5] * t611;
-    jac_phi_q_t_lambda_lambda[41] = A_i[6] * t609 + A_i[7] * t610 + A_i[8] * t611;
-    jac_phi_q_t_lambda_lambda[45] = -t606;
-    jac_phi_q_t_lambda_lambda[46] = -t607;
-    jac_phi_q_t_lambda_lambda[47] = -t608;
+    const jg_real t467 = spread * pitch;
+    const jg_real t468 = t467 * across_world_0 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
+    const jg_real t469 = t468 - (h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2);
+    const jg_real t470 = t467 * across_world_1 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
+    const jg_real t471 = t470 - (h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0);
+    const jg_real t472 = t467 * across_world_2 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
+    const jg_real t473 = t472 - (h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1);
+    jac_phi_q_t_lambda_lambda[39] = A_i[0] * t469 + A_i[1] * t471 + A_i[2] * t473;
+    jac_phi_q_t_lambda_lambda[40] = A_i[3] * t469 + A_i[4] * t471 + A_i[5] * t473;
+    jac_phi_q_t_lambda_lambda[41] = A_i[6] * t469 + A_i[7] * t471 + A_i[8] * t473;
+    jac_phi_q_t_lambda_lambda[45] = -(A_j[0] * t468 + A_j[1] * t470 + A_j[2] * t472);
+    jac_phi_q_t_lambda_lambda[46] = -(A_j[3] * t468 + A_j[4] * t470 + A_j[5] * t472);
+    jac_phi_q_t_lambda_lambda[47] = -(A_j[6] * t468 + A_j[7] * t470 + A_j[8] * t472);
 }
 
 JG_EXPORT int jg_screw_conventional_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);
@@ -3057,7 +2849,7 @@ int jac_jg_screw_conventional_phi_q_t_lambda_external(const double **arg, double
     double unwanted_1[108];
     double unwanted_2[9];
     double unwanted_3[54];
-    double unwanted_4[126];
+    double unwanted_4[132];
     double unwanted_5[48];
     (void)iw;
     (void)w;
@@ -3156,11 +2948,12 @@ const casadi_int *jac_jg_screw_conventional_phi_q_t_lambda_external_sparsity_out
         10, 11
     };
     static const casadi_int pattern_4[] = {
-        12, 27, 0, 0, 0, 0, 12, 24, 36, 36, 36, 36, 48, 60, 72, 77, 82, 87, 93, 99, 105, 105, 105, 105, 110, 115,
-        120, 126, 126, 126, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3,
+        12, 27, 0, 0, 0, 0, 12, 24, 36, 36, 36, 36, 48, 60, 72, 78, 84, 90, 96, 102, 108, 108, 108, 108, 114, 120,
+        126, 132, 132, 132, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3,
         4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1,
-        2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 9, 10, 11, 3, 4,
-        5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 10, 11, 3, 4, 5, 9, 11, 3, 4, 5, 9, 10, 3, 4, 5, 9, 10, 11
+        2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10,
+        11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3, 4, 5, 9, 10, 11, 3,
+        4, 5, 9, 10, 11
     };
     static const casadi_int pattern_5[] = {
         12, 5, 0, 12, 24, 30, 36, 48, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 3,

@@ -64,10 +64,10 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_r_i[8] = -t8;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + r_ij_world_0;
     jac_phi_A_i[0] = e_ij_world_0 * C_i[0];
     jac_phi_A_i[1] = e_ij_world_0 * C_i[3];
     /* h_j_world = h_j, world axes */
@@ -87,8 +87,8 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t20 = g_i_dot_f_j / t18;
     jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20) * pitch;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = s_j_world_1 + r_ij_world_1;
     jac_phi_A_i[5] = e_ij_world_1 * C_i[0];
     jac_phi_A_i[6] = e_ij_world_1 * C_i[3];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
@@ -96,8 +96,8 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_i[8] = C_i[3] * h_j_world_1;
     jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20) * pitch;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = s_j_world_2 + r_ij_world_2;
     jac_phi_A_i[10] = e_ij_world_2 * C_i[0];
     jac_phi_A_i[11] = e_ij_world_2 * C_i[3];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
@@ -224,9 +224,9 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[6] = -C_i[2];
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     jac_phi_geometry[18] = d_ij_in_i_0;
@@ -306,7 +306,6 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
     jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
-    const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
@@ -315,362 +314,440 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* A_joint_i_world = turns world axes to joint i axes */
-    const jg_real A_joint_i_world_3 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    jac_phi_q_v_velocity[27] = A_joint_i_world_3;
-    const jg_real A_joint_i_world_7 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    jac_phi_q_v_velocity[31] = A_joint_i_world_7;
-    const jg_real A_joint_i_world_4 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    jac_phi_q_v_velocity[28] = A_joint_i_world_4;
-    const jg_real A_joint_i_world_6 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_v_velocity[30] = A_joint_i_world_6;
-    const jg_real A_joint_i_world_2 = A_joint_i_world_3 * A_joint_i_world_7 - A_joint_i_world_4 * A_joint_i_world_6;
-    jac_phi_q_v_velocity[26] = A_joint_i_world_2;
-    const jg_real A_joint_i_world_5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    jac_phi_q_v_velocity[29] = A_joint_i_world_5;
-    const jg_real A_joint_i_world_8 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_q_v_velocity[32] = A_joint_i_world_8;
-    const jg_real A_joint_i_world_1 = A_joint_i_world_6 * A_joint_i_world_5 - A_joint_i_world_3 * A_joint_i_world_8;
-    jac_phi_q_v_velocity[25] = A_joint_i_world_1;
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = A_joint_i_world_1 * omega_i[0] + A_joint_i_world_4 * omega_i[1] +
-        A_joint_i_world_7 * omega_i[2];
-    const jg_real omega_i_in_joint_i_2 = A_joint_i_world_2 * omega_i[0] + A_joint_i_world_5 * omega_i[1] +
-        A_joint_i_world_8 * omega_i[2];
-    const jg_real t10 = A_joint_i_world_2 * omega_i_in_joint_i_1 - A_joint_i_world_1 * omega_i_in_joint_i_2;
-    jac_phi_q_v_r_i[0] = t10;
-    const jg_real A_joint_i_world_0 = A_joint_i_world_4 * A_joint_i_world_8 - A_joint_i_world_7 * A_joint_i_world_5;
-    jac_phi_q_v_velocity[24] = A_joint_i_world_0;
-    const jg_real omega_i_in_joint_i_0 = omega_i[0] * A_joint_i_world_0 + A_joint_i_world_3 * omega_i[1] +
-        A_joint_i_world_6 * omega_i[2];
-    const jg_real t13 = omega_i_in_joint_i_2 * A_joint_i_world_0 - A_joint_i_world_2 * omega_i_in_joint_i_0;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    jac_phi_q_v_velocity[27] = f_i_world_1;
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    jac_phi_q_v_velocity[31] = g_i_world_2;
+    const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    jac_phi_q_v_velocity[30] = f_i_world_2;
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    jac_phi_q_v_velocity[28] = g_i_world_1;
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    jac_phi_q_v_velocity[26] = h_i_world_0;
+    const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
+    jac_phi_q_v_velocity[25] = g_i_world_0;
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    jac_phi_q_v_velocity[24] = f_i_world_0;
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - g_i_world_2 * f_i_world_0;
+    jac_phi_q_v_velocity[29] = h_i_world_1;
+    const jg_real h_i_world_2 = g_i_world_1 * f_i_world_0 - f_i_world_1 * g_i_world_0;
+    jac_phi_q_v_velocity[32] = h_i_world_2;
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
+    const jg_real t11 = h_i_world_0 * g_i_dot_omega_i - g_i_world_0 * h_i_dot_omega_i;
+    jac_phi_q_v_r_i[0] = t11;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
+    const jg_real t13 = f_i_world_0 * h_i_dot_omega_i - h_i_world_0 * f_i_dot_omega_i;
     jac_phi_q_v_r_i[1] = t13;
-    const jg_real t14 = A_joint_i_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * A_joint_i_world_0;
+    const jg_real t14 = g_i_world_0 * f_i_dot_omega_i - f_i_world_0 * g_i_dot_omega_i;
     jac_phi_q_v_r_i[2] = t14;
-    const jg_real t15 = A_joint_i_world_5 * omega_i_in_joint_i_1 - A_joint_i_world_4 * omega_i_in_joint_i_2;
+    const jg_real t15 = h_i_world_1 * g_i_dot_omega_i - g_i_world_1 * h_i_dot_omega_i;
     jac_phi_q_v_r_i[3] = t15;
-    const jg_real t16 = A_joint_i_world_3 * omega_i_in_joint_i_2 - A_joint_i_world_5 * omega_i_in_joint_i_0;
+    const jg_real t16 = f_i_world_1 * h_i_dot_omega_i - h_i_world_1 * f_i_dot_omega_i;
     jac_phi_q_v_r_i[4] = t16;
-    const jg_real t17 = A_joint_i_world_4 * omega_i_in_joint_i_0 - A_joint_i_world_3 * omega_i_in_joint_i_1;
+    const jg_real t17 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
     jac_phi_q_v_r_i[5] = t17;
-    const jg_real t18 = A_joint_i_world_8 * omega_i_in_joint_i_1 - A_joint_i_world_7 * omega_i_in_joint_i_2;
+    const jg_real t18 = h_i_world_2 * g_i_dot_omega_i - g_i_world_2 * h_i_dot_omega_i;
     jac_phi_q_v_r_i[6] = t18;
-    const jg_real t19 = A_joint_i_world_6 * omega_i_in_joint_i_2 - A_joint_i_world_8 * omega_i_in_joint_i_0;
+    const jg_real t19 = f_i_world_2 * h_i_dot_omega_i - h_i_world_2 * f_i_dot_omega_i;
     jac_phi_q_v_r_i[7] = t19;
-    const jg_real t20 = A_joint_i_world_7 * omega_i_in_joint_i_0 - A_joint_i_world_6 * omega_i_in_joint_i_1;
+    const jg_real t20 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
     jac_phi_q_v_r_i[8] = t20;
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_0_in_joint_i = r_j - r_i, axes of joint i */
-    const jg_real v_0_in_joint_i_2 = A_joint_i_world_2 * v_0_world_0 + A_joint_i_world_5 * v_0_world_1 +
-        A_joint_i_world_8 * v_0_world_2;
-    /* s_i_in_joint_i = s_i, axes of joint i */
-    const jg_real s_i_in_joint_i_2 = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    /* v_1_in_joint_i = r_j - r_i - s_i, axes of joint i */
-    const jg_real v_1_in_joint_i_2 = v_0_in_joint_i_2 - s_i_in_joint_i_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real t22 = C_i[3] * s_j_world_0;
+    const jg_real t23 = C_i[0] * g_i_world_2 - C_i[3] * f_i_world_2;
+    const jg_real t24 = f_i_world_1 * C_i[3] - C_i[0] * g_i_world_1;
+    const jg_real t25 = t23 * omega_i[1] + t24 * omega_i[2];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_j_in_joint_i = s_j, axes of joint i */
-    const jg_real s_j_in_joint_i_2 = A_joint_i_world_2 * s_j_world_0 + A_joint_i_world_5 * s_j_world_1 +
-        A_joint_i_world_8 * s_j_world_2;
-    /* d_ij_in_joint_i = r_j + s_j - r_i - s_i, axes of joint i */
-    const jg_real d_ij_in_joint_i_2 = v_1_in_joint_i_2 + s_j_in_joint_i_2;
-    const jg_real t32 = A_joint_i_world_6 * C_i[6] - C_i[0] * A_joint_i_world_8;
-    const jg_real t33 = t32 * omega_i[0] + C_i[3] * omega_i[1];
-    const jg_real t34 = C_i[0] * A_joint_i_world_7 - C_i[3] * A_joint_i_world_6;
-    const jg_real t35 = t34 * s_j_world_0 + C_i[6] * s_j_world_1;
-    const jg_real t36 = t34 * v_0_world_0 + C_i[6] * v_0_world_1 + t35;
-    const jg_real v_0_in_joint_i_1 = v_0_world_0 * A_joint_i_world_1 + A_joint_i_world_4 * v_0_world_1 +
-        A_joint_i_world_7 * v_0_world_2;
-    const jg_real s_i_in_joint_i_1 = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    const jg_real v_1_in_joint_i_1 = v_0_in_joint_i_1 - s_i_in_joint_i_1;
-    const jg_real s_j_in_joint_i_1 = s_j_world_0 * A_joint_i_world_1 + A_joint_i_world_4 * s_j_world_1 +
-        A_joint_i_world_7 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_1 = v_1_in_joint_i_1 + s_j_in_joint_i_1;
-    const jg_real t42 = t34 * omega_i[0] + C_i[6] * omega_i[1];
-    const jg_real t43 = s_j_world_0 * t32 + C_i[3] * s_j_world_1;
-    const jg_real t44 = v_0_world_0 * t32 + C_i[3] * v_0_world_1 + t43;
-    const jg_real t45 = C_i[3] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[6];
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = A_joint_i_world_1 * omega_j[0] + A_joint_i_world_4 * omega_j[1] +
-        A_joint_i_world_7 * omega_j[2];
-    const jg_real t47 = t32 * omega_j[0] + C_i[3] * omega_j[1];
+    const jg_real s_j_in_joint_i_1 = s_j_world_0 * g_i_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 *
+        s_j_world_2;
+    const jg_real s_j_in_joint_i_2 = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 *
+        s_j_world_2;
+    const jg_real t30 = C_i[3] * omega_i[0];
+    const jg_real t31 = t23 * s_j_world_1 + t24 * s_j_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_2 = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
+    const jg_real t36 = t23 * r_ij_world_1 + t24 * r_ij_world_2;
+    const jg_real t37 = C_i[3] * r_ij_world_0;
+    const jg_real r_ij_in_joint_i_1 = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = A_joint_i_world_2 * omega_j[0] + A_joint_i_world_5 * omega_j[1] +
-        A_joint_i_world_8 * omega_j[2];
-    const jg_real t49 = t34 * omega_j[0] + C_i[6] * omega_j[1];
-    jac_phi_q_v_A_i[0] = t45 * v_j[0] + C_i[0] * v_j[1] - (d_ij_in_joint_i_2 * t33 + t36 * omega_i_in_joint_i_1 -
-        (d_ij_in_joint_i_1 * t42 + t44 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t33 - s_i_in_joint_i_1 * t42 +
-        (t45 * v_i[0] + C_i[0] * v_i[1])) - (t35 * g_i_dot_omega_j + s_j_in_joint_i_2 * t47 - (t43 * h_i_dot_omega_j
-        + s_j_in_joint_i_1 * t49)));
-    const jg_real v_0_in_joint_i_0 = v_0_world_0 * A_joint_i_world_0 + A_joint_i_world_3 * v_0_world_1 +
-        A_joint_i_world_6 * v_0_world_2;
-    const jg_real s_i_in_joint_i_0 = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    const jg_real v_1_in_joint_i_0 = v_0_in_joint_i_0 - s_i_in_joint_i_0;
-    const jg_real s_j_in_joint_i_0 = s_j_world_0 * A_joint_i_world_0 + A_joint_i_world_3 * s_j_world_1 +
-        A_joint_i_world_6 * s_j_world_2;
-    const jg_real d_ij_in_joint_i_0 = v_1_in_joint_i_0 + s_j_in_joint_i_0;
-    const jg_real t55 = s_j_world_0 * t45 + C_i[0] * s_j_world_1;
-    const jg_real t56 = v_0_world_0 * t45 + C_i[0] * v_0_world_1 + t55;
-    const jg_real t57 = omega_i[0] * t45 + C_i[0] * omega_i[1];
+    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
+    const jg_real t40 = t23 * omega_j[1] + t24 * omega_j[2];
+    const jg_real t41 = C_i[3] * omega_j[0];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
+    jac_phi_q_v_A_i[0] = C_i[0] * v_j[0] - (s_j_in_joint_i_2 * t30 - t31 * g_i_dot_omega_i - (h_i_dot_omega_i * t22
+        - t25 * s_j_in_joint_i_1) + (t30 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t36 - (h_i_dot_omega_i * t37 - t25
+        * r_ij_in_joint_i_1) + C_i[0] * v_i[0]) - (s_j_in_joint_i_2 * t41 - t31 * g_i_dot_omega_j - (t22 *
+        h_i_dot_omega_j - s_j_in_joint_i_1 * t40)));
+    const jg_real t43 = C_i[0] * s_j_world_0;
+    const jg_real s_j_in_joint_i_0 = s_j_world_0 * f_i_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 *
+        s_j_world_2;
+    const jg_real t45 = C_i[0] * omega_i[0];
+    const jg_real t46 = C_i[0] * r_ij_world_0;
+    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    const jg_real t48 = C_i[0] * omega_j[0];
     /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = A_joint_i_world_0 * omega_j[0] + A_joint_i_world_3 * omega_j[1] +
-        A_joint_i_world_6 * omega_j[2];
-    const jg_real t59 = t45 * omega_j[0] + C_i[0] * omega_j[1];
-    jac_phi_q_v_A_i[1] = t32 * v_j[0] + C_i[3] * v_j[1] - (t42 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t56 -
-        (d_ij_in_joint_i_2 * t57 + t36 * omega_i_in_joint_i_0) + (t42 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * t57 +
-        (t32 * v_i[0] + C_i[3] * v_i[1])) - (h_i_dot_omega_j * t55 + t49 * s_j_in_joint_i_0 - (t35 * f_i_dot_omega_j
-        + s_j_in_joint_i_2 * t59)));
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
+    jac_phi_q_v_A_i[1] = C_i[3] * v_j[0] - (h_i_dot_omega_i * t43 - t25 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t45
+        - t31 * f_i_dot_omega_i) + (h_i_dot_omega_i * t46 - t25 * r_ij_in_joint_i_0 - (r_ij_in_joint_i_2 * t45 - t36
+        * f_i_dot_omega_i) + C_i[3] * v_i[0]) - (h_i_dot_omega_j * t43 - t40 * s_j_in_joint_i_0 - (s_j_in_joint_i_2
+        * t48 - t31 * f_i_dot_omega_j)));
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t51 = C_i[3] * h_j_world_0;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = A_joint_i_world_2 * h_j_world_0 + A_joint_i_world_5 * h_j_world_1 +
-        A_joint_i_world_8 * h_j_world_2;
-    const jg_real t64 = t34 * h_j_world_0 + C_i[6] * h_j_world_1;
-    const jg_real h_j_in_joint_i_1 = A_joint_i_world_1 * h_j_world_0 + A_joint_i_world_4 * h_j_world_1 +
-        A_joint_i_world_7 * h_j_world_2;
-    const jg_real t66 = t32 * h_j_world_0 + C_i[3] * h_j_world_1;
-    jac_phi_q_v_A_i[2] = t47 * h_j_in_joint_i_2 + g_i_dot_omega_j * t64 - (t49 * h_j_in_joint_i_1 + h_i_dot_omega_j
-        * t66) - (t33 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t64 - (t42 * h_j_in_joint_i_1 +
-        omega_i_in_joint_i_2 * t66));
-    const jg_real h_j_in_joint_i_0 = A_joint_i_world_0 * h_j_world_0 + A_joint_i_world_3 * h_j_world_1 +
-        A_joint_i_world_6 * h_j_world_2;
-    const jg_real t68 = t45 * h_j_world_0 + C_i[0] * h_j_world_1;
-    jac_phi_q_v_A_i[3] = t49 * h_j_in_joint_i_0 + h_i_dot_omega_j * t68 - (t59 * h_j_in_joint_i_2 + f_i_dot_omega_j
-        * t64) - (t42 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t68 - (t57 * h_j_in_joint_i_2 +
-        omega_i_in_joint_i_0 * t64));
+    const jg_real h_j_in_joint_i_1 = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 *
+        h_j_world_2;
+    const jg_real h_j_in_joint_i_2 = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 *
+        h_j_world_2;
+    const jg_real t56 = t23 * h_j_world_1 + t24 * h_j_world_2;
+    jac_phi_q_v_A_i[2] = t41 * h_j_in_joint_i_2 - g_i_dot_omega_j * t56 - (h_i_dot_omega_j * t51 - t40 *
+        h_j_in_joint_i_1) - (t30 * h_j_in_joint_i_2 - g_i_dot_omega_i * t56 - (h_i_dot_omega_i * t51 - t25 *
+        h_j_in_joint_i_1));
+    const jg_real t57 = C_i[0] * h_j_world_0;
+    const jg_real h_j_in_joint_i_0 = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 *
+        h_j_world_2;
+    jac_phi_q_v_A_i[3] = h_i_dot_omega_j * t57 - t40 * h_j_in_joint_i_0 - (t48 * h_j_in_joint_i_2 - f_i_dot_omega_j
+        * t56) - (h_i_dot_omega_i * t57 - t25 * h_j_in_joint_i_0 - (t45 * h_j_in_joint_i_2 - f_i_dot_omega_i *
+        t56));
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = A_joint_i_world_2 * f_j_world_0 + A_joint_i_world_5 * f_j_world_1 +
-        A_joint_i_world_8 * f_j_world_2;
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real t74 = spread * spread;
-    const jg_real t75 = t34 * f_j_world_0 + C_i[6] * f_j_world_1;
-    const jg_real t76 = t75 * h_i_dot_f_j;
-    const jg_real t77 = (t76 + t76) * t74 * pitch;
+    const jg_real t64 = spread * spread;
+    const jg_real t65 = t23 * f_j_world_1 + t24 * f_j_world_2;
+    const jg_real t66 = h_i_dot_f_j * t65;
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = omega_i[0] * f_j_world_0 + omega_i[1] * f_j_world_1 + omega_i[2] * f_j_world_2;
-    const jg_real t79 = h_i_dot_f_j * omega_i_dot_f_j - omega_i_in_joint_i_2;
-    const jg_real t80 = spread * pitch;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j[0] * f_j_world_0 + omega_j[1] * f_j_world_1 + omega_j[2] * f_j_world_2;
-    const jg_real t82 = h_i_dot_f_j * omega_j_dot_f_j - h_i_dot_omega_j;
-    jac_phi_q_v_A_i[4] = t34 * v_j[0] + C_i[6] * v_j[1] - ((t75 * omega_i_dot_f_j - t42) * t80 + t79 * t77 +
-        (s_i_in_joint_i_1 * t57 - t33 * s_i_in_joint_i_0 + (t34 * v_i[0] + C_i[6] * v_i[1])) - (t77 * t82 + t80 *
-        (t75 * omega_j_dot_f_j - t49)) + (d_ij_in_joint_i_1 * t57 + t44 * omega_i_in_joint_i_0 - (t33 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t56)) - (t43 * f_i_dot_omega_j + s_j_in_joint_i_1 * t59 -
-        (g_i_dot_omega_j * t55 + t47 * s_j_in_joint_i_0)));
-    const jg_real t83 = C_i[0] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[6];
-    const jg_real t84 = t83 * omega_i[0] + C_i[3] * omega_i[2];
-    const jg_real t85 = A_joint_i_world_3 * C_i[3] - C_i[0] * A_joint_i_world_4;
-    const jg_real t86 = t85 * s_j_world_0 + C_i[6] * s_j_world_2;
-    const jg_real t87 = t85 * v_0_world_0 + C_i[6] * v_0_world_2 + t86;
-    const jg_real t88 = t85 * omega_i[0] + C_i[6] * omega_i[2];
-    const jg_real t89 = s_j_world_0 * t83 + C_i[3] * s_j_world_2;
-    const jg_real t90 = v_0_world_0 * t83 + C_i[3] * v_0_world_2 + t89;
-    const jg_real t91 = A_joint_i_world_4 * C_i[6] - C_i[3] * A_joint_i_world_5;
-    const jg_real t92 = t83 * omega_j[0] + C_i[3] * omega_j[2];
-    const jg_real t93 = t85 * omega_j[0] + C_i[6] * omega_j[2];
-    jac_phi_q_v_A_i[5] = t91 * v_j[0] + C_i[0] * v_j[2] - (d_ij_in_joint_i_2 * t84 + t87 * omega_i_in_joint_i_1 -
-        (d_ij_in_joint_i_1 * t88 + t90 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t84 - s_i_in_joint_i_1 * t88 +
-        (t91 * v_i[0] + C_i[0] * v_i[2])) - (t86 * g_i_dot_omega_j + s_j_in_joint_i_2 * t92 - (t89 * h_i_dot_omega_j
-        + s_j_in_joint_i_1 * t93)));
-    const jg_real t94 = s_j_world_0 * t91 + C_i[0] * s_j_world_2;
-    const jg_real t95 = v_0_world_0 * t91 + C_i[0] * v_0_world_2 + t94;
-    const jg_real t96 = omega_i[0] * t91 + C_i[0] * omega_i[2];
-    const jg_real t97 = t91 * omega_j[0] + C_i[0] * omega_j[2];
-    jac_phi_q_v_A_i[6] = t83 * v_j[0] + C_i[3] * v_j[2] - (t88 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t95 -
-        (d_ij_in_joint_i_2 * t96 + t87 * omega_i_in_joint_i_0) + (t88 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * t96 +
-        (t83 * v_i[0] + C_i[3] * v_i[2])) - (h_i_dot_omega_j * t94 + t93 * s_j_in_joint_i_0 - (t86 * f_i_dot_omega_j
-        + s_j_in_joint_i_2 * t97)));
-    const jg_real t98 = t85 * h_j_world_0 + C_i[6] * h_j_world_2;
-    const jg_real t99 = t83 * h_j_world_0 + C_i[3] * h_j_world_2;
-    jac_phi_q_v_A_i[7] = t92 * h_j_in_joint_i_2 + g_i_dot_omega_j * t98 - (t93 * h_j_in_joint_i_1 + h_i_dot_omega_j
-        * t99) - (t84 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t98 - (t88 * h_j_in_joint_i_1 +
-        omega_i_in_joint_i_2 * t99));
-    const jg_real t100 = t91 * h_j_world_0 + C_i[0] * h_j_world_2;
-    jac_phi_q_v_A_i[8] = t93 * h_j_in_joint_i_0 + h_i_dot_omega_j * t100 - (t97 * h_j_in_joint_i_2 + f_i_dot_omega_j
-        * t98) - (t88 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t100 - (t96 * h_j_in_joint_i_2 +
-        omega_i_in_joint_i_0 * t98));
-    const jg_real t101 = t85 * f_j_world_0 + C_i[6] * f_j_world_2;
-    const jg_real t102 = h_i_dot_f_j * t101;
-    const jg_real t103 = (t102 + t102) * t74 * pitch;
-    jac_phi_q_v_A_i[9] = t85 * v_j[0] + C_i[6] * v_j[2] - ((t101 * omega_i_dot_f_j - t88) * t80 + t79 * t103 +
-        (s_i_in_joint_i_1 * t96 - t84 * s_i_in_joint_i_0 + (t85 * v_i[0] + C_i[6] * v_i[2])) - (t103 * t82 + t80 *
-        (t101 * omega_j_dot_f_j - t93)) + (d_ij_in_joint_i_1 * t96 + t90 * omega_i_in_joint_i_0 - (t84 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t95)) - (t89 * f_i_dot_omega_j + s_j_in_joint_i_1 * t97 -
-        (g_i_dot_omega_j * t94 + t92 * s_j_in_joint_i_0)));
-    const jg_real t104 = A_joint_i_world_6 * C_i[7] - C_i[1] * A_joint_i_world_8;
-    const jg_real t105 = t104 * omega_i[0] + C_i[4] * omega_i[1];
-    const jg_real t106 = C_i[1] * A_joint_i_world_7 - C_i[4] * A_joint_i_world_6;
-    const jg_real t107 = t106 * s_j_world_0 + C_i[7] * s_j_world_1;
-    const jg_real t108 = t106 * v_0_world_0 + C_i[7] * v_0_world_1 + t107;
-    const jg_real t109 = t106 * omega_i[0] + C_i[7] * omega_i[1];
-    const jg_real t110 = s_j_world_0 * t104 + C_i[4] * s_j_world_1;
-    const jg_real t111 = v_0_world_0 * t104 + C_i[4] * v_0_world_1 + t110;
-    const jg_real t112 = C_i[4] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[7];
-    const jg_real t113 = t104 * omega_j[0] + C_i[4] * omega_j[1];
-    const jg_real t114 = t106 * omega_j[0] + C_i[7] * omega_j[1];
-    jac_phi_q_v_A_i[10] = t112 * v_j[0] + C_i[1] * v_j[1] - (d_ij_in_joint_i_2 * t105 + t108 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t109 + t111 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t105 - s_i_in_joint_i_1 *
-        t109 + (t112 * v_i[0] + C_i[1] * v_i[1])) - (t107 * g_i_dot_omega_j + s_j_in_joint_i_2 * t113 - (t110 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t114)));
-    const jg_real t115 = s_j_world_0 * t112 + C_i[1] * s_j_world_1;
-    const jg_real t116 = v_0_world_0 * t112 + C_i[1] * v_0_world_1 + t115;
-    const jg_real t117 = omega_i[0] * t112 + C_i[1] * omega_i[1];
-    const jg_real t118 = t112 * omega_j[0] + C_i[1] * omega_j[1];
-    jac_phi_q_v_A_i[11] = t104 * v_j[0] + C_i[4] * v_j[1] - (t109 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t116
-        - (d_ij_in_joint_i_2 * t117 + t108 * omega_i_in_joint_i_0) + (t109 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t117 + (t104 * v_i[0] + C_i[4] * v_i[1])) - (h_i_dot_omega_j * t115 + t114 * s_j_in_joint_i_0 - (t107 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t118)));
-    const jg_real t119 = t106 * h_j_world_0 + C_i[7] * h_j_world_1;
-    const jg_real t120 = t104 * h_j_world_0 + C_i[4] * h_j_world_1;
-    jac_phi_q_v_A_i[12] = t113 * h_j_in_joint_i_2 + g_i_dot_omega_j * t119 - (t114 * h_j_in_joint_i_1 +
-        h_i_dot_omega_j * t120) - (t105 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t119 - (t109 * h_j_in_joint_i_1
-        + omega_i_in_joint_i_2 * t120));
-    const jg_real t121 = t112 * h_j_world_0 + C_i[1] * h_j_world_1;
-    jac_phi_q_v_A_i[13] = t114 * h_j_in_joint_i_0 + h_i_dot_omega_j * t121 - (t118 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t119) - (t109 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t121 - (t117 * h_j_in_joint_i_2
-        + omega_i_in_joint_i_0 * t119));
-    const jg_real t122 = t106 * f_j_world_0 + C_i[7] * f_j_world_1;
-    const jg_real t123 = t122 * h_i_dot_f_j;
-    const jg_real t124 = (t123 + t123) * t74 * pitch;
-    jac_phi_q_v_A_i[14] = t106 * v_j[0] + C_i[7] * v_j[1] - ((t122 * omega_i_dot_f_j - t109) * t80 + t79 * t124 +
-        (s_i_in_joint_i_1 * t117 - t105 * s_i_in_joint_i_0 + (t106 * v_i[0] + C_i[7] * v_i[1])) - (t124 * t82 + t80
-        * (t122 * omega_j_dot_f_j - t114)) + (d_ij_in_joint_i_1 * t117 + t111 * omega_i_in_joint_i_0 - (t105 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t116)) - (t110 * f_i_dot_omega_j + s_j_in_joint_i_1 * t118 -
-        (g_i_dot_omega_j * t115 + t113 * s_j_in_joint_i_0)));
-    const jg_real t125 = C_i[1] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[7];
-    const jg_real t126 = t125 * omega_i[0] + C_i[4] * omega_i[2];
-    const jg_real t127 = A_joint_i_world_3 * C_i[4] - C_i[1] * A_joint_i_world_4;
-    const jg_real t128 = t127 * s_j_world_0 + C_i[7] * s_j_world_2;
-    const jg_real t129 = t127 * v_0_world_0 + C_i[7] * v_0_world_2 + t128;
-    const jg_real t130 = t127 * omega_i[0] + C_i[7] * omega_i[2];
-    const jg_real t131 = s_j_world_0 * t125 + C_i[4] * s_j_world_2;
-    const jg_real t132 = v_0_world_0 * t125 + C_i[4] * v_0_world_2 + t131;
-    const jg_real t133 = A_joint_i_world_4 * C_i[7] - C_i[4] * A_joint_i_world_5;
-    const jg_real t134 = t125 * omega_j[0] + C_i[4] * omega_j[2];
-    const jg_real t135 = t127 * omega_j[0] + C_i[7] * omega_j[2];
-    jac_phi_q_v_A_i[15] = t133 * v_j[0] + C_i[1] * v_j[2] - (d_ij_in_joint_i_2 * t126 + t129 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t130 + t132 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t126 - s_i_in_joint_i_1 *
-        t130 + (t133 * v_i[0] + C_i[1] * v_i[2])) - (t128 * g_i_dot_omega_j + s_j_in_joint_i_2 * t134 - (t131 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t135)));
-    const jg_real t136 = s_j_world_0 * t133 + C_i[1] * s_j_world_2;
-    const jg_real t137 = v_0_world_0 * t133 + C_i[1] * v_0_world_2 + t136;
-    const jg_real t138 = omega_i[0] * t133 + C_i[1] * omega_i[2];
-    const jg_real t139 = t133 * omega_j[0] + C_i[1] * omega_j[2];
-    jac_phi_q_v_A_i[16] = t125 * v_j[0] + C_i[4] * v_j[2] - (t130 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t137
-        - (d_ij_in_joint_i_2 * t138 + t129 * omega_i_in_joint_i_0) + (t130 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t138 + (t125 * v_i[0] + C_i[4] * v_i[2])) - (h_i_dot_omega_j * t136 + t135 * s_j_in_joint_i_0 - (t128 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t139)));
-    const jg_real t140 = t127 * h_j_world_0 + C_i[7] * h_j_world_2;
-    const jg_real t141 = t125 * h_j_world_0 + C_i[4] * h_j_world_2;
-    jac_phi_q_v_A_i[17] = t134 * h_j_in_joint_i_2 + g_i_dot_omega_j * t140 - (t135 * h_j_in_joint_i_1 +
-        h_i_dot_omega_j * t141) - (t126 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t140 - (t130 * h_j_in_joint_i_1
-        + omega_i_in_joint_i_2 * t141));
-    const jg_real t142 = t133 * h_j_world_0 + C_i[1] * h_j_world_2;
-    jac_phi_q_v_A_i[18] = t135 * h_j_in_joint_i_0 + h_i_dot_omega_j * t142 - (t139 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t140) - (t130 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t142 - (t138 * h_j_in_joint_i_2
-        + omega_i_in_joint_i_0 * t140));
-    const jg_real t143 = t127 * f_j_world_0 + C_i[7] * f_j_world_2;
-    const jg_real t144 = h_i_dot_f_j * t143;
-    const jg_real t145 = (t144 + t144) * t74 * pitch;
-    jac_phi_q_v_A_i[19] = t127 * v_j[0] + C_i[7] * v_j[2] - ((t143 * omega_i_dot_f_j - t130) * t80 + t79 * t145 +
-        (s_i_in_joint_i_1 * t138 - t126 * s_i_in_joint_i_0 + (t127 * v_i[0] + C_i[7] * v_i[2])) - (t145 * t82 + t80
-        * (t143 * omega_j_dot_f_j - t135)) + (d_ij_in_joint_i_1 * t138 + t132 * omega_i_in_joint_i_0 - (t126 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t137)) - (t131 * f_i_dot_omega_j + s_j_in_joint_i_1 * t139 -
-        (g_i_dot_omega_j * t136 + t134 * s_j_in_joint_i_0)));
-    const jg_real t146 = A_joint_i_world_6 * C_i[8] - C_i[2] * A_joint_i_world_8;
-    const jg_real t147 = t146 * omega_i[0] + C_i[5] * omega_i[1];
-    const jg_real t148 = C_i[2] * A_joint_i_world_7 - C_i[5] * A_joint_i_world_6;
-    const jg_real t149 = t148 * s_j_world_0 + C_i[8] * s_j_world_1;
-    const jg_real t150 = t148 * v_0_world_0 + C_i[8] * v_0_world_1 + t149;
-    const jg_real t151 = t148 * omega_i[0] + C_i[8] * omega_i[1];
-    const jg_real t152 = s_j_world_0 * t146 + C_i[5] * s_j_world_1;
-    const jg_real t153 = v_0_world_0 * t146 + C_i[5] * v_0_world_1 + t152;
-    const jg_real t154 = C_i[5] * A_joint_i_world_8 - A_joint_i_world_7 * C_i[8];
-    const jg_real t155 = t146 * omega_j[0] + C_i[5] * omega_j[1];
-    const jg_real t156 = t148 * omega_j[0] + C_i[8] * omega_j[1];
-    jac_phi_q_v_A_i[20] = t154 * v_j[0] + C_i[2] * v_j[1] - (d_ij_in_joint_i_2 * t147 + t150 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t151 + t153 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t147 - s_i_in_joint_i_1 *
-        t151 + (t154 * v_i[0] + C_i[2] * v_i[1])) - (t149 * g_i_dot_omega_j + s_j_in_joint_i_2 * t155 - (t152 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t156)));
-    const jg_real t157 = s_j_world_0 * t154 + C_i[2] * s_j_world_1;
-    const jg_real t158 = v_0_world_0 * t154 + C_i[2] * v_0_world_1 + t157;
-    const jg_real t159 = omega_i[0] * t154 + C_i[2] * omega_i[1];
-    const jg_real t160 = t154 * omega_j[0] + C_i[2] * omega_j[1];
-    jac_phi_q_v_A_i[21] = t146 * v_j[0] + C_i[5] * v_j[1] - (t151 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t158
-        - (d_ij_in_joint_i_2 * t159 + t150 * omega_i_in_joint_i_0) + (t151 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t159 + (t146 * v_i[0] + C_i[5] * v_i[1])) - (h_i_dot_omega_j * t157 + t156 * s_j_in_joint_i_0 - (t149 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t160)));
-    const jg_real t161 = t148 * h_j_world_0 + C_i[8] * h_j_world_1;
-    const jg_real t162 = t146 * h_j_world_0 + C_i[5] * h_j_world_1;
-    jac_phi_q_v_A_i[22] = t155 * h_j_in_joint_i_2 + g_i_dot_omega_j * t161 - (t156 * h_j_in_joint_i_1 +
-        h_i_dot_omega_j * t162) - (t147 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t161 - (t151 * h_j_in_joint_i_1
-        + omega_i_in_joint_i_2 * t162));
-    const jg_real t163 = t154 * h_j_world_0 + C_i[2] * h_j_world_1;
-    jac_phi_q_v_A_i[23] = t156 * h_j_in_joint_i_0 + h_i_dot_omega_j * t163 - (t160 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t161) - (t151 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t163 - (t159 * h_j_in_joint_i_2
-        + omega_i_in_joint_i_0 * t161));
-    const jg_real t164 = t148 * f_j_world_0 + C_i[8] * f_j_world_1;
-    const jg_real t165 = t164 * h_i_dot_f_j;
-    const jg_real t166 = (t165 + t165) * t74 * pitch;
-    jac_phi_q_v_A_i[24] = t148 * v_j[0] + C_i[8] * v_j[1] - ((t164 * omega_i_dot_f_j - t151) * t80 + t79 * t166 +
-        (s_i_in_joint_i_1 * t159 - t147 * s_i_in_joint_i_0 + (t148 * v_i[0] + C_i[8] * v_i[1])) - (t166 * t82 + t80
-        * (t164 * omega_j_dot_f_j - t156)) + (d_ij_in_joint_i_1 * t159 + t153 * omega_i_in_joint_i_0 - (t147 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t158)) - (t152 * f_i_dot_omega_j + s_j_in_joint_i_1 * t160 -
-        (g_i_dot_omega_j * t157 + t155 * s_j_in_joint_i_0)));
-    const jg_real t167 = C_i[2] * A_joint_i_world_5 - A_joint_i_world_3 * C_i[8];
-    const jg_real t168 = t167 * omega_i[0] + C_i[5] * omega_i[2];
-    const jg_real t169 = A_joint_i_world_3 * C_i[5] - C_i[2] * A_joint_i_world_4;
-    const jg_real t170 = t169 * s_j_world_0 + C_i[8] * s_j_world_2;
-    const jg_real t171 = t169 * v_0_world_0 + C_i[8] * v_0_world_2 + t170;
-    const jg_real t172 = t169 * omega_i[0] + C_i[8] * omega_i[2];
-    const jg_real t173 = s_j_world_0 * t167 + C_i[5] * s_j_world_2;
-    const jg_real t174 = v_0_world_0 * t167 + C_i[5] * v_0_world_2 + t173;
-    const jg_real t175 = A_joint_i_world_4 * C_i[8] - C_i[5] * A_joint_i_world_5;
-    const jg_real t176 = t167 * omega_j[0] + C_i[5] * omega_j[2];
-    const jg_real t177 = t169 * omega_j[0] + C_i[8] * omega_j[2];
-    jac_phi_q_v_A_i[25] = t175 * v_j[0] + C_i[2] * v_j[2] - (d_ij_in_joint_i_2 * t168 + t171 * omega_i_in_joint_i_1
-        - (d_ij_in_joint_i_1 * t172 + t174 * omega_i_in_joint_i_2) + (s_i_in_joint_i_2 * t168 - s_i_in_joint_i_1 *
-        t172 + (t175 * v_i[0] + C_i[2] * v_i[2])) - (t170 * g_i_dot_omega_j + s_j_in_joint_i_2 * t176 - (t173 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t177)));
-    const jg_real t178 = s_j_world_0 * t175 + C_i[2] * s_j_world_2;
-    const jg_real t179 = v_0_world_0 * t175 + C_i[2] * v_0_world_2 + t178;
-    const jg_real t180 = omega_i[0] * t175 + C_i[2] * omega_i[2];
-    const jg_real t181 = t175 * omega_j[0] + C_i[2] * omega_j[2];
-    jac_phi_q_v_A_i[26] = t167 * v_j[0] + C_i[5] * v_j[2] - (t172 * d_ij_in_joint_i_0 + omega_i_in_joint_i_2 * t179
-        - (d_ij_in_joint_i_2 * t180 + t171 * omega_i_in_joint_i_0) + (t172 * s_i_in_joint_i_0 - s_i_in_joint_i_2 *
-        t180 + (t167 * v_i[0] + C_i[5] * v_i[2])) - (h_i_dot_omega_j * t178 + t177 * s_j_in_joint_i_0 - (t170 *
-        f_i_dot_omega_j + s_j_in_joint_i_2 * t181)));
-    const jg_real t182 = t169 * h_j_world_0 + C_i[8] * h_j_world_2;
-    const jg_real t183 = t167 * h_j_world_0 + C_i[5] * h_j_world_2;
-    jac_phi_q_v_A_i[27] = t176 * h_j_in_joint_i_2 + g_i_dot_omega_j * t182 - (t177 * h_j_in_joint_i_1 +
-        h_i_dot_omega_j * t183) - (t168 * h_j_in_joint_i_2 + omega_i_in_joint_i_1 * t182 - (t172 * h_j_in_joint_i_1
-        + omega_i_in_joint_i_2 * t183));
-    const jg_real t184 = t175 * h_j_world_0 + C_i[2] * h_j_world_2;
-    jac_phi_q_v_A_i[28] = t177 * h_j_in_joint_i_0 + h_i_dot_omega_j * t184 - (t181 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t182) - (t172 * h_j_in_joint_i_0 + omega_i_in_joint_i_2 * t184 - (t180 * h_j_in_joint_i_2
-        + omega_i_in_joint_i_0 * t182));
-    const jg_real t185 = t169 * f_j_world_0 + C_i[8] * f_j_world_2;
-    const jg_real t186 = h_i_dot_f_j * t185;
-    const jg_real t187 = (t186 + t186) * t74 * pitch;
-    jac_phi_q_v_A_i[29] = t169 * v_j[0] + C_i[8] * v_j[2] - ((t185 * omega_i_dot_f_j - t172) * t80 + t79 * t187 +
-        (s_i_in_joint_i_1 * t180 - t168 * s_i_in_joint_i_0 + (t169 * v_i[0] + C_i[8] * v_i[2])) - (t187 * t82 + t80
-        * (t185 * omega_j_dot_f_j - t177)) + (d_ij_in_joint_i_1 * t180 + t174 * omega_i_in_joint_i_0 - (t168 *
-        d_ij_in_joint_i_0 + omega_i_in_joint_i_1 * t179)) - (t173 * f_i_dot_omega_j + s_j_in_joint_i_1 * t181 -
-        (g_i_dot_omega_j * t178 + t176 * s_j_in_joint_i_0)));
-    jac_phi_q_v_r_j[0] = -t10;
+    const jg_real t69 = omega_i_dot_f_j - omega_j_dot_f_j;
+    const jg_real t70 = h_i_dot_f_j * t69 - h_i_dot_omega_i + h_i_dot_omega_j;
+    const jg_real t71 = spread * pitch;
+    jac_phi_q_v_A_i[4] = -((t25 - t65 * t69 - t40) * t71 - (t66 + t66) * t64 * pitch * t70 - (t23 * v_i[1] + t24 *
+        v_i[2]) + (t37 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t45 - (g_i_dot_omega_i * t46 + t30 *
+        r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t45 + t22 * f_i_dot_omega_i - (t30 * s_j_in_joint_i_0 +
+        g_i_dot_omega_i * t43)) - (t22 * f_i_dot_omega_j + s_j_in_joint_i_1 * t48 - (g_i_dot_omega_j * t43 + t41 *
+        s_j_in_joint_i_0)) + (t23 * v_j[1] + t24 * v_j[2]));
+    const jg_real t72 = C_i[0] * g_i_world_0 - C_i[3] * f_i_world_0;
+    const jg_real t73 = t23 * omega_i[0] - t72 * omega_i[2];
+    const jg_real t74 = C_i[3] * s_j_world_1;
+    const jg_real t75 = C_i[3] * omega_i[1];
+    const jg_real t76 = t23 * s_j_world_0 - t72 * s_j_world_2;
+    const jg_real t77 = t23 * r_ij_world_0 - t72 * r_ij_world_2;
+    const jg_real t78 = C_i[3] * r_ij_world_1;
+    const jg_real t79 = t23 * omega_j[0] - t72 * omega_j[2];
+    const jg_real t80 = C_i[3] * omega_j[1];
+    jac_phi_q_v_A_i[5] = C_i[0] * v_j[1] - (s_j_in_joint_i_2 * t75 + t76 * g_i_dot_omega_i - (t73 * s_j_in_joint_i_1
+        + h_i_dot_omega_i * t74) + (g_i_dot_omega_i * t77 + t75 * r_ij_in_joint_i_2 - (h_i_dot_omega_i * t78 + t73 *
+        r_ij_in_joint_i_1) + C_i[0] * v_i[1]) - (t76 * g_i_dot_omega_j + s_j_in_joint_i_2 * t80 - (t74 *
+        h_i_dot_omega_j + s_j_in_joint_i_1 * t79)));
+    const jg_real t81 = C_i[0] * s_j_world_1;
+    const jg_real t82 = C_i[0] * omega_i[1];
+    const jg_real t83 = C_i[0] * r_ij_world_1;
+    const jg_real t84 = C_i[0] * omega_j[1];
+    jac_phi_q_v_A_i[6] = C_i[3] * v_j[1] - (t73 * s_j_in_joint_i_0 + h_i_dot_omega_i * t81 - (s_j_in_joint_i_2 * t82
+        + t76 * f_i_dot_omega_i) + (h_i_dot_omega_i * t83 + t73 * r_ij_in_joint_i_0 - (t77 * f_i_dot_omega_i +
+        r_ij_in_joint_i_2 * t82) + C_i[3] * v_i[1]) - (h_i_dot_omega_j * t81 + t79 * s_j_in_joint_i_0 - (t76 *
+        f_i_dot_omega_j + s_j_in_joint_i_2 * t84)));
+    const jg_real t85 = C_i[3] * h_j_world_1;
+    const jg_real t86 = t23 * h_j_world_0 - t72 * h_j_world_2;
+    jac_phi_q_v_A_i[7] = t80 * h_j_in_joint_i_2 + g_i_dot_omega_j * t86 - (t79 * h_j_in_joint_i_1 + h_i_dot_omega_j
+        * t85) - (t75 * h_j_in_joint_i_2 + g_i_dot_omega_i * t86 - (t73 * h_j_in_joint_i_1 + h_i_dot_omega_i *
+        t85));
+    const jg_real t87 = C_i[0] * h_j_world_1;
+    jac_phi_q_v_A_i[8] = t79 * h_j_in_joint_i_0 + h_i_dot_omega_j * t87 - (t84 * h_j_in_joint_i_2 + f_i_dot_omega_j
+        * t86) - (t73 * h_j_in_joint_i_0 + h_i_dot_omega_i * t87 - (t82 * h_j_in_joint_i_2 + f_i_dot_omega_i *
+        t86));
+    const jg_real t88 = t23 * f_j_world_0 - t72 * f_j_world_2;
+    const jg_real t89 = h_i_dot_f_j * t88;
+    jac_phi_q_v_A_i[9] = t23 * v_j[0] - t72 * v_j[2] - ((t88 * t69 - t73 + t79) * t71 + (t89 + t89) * t64 * pitch *
+        t70 + (t23 * v_i[0] - t72 * v_i[2]) + (t78 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t82 - (g_i_dot_omega_i *
+        t83 + t75 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t82 + t74 * f_i_dot_omega_i - (t75 * s_j_in_joint_i_0
+        + g_i_dot_omega_i * t81)) - (t74 * f_i_dot_omega_j + s_j_in_joint_i_1 * t84 - (g_i_dot_omega_j * t81 + t80 *
+        s_j_in_joint_i_0)));
+    const jg_real t90 = t24 * omega_i[0] + t72 * omega_i[1];
+    const jg_real t91 = C_i[3] * s_j_world_2;
+    const jg_real t92 = C_i[3] * omega_i[2];
+    const jg_real t93 = t24 * s_j_world_0 + t72 * s_j_world_1;
+    const jg_real t94 = t24 * r_ij_world_0 + t72 * r_ij_world_1;
+    const jg_real t95 = C_i[3] * r_ij_world_2;
+    const jg_real t96 = t24 * omega_j[0] + t72 * omega_j[1];
+    const jg_real t97 = C_i[3] * omega_j[2];
+    jac_phi_q_v_A_i[10] = C_i[0] * v_j[2] - (s_j_in_joint_i_2 * t92 + t93 * g_i_dot_omega_i - (t90 *
+        s_j_in_joint_i_1 + h_i_dot_omega_i * t91) + (g_i_dot_omega_i * t94 + t92 * r_ij_in_joint_i_2 -
+        (h_i_dot_omega_i * t95 + t90 * r_ij_in_joint_i_1) + C_i[0] * v_i[2]) - (t93 * g_i_dot_omega_j +
+        s_j_in_joint_i_2 * t97 - (t91 * h_i_dot_omega_j + s_j_in_joint_i_1 * t96)));
+    const jg_real t98 = C_i[0] * s_j_world_2;
+    const jg_real t99 = C_i[0] * omega_i[2];
+    const jg_real t100 = C_i[0] * r_ij_world_2;
+    const jg_real t101 = C_i[0] * omega_j[2];
+    jac_phi_q_v_A_i[11] = C_i[3] * v_j[2] - (t90 * s_j_in_joint_i_0 + h_i_dot_omega_i * t98 - (s_j_in_joint_i_2 *
+        t99 + t93 * f_i_dot_omega_i) + (h_i_dot_omega_i * t100 + t90 * r_ij_in_joint_i_0 - (t94 * f_i_dot_omega_i +
+        r_ij_in_joint_i_2 * t99) + C_i[3] * v_i[2]) - (h_i_dot_omega_j * t98 + t96 * s_j_in_joint_i_0 - (t93 *
+        f_i_dot_omega_j + s_j_in_joint_i_2 * t101)));
+    const jg_real t102 = C_i[3] * h_j_world_2;
+    const jg_real t103 = t24 * h_j_world_0 + t72 * h_j_world_1;
+    jac_phi_q_v_A_i[12] = t97 * h_j_in_joint_i_2 + g_i_dot_omega_j * t103 - (t96 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t102) - (t92 * h_j_in_joint_i_2 + g_i_dot_omega_i * t103 - (t90 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t102));
+    const jg_real t104 = C_i[0] * h_j_world_2;
+    jac_phi_q_v_A_i[13] = t96 * h_j_in_joint_i_0 + h_i_dot_omega_j * t104 - (t101 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t103) - (t90 * h_j_in_joint_i_0 + h_i_dot_omega_i * t104 - (t99 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t103));
+    const jg_real t105 = t24 * f_j_world_0 + t72 * f_j_world_1;
+    const jg_real t106 = t105 * h_i_dot_f_j;
+    jac_phi_q_v_A_i[14] = t24 * v_j[0] + t72 * v_j[1] - ((t105 * t69 - t90 + t96) * t71 + (t106 + t106) * t64 *
+        pitch * t70 + (t24 * v_i[0] + t72 * v_i[1]) + (t95 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t99 -
+        (g_i_dot_omega_i * t100 + t92 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t99 + t91 * f_i_dot_omega_i - (t92
+        * s_j_in_joint_i_0 + g_i_dot_omega_i * t98)) - (t91 * f_i_dot_omega_j + s_j_in_joint_i_1 * t101 -
+        (g_i_dot_omega_j * t98 + t97 * s_j_in_joint_i_0)));
+    const jg_real t107 = C_i[4] * s_j_world_0;
+    const jg_real t108 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
+    const jg_real t109 = f_i_world_1 * C_i[4] - C_i[1] * g_i_world_1;
+    const jg_real t110 = t108 * omega_i[1] + t109 * omega_i[2];
+    const jg_real t111 = C_i[4] * omega_i[0];
+    const jg_real t112 = t108 * s_j_world_1 + t109 * s_j_world_2;
+    const jg_real t113 = t108 * r_ij_world_1 + t109 * r_ij_world_2;
+    const jg_real t114 = C_i[4] * r_ij_world_0;
+    const jg_real t115 = t108 * omega_j[1] + t109 * omega_j[2];
+    const jg_real t116 = C_i[4] * omega_j[0];
+    jac_phi_q_v_A_i[15] = C_i[1] * v_j[0] - (s_j_in_joint_i_2 * t111 - t112 * g_i_dot_omega_i - (h_i_dot_omega_i *
+        t107 - t110 * s_j_in_joint_i_1) + (t111 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t113 - (h_i_dot_omega_i *
+        t114 - t110 * r_ij_in_joint_i_1) + C_i[1] * v_i[0]) - (s_j_in_joint_i_2 * t116 - t112 * g_i_dot_omega_j -
+        (t107 * h_i_dot_omega_j - s_j_in_joint_i_1 * t115)));
+    const jg_real t117 = C_i[1] * s_j_world_0;
+    const jg_real t118 = C_i[1] * omega_i[0];
+    const jg_real t119 = C_i[1] * r_ij_world_0;
+    const jg_real t120 = C_i[1] * omega_j[0];
+    jac_phi_q_v_A_i[16] = C_i[4] * v_j[0] - (h_i_dot_omega_i * t117 - t110 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 *
+        t118 - t112 * f_i_dot_omega_i) + (h_i_dot_omega_i * t119 - t110 * r_ij_in_joint_i_0 - (r_ij_in_joint_i_2 *
+        t118 - t113 * f_i_dot_omega_i) + C_i[4] * v_i[0]) - (h_i_dot_omega_j * t117 - t115 * s_j_in_joint_i_0 -
+        (s_j_in_joint_i_2 * t120 - t112 * f_i_dot_omega_j)));
+    const jg_real t121 = C_i[4] * h_j_world_0;
+    const jg_real t122 = t108 * h_j_world_1 + t109 * h_j_world_2;
+    jac_phi_q_v_A_i[17] = t116 * h_j_in_joint_i_2 - g_i_dot_omega_j * t122 - (h_i_dot_omega_j * t121 - t115 *
+        h_j_in_joint_i_1) - (t111 * h_j_in_joint_i_2 - g_i_dot_omega_i * t122 - (h_i_dot_omega_i * t121 - t110 *
+        h_j_in_joint_i_1));
+    const jg_real t123 = C_i[1] * h_j_world_0;
+    jac_phi_q_v_A_i[18] = h_i_dot_omega_j * t123 - t115 * h_j_in_joint_i_0 - (t120 * h_j_in_joint_i_2 -
+        f_i_dot_omega_j * t122) - (h_i_dot_omega_i * t123 - t110 * h_j_in_joint_i_0 - (t118 * h_j_in_joint_i_2 -
+        f_i_dot_omega_i * t122));
+    const jg_real t124 = t108 * f_j_world_1 + t109 * f_j_world_2;
+    const jg_real t125 = h_i_dot_f_j * t124;
+    jac_phi_q_v_A_i[19] = -((t110 - t124 * t69 - t115) * t71 - (t125 + t125) * t64 * pitch * t70 - (t108 * v_i[1] +
+        t109 * v_i[2]) + (t114 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t118 - (g_i_dot_omega_i * t119 + t111 *
+        r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t118 + t107 * f_i_dot_omega_i - (t111 * s_j_in_joint_i_0 +
+        g_i_dot_omega_i * t117)) - (t107 * f_i_dot_omega_j + s_j_in_joint_i_1 * t120 - (g_i_dot_omega_j * t117 +
+        t116 * s_j_in_joint_i_0)) + (t108 * v_j[1] + t109 * v_j[2]));
+    const jg_real t126 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
+    const jg_real t127 = t108 * omega_i[0] - t126 * omega_i[2];
+    const jg_real t128 = C_i[4] * s_j_world_1;
+    const jg_real t129 = C_i[4] * omega_i[1];
+    const jg_real t130 = t108 * s_j_world_0 - t126 * s_j_world_2;
+    const jg_real t131 = t108 * r_ij_world_0 - t126 * r_ij_world_2;
+    const jg_real t132 = C_i[4] * r_ij_world_1;
+    const jg_real t133 = t108 * omega_j[0] - t126 * omega_j[2];
+    const jg_real t134 = C_i[4] * omega_j[1];
+    jac_phi_q_v_A_i[20] = C_i[1] * v_j[1] - (s_j_in_joint_i_2 * t129 + t130 * g_i_dot_omega_i - (t127 *
+        s_j_in_joint_i_1 + h_i_dot_omega_i * t128) + (g_i_dot_omega_i * t131 + t129 * r_ij_in_joint_i_2 -
+        (h_i_dot_omega_i * t132 + t127 * r_ij_in_joint_i_1) + C_i[1] * v_i[1]) - (t130 * g_i_dot_omega_j +
+        s_j_in_joint_i_2 * t134 - (t128 * h_i_dot_omega_j + s_j_in_joint_i_1 * t133)));
+    const jg_real t135 = C_i[1] * s_j_world_1;
+    const jg_real t136 = C_i[1] * omega_i[1];
+    const jg_real t137 = C_i[1] * r_ij_world_1;
+    const jg_real t138 = C_i[1] * omega_j[1];
+    jac_phi_q_v_A_i[21] = C_i[4] * v_j[1] - (t127 * s_j_in_joint_i_0 + h_i_dot_omega_i * t135 - (s_j_in_joint_i_2 *
+        t136 + t130 * f_i_dot_omega_i) + (h_i_dot_omega_i * t137 + t127 * r_ij_in_joint_i_0 - (t131 *
+        f_i_dot_omega_i + r_ij_in_joint_i_2 * t136) + C_i[4] * v_i[1]) - (h_i_dot_omega_j * t135 + t133 *
+        s_j_in_joint_i_0 - (t130 * f_i_dot_omega_j + s_j_in_joint_i_2 * t138)));
+    const jg_real t139 = C_i[4] * h_j_world_1;
+    const jg_real t140 = t108 * h_j_world_0 - t126 * h_j_world_2;
+    jac_phi_q_v_A_i[22] = t134 * h_j_in_joint_i_2 + g_i_dot_omega_j * t140 - (t133 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t139) - (t129 * h_j_in_joint_i_2 + g_i_dot_omega_i * t140 - (t127 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t139));
+    const jg_real t141 = C_i[1] * h_j_world_1;
+    jac_phi_q_v_A_i[23] = t133 * h_j_in_joint_i_0 + h_i_dot_omega_j * t141 - (t138 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t140) - (t127 * h_j_in_joint_i_0 + h_i_dot_omega_i * t141 - (t136 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t140));
+    const jg_real t142 = t108 * f_j_world_0 - t126 * f_j_world_2;
+    const jg_real t143 = h_i_dot_f_j * t142;
+    jac_phi_q_v_A_i[24] = t108 * v_j[0] - t126 * v_j[2] - ((t142 * t69 - t127 + t133) * t71 + (t143 + t143) * t64 *
+        pitch * t70 + (t108 * v_i[0] - t126 * v_i[2]) + (t132 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t136 -
+        (g_i_dot_omega_i * t137 + t129 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t136 + t128 * f_i_dot_omega_i -
+        (t129 * s_j_in_joint_i_0 + g_i_dot_omega_i * t135)) - (t128 * f_i_dot_omega_j + s_j_in_joint_i_1 * t138 -
+        (g_i_dot_omega_j * t135 + t134 * s_j_in_joint_i_0)));
+    const jg_real t144 = t109 * omega_i[0] + t126 * omega_i[1];
+    const jg_real t145 = C_i[4] * s_j_world_2;
+    const jg_real t146 = C_i[4] * omega_i[2];
+    const jg_real t147 = t109 * s_j_world_0 + t126 * s_j_world_1;
+    const jg_real t148 = t109 * r_ij_world_0 + t126 * r_ij_world_1;
+    const jg_real t149 = C_i[4] * r_ij_world_2;
+    const jg_real t150 = t109 * omega_j[0] + t126 * omega_j[1];
+    const jg_real t151 = C_i[4] * omega_j[2];
+    jac_phi_q_v_A_i[25] = C_i[1] * v_j[2] - (s_j_in_joint_i_2 * t146 + t147 * g_i_dot_omega_i - (t144 *
+        s_j_in_joint_i_1 + h_i_dot_omega_i * t145) + (g_i_dot_omega_i * t148 + t146 * r_ij_in_joint_i_2 -
+        (h_i_dot_omega_i * t149 + t144 * r_ij_in_joint_i_1) + C_i[1] * v_i[2]) - (t147 * g_i_dot_omega_j +
+        s_j_in_joint_i_2 * t151 - (t145 * h_i_dot_omega_j + s_j_in_joint_i_1 * t150)));
+    const jg_real t152 = C_i[1] * s_j_world_2;
+    const jg_real t153 = C_i[1] * omega_i[2];
+    const jg_real t154 = C_i[1] * r_ij_world_2;
+    const jg_real t155 = C_i[1] * omega_j[2];
+    jac_phi_q_v_A_i[26] = C_i[4] * v_j[2] - (t144 * s_j_in_joint_i_0 + h_i_dot_omega_i * t152 - (s_j_in_joint_i_2 *
+        t153 + t147 * f_i_dot_omega_i) + (h_i_dot_omega_i * t154 + t144 * r_ij_in_joint_i_0 - (t148 *
+        f_i_dot_omega_i + r_ij_in_joint_i_2 * t153) + C_i[4] * v_i[2]) - (h_i_dot_omega_j * t152 + t150 *
+        s_j_in_joint_i_0 - (t147 * f_i_dot_omega_j + s_j_in_joint_i_2 * t155)));
+    const jg_real t156 = C_i[4] * h_j_world_2;
+    const jg_real t157 = t109 * h_j_world_0 + t126 * h_j_world_1;
+    jac_phi_q_v_A_i[27] = t151 * h_j_in_joint_i_2 + g_i_dot_omega_j * t157 - (t150 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t156) - (t146 * h_j_in_joint_i_2 + g_i_dot_omega_i * t157 - (t144 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t156));
+    const jg_real t158 = C_i[1] * h_j_world_2;
+    jac_phi_q_v_A_i[28] = t150 * h_j_in_joint_i_0 + h_i_dot_omega_j * t158 - (t155 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t157) - (t144 * h_j_in_joint_i_0 + h_i_dot_omega_i * t158 - (t153 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t157));
+    const jg_real t159 = t109 * f_j_world_0 + t126 * f_j_world_1;
+    const jg_real t160 = t159 * h_i_dot_f_j;
+    jac_phi_q_v_A_i[29] = t109 * v_j[0] + t126 * v_j[1] - ((t159 * t69 - t144 + t150) * t71 + (t160 + t160) * t64 *
+        pitch * t70 + (t109 * v_i[0] + t126 * v_i[1]) + (t149 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t153 -
+        (g_i_dot_omega_i * t154 + t146 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t153 + t145 * f_i_dot_omega_i -
+        (t146 * s_j_in_joint_i_0 + g_i_dot_omega_i * t152)) - (t145 * f_i_dot_omega_j + s_j_in_joint_i_1 * t155 -
+        (g_i_dot_omega_j * t152 + t151 * s_j_in_joint_i_0)));
+    const jg_real t161 = C_i[5] * s_j_world_0;
+    const jg_real t162 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
+    const jg_real t163 = f_i_world_1 * C_i[5] - C_i[2] * g_i_world_1;
+    const jg_real t164 = t162 * omega_i[1] + t163 * omega_i[2];
+    const jg_real t165 = C_i[5] * omega_i[0];
+    const jg_real t166 = t162 * s_j_world_1 + t163 * s_j_world_2;
+    const jg_real t167 = t162 * r_ij_world_1 + t163 * r_ij_world_2;
+    const jg_real t168 = C_i[5] * r_ij_world_0;
+    const jg_real t169 = t162 * omega_j[1] + t163 * omega_j[2];
+    const jg_real t170 = C_i[5] * omega_j[0];
+    jac_phi_q_v_A_i[30] = C_i[2] * v_j[0] - (s_j_in_joint_i_2 * t165 - t166 * g_i_dot_omega_i - (h_i_dot_omega_i *
+        t161 - t164 * s_j_in_joint_i_1) + (t165 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t167 - (h_i_dot_omega_i *
+        t168 - t164 * r_ij_in_joint_i_1) + C_i[2] * v_i[0]) - (s_j_in_joint_i_2 * t170 - t166 * g_i_dot_omega_j -
+        (t161 * h_i_dot_omega_j - s_j_in_joint_i_1 * t169)));
+    const jg_real t171 = C_i[2] * s_j_world_0;
+    const jg_real t172 = C_i[2] * omega_i[0];
+    const jg_real t173 = C_i[2] * r_ij_world_0;
+    const jg_real t174 = C_i[2] * omega_j[0];
+    jac_phi_q_v_A_i[31] = C_i[5] * v_j[0] - (h_i_dot_omega_i * t171 - t164 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 *
+        t172 - t166 * f_i_dot_omega_i) + (h_i_dot_omega_i * t173 - t164 * r_ij_in_joint_i_0 - (r_ij_in_joint_i_2 *
+        t172 - t167 * f_i_dot_omega_i) + C_i[5] * v_i[0]) - (h_i_dot_omega_j * t171 - t169 * s_j_in_joint_i_0 -
+        (s_j_in_joint_i_2 * t174 - t166 * f_i_dot_omega_j)));
+    const jg_real t175 = C_i[5] * h_j_world_0;
+    const jg_real t176 = t162 * h_j_world_1 + t163 * h_j_world_2;
+    jac_phi_q_v_A_i[32] = t170 * h_j_in_joint_i_2 - g_i_dot_omega_j * t176 - (h_i_dot_omega_j * t175 - t169 *
+        h_j_in_joint_i_1) - (t165 * h_j_in_joint_i_2 - g_i_dot_omega_i * t176 - (h_i_dot_omega_i * t175 - t164 *
+        h_j_in_joint_i_1));
+    const jg_real t177 = C_i[2] * h_j_world_0;
+    jac_phi_q_v_A_i[33] = h_i_dot_omega_j * t177 - t169 * h_j_in_joint_i_0 - (t174 * h_j_in_joint_i_2 -
+        f_i_dot_omega_j * t176) - (h_i_dot_omega_i * t177 - t164 * h_j_in_joint_i_0 - (t172 * h_j_in_joint_i_2 -
+        f_i_dot_omega_i * t176));
+    const jg_real t178 = t162 * f_j_world_1 + t163 * f_j_world_2;
+    const jg_real t179 = h_i_dot_f_j * t178;
+    jac_phi_q_v_A_i[34] = -((t164 - t178 * t69 - t169) * t71 - (t179 + t179) * t64 * pitch * t70 - (t162 * v_i[1] +
+        t163 * v_i[2]) + (t168 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t172 - (g_i_dot_omega_i * t173 + t165 *
+        r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t172 + t161 * f_i_dot_omega_i - (t165 * s_j_in_joint_i_0 +
+        g_i_dot_omega_i * t171)) - (t161 * f_i_dot_omega_j + s_j_in_joint_i_1 * t174 - (g_i_dot_omega_j * t171 +
+        t170 * s_j_in_joint_i_0)) + (t162 * v_j[1] + t163 * v_j[2]));
+    const jg_real t180 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
+    const jg_real t181 = t162 * omega_i[0] - t180 * omega_i[2];
+    const jg_real t182 = C_i[5] * s_j_world_1;
+    const jg_real t183 = C_i[5] * omega_i[1];
+    const jg_real t184 = t162 * s_j_world_0 - t180 * s_j_world_2;
+    const jg_real t185 = t162 * r_ij_world_0 - t180 * r_ij_world_2;
+    const jg_real t186 = C_i[5] * r_ij_world_1;
+    const jg_real t187 = t162 * omega_j[0] - t180 * omega_j[2];
+    const jg_real t188 = C_i[5] * omega_j[1];
+    jac_phi_q_v_A_i[35] = C_i[2] * v_j[1] - (s_j_in_joint_i_2 * t183 + t184 * g_i_dot_omega_i - (t181 *
+        s_j_in_joint_i_1 + h_i_dot_omega_i * t182) + (g_i_dot_omega_i * t185 + t183 * r_ij_in_joint_i_2 -
+        (h_i_dot_omega_i * t186 + t181 * r_ij_in_joint_i_1) + C_i[2] * v_i[1]) - (t184 * g_i_dot_omega_j +
+        s_j_in_joint_i_2 * t188 - (t182 * h_i_dot_omega_j + s_j_in_joint_i_1 * t187)));
+    const jg_real t189 = C_i[2] * s_j_world_1;
+    const jg_real t190 = C_i[2] * omega_i[1];
+    const jg_real t191 = C_i[2] * r_ij_world_1;
+    const jg_real t192 = C_i[2] * omega_j[1];
+    jac_phi_q_v_A_i[36] = C_i[5] * v_j[1] - (t181 * s_j_in_joint_i_0 + h_i_dot_omega_i * t189 - (s_j_in_joint_i_2 *
+        t190 + t184 * f_i_dot_omega_i) + (h_i_dot_omega_i * t191 + t181 * r_ij_in_joint_i_0 - (t185 *
+        f_i_dot_omega_i + r_ij_in_joint_i_2 * t190) + C_i[5] * v_i[1]) - (h_i_dot_omega_j * t189 + t187 *
+        s_j_in_joint_i_0 - (t184 * f_i_dot_omega_j + s_j_in_joint_i_2 * t192)));
+    const jg_real t193 = C_i[5] * h_j_world_1;
+    const jg_real t194 = t162 * h_j_world_0 - t180 * h_j_world_2;
+    jac_phi_q_v_A_i[37] = t188 * h_j_in_joint_i_2 + g_i_dot_omega_j * t194 - (t187 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t193) - (t183 * h_j_in_joint_i_2 + g_i_dot_omega_i * t194 - (t181 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t193));
+    const jg_real t195 = C_i[2] * h_j_world_1;
+    jac_phi_q_v_A_i[38] = t187 * h_j_in_joint_i_0 + h_i_dot_omega_j * t195 - (t192 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t194) - (t181 * h_j_in_joint_i_0 + h_i_dot_omega_i * t195 - (t190 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t194));
+    const jg_real t196 = t162 * f_j_world_0 - t180 * f_j_world_2;
+    const jg_real t197 = h_i_dot_f_j * t196;
+    jac_phi_q_v_A_i[39] = t162 * v_j[0] - t180 * v_j[2] - ((t196 * t69 - t181 + t187) * t71 + (t197 + t197) * t64 *
+        pitch * t70 + (t162 * v_i[0] - t180 * v_i[2]) + (t186 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t190 -
+        (g_i_dot_omega_i * t191 + t183 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t190 + t182 * f_i_dot_omega_i -
+        (t183 * s_j_in_joint_i_0 + g_i_dot_omega_i * t189)) - (t182 * f_i_dot_omega_j + s_j_in_joint_i_1 * t192 -
+        (g_i_dot_omega_j * t189 + t188 * s_j_in_joint_i_0)));
+    const jg_real t198 = t163 * omega_i[0] + t180 * omega_i[1];
+    const jg_real t199 = C_i[5] * s_j_world_2;
+    const jg_real t200 = C_i[5] * omega_i[2];
+    const jg_real t201 = t163 * s_j_world_0 + t180 * s_j_world_1;
+    const jg_real t202 = t163 * r_ij_world_0 + t180 * r_ij_world_1;
+    const jg_real t203 = C_i[5] * r_ij_world_2;
+    const jg_real t204 = t163 * omega_j[0] + t180 * omega_j[1];
+    const jg_real t205 = C_i[5] * omega_j[2];
+    jac_phi_q_v_A_i[40] = C_i[2] * v_j[2] - (s_j_in_joint_i_2 * t200 + t201 * g_i_dot_omega_i - (t198 *
+        s_j_in_joint_i_1 + h_i_dot_omega_i * t199) + (g_i_dot_omega_i * t202 + t200 * r_ij_in_joint_i_2 -
+        (h_i_dot_omega_i * t203 + t198 * r_ij_in_joint_i_1) + C_i[2] * v_i[2]) - (t201 * g_i_dot_omega_j +
+        s_j_in_joint_i_2 * t205 - (t199 * h_i_dot_omega_j + s_j_in_joint_i_1 * t204)));
+    const jg_real t206 = C_i[2] * s_j_world_2;
+    const jg_real t207 = C_i[2] * omega_i[2];
+    const jg_real t208 = C_i[2] * r_ij_world_2;
+    const jg_real t209 = C_i[2] * omega_j[2];
+    jac_phi_q_v_A_i[41] = C_i[5] * v_j[2] - (t198 * s_j_in_joint_i_0 + h_i_dot_omega_i * t206 - (s_j_in_joint_i_2 *
+        t207 + t201 * f_i_dot_omega_i) + (h_i_dot_omega_i * t208 + t198 * r_ij_in_joint_i_0 - (t202 *
+        f_i_dot_omega_i + r_ij_in_joint_i_2 * t207) + C_i[5] * v_i[2]) - (h_i_dot_omega_j * t206 + t204 *
+        s_j_in_joint_i_0 - (t201 * f_i_dot_omega_j + s_j_in_joint_i_2 * t209)));
+    const jg_real t210 = C_i[5] * h_j_world_2;
+    const jg_real t211 = t163 * h_j_world_0 + t180 * h_j_world_1;
+    jac_phi_q_v_A_i[42] = t205 * h_j_in_joint_i_2 + g_i_dot_omega_j * t211 - (t204 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t210) - (t200 * h_j_in_joint_i_2 + g_i_dot_omega_i * t211 - (t198 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t210));
+    const jg_real t212 = C_i[2] * h_j_world_2;
+    jac_phi_q_v_A_i[43] = t204 * h_j_in_joint_i_0 + h_i_dot_omega_j * t212 - (t209 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t211) - (t198 * h_j_in_joint_i_0 + h_i_dot_omega_i * t212 - (t207 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t211));
+    const jg_real t213 = t163 * f_j_world_0 + t180 * f_j_world_1;
+    const jg_real t214 = t213 * h_i_dot_f_j;
+    jac_phi_q_v_A_i[44] = t163 * v_j[0] + t180 * v_j[1] - ((t213 * t69 - t198 + t204) * t71 + (t214 + t214) * t64 *
+        pitch * t70 + (t163 * v_i[0] + t180 * v_i[1]) + (t203 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t207 -
+        (g_i_dot_omega_i * t208 + t200 * r_ij_in_joint_i_0)) + (s_j_in_joint_i_1 * t207 + t199 * f_i_dot_omega_i -
+        (t200 * s_j_in_joint_i_0 + g_i_dot_omega_i * t206)) - (t199 * f_i_dot_omega_j + s_j_in_joint_i_1 * t209 -
+        (g_i_dot_omega_j * t206 + t205 * s_j_in_joint_i_0)));
+    jac_phi_q_v_r_j[0] = -t11;
     jac_phi_q_v_r_j[1] = -t13;
     jac_phi_q_v_r_j[2] = -t14;
     jac_phi_q_v_r_j[3] = -t15;
@@ -679,664 +756,475 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_r_j[6] = -t18;
     jac_phi_q_v_r_j[7] = -t19;
     jac_phi_q_v_r_j[8] = -t20;
-    const jg_real t188 = A_joint_i_world_2 * s_j[0];
-    const jg_real t189 = s_j[0] * A_joint_i_world_1;
-    jac_phi_q_v_A_j[0] = t188 * g_i_dot_omega_j - t189 * h_i_dot_omega_j - (t188 * omega_i_in_joint_i_1 - t189 *
-        omega_i_in_joint_i_2);
-    const jg_real t190 = s_j[0] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[1] = h_i_dot_omega_j * t190 - t188 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t190 - t188 *
-        omega_i_in_joint_i_0);
-    const jg_real t191 = A_joint_i_world_2 * C_j[6];
-    const jg_real t192 = A_joint_i_world_1 * C_j[6];
-    jac_phi_q_v_A_j[2] = g_i_dot_omega_j * t191 - h_i_dot_omega_j * t192 - (omega_i_in_joint_i_1 * t191 -
-        omega_i_in_joint_i_2 * t192);
-    const jg_real t193 = A_joint_i_world_0 * C_j[6];
-    jac_phi_q_v_A_j[3] = h_i_dot_omega_j * t193 - f_i_dot_omega_j * t191 - (omega_i_in_joint_i_2 * t193 -
-        omega_i_in_joint_i_0 * t191);
-    const jg_real t194 = A_joint_i_world_2 * C_j[0];
-    const jg_real t195 = t194 * h_i_dot_f_j;
-    const jg_real t196 = (t195 + t195) * t74 * pitch;
-    jac_phi_q_v_A_j[4] = t189 * f_i_dot_omega_j - g_i_dot_omega_j * t190 - ((t194 * omega_i_dot_f_j + omega_i[0] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t196 - (t196 * t82 + t80 * (t194 * omega_j_dot_f_j + omega_j[0] * C_j[0]
-        * h_i_dot_f_j)) + (t189 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t190));
-    const jg_real t197 = A_joint_i_world_5 * s_j[0];
-    const jg_real t198 = A_joint_i_world_4 * s_j[0];
-    jac_phi_q_v_A_j[5] = t197 * g_i_dot_omega_j - t198 * h_i_dot_omega_j - (t197 * omega_i_in_joint_i_1 - t198 *
-        omega_i_in_joint_i_2);
-    const jg_real t199 = A_joint_i_world_3 * s_j[0];
-    jac_phi_q_v_A_j[6] = h_i_dot_omega_j * t199 - t197 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t199 - t197 *
-        omega_i_in_joint_i_0);
-    const jg_real t200 = A_joint_i_world_5 * C_j[6];
-    const jg_real t201 = A_joint_i_world_4 * C_j[6];
-    jac_phi_q_v_A_j[7] = g_i_dot_omega_j * t200 - h_i_dot_omega_j * t201 - (omega_i_in_joint_i_1 * t200 -
-        omega_i_in_joint_i_2 * t201);
-    const jg_real t202 = A_joint_i_world_3 * C_j[6];
-    jac_phi_q_v_A_j[8] = h_i_dot_omega_j * t202 - f_i_dot_omega_j * t200 - (omega_i_in_joint_i_2 * t202 -
-        omega_i_in_joint_i_0 * t200);
-    const jg_real t203 = A_joint_i_world_5 * C_j[0];
-    const jg_real t204 = t203 * h_i_dot_f_j;
-    const jg_real t205 = (t204 + t204) * t74 * pitch;
-    jac_phi_q_v_A_j[9] = t198 * f_i_dot_omega_j - g_i_dot_omega_j * t199 - ((t203 * omega_i_dot_f_j + omega_i[1] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t205 - (t205 * t82 + t80 * (t203 * omega_j_dot_f_j + omega_j[1] * C_j[0]
-        * h_i_dot_f_j)) + (t198 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t199));
-    const jg_real t206 = A_joint_i_world_8 * s_j[0];
-    const jg_real t207 = A_joint_i_world_7 * s_j[0];
-    jac_phi_q_v_A_j[10] = t206 * g_i_dot_omega_j - t207 * h_i_dot_omega_j - (t206 * omega_i_in_joint_i_1 - t207 *
-        omega_i_in_joint_i_2);
-    const jg_real t208 = A_joint_i_world_6 * s_j[0];
-    jac_phi_q_v_A_j[11] = h_i_dot_omega_j * t208 - t206 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t208 - t206 *
-        omega_i_in_joint_i_0);
-    const jg_real t209 = A_joint_i_world_8 * C_j[6];
-    const jg_real t210 = A_joint_i_world_7 * C_j[6];
-    jac_phi_q_v_A_j[12] = g_i_dot_omega_j * t209 - h_i_dot_omega_j * t210 - (omega_i_in_joint_i_1 * t209 -
-        omega_i_in_joint_i_2 * t210);
-    const jg_real t211 = A_joint_i_world_6 * C_j[6];
-    jac_phi_q_v_A_j[13] = h_i_dot_omega_j * t211 - f_i_dot_omega_j * t209 - (omega_i_in_joint_i_2 * t211 -
-        omega_i_in_joint_i_0 * t209);
-    const jg_real t212 = A_joint_i_world_8 * C_j[0];
-    const jg_real t213 = t212 * h_i_dot_f_j;
-    const jg_real t214 = (t213 + t213) * t74 * pitch;
-    jac_phi_q_v_A_j[14] = t207 * f_i_dot_omega_j - g_i_dot_omega_j * t208 - ((t212 * omega_i_dot_f_j + omega_i[2] *
-        C_j[0] * h_i_dot_f_j) * t80 + t79 * t214 - (t214 * t82 + t80 * (t212 * omega_j_dot_f_j + omega_j[2] * C_j[0]
-        * h_i_dot_f_j)) + (t207 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t208));
-    const jg_real t215 = A_joint_i_world_2 * s_j[1];
-    const jg_real t216 = s_j[1] * A_joint_i_world_1;
-    jac_phi_q_v_A_j[15] = t215 * g_i_dot_omega_j - t216 * h_i_dot_omega_j - (t215 * omega_i_in_joint_i_1 - t216 *
-        omega_i_in_joint_i_2);
-    const jg_real t217 = s_j[1] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[16] = h_i_dot_omega_j * t217 - t215 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t217 - t215 *
-        omega_i_in_joint_i_0);
-    const jg_real t218 = A_joint_i_world_2 * C_j[7];
-    const jg_real t219 = A_joint_i_world_1 * C_j[7];
-    jac_phi_q_v_A_j[17] = g_i_dot_omega_j * t218 - h_i_dot_omega_j * t219 - (omega_i_in_joint_i_1 * t218 -
-        omega_i_in_joint_i_2 * t219);
-    const jg_real t220 = A_joint_i_world_0 * C_j[7];
-    jac_phi_q_v_A_j[18] = h_i_dot_omega_j * t220 - f_i_dot_omega_j * t218 - (omega_i_in_joint_i_2 * t220 -
-        omega_i_in_joint_i_0 * t218);
-    const jg_real t221 = A_joint_i_world_2 * C_j[1];
+    const jg_real t215 = s_j[0] * g_i_world_0;
+    const jg_real t216 = h_i_world_0 * s_j[0];
+    jac_phi_q_v_A_j[0] = t216 * g_i_dot_omega_j - t215 * h_i_dot_omega_j - (t216 * g_i_dot_omega_i - h_i_dot_omega_i
+        * t215);
+    const jg_real t217 = s_j[0] * f_i_world_0;
+    jac_phi_q_v_A_j[1] = h_i_dot_omega_j * t217 - t216 * f_i_dot_omega_j - (h_i_dot_omega_i * t217 - t216 *
+        f_i_dot_omega_i);
+    const jg_real t218 = g_i_world_0 * C_j[6];
+    const jg_real t219 = h_i_world_0 * C_j[6];
+    jac_phi_q_v_A_j[2] = g_i_dot_omega_j * t219 - h_i_dot_omega_j * t218 - (g_i_dot_omega_i * t219 - h_i_dot_omega_i
+        * t218);
+    const jg_real t220 = f_i_world_0 * C_j[6];
+    jac_phi_q_v_A_j[3] = h_i_dot_omega_j * t220 - f_i_dot_omega_j * t219 - (h_i_dot_omega_i * t220 - f_i_dot_omega_i
+        * t219);
+    const jg_real t221 = h_i_world_0 * C_j[0];
     const jg_real t222 = t221 * h_i_dot_f_j;
-    const jg_real t223 = (t222 + t222) * t74 * pitch;
-    jac_phi_q_v_A_j[19] = t216 * f_i_dot_omega_j - g_i_dot_omega_j * t217 - ((t221 * omega_i_dot_f_j + omega_i[0] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t223 - (t223 * t82 + t80 * (t221 * omega_j_dot_f_j + omega_j[0] * C_j[1]
-        * h_i_dot_f_j)) + (t216 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t217));
-    const jg_real t224 = A_joint_i_world_5 * s_j[1];
-    const jg_real t225 = A_joint_i_world_4 * s_j[1];
-    jac_phi_q_v_A_j[20] = t224 * g_i_dot_omega_j - t225 * h_i_dot_omega_j - (t224 * omega_i_in_joint_i_1 - t225 *
-        omega_i_in_joint_i_2);
-    const jg_real t226 = A_joint_i_world_3 * s_j[1];
-    jac_phi_q_v_A_j[21] = h_i_dot_omega_j * t226 - t224 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t226 - t224 *
-        omega_i_in_joint_i_0);
-    const jg_real t227 = A_joint_i_world_5 * C_j[7];
-    const jg_real t228 = A_joint_i_world_4 * C_j[7];
-    jac_phi_q_v_A_j[22] = g_i_dot_omega_j * t227 - h_i_dot_omega_j * t228 - (omega_i_in_joint_i_1 * t227 -
-        omega_i_in_joint_i_2 * t228);
-    const jg_real t229 = A_joint_i_world_3 * C_j[7];
-    jac_phi_q_v_A_j[23] = h_i_dot_omega_j * t229 - f_i_dot_omega_j * t227 - (omega_i_in_joint_i_2 * t229 -
-        omega_i_in_joint_i_0 * t227);
-    const jg_real t230 = A_joint_i_world_5 * C_j[1];
-    const jg_real t231 = t230 * h_i_dot_f_j;
-    const jg_real t232 = (t231 + t231) * t74 * pitch;
-    jac_phi_q_v_A_j[24] = t225 * f_i_dot_omega_j - g_i_dot_omega_j * t226 - ((t230 * omega_i_dot_f_j + omega_i[1] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t232 - (t232 * t82 + t80 * (t230 * omega_j_dot_f_j + omega_j[1] * C_j[1]
-        * h_i_dot_f_j)) + (t225 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t226));
-    const jg_real t233 = A_joint_i_world_8 * s_j[1];
-    const jg_real t234 = A_joint_i_world_7 * s_j[1];
-    jac_phi_q_v_A_j[25] = t233 * g_i_dot_omega_j - t234 * h_i_dot_omega_j - (t233 * omega_i_in_joint_i_1 - t234 *
-        omega_i_in_joint_i_2);
-    const jg_real t235 = A_joint_i_world_6 * s_j[1];
-    jac_phi_q_v_A_j[26] = h_i_dot_omega_j * t235 - t233 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t235 - t233 *
-        omega_i_in_joint_i_0);
-    const jg_real t236 = A_joint_i_world_8 * C_j[7];
-    const jg_real t237 = A_joint_i_world_7 * C_j[7];
-    jac_phi_q_v_A_j[27] = g_i_dot_omega_j * t236 - h_i_dot_omega_j * t237 - (omega_i_in_joint_i_1 * t236 -
-        omega_i_in_joint_i_2 * t237);
-    const jg_real t238 = A_joint_i_world_6 * C_j[7];
-    jac_phi_q_v_A_j[28] = h_i_dot_omega_j * t238 - f_i_dot_omega_j * t236 - (omega_i_in_joint_i_2 * t238 -
-        omega_i_in_joint_i_0 * t236);
-    const jg_real t239 = A_joint_i_world_8 * C_j[1];
-    const jg_real t240 = t239 * h_i_dot_f_j;
-    const jg_real t241 = (t240 + t240) * t74 * pitch;
-    jac_phi_q_v_A_j[29] = t234 * f_i_dot_omega_j - g_i_dot_omega_j * t235 - ((t239 * omega_i_dot_f_j + omega_i[2] *
-        C_j[1] * h_i_dot_f_j) * t80 + t79 * t241 - (t241 * t82 + t80 * (t239 * omega_j_dot_f_j + omega_j[2] * C_j[1]
-        * h_i_dot_f_j)) + (t234 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t235));
-    const jg_real t242 = A_joint_i_world_2 * s_j[2];
-    const jg_real t243 = s_j[2] * A_joint_i_world_1;
-    jac_phi_q_v_A_j[30] = t242 * g_i_dot_omega_j - t243 * h_i_dot_omega_j - (t242 * omega_i_in_joint_i_1 - t243 *
-        omega_i_in_joint_i_2);
-    const jg_real t244 = s_j[2] * A_joint_i_world_0;
-    jac_phi_q_v_A_j[31] = h_i_dot_omega_j * t244 - t242 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t244 - t242 *
-        omega_i_in_joint_i_0);
-    const jg_real t245 = A_joint_i_world_2 * C_j[8];
-    const jg_real t246 = A_joint_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[32] = g_i_dot_omega_j * t245 - h_i_dot_omega_j * t246 - (omega_i_in_joint_i_1 * t245 -
-        omega_i_in_joint_i_2 * t246);
-    const jg_real t247 = A_joint_i_world_0 * C_j[8];
-    jac_phi_q_v_A_j[33] = h_i_dot_omega_j * t247 - f_i_dot_omega_j * t245 - (omega_i_in_joint_i_2 * t247 -
-        omega_i_in_joint_i_0 * t245);
-    const jg_real t248 = A_joint_i_world_2 * C_j[2];
-    const jg_real t249 = t248 * h_i_dot_f_j;
-    const jg_real t250 = (t249 + t249) * t74 * pitch;
-    jac_phi_q_v_A_j[34] = t243 * f_i_dot_omega_j - g_i_dot_omega_j * t244 - ((t248 * omega_i_dot_f_j + omega_i[0] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t250 - (t250 * t82 + t80 * (t248 * omega_j_dot_f_j + omega_j[0] * C_j[2]
-        * h_i_dot_f_j)) + (t243 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t244));
-    const jg_real t251 = A_joint_i_world_5 * s_j[2];
-    const jg_real t252 = A_joint_i_world_4 * s_j[2];
-    jac_phi_q_v_A_j[35] = t251 * g_i_dot_omega_j - t252 * h_i_dot_omega_j - (t251 * omega_i_in_joint_i_1 - t252 *
-        omega_i_in_joint_i_2);
-    const jg_real t253 = A_joint_i_world_3 * s_j[2];
-    jac_phi_q_v_A_j[36] = h_i_dot_omega_j * t253 - t251 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t253 - t251 *
-        omega_i_in_joint_i_0);
-    const jg_real t254 = A_joint_i_world_5 * C_j[8];
-    const jg_real t255 = A_joint_i_world_4 * C_j[8];
-    jac_phi_q_v_A_j[37] = g_i_dot_omega_j * t254 - h_i_dot_omega_j * t255 - (omega_i_in_joint_i_1 * t254 -
-        omega_i_in_joint_i_2 * t255);
-    const jg_real t256 = A_joint_i_world_3 * C_j[8];
-    jac_phi_q_v_A_j[38] = h_i_dot_omega_j * t256 - f_i_dot_omega_j * t254 - (omega_i_in_joint_i_2 * t256 -
-        omega_i_in_joint_i_0 * t254);
-    const jg_real t257 = A_joint_i_world_5 * C_j[2];
-    const jg_real t258 = t257 * h_i_dot_f_j;
-    const jg_real t259 = (t258 + t258) * t74 * pitch;
-    jac_phi_q_v_A_j[39] = t252 * f_i_dot_omega_j - g_i_dot_omega_j * t253 - ((t257 * omega_i_dot_f_j + omega_i[1] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t259 - (t259 * t82 + t80 * (t257 * omega_j_dot_f_j + omega_j[1] * C_j[2]
-        * h_i_dot_f_j)) + (t252 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t253));
-    const jg_real t260 = A_joint_i_world_8 * s_j[2];
-    const jg_real t261 = A_joint_i_world_7 * s_j[2];
-    jac_phi_q_v_A_j[40] = t260 * g_i_dot_omega_j - t261 * h_i_dot_omega_j - (t260 * omega_i_in_joint_i_1 - t261 *
-        omega_i_in_joint_i_2);
-    const jg_real t262 = A_joint_i_world_6 * s_j[2];
-    jac_phi_q_v_A_j[41] = h_i_dot_omega_j * t262 - t260 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t262 - t260 *
-        omega_i_in_joint_i_0);
-    const jg_real t263 = A_joint_i_world_8 * C_j[8];
-    const jg_real t264 = A_joint_i_world_7 * C_j[8];
-    jac_phi_q_v_A_j[42] = g_i_dot_omega_j * t263 - h_i_dot_omega_j * t264 - (omega_i_in_joint_i_1 * t263 -
-        omega_i_in_joint_i_2 * t264);
-    const jg_real t265 = A_joint_i_world_6 * C_j[8];
-    jac_phi_q_v_A_j[43] = h_i_dot_omega_j * t265 - f_i_dot_omega_j * t263 - (omega_i_in_joint_i_2 * t265 -
-        omega_i_in_joint_i_0 * t263);
-    const jg_real t266 = A_joint_i_world_8 * C_j[2];
-    const jg_real t267 = t266 * h_i_dot_f_j;
-    const jg_real t268 = (t267 + t267) * t74 * pitch;
-    jac_phi_q_v_A_j[44] = t261 * f_i_dot_omega_j - g_i_dot_omega_j * t262 - ((t266 * omega_i_dot_f_j + omega_i[2] *
-        C_j[2] * h_i_dot_f_j) * t80 + t79 * t268 - (t268 * t82 + t80 * (t266 * omega_j_dot_f_j + omega_j[2] * C_j[2]
-        * h_i_dot_f_j)) + (t261 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * t262));
-    const jg_real t269 = A_i[2] * A_joint_i_world_5 - A_i[1] * A_joint_i_world_8;
-    const jg_real t270 = t269 * omega_i[0];
-    const jg_real t271 = d_ij_in_joint_i_2 * t270;
-    const jg_real t272 = A_i[1] * A_joint_i_world_7 - A_i[2] * A_joint_i_world_4;
-    const jg_real t273 = t272 * s_j_world_0;
-    const jg_real t274 = t272 * v_0_world_0 + t273;
-    const jg_real t275 = t274 * omega_i_in_joint_i_1;
-    const jg_real t276 = t272 * omega_i[0];
-    const jg_real t277 = d_ij_in_joint_i_1 * t276;
-    const jg_real t278 = s_j_world_0 * t269;
-    const jg_real t279 = v_0_world_0 * t269 + t278;
-    const jg_real t280 = t279 * omega_i_in_joint_i_2;
-    const jg_real t281 = s_i_in_joint_i_2 * t270;
-    const jg_real t282 = s_i_in_joint_i_1 * t276;
-    const jg_real t283 = A_i[1] * v_i[1] + A_i[2] * v_i[2];
-    const jg_real t284 = t273 * g_i_dot_omega_j;
-    const jg_real t285 = t269 * omega_j[0];
-    const jg_real t286 = s_j_in_joint_i_2 * t285;
-    const jg_real t287 = t278 * h_i_dot_omega_j;
-    const jg_real t288 = t272 * omega_j[0];
-    const jg_real t289 = s_j_in_joint_i_1 * t288;
-    const jg_real t290 = A_i[1] * v_j[1] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = t290 - (t271 + t275 - (t277 + t280) + (t281 - t282 + t283) - (t284 + t286 - (t287 +
-        t289)));
-    const jg_real t291 = A_i[1] * omega_i[1] + A_i[2] * omega_i[2];
-    const jg_real t292 = d_ij_in_joint_i_2 * t291;
-    const jg_real t293 = A_i[1] * s_j_world_1 + A_i[2] * s_j_world_2;
-    const jg_real t294 = A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2 - s_i[0] + t293;
-    const jg_real t295 = t294 * omega_i_in_joint_i_2;
-    const jg_real t296 = s_i[0] * omega_i_in_joint_i_2;
-    const jg_real t297 = s_i_in_joint_i_2 * t291;
-    const jg_real t298 = t269 * v_i[0];
-    const jg_real t299 = t293 * h_i_dot_omega_j;
-    const jg_real t300 = A_i[1] * omega_j[1] + A_i[2] * omega_j[2];
-    const jg_real t301 = s_j_in_joint_i_2 * t300;
-    const jg_real t302 = t269 * v_j[0];
-    jac_phi_q_v_geometry[1] = t302 - (t295 + t276 * d_ij_in_joint_i_0 - (t292 + t274 * omega_i_in_joint_i_0) + (t296
-        + t276 * s_i_in_joint_i_0 - t297 + t298) - (t299 + t288 * s_j_in_joint_i_0 - (t301 + t273 *
-        f_i_dot_omega_j)));
-    const jg_real t303 = t285 * h_j_in_joint_i_2;
-    const jg_real t304 = t272 * h_j_world_0;
-    const jg_real t305 = t269 * h_j_world_0;
-    const jg_real t306 = h_i_dot_omega_j * t305;
-    const jg_real t307 = t270 * h_j_in_joint_i_2;
-    const jg_real t308 = omega_i_in_joint_i_2 * t305;
-    jac_phi_q_v_geometry[2] = t303 + g_i_dot_omega_j * t304 - (t288 * h_j_in_joint_i_1 + t306) - (t307 +
-        omega_i_in_joint_i_1 * t304 - (t276 * h_j_in_joint_i_1 + t308));
-    const jg_real t309 = A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
-    const jg_real t310 = h_i_dot_omega_j * t309;
-    const jg_real t311 = t300 * h_j_in_joint_i_2;
-    const jg_real t312 = omega_i_in_joint_i_2 * t309;
-    const jg_real t313 = t291 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[3] = t310 + t288 * h_j_in_joint_i_0 - (t311 + f_i_dot_omega_j * t304) - (t312 + t276 *
-        h_j_in_joint_i_0 - (t313 + omega_i_in_joint_i_0 * t304));
-    const jg_real t314 = t272 * f_j_world_0;
-    const jg_real t315 = t314 * h_i_dot_f_j;
-    const jg_real t316 = (t315 + t315) * t74 * pitch;
-    const jg_real t317 = s_i[0] * omega_i_in_joint_i_1;
-    const jg_real t318 = t291 * s_i_in_joint_i_1;
-    const jg_real t319 = t272 * v_i[0];
-    const jg_real t320 = t291 * d_ij_in_joint_i_1;
-    const jg_real t321 = t294 * omega_i_in_joint_i_1;
-    const jg_real t322 = s_j_in_joint_i_1 * t300;
-    const jg_real t323 = t293 * g_i_dot_omega_j;
-    const jg_real t324 = t272 * v_j[0];
-    jac_phi_q_v_geometry[4] = t324 - ((t314 * omega_i_dot_f_j - t276) * t80 + t79 * t316 + (t318 - (t317 + t270 *
-        s_i_in_joint_i_0) + t319) - (t316 * t82 + t80 * (t314 * omega_j_dot_f_j - t288)) + (t320 + t279 *
-        omega_i_in_joint_i_0 - (t321 + t270 * d_ij_in_joint_i_0)) - (t322 + t278 * f_i_dot_omega_j - (t323 + t285 *
-        s_j_in_joint_i_0)));
-    const jg_real t325 = A_i[5] * A_joint_i_world_5 - A_i[4] * A_joint_i_world_8;
-    const jg_real t326 = t325 * omega_i[0];
-    const jg_real t327 = d_ij_in_joint_i_2 * t326;
-    const jg_real t328 = A_i[4] * A_joint_i_world_7 - A_i[5] * A_joint_i_world_4;
-    const jg_real t329 = t328 * s_j_world_0;
-    const jg_real t330 = t328 * v_0_world_0 + t329;
-    const jg_real t331 = t330 * omega_i_in_joint_i_1;
-    const jg_real t332 = t328 * omega_i[0];
-    const jg_real t333 = d_ij_in_joint_i_1 * t332;
-    const jg_real t334 = s_j_world_0 * t325;
-    const jg_real t335 = v_0_world_0 * t325 + t334;
-    const jg_real t336 = t335 * omega_i_in_joint_i_2;
-    const jg_real t337 = s_i_in_joint_i_2 * t326;
-    const jg_real t338 = s_i_in_joint_i_1 * t332;
-    const jg_real t339 = A_i[4] * v_i[1] + A_i[5] * v_i[2];
-    const jg_real t340 = t329 * g_i_dot_omega_j;
-    const jg_real t341 = t325 * omega_j[0];
-    const jg_real t342 = s_j_in_joint_i_2 * t341;
-    const jg_real t343 = t334 * h_i_dot_omega_j;
-    const jg_real t344 = t328 * omega_j[0];
-    const jg_real t345 = s_j_in_joint_i_1 * t344;
-    const jg_real t346 = A_i[4] * v_j[1] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = t346 - (t327 + t331 - (t333 + t336) + (t337 - t338 + t339) - (t340 + t342 - (t343 +
-        t345)));
-    const jg_real t347 = A_i[4] * omega_i[1] + A_i[5] * omega_i[2];
-    const jg_real t348 = d_ij_in_joint_i_2 * t347;
-    const jg_real t349 = A_i[4] * s_j_world_1 + A_i[5] * s_j_world_2;
-    const jg_real t350 = A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2 - s_i[1] + t349;
-    const jg_real t351 = t350 * omega_i_in_joint_i_2;
-    const jg_real t352 = s_i[1] * omega_i_in_joint_i_2;
-    const jg_real t353 = s_i_in_joint_i_2 * t347;
-    const jg_real t354 = t325 * v_i[0];
-    const jg_real t355 = t349 * h_i_dot_omega_j;
-    const jg_real t356 = A_i[4] * omega_j[1] + A_i[5] * omega_j[2];
-    const jg_real t357 = s_j_in_joint_i_2 * t356;
-    const jg_real t358 = t325 * v_j[0];
-    jac_phi_q_v_geometry[6] = t358 - (t351 + t332 * d_ij_in_joint_i_0 - (t348 + t330 * omega_i_in_joint_i_0) + (t352
-        + t332 * s_i_in_joint_i_0 - t353 + t354) - (t355 + t344 * s_j_in_joint_i_0 - (t357 + t329 *
-        f_i_dot_omega_j)));
-    const jg_real t359 = t341 * h_j_in_joint_i_2;
-    const jg_real t360 = t328 * h_j_world_0;
-    const jg_real t361 = t325 * h_j_world_0;
+    jac_phi_q_v_A_j[4] = t215 * f_i_dot_omega_j - g_i_dot_omega_j * t217 - ((t221 * t69 + h_i_dot_f_j * (omega_i[0]
+        * C_j[0] - omega_j[0] * C_j[0])) * t71 + (t222 + t222) * t64 * pitch * t70 + (t215 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t217));
+    const jg_real t223 = g_i_world_1 * s_j[0];
+    const jg_real t224 = s_j[0] * h_i_world_1;
+    jac_phi_q_v_A_j[5] = t224 * g_i_dot_omega_j - t223 * h_i_dot_omega_j - (t224 * g_i_dot_omega_i - h_i_dot_omega_i
+        * t223);
+    const jg_real t225 = f_i_world_1 * s_j[0];
+    jac_phi_q_v_A_j[6] = h_i_dot_omega_j * t225 - t224 * f_i_dot_omega_j - (h_i_dot_omega_i * t225 - t224 *
+        f_i_dot_omega_i);
+    const jg_real t226 = g_i_world_1 * C_j[6];
+    const jg_real t227 = h_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[7] = g_i_dot_omega_j * t227 - h_i_dot_omega_j * t226 - (g_i_dot_omega_i * t227 - h_i_dot_omega_i
+        * t226);
+    const jg_real t228 = f_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[8] = h_i_dot_omega_j * t228 - f_i_dot_omega_j * t227 - (h_i_dot_omega_i * t228 - f_i_dot_omega_i
+        * t227);
+    const jg_real t229 = h_i_world_1 * C_j[0];
+    const jg_real t230 = t229 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[9] = t223 * f_i_dot_omega_j - g_i_dot_omega_j * t225 - ((t229 * t69 + h_i_dot_f_j * (omega_i[1]
+        * C_j[0] - omega_j[1] * C_j[0])) * t71 + (t230 + t230) * t64 * pitch * t70 + (t223 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t225));
+    const jg_real t231 = g_i_world_2 * s_j[0];
+    const jg_real t232 = s_j[0] * h_i_world_2;
+    jac_phi_q_v_A_j[10] = t232 * g_i_dot_omega_j - t231 * h_i_dot_omega_j - (t232 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t231);
+    const jg_real t233 = f_i_world_2 * s_j[0];
+    jac_phi_q_v_A_j[11] = h_i_dot_omega_j * t233 - t232 * f_i_dot_omega_j - (h_i_dot_omega_i * t233 - t232 *
+        f_i_dot_omega_i);
+    const jg_real t234 = g_i_world_2 * C_j[6];
+    const jg_real t235 = h_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[12] = g_i_dot_omega_j * t235 - h_i_dot_omega_j * t234 - (g_i_dot_omega_i * t235 -
+        h_i_dot_omega_i * t234);
+    const jg_real t236 = f_i_world_2 * C_j[6];
+    jac_phi_q_v_A_j[13] = h_i_dot_omega_j * t236 - f_i_dot_omega_j * t235 - (h_i_dot_omega_i * t236 -
+        f_i_dot_omega_i * t235);
+    const jg_real t237 = h_i_world_2 * C_j[0];
+    const jg_real t238 = t237 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[14] = t231 * f_i_dot_omega_j - g_i_dot_omega_j * t233 - ((t237 * t69 + h_i_dot_f_j * (omega_i[2]
+        * C_j[0] - omega_j[2] * C_j[0])) * t71 + (t238 + t238) * t64 * pitch * t70 + (t231 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t233));
+    const jg_real t239 = s_j[1] * g_i_world_0;
+    const jg_real t240 = h_i_world_0 * s_j[1];
+    jac_phi_q_v_A_j[15] = t240 * g_i_dot_omega_j - t239 * h_i_dot_omega_j - (t240 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t239);
+    const jg_real t241 = s_j[1] * f_i_world_0;
+    jac_phi_q_v_A_j[16] = h_i_dot_omega_j * t241 - t240 * f_i_dot_omega_j - (h_i_dot_omega_i * t241 - t240 *
+        f_i_dot_omega_i);
+    const jg_real t242 = g_i_world_0 * C_j[7];
+    const jg_real t243 = h_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[17] = g_i_dot_omega_j * t243 - h_i_dot_omega_j * t242 - (g_i_dot_omega_i * t243 -
+        h_i_dot_omega_i * t242);
+    const jg_real t244 = f_i_world_0 * C_j[7];
+    jac_phi_q_v_A_j[18] = h_i_dot_omega_j * t244 - f_i_dot_omega_j * t243 - (h_i_dot_omega_i * t244 -
+        f_i_dot_omega_i * t243);
+    const jg_real t245 = h_i_world_0 * C_j[1];
+    const jg_real t246 = t245 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[19] = t239 * f_i_dot_omega_j - g_i_dot_omega_j * t241 - ((t245 * t69 + h_i_dot_f_j * (omega_i[0]
+        * C_j[1] - omega_j[0] * C_j[1])) * t71 + (t246 + t246) * t64 * pitch * t70 + (t239 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t241));
+    const jg_real t247 = g_i_world_1 * s_j[1];
+    const jg_real t248 = s_j[1] * h_i_world_1;
+    jac_phi_q_v_A_j[20] = t248 * g_i_dot_omega_j - t247 * h_i_dot_omega_j - (t248 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t247);
+    const jg_real t249 = f_i_world_1 * s_j[1];
+    jac_phi_q_v_A_j[21] = h_i_dot_omega_j * t249 - t248 * f_i_dot_omega_j - (h_i_dot_omega_i * t249 - t248 *
+        f_i_dot_omega_i);
+    const jg_real t250 = g_i_world_1 * C_j[7];
+    const jg_real t251 = h_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[22] = g_i_dot_omega_j * t251 - h_i_dot_omega_j * t250 - (g_i_dot_omega_i * t251 -
+        h_i_dot_omega_i * t250);
+    const jg_real t252 = f_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[23] = h_i_dot_omega_j * t252 - f_i_dot_omega_j * t251 - (h_i_dot_omega_i * t252 -
+        f_i_dot_omega_i * t251);
+    const jg_real t253 = h_i_world_1 * C_j[1];
+    const jg_real t254 = t253 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[24] = t247 * f_i_dot_omega_j - g_i_dot_omega_j * t249 - ((t253 * t69 + h_i_dot_f_j * (omega_i[1]
+        * C_j[1] - omega_j[1] * C_j[1])) * t71 + (t254 + t254) * t64 * pitch * t70 + (t247 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t249));
+    const jg_real t255 = g_i_world_2 * s_j[1];
+    const jg_real t256 = s_j[1] * h_i_world_2;
+    jac_phi_q_v_A_j[25] = t256 * g_i_dot_omega_j - t255 * h_i_dot_omega_j - (t256 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t255);
+    const jg_real t257 = f_i_world_2 * s_j[1];
+    jac_phi_q_v_A_j[26] = h_i_dot_omega_j * t257 - t256 * f_i_dot_omega_j - (h_i_dot_omega_i * t257 - t256 *
+        f_i_dot_omega_i);
+    const jg_real t258 = g_i_world_2 * C_j[7];
+    const jg_real t259 = h_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[27] = g_i_dot_omega_j * t259 - h_i_dot_omega_j * t258 - (g_i_dot_omega_i * t259 -
+        h_i_dot_omega_i * t258);
+    const jg_real t260 = f_i_world_2 * C_j[7];
+    jac_phi_q_v_A_j[28] = h_i_dot_omega_j * t260 - f_i_dot_omega_j * t259 - (h_i_dot_omega_i * t260 -
+        f_i_dot_omega_i * t259);
+    const jg_real t261 = h_i_world_2 * C_j[1];
+    const jg_real t262 = t261 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[29] = t255 * f_i_dot_omega_j - g_i_dot_omega_j * t257 - ((t261 * t69 + h_i_dot_f_j * (omega_i[2]
+        * C_j[1] - omega_j[2] * C_j[1])) * t71 + (t262 + t262) * t64 * pitch * t70 + (t255 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t257));
+    const jg_real t263 = s_j[2] * g_i_world_0;
+    const jg_real t264 = h_i_world_0 * s_j[2];
+    jac_phi_q_v_A_j[30] = t264 * g_i_dot_omega_j - t263 * h_i_dot_omega_j - (t264 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t263);
+    const jg_real t265 = s_j[2] * f_i_world_0;
+    jac_phi_q_v_A_j[31] = h_i_dot_omega_j * t265 - t264 * f_i_dot_omega_j - (h_i_dot_omega_i * t265 - t264 *
+        f_i_dot_omega_i);
+    const jg_real t266 = g_i_world_0 * C_j[8];
+    const jg_real t267 = h_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[32] = g_i_dot_omega_j * t267 - h_i_dot_omega_j * t266 - (g_i_dot_omega_i * t267 -
+        h_i_dot_omega_i * t266);
+    const jg_real t268 = f_i_world_0 * C_j[8];
+    jac_phi_q_v_A_j[33] = h_i_dot_omega_j * t268 - f_i_dot_omega_j * t267 - (h_i_dot_omega_i * t268 -
+        f_i_dot_omega_i * t267);
+    const jg_real t269 = h_i_world_0 * C_j[2];
+    const jg_real t270 = t269 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[34] = t263 * f_i_dot_omega_j - g_i_dot_omega_j * t265 - ((t269 * t69 + h_i_dot_f_j * (omega_i[0]
+        * C_j[2] - omega_j[0] * C_j[2])) * t71 + (t270 + t270) * t64 * pitch * t70 + (t263 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t265));
+    const jg_real t271 = g_i_world_1 * s_j[2];
+    const jg_real t272 = s_j[2] * h_i_world_1;
+    jac_phi_q_v_A_j[35] = t272 * g_i_dot_omega_j - t271 * h_i_dot_omega_j - (t272 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t271);
+    const jg_real t273 = f_i_world_1 * s_j[2];
+    jac_phi_q_v_A_j[36] = h_i_dot_omega_j * t273 - t272 * f_i_dot_omega_j - (h_i_dot_omega_i * t273 - t272 *
+        f_i_dot_omega_i);
+    const jg_real t274 = g_i_world_1 * C_j[8];
+    const jg_real t275 = h_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[37] = g_i_dot_omega_j * t275 - h_i_dot_omega_j * t274 - (g_i_dot_omega_i * t275 -
+        h_i_dot_omega_i * t274);
+    const jg_real t276 = f_i_world_1 * C_j[8];
+    jac_phi_q_v_A_j[38] = h_i_dot_omega_j * t276 - f_i_dot_omega_j * t275 - (h_i_dot_omega_i * t276 -
+        f_i_dot_omega_i * t275);
+    const jg_real t277 = h_i_world_1 * C_j[2];
+    const jg_real t278 = t277 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[39] = t271 * f_i_dot_omega_j - g_i_dot_omega_j * t273 - ((t277 * t69 + h_i_dot_f_j * (omega_i[1]
+        * C_j[2] - omega_j[1] * C_j[2])) * t71 + (t278 + t278) * t64 * pitch * t70 + (t271 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t273));
+    const jg_real t279 = g_i_world_2 * s_j[2];
+    const jg_real t280 = s_j[2] * h_i_world_2;
+    jac_phi_q_v_A_j[40] = t280 * g_i_dot_omega_j - t279 * h_i_dot_omega_j - (t280 * g_i_dot_omega_i -
+        h_i_dot_omega_i * t279);
+    const jg_real t281 = f_i_world_2 * s_j[2];
+    jac_phi_q_v_A_j[41] = h_i_dot_omega_j * t281 - t280 * f_i_dot_omega_j - (h_i_dot_omega_i * t281 - t280 *
+        f_i_dot_omega_i);
+    const jg_real t282 = g_i_world_2 * C_j[8];
+    const jg_real t283 = h_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[42] = g_i_dot_omega_j * t283 - h_i_dot_omega_j * t282 - (g_i_dot_omega_i * t283 -
+        h_i_dot_omega_i * t282);
+    const jg_real t284 = f_i_world_2 * C_j[8];
+    jac_phi_q_v_A_j[43] = h_i_dot_omega_j * t284 - f_i_dot_omega_j * t283 - (h_i_dot_omega_i * t284 -
+        f_i_dot_omega_i * t283);
+    const jg_real t285 = h_i_world_2 * C_j[2];
+    const jg_real t286 = t285 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[44] = t279 * f_i_dot_omega_j - g_i_dot_omega_j * t281 - ((t285 * t69 + h_i_dot_f_j * (omega_i[2]
+        * C_j[2] - omega_j[2] * C_j[2])) * t71 + (t286 + t286) * t64 * pitch * t70 + (t279 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t281));
+    const jg_real t287 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
+    const jg_real t288 = A_i[2] * g_i_world_0 - g_i_world_2 * A_i[0];
+    const jg_real t289 = g_i_world_1 * A_i[0] - A_i[1] * g_i_world_0;
+    const jg_real t290 = t287 * omega_i[0] + t288 * omega_i[1] + t289 * omega_i[2];
+    const jg_real t291 = t287 * s_j_world_0 + t288 * s_j_world_1 + t289 * s_j_world_2;
+    const jg_real t292 = t287 * r_ij_world_0 + t288 * r_ij_world_1 + t289 * r_ij_world_2;
+    const jg_real t293 = A_i[0] * v_i[0] + A_i[1] * v_i[1] + A_i[2] * v_i[2];
+    const jg_real t294 = t287 * omega_j[0] + t288 * omega_j[1] + t289 * omega_j[2];
+    const jg_real t295 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
+    jac_phi_q_v_geometry[0] = t295 - (t291 * g_i_dot_omega_i - t290 * s_j_in_joint_i_1 + (g_i_dot_omega_i * t292 -
+        t290 * r_ij_in_joint_i_1 + t293) - (t291 * g_i_dot_omega_j - s_j_in_joint_i_1 * t294));
+    const jg_real t296 = s_j_world_0 * A_i[0] + A_i[1] * s_j_world_1 + A_i[2] * s_j_world_2;
+    const jg_real t297 = h_i_dot_omega_i * t296;
+    const jg_real t298 = A_i[0] * omega_i[0] + A_i[1] * omega_i[1] + A_i[2] * omega_i[2];
+    const jg_real t299 = s_j_in_joint_i_2 * t298;
+    const jg_real t300 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
+    const jg_real t301 = h_i_dot_omega_i * t300;
+    const jg_real t302 = t298 * r_ij_in_joint_i_2;
+    const jg_real t303 = t296 * h_i_dot_omega_j;
+    const jg_real t304 = A_i[0] * omega_j[0] + A_i[1] * omega_j[1] + A_i[2] * omega_j[2];
+    const jg_real t305 = s_j_in_joint_i_2 * t304;
+    jac_phi_q_v_geometry[1] = t303 + t294 * s_j_in_joint_i_0 - (t305 + t291 * f_i_dot_omega_j) - (t297 + t290 *
+        s_j_in_joint_i_0 - (t299 + t291 * f_i_dot_omega_i) + (t301 + t290 * r_ij_in_joint_i_0 - (t302 + t292 *
+        f_i_dot_omega_i)));
+    const jg_real t306 = t287 * h_j_world_0 + t288 * h_j_world_1 + t289 * h_j_world_2;
+    jac_phi_q_v_geometry[2] = g_i_dot_omega_j * t306 - t294 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t306 - t290 *
+        h_j_in_joint_i_1);
+    const jg_real t307 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real t308 = h_i_dot_omega_j * t307;
+    const jg_real t309 = t304 * h_j_in_joint_i_2;
+    const jg_real t310 = h_i_dot_omega_i * t307;
+    const jg_real t311 = t298 * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[3] = t308 + t294 * h_j_in_joint_i_0 - (t309 + f_i_dot_omega_j * t306) - (t310 + t290 *
+        h_j_in_joint_i_0 - (t311 + f_i_dot_omega_i * t306));
+    const jg_real t312 = t287 * f_j_world_0 + t288 * f_j_world_1 + t289 * f_j_world_2;
+    const jg_real t313 = h_i_dot_f_j * t312;
+    jac_phi_q_v_geometry[4] = t287 * v_j[0] + t288 * v_j[1] + t289 * v_j[2] - ((t312 * t69 - t290 + t294) * t71 +
+        (t313 + t313) * t64 * pitch * t70 + (t287 * v_i[0] + t288 * v_i[1] + t289 * v_i[2]) + (t298 *
+        r_ij_in_joint_i_1 - g_i_dot_omega_i * t300) + (t298 * s_j_in_joint_i_1 - g_i_dot_omega_i * t296) -
+        (s_j_in_joint_i_1 * t304 - t296 * g_i_dot_omega_j));
+    const jg_real t314 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
+    const jg_real t315 = A_i[5] * g_i_world_0 - g_i_world_2 * A_i[3];
+    const jg_real t316 = g_i_world_1 * A_i[3] - A_i[4] * g_i_world_0;
+    const jg_real t317 = t314 * omega_i[0] + t315 * omega_i[1] + t316 * omega_i[2];
+    const jg_real t318 = t314 * s_j_world_0 + t315 * s_j_world_1 + t316 * s_j_world_2;
+    const jg_real t319 = t314 * r_ij_world_0 + t315 * r_ij_world_1 + t316 * r_ij_world_2;
+    const jg_real t320 = A_i[3] * v_i[0] + A_i[4] * v_i[1] + A_i[5] * v_i[2];
+    const jg_real t321 = t314 * omega_j[0] + t315 * omega_j[1] + t316 * omega_j[2];
+    const jg_real t322 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
+    jac_phi_q_v_geometry[5] = t322 - (t318 * g_i_dot_omega_i - t317 * s_j_in_joint_i_1 + (g_i_dot_omega_i * t319 -
+        t317 * r_ij_in_joint_i_1 + t320) - (t318 * g_i_dot_omega_j - s_j_in_joint_i_1 * t321));
+    const jg_real t323 = s_j_world_0 * A_i[3] + A_i[4] * s_j_world_1 + A_i[5] * s_j_world_2;
+    const jg_real t324 = h_i_dot_omega_i * t323;
+    const jg_real t325 = A_i[3] * omega_i[0] + A_i[4] * omega_i[1] + A_i[5] * omega_i[2];
+    const jg_real t326 = s_j_in_joint_i_2 * t325;
+    const jg_real t327 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
+    const jg_real t328 = h_i_dot_omega_i * t327;
+    const jg_real t329 = t325 * r_ij_in_joint_i_2;
+    const jg_real t330 = t323 * h_i_dot_omega_j;
+    const jg_real t331 = A_i[3] * omega_j[0] + A_i[4] * omega_j[1] + A_i[5] * omega_j[2];
+    const jg_real t332 = s_j_in_joint_i_2 * t331;
+    jac_phi_q_v_geometry[6] = t330 + t321 * s_j_in_joint_i_0 - (t332 + t318 * f_i_dot_omega_j) - (t324 + t317 *
+        s_j_in_joint_i_0 - (t326 + t318 * f_i_dot_omega_i) + (t328 + t317 * r_ij_in_joint_i_0 - (t329 + t319 *
+        f_i_dot_omega_i)));
+    const jg_real t333 = t314 * h_j_world_0 + t315 * h_j_world_1 + t316 * h_j_world_2;
+    jac_phi_q_v_geometry[7] = g_i_dot_omega_j * t333 - t321 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t333 - t317 *
+        h_j_in_joint_i_1);
+    const jg_real t334 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    const jg_real t335 = h_i_dot_omega_j * t334;
+    const jg_real t336 = t331 * h_j_in_joint_i_2;
+    const jg_real t337 = h_i_dot_omega_i * t334;
+    const jg_real t338 = t325 * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[8] = t335 + t321 * h_j_in_joint_i_0 - (t336 + f_i_dot_omega_j * t333) - (t337 + t317 *
+        h_j_in_joint_i_0 - (t338 + f_i_dot_omega_i * t333));
+    const jg_real t339 = t314 * f_j_world_0 + t315 * f_j_world_1 + t316 * f_j_world_2;
+    const jg_real t340 = h_i_dot_f_j * t339;
+    jac_phi_q_v_geometry[9] = t314 * v_j[0] + t315 * v_j[1] + t316 * v_j[2] - ((t339 * t69 - t317 + t321) * t71 +
+        (t340 + t340) * t64 * pitch * t70 + (t314 * v_i[0] + t315 * v_i[1] + t316 * v_i[2]) + (t325 *
+        r_ij_in_joint_i_1 - g_i_dot_omega_i * t327) + (t325 * s_j_in_joint_i_1 - g_i_dot_omega_i * t323) -
+        (s_j_in_joint_i_1 * t331 - t323 * g_i_dot_omega_j));
+    const jg_real t341 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
+    const jg_real t342 = A_i[8] * g_i_world_0 - g_i_world_2 * A_i[6];
+    const jg_real t343 = g_i_world_1 * A_i[6] - A_i[7] * g_i_world_0;
+    const jg_real t344 = t341 * omega_i[0] + t342 * omega_i[1] + t343 * omega_i[2];
+    const jg_real t345 = t341 * s_j_world_0 + t342 * s_j_world_1 + t343 * s_j_world_2;
+    const jg_real t346 = t341 * r_ij_world_0 + t342 * r_ij_world_1 + t343 * r_ij_world_2;
+    const jg_real t347 = A_i[6] * v_i[0] + A_i[7] * v_i[1] + A_i[8] * v_i[2];
+    const jg_real t348 = t341 * omega_j[0] + t342 * omega_j[1] + t343 * omega_j[2];
+    const jg_real t349 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
+    jac_phi_q_v_geometry[10] = t349 - (t345 * g_i_dot_omega_i - t344 * s_j_in_joint_i_1 + (g_i_dot_omega_i * t346 -
+        t344 * r_ij_in_joint_i_1 + t347) - (t345 * g_i_dot_omega_j - s_j_in_joint_i_1 * t348));
+    const jg_real t350 = s_j_world_0 * A_i[6] + A_i[7] * s_j_world_1 + A_i[8] * s_j_world_2;
+    const jg_real t351 = h_i_dot_omega_i * t350;
+    const jg_real t352 = A_i[6] * omega_i[0] + A_i[7] * omega_i[1] + A_i[8] * omega_i[2];
+    const jg_real t353 = s_j_in_joint_i_2 * t352;
+    const jg_real t354 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
+    const jg_real t355 = h_i_dot_omega_i * t354;
+    const jg_real t356 = t352 * r_ij_in_joint_i_2;
+    const jg_real t357 = t350 * h_i_dot_omega_j;
+    const jg_real t358 = A_i[6] * omega_j[0] + A_i[7] * omega_j[1] + A_i[8] * omega_j[2];
+    const jg_real t359 = s_j_in_joint_i_2 * t358;
+    jac_phi_q_v_geometry[11] = t357 + t348 * s_j_in_joint_i_0 - (t359 + t345 * f_i_dot_omega_j) - (t351 + t344 *
+        s_j_in_joint_i_0 - (t353 + t345 * f_i_dot_omega_i) + (t355 + t344 * r_ij_in_joint_i_0 - (t356 + t346 *
+        f_i_dot_omega_i)));
+    const jg_real t360 = t341 * h_j_world_0 + t342 * h_j_world_1 + t343 * h_j_world_2;
+    jac_phi_q_v_geometry[12] = g_i_dot_omega_j * t360 - t348 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t360 - t344 *
+        h_j_in_joint_i_1);
+    const jg_real t361 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     const jg_real t362 = h_i_dot_omega_j * t361;
-    const jg_real t363 = t326 * h_j_in_joint_i_2;
-    const jg_real t364 = omega_i_in_joint_i_2 * t361;
-    jac_phi_q_v_geometry[7] = t359 + g_i_dot_omega_j * t360 - (t344 * h_j_in_joint_i_1 + t362) - (t363 +
-        omega_i_in_joint_i_1 * t360 - (t332 * h_j_in_joint_i_1 + t364));
-    const jg_real t365 = A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
-    const jg_real t366 = h_i_dot_omega_j * t365;
-    const jg_real t367 = t356 * h_j_in_joint_i_2;
-    const jg_real t368 = omega_i_in_joint_i_2 * t365;
-    const jg_real t369 = t347 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[8] = t366 + t344 * h_j_in_joint_i_0 - (t367 + f_i_dot_omega_j * t360) - (t368 + t332 *
-        h_j_in_joint_i_0 - (t369 + omega_i_in_joint_i_0 * t360));
-    const jg_real t370 = t328 * f_j_world_0;
-    const jg_real t371 = t370 * h_i_dot_f_j;
-    const jg_real t372 = (t371 + t371) * t74 * pitch;
-    const jg_real t373 = s_i[1] * omega_i_in_joint_i_1;
-    const jg_real t374 = t347 * s_i_in_joint_i_1;
-    const jg_real t375 = t328 * v_i[0];
-    const jg_real t376 = t347 * d_ij_in_joint_i_1;
-    const jg_real t377 = t350 * omega_i_in_joint_i_1;
-    const jg_real t378 = s_j_in_joint_i_1 * t356;
-    const jg_real t379 = t349 * g_i_dot_omega_j;
-    const jg_real t380 = t328 * v_j[0];
-    jac_phi_q_v_geometry[9] = t380 - ((t370 * omega_i_dot_f_j - t332) * t80 + t79 * t372 + (t374 - (t373 + t326 *
-        s_i_in_joint_i_0) + t375) - (t372 * t82 + t80 * (t370 * omega_j_dot_f_j - t344)) + (t376 + t335 *
-        omega_i_in_joint_i_0 - (t377 + t326 * d_ij_in_joint_i_0)) - (t378 + t334 * f_i_dot_omega_j - (t379 + t341 *
-        s_j_in_joint_i_0)));
-    const jg_real t381 = A_i[8] * A_joint_i_world_5 - A_i[7] * A_joint_i_world_8;
-    const jg_real t382 = t381 * omega_i[0];
-    const jg_real t383 = d_ij_in_joint_i_2 * t382;
-    const jg_real t384 = A_i[7] * A_joint_i_world_7 - A_i[8] * A_joint_i_world_4;
-    const jg_real t385 = t384 * s_j_world_0;
-    const jg_real t386 = t384 * v_0_world_0 + t385;
-    const jg_real t387 = t386 * omega_i_in_joint_i_1;
-    const jg_real t388 = t384 * omega_i[0];
-    const jg_real t389 = d_ij_in_joint_i_1 * t388;
-    const jg_real t390 = s_j_world_0 * t381;
-    const jg_real t391 = v_0_world_0 * t381 + t390;
-    const jg_real t392 = t391 * omega_i_in_joint_i_2;
-    const jg_real t393 = s_i_in_joint_i_2 * t382;
-    const jg_real t394 = s_i_in_joint_i_1 * t388;
-    const jg_real t395 = A_i[7] * v_i[1] + A_i[8] * v_i[2];
-    const jg_real t396 = t385 * g_i_dot_omega_j;
-    const jg_real t397 = t381 * omega_j[0];
-    const jg_real t398 = s_j_in_joint_i_2 * t397;
-    const jg_real t399 = t390 * h_i_dot_omega_j;
-    const jg_real t400 = t384 * omega_j[0];
-    const jg_real t401 = s_j_in_joint_i_1 * t400;
-    const jg_real t402 = A_i[7] * v_j[1] + A_i[8] * v_j[2];
-    jac_phi_q_v_geometry[10] = t402 - (t383 + t387 - (t389 + t392) + (t393 - t394 + t395) - (t396 + t398 - (t399 +
-        t401)));
-    const jg_real t403 = A_i[7] * omega_i[1] + A_i[8] * omega_i[2];
-    const jg_real t404 = d_ij_in_joint_i_2 * t403;
-    const jg_real t405 = A_i[7] * s_j_world_1 + A_i[8] * s_j_world_2;
-    const jg_real t406 = A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2 - s_i[2] + t405;
-    const jg_real t407 = t406 * omega_i_in_joint_i_2;
-    const jg_real t408 = s_i[2] * omega_i_in_joint_i_2;
-    const jg_real t409 = s_i_in_joint_i_2 * t403;
-    const jg_real t410 = t381 * v_i[0];
-    const jg_real t411 = t405 * h_i_dot_omega_j;
-    const jg_real t412 = A_i[7] * omega_j[1] + A_i[8] * omega_j[2];
-    const jg_real t413 = s_j_in_joint_i_2 * t412;
-    const jg_real t414 = t381 * v_j[0];
-    jac_phi_q_v_geometry[11] = t414 - (t407 + t388 * d_ij_in_joint_i_0 - (t404 + t386 * omega_i_in_joint_i_0) +
-        (t408 + t388 * s_i_in_joint_i_0 - t409 + t410) - (t411 + t400 * s_j_in_joint_i_0 - (t413 + t385 *
-        f_i_dot_omega_j)));
-    const jg_real t415 = t397 * h_j_in_joint_i_2;
-    const jg_real t416 = t384 * h_j_world_0;
-    const jg_real t417 = t381 * h_j_world_0;
-    const jg_real t418 = h_i_dot_omega_j * t417;
-    const jg_real t419 = t382 * h_j_in_joint_i_2;
-    const jg_real t420 = omega_i_in_joint_i_2 * t417;
-    jac_phi_q_v_geometry[12] = t415 + g_i_dot_omega_j * t416 - (t400 * h_j_in_joint_i_1 + t418) - (t419 +
-        omega_i_in_joint_i_1 * t416 - (t388 * h_j_in_joint_i_1 + t420));
-    const jg_real t421 = A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
-    const jg_real t422 = h_i_dot_omega_j * t421;
-    const jg_real t423 = t412 * h_j_in_joint_i_2;
-    const jg_real t424 = omega_i_in_joint_i_2 * t421;
-    const jg_real t425 = t403 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[13] = t422 + t400 * h_j_in_joint_i_0 - (t423 + f_i_dot_omega_j * t416) - (t424 + t388 *
-        h_j_in_joint_i_0 - (t425 + omega_i_in_joint_i_0 * t416));
-    const jg_real t426 = t384 * f_j_world_0;
-    const jg_real t427 = t426 * h_i_dot_f_j;
-    const jg_real t428 = (t427 + t427) * t74 * pitch;
-    const jg_real t429 = s_i[2] * omega_i_in_joint_i_1;
-    const jg_real t430 = t403 * s_i_in_joint_i_1;
-    const jg_real t431 = t384 * v_i[0];
-    const jg_real t432 = t403 * d_ij_in_joint_i_1;
-    const jg_real t433 = t406 * omega_i_in_joint_i_1;
-    const jg_real t434 = s_j_in_joint_i_1 * t412;
-    const jg_real t435 = t405 * g_i_dot_omega_j;
-    const jg_real t436 = t384 * v_j[0];
-    jac_phi_q_v_geometry[14] = t436 - ((t426 * omega_i_dot_f_j - t388) * t80 + t79 * t428 + (t430 - (t429 + t382 *
-        s_i_in_joint_i_0) + t431) - (t428 * t82 + t80 * (t426 * omega_j_dot_f_j - t400)) + (t432 + t391 *
-        omega_i_in_joint_i_0 - (t433 + t382 * d_ij_in_joint_i_0)) - (t434 + t390 * f_i_dot_omega_j - (t435 + t397 *
-        s_j_in_joint_i_0)));
-    const jg_real t437 = A_joint_i_world_3 * A_i[2] - A_i[1] * A_joint_i_world_6;
-    const jg_real t438 = t437 * s_j_world_0;
-    const jg_real t439 = t437 * v_0_world_0 + t438;
-    const jg_real t440 = t437 * omega_i[0];
-    const jg_real t441 = t437 * omega_j[0];
-    jac_phi_q_v_geometry[15] = -(t292 + t439 * omega_i_in_joint_i_1 - (t440 * d_ij_in_joint_i_1 + t295) + (t297 -
-        (t440 * s_i_in_joint_i_1 + t296) - t298) - (t438 * g_i_dot_omega_j + t301 - (t299 + s_j_in_joint_i_1 *
-        t441)) + t302);
-    const jg_real t442 = t440 * d_ij_in_joint_i_0;
-    const jg_real t443 = t439 * omega_i_in_joint_i_0;
-    const jg_real t444 = t440 * s_i_in_joint_i_0;
-    const jg_real t445 = t441 * s_j_in_joint_i_0;
-    const jg_real t446 = t438 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[16] = t290 - (t442 - t280 - (t443 - t271) + (t281 + t444 + t283) - (t445 - t287 - (t446 -
-        t286)));
-    const jg_real t447 = t437 * h_j_world_0;
-    jac_phi_q_v_geometry[17] = t311 + g_i_dot_omega_j * t447 - (t441 * h_j_in_joint_i_1 + t310) - (t313 +
-        omega_i_in_joint_i_1 * t447 - (t440 * h_j_in_joint_i_1 + t312));
-    jac_phi_q_v_geometry[18] = t441 * h_j_in_joint_i_0 - t306 - (f_i_dot_omega_j * t447 - t303) - (t440 *
-        h_j_in_joint_i_0 - t308 - (omega_i_in_joint_i_0 * t447 - t307));
-    const jg_real t448 = t437 * f_j_world_0;
-    const jg_real t449 = t448 * h_i_dot_f_j;
-    const jg_real t450 = (t449 + t449) * t74 * pitch;
-    const jg_real t451 = s_i[0] * omega_i_in_joint_i_0;
-    const jg_real t452 = t291 * s_i_in_joint_i_0;
-    const jg_real t453 = t437 * v_i[0];
-    const jg_real t454 = t291 * d_ij_in_joint_i_0;
-    const jg_real t455 = t294 * omega_i_in_joint_i_0;
-    const jg_real t456 = t293 * f_i_dot_omega_j;
-    const jg_real t457 = t300 * s_j_in_joint_i_0;
-    const jg_real t458 = t437 * v_j[0];
-    jac_phi_q_v_geometry[19] = t458 - ((t448 * omega_i_dot_f_j - t440) * t80 + t79 * t450 + (t451 - t270 *
-        s_i_in_joint_i_1 - t452 + t453) - (t450 * t82 + t80 * (t448 * omega_j_dot_f_j - t441)) + (t455 - t270 *
-        d_ij_in_joint_i_1 - (t454 - omega_i_in_joint_i_1 * t279)) - (t456 - s_j_in_joint_i_1 * t285 - (t457 - t278 *
-        g_i_dot_omega_j)));
-    const jg_real t459 = A_joint_i_world_3 * A_i[5] - A_i[4] * A_joint_i_world_6;
-    const jg_real t460 = t459 * s_j_world_0;
-    const jg_real t461 = t459 * v_0_world_0 + t460;
-    const jg_real t462 = t459 * omega_i[0];
-    const jg_real t463 = t459 * omega_j[0];
-    jac_phi_q_v_geometry[20] = -(t348 + t461 * omega_i_in_joint_i_1 - (t462 * d_ij_in_joint_i_1 + t351) + (t353 -
-        (t462 * s_i_in_joint_i_1 + t352) - t354) - (t460 * g_i_dot_omega_j + t357 - (t355 + s_j_in_joint_i_1 *
-        t463)) + t358);
-    const jg_real t464 = t462 * d_ij_in_joint_i_0;
-    const jg_real t465 = t461 * omega_i_in_joint_i_0;
-    const jg_real t466 = t462 * s_i_in_joint_i_0;
-    const jg_real t467 = t463 * s_j_in_joint_i_0;
-    const jg_real t468 = t460 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[21] = t346 - (t464 - t336 - (t465 - t327) + (t337 + t466 + t339) - (t467 - t343 - (t468 -
-        t342)));
-    const jg_real t469 = t459 * h_j_world_0;
-    jac_phi_q_v_geometry[22] = t367 + g_i_dot_omega_j * t469 - (t463 * h_j_in_joint_i_1 + t366) - (t369 +
-        omega_i_in_joint_i_1 * t469 - (t462 * h_j_in_joint_i_1 + t368));
-    jac_phi_q_v_geometry[23] = t463 * h_j_in_joint_i_0 - t362 - (f_i_dot_omega_j * t469 - t359) - (t462 *
-        h_j_in_joint_i_0 - t364 - (omega_i_in_joint_i_0 * t469 - t363));
-    const jg_real t470 = t459 * f_j_world_0;
-    const jg_real t471 = t470 * h_i_dot_f_j;
-    const jg_real t472 = (t471 + t471) * t74 * pitch;
-    const jg_real t473 = s_i[1] * omega_i_in_joint_i_0;
-    const jg_real t474 = t347 * s_i_in_joint_i_0;
-    const jg_real t475 = t459 * v_i[0];
-    const jg_real t476 = t347 * d_ij_in_joint_i_0;
-    const jg_real t477 = t350 * omega_i_in_joint_i_0;
-    const jg_real t478 = t349 * f_i_dot_omega_j;
-    const jg_real t479 = t356 * s_j_in_joint_i_0;
-    const jg_real t480 = t459 * v_j[0];
-    jac_phi_q_v_geometry[24] = t480 - ((t470 * omega_i_dot_f_j - t462) * t80 + t79 * t472 + (t473 - t326 *
-        s_i_in_joint_i_1 - t474 + t475) - (t472 * t82 + t80 * (t470 * omega_j_dot_f_j - t463)) + (t477 - t326 *
-        d_ij_in_joint_i_1 - (t476 - omega_i_in_joint_i_1 * t335)) - (t478 - s_j_in_joint_i_1 * t341 - (t479 - t334 *
-        g_i_dot_omega_j)));
-    const jg_real t481 = A_joint_i_world_3 * A_i[8] - A_i[7] * A_joint_i_world_6;
-    const jg_real t482 = t481 * s_j_world_0;
-    const jg_real t483 = t481 * v_0_world_0 + t482;
-    const jg_real t484 = t481 * omega_i[0];
-    const jg_real t485 = t481 * omega_j[0];
-    jac_phi_q_v_geometry[25] = -(t404 + t483 * omega_i_in_joint_i_1 - (t484 * d_ij_in_joint_i_1 + t407) + (t409 -
-        (t484 * s_i_in_joint_i_1 + t408) - t410) - (t482 * g_i_dot_omega_j + t413 - (t411 + s_j_in_joint_i_1 *
-        t485)) + t414);
-    const jg_real t486 = t484 * d_ij_in_joint_i_0;
-    const jg_real t487 = t483 * omega_i_in_joint_i_0;
-    const jg_real t488 = t484 * s_i_in_joint_i_0;
-    const jg_real t489 = t485 * s_j_in_joint_i_0;
-    const jg_real t490 = t482 * f_i_dot_omega_j;
-    jac_phi_q_v_geometry[26] = t402 - (t486 - t392 - (t487 - t383) + (t393 + t488 + t395) - (t489 - t399 - (t490 -
-        t398)));
-    const jg_real t491 = t481 * h_j_world_0;
-    jac_phi_q_v_geometry[27] = t423 + g_i_dot_omega_j * t491 - (t485 * h_j_in_joint_i_1 + t422) - (t425 +
-        omega_i_in_joint_i_1 * t491 - (t484 * h_j_in_joint_i_1 + t424));
-    jac_phi_q_v_geometry[28] = t485 * h_j_in_joint_i_0 - t418 - (f_i_dot_omega_j * t491 - t415) - (t484 *
-        h_j_in_joint_i_0 - t420 - (omega_i_in_joint_i_0 * t491 - t419));
-    const jg_real t492 = t481 * f_j_world_0;
-    const jg_real t493 = t492 * h_i_dot_f_j;
-    const jg_real t494 = (t493 + t493) * t74 * pitch;
-    const jg_real t495 = s_i[2] * omega_i_in_joint_i_0;
-    const jg_real t496 = t403 * s_i_in_joint_i_0;
-    const jg_real t497 = t481 * v_i[0];
-    const jg_real t498 = t403 * d_ij_in_joint_i_0;
-    const jg_real t499 = t406 * omega_i_in_joint_i_0;
-    const jg_real t500 = t405 * f_i_dot_omega_j;
-    const jg_real t501 = t412 * s_j_in_joint_i_0;
-    const jg_real t502 = t481 * v_j[0];
-    jac_phi_q_v_geometry[29] = t502 - ((t492 * omega_i_dot_f_j - t484) * t80 + t79 * t494 + (t495 - t382 *
-        s_i_in_joint_i_1 - t496 + t497) - (t494 * t82 + t80 * (t492 * omega_j_dot_f_j - t485)) + (t499 - t382 *
-        d_ij_in_joint_i_1 - (t498 - omega_i_in_joint_i_1 * t391)) - (t500 - s_j_in_joint_i_1 * t397 - (t501 - t390 *
-        g_i_dot_omega_j)));
-    jac_phi_q_v_geometry[30] = -(t321 - d_ij_in_joint_i_2 * t440 - (t320 - t439 * omega_i_in_joint_i_2) + (t317 -
-        s_i_in_joint_i_2 * t440 - t318 - t319) - (t323 - s_j_in_joint_i_2 * t441 - (t322 - t438 * h_i_dot_omega_j))
-        + t324);
-    jac_phi_q_v_geometry[31] = -(t454 - t274 * omega_i_in_joint_i_2 - (t455 - d_ij_in_joint_i_2 * t276) + (t452 -
-        (t451 - s_i_in_joint_i_2 * t276) - t453) - (t457 - t273 * h_i_dot_omega_j - (t456 - s_j_in_joint_i_2 *
-        t288)) + t458);
-    jac_phi_q_v_geometry[32] = g_i_dot_omega_j * t309 - t441 * h_j_in_joint_i_2 - (t300 * h_j_in_joint_i_1 -
-        h_i_dot_omega_j * t447) - (omega_i_in_joint_i_1 * t309 - t440 * h_j_in_joint_i_2 - (t291 * h_j_in_joint_i_1
-        - omega_i_in_joint_i_2 * t447));
-    jac_phi_q_v_geometry[33] = t300 * h_j_in_joint_i_0 - h_i_dot_omega_j * t304 - (f_i_dot_omega_j * t309 - t288 *
-        h_j_in_joint_i_2) - (t291 * h_j_in_joint_i_0 - omega_i_in_joint_i_2 * t304 - (omega_i_in_joint_i_0 * t309 -
-        t276 * h_j_in_joint_i_2));
-    const jg_real t503 = A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real t504 = h_i_dot_f_j * t503;
-    const jg_real t505 = (t504 + t504) * t74 * pitch;
-    jac_phi_q_v_geometry[34] = t290 - ((t503 * omega_i_dot_f_j - t291) * t80 + t79 * t505 + (t444 - t282 + t283) -
-        (t505 * t82 + t80 * (t503 * omega_j_dot_f_j - t300)) + (t275 + t442 - (t277 + t443)) - (t284 + t445 - (t289
-        + t446)));
-    jac_phi_q_v_geometry[35] = -(t377 - d_ij_in_joint_i_2 * t462 - (t376 - t461 * omega_i_in_joint_i_2) + (t373 -
-        s_i_in_joint_i_2 * t462 - t374 - t375) - (t379 - s_j_in_joint_i_2 * t463 - (t378 - t460 * h_i_dot_omega_j))
-        + t380);
-    jac_phi_q_v_geometry[36] = -(t476 - t330 * omega_i_in_joint_i_2 - (t477 - d_ij_in_joint_i_2 * t332) + (t474 -
-        (t473 - s_i_in_joint_i_2 * t332) - t475) - (t479 - t329 * h_i_dot_omega_j - (t478 - s_j_in_joint_i_2 *
-        t344)) + t480);
-    jac_phi_q_v_geometry[37] = g_i_dot_omega_j * t365 - t463 * h_j_in_joint_i_2 - (t356 * h_j_in_joint_i_1 -
-        h_i_dot_omega_j * t469) - (omega_i_in_joint_i_1 * t365 - t462 * h_j_in_joint_i_2 - (t347 * h_j_in_joint_i_1
-        - omega_i_in_joint_i_2 * t469));
-    jac_phi_q_v_geometry[38] = t356 * h_j_in_joint_i_0 - h_i_dot_omega_j * t360 - (f_i_dot_omega_j * t365 - t344 *
-        h_j_in_joint_i_2) - (t347 * h_j_in_joint_i_0 - omega_i_in_joint_i_2 * t360 - (omega_i_in_joint_i_0 * t365 -
-        t332 * h_j_in_joint_i_2));
-    const jg_real t506 = A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real t507 = h_i_dot_f_j * t506;
-    const jg_real t508 = (t507 + t507) * t74 * pitch;
-    jac_phi_q_v_geometry[39] = t346 - ((t506 * omega_i_dot_f_j - t347) * t80 + t79 * t508 + (t466 - t338 + t339) -
-        (t508 * t82 + t80 * (t506 * omega_j_dot_f_j - t356)) + (t331 + t464 - (t333 + t465)) - (t340 + t467 - (t345
-        + t468)));
-    jac_phi_q_v_geometry[40] = -(t433 - d_ij_in_joint_i_2 * t484 - (t432 - t483 * omega_i_in_joint_i_2) + (t429 -
-        s_i_in_joint_i_2 * t484 - t430 - t431) - (t435 - s_j_in_joint_i_2 * t485 - (t434 - t482 * h_i_dot_omega_j))
-        + t436);
-    jac_phi_q_v_geometry[41] = -(t498 - t386 * omega_i_in_joint_i_2 - (t499 - d_ij_in_joint_i_2 * t388) + (t496 -
-        (t495 - s_i_in_joint_i_2 * t388) - t497) - (t501 - t385 * h_i_dot_omega_j - (t500 - s_j_in_joint_i_2 *
-        t400)) + t502);
-    jac_phi_q_v_geometry[42] = g_i_dot_omega_j * t421 - t485 * h_j_in_joint_i_2 - (t412 * h_j_in_joint_i_1 -
-        h_i_dot_omega_j * t491) - (omega_i_in_joint_i_1 * t421 - t484 * h_j_in_joint_i_2 - (t403 * h_j_in_joint_i_1
-        - omega_i_in_joint_i_2 * t491));
-    jac_phi_q_v_geometry[43] = t412 * h_j_in_joint_i_0 - h_i_dot_omega_j * t416 - (f_i_dot_omega_j * t421 - t400 *
-        h_j_in_joint_i_2) - (t403 * h_j_in_joint_i_0 - omega_i_in_joint_i_2 * t416 - (omega_i_in_joint_i_0 * t421 -
-        t388 * h_j_in_joint_i_2));
-    const jg_real t509 = A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    const jg_real t510 = h_i_dot_f_j * t509;
-    const jg_real t511 = (t510 + t510) * t74 * pitch;
-    jac_phi_q_v_geometry[44] = t402 - ((t509 * omega_i_dot_f_j - t403) * t80 + t79 * t511 + (t488 - t394 + t395) -
-        (t511 * t82 + t80 * (t509 * omega_j_dot_f_j - t412)) + (t387 + t486 - (t389 + t487)) - (t396 + t489 - (t401
-        + t490)));
-    const jg_real t512 = A_joint_i_world_2 * A_j[0] + A_joint_i_world_5 * A_j[1] + A_joint_i_world_8 * A_j[2];
-    const jg_real t513 = A_j[0] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[1] + A_joint_i_world_7 * A_j[2];
-    const jg_real t514 = t512 * g_i_dot_omega_j - t513 * h_i_dot_omega_j - (t512 * omega_i_in_joint_i_1 - t513 *
-        omega_i_in_joint_i_2);
-    jac_phi_q_v_geometry[45] = t514;
-    jac_phi_q_v_geometry[57] = t514;
-    const jg_real t515 = A_j[0] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[1] + A_joint_i_world_6 * A_j[2];
-    const jg_real t516 = h_i_dot_omega_j * t515 - t512 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t515 - t512 *
-        omega_i_in_joint_i_0);
-    jac_phi_q_v_geometry[46] = t516;
-    jac_phi_q_v_geometry[58] = t516;
-    jac_phi_q_v_geometry[47] = t513 * f_i_dot_omega_j - g_i_dot_omega_j * t515 - (t513 * omega_i_in_joint_i_0 -
-        omega_i_in_joint_i_1 * t515);
-    const jg_real t517 = A_joint_i_world_2 * A_j[3] + A_joint_i_world_5 * A_j[4] + A_joint_i_world_8 * A_j[5];
-    const jg_real t518 = A_j[3] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[4] + A_joint_i_world_7 * A_j[5];
-    const jg_real t519 = t517 * g_i_dot_omega_j - t518 * h_i_dot_omega_j - (t517 * omega_i_in_joint_i_1 - t518 *
-        omega_i_in_joint_i_2);
-    jac_phi_q_v_geometry[48] = t519;
-    jac_phi_q_v_geometry[59] = t519;
-    const jg_real t520 = A_j[3] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[4] + A_joint_i_world_6 * A_j[5];
-    const jg_real t521 = h_i_dot_omega_j * t520 - t517 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t520 - t517 *
-        omega_i_in_joint_i_0);
-    jac_phi_q_v_geometry[49] = t521;
-    jac_phi_q_v_geometry[60] = t521;
-    jac_phi_q_v_geometry[50] = t518 * f_i_dot_omega_j - g_i_dot_omega_j * t520 - (t518 * omega_i_in_joint_i_0 -
-        omega_i_in_joint_i_1 * t520);
-    const jg_real t522 = A_joint_i_world_2 * A_j[6] + A_joint_i_world_5 * A_j[7] + A_joint_i_world_8 * A_j[8];
-    const jg_real t523 = A_j[6] * A_joint_i_world_1 + A_joint_i_world_4 * A_j[7] + A_joint_i_world_7 * A_j[8];
-    const jg_real t524 = t522 * g_i_dot_omega_j - t523 * h_i_dot_omega_j - (t522 * omega_i_in_joint_i_1 - t523 *
-        omega_i_in_joint_i_2);
-    jac_phi_q_v_geometry[51] = t524;
-    jac_phi_q_v_geometry[61] = t524;
-    const jg_real t525 = A_j[6] * A_joint_i_world_0 + A_joint_i_world_3 * A_j[7] + A_joint_i_world_6 * A_j[8];
-    const jg_real t526 = h_i_dot_omega_j * t525 - t522 * f_i_dot_omega_j - (omega_i_in_joint_i_2 * t525 - t522 *
-        omega_i_in_joint_i_0);
-    jac_phi_q_v_geometry[52] = t526;
-    jac_phi_q_v_geometry[62] = t526;
-    jac_phi_q_v_geometry[53] = t523 * f_i_dot_omega_j - g_i_dot_omega_j * t525 - (t523 * omega_i_in_joint_i_0 -
-        omega_i_in_joint_i_1 * t525);
-    const jg_real t527 = t512 * h_i_dot_f_j;
-    const jg_real t528 = (t527 + t527) * t74 * pitch;
-    jac_phi_q_v_geometry[54] = t528 * t82 + t80 * (t512 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_j[0] +
-        A_j[1] * omega_j[1] + A_j[2] * omega_j[2])) - ((t512 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[0] * omega_i[0]
-        + A_j[1] * omega_i[1] + A_j[2] * omega_i[2])) * t80 + t79 * t528);
-    const jg_real t529 = t517 * h_i_dot_f_j;
-    const jg_real t530 = (t529 + t529) * t74 * pitch;
-    jac_phi_q_v_geometry[55] = t530 * t82 + t80 * (t517 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_j[0] +
-        A_j[4] * omega_j[1] + A_j[5] * omega_j[2])) - ((t517 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[3] * omega_i[0]
-        + A_j[4] * omega_i[1] + A_j[5] * omega_i[2])) * t80 + t79 * t530);
-    const jg_real t531 = t522 * h_i_dot_f_j;
-    const jg_real t532 = (t531 + t531) * t74 * pitch;
-    jac_phi_q_v_geometry[56] = t532 * t82 + t80 * (t522 * omega_j_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_j[0] +
-        A_j[7] * omega_j[1] + A_j[8] * omega_j[2])) - ((t522 * omega_i_dot_f_j + h_i_dot_f_j * (A_j[6] * omega_i[0]
-        + A_j[7] * omega_i[1] + A_j[8] * omega_i[2])) * t80 + t79 * t532);
-    jac_phi_q_v_geometry[63] = spread * t82 - t79 * spread;
-    jac_phi_q_v_velocity[0] = -A_joint_i_world_0;
-    jac_phi_q_v_velocity[1] = -A_joint_i_world_1;
-    jac_phi_q_v_velocity[2] = -A_joint_i_world_2;
-    jac_phi_q_v_velocity[3] = -A_joint_i_world_3;
-    jac_phi_q_v_velocity[4] = -A_joint_i_world_4;
-    jac_phi_q_v_velocity[5] = -A_joint_i_world_5;
-    jac_phi_q_v_velocity[6] = -A_joint_i_world_6;
-    jac_phi_q_v_velocity[7] = -A_joint_i_world_7;
-    jac_phi_q_v_velocity[8] = -A_joint_i_world_8;
-    jac_phi_q_v_velocity[9] = -(d_ij_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * d_ij_in_joint_i_1 +
-        (s_i_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[10] = -(A_joint_i_world_2 * d_ij_in_joint_i_0 - d_ij_in_joint_i_2 * A_joint_i_world_0 +
-        (A_joint_i_world_2 * s_i_in_joint_i_0 - s_i_in_joint_i_2 * A_joint_i_world_0));
-    const jg_real t533 = A_joint_i_world_1 * h_j_in_joint_i_2 - A_joint_i_world_2 * h_j_in_joint_i_1;
-    jac_phi_q_v_velocity[35] = t533;
-    jac_phi_q_v_velocity[11] = -t533;
-    const jg_real t534 = A_joint_i_world_2 * h_j_in_joint_i_0 - A_joint_i_world_0 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[36] = t534;
-    jac_phi_q_v_velocity[12] = -t534;
-    const jg_real t535 = (f_j_world_0 * h_i_dot_f_j - A_joint_i_world_2) * t80;
-    jac_phi_q_v_velocity[13] = -(s_i_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * s_i_in_joint_i_0 + t535
-        + (d_ij_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[14] = -(A_joint_i_world_4 * d_ij_in_joint_i_2 - A_joint_i_world_5 * d_ij_in_joint_i_1 +
-        (A_joint_i_world_4 * s_i_in_joint_i_2 - A_joint_i_world_5 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[15] = -(A_joint_i_world_5 * d_ij_in_joint_i_0 - A_joint_i_world_3 * d_ij_in_joint_i_2 +
-        (A_joint_i_world_5 * s_i_in_joint_i_0 - A_joint_i_world_3 * s_i_in_joint_i_2));
-    const jg_real t536 = A_joint_i_world_4 * h_j_in_joint_i_2 - A_joint_i_world_5 * h_j_in_joint_i_1;
-    jac_phi_q_v_velocity[40] = t536;
-    jac_phi_q_v_velocity[16] = -t536;
-    const jg_real t537 = A_joint_i_world_5 * h_j_in_joint_i_0 - A_joint_i_world_3 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[41] = t537;
-    jac_phi_q_v_velocity[17] = -t537;
-    const jg_real t538 = (f_j_world_1 * h_i_dot_f_j - A_joint_i_world_5) * t80;
-    jac_phi_q_v_velocity[18] = -(A_joint_i_world_3 * s_i_in_joint_i_1 - A_joint_i_world_4 * s_i_in_joint_i_0 + t538
-        + (A_joint_i_world_3 * d_ij_in_joint_i_1 - A_joint_i_world_4 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[19] = -(A_joint_i_world_7 * d_ij_in_joint_i_2 - A_joint_i_world_8 * d_ij_in_joint_i_1 +
-        (A_joint_i_world_7 * s_i_in_joint_i_2 - A_joint_i_world_8 * s_i_in_joint_i_1));
-    jac_phi_q_v_velocity[20] = -(A_joint_i_world_8 * d_ij_in_joint_i_0 - A_joint_i_world_6 * d_ij_in_joint_i_2 +
-        (A_joint_i_world_8 * s_i_in_joint_i_0 - A_joint_i_world_6 * s_i_in_joint_i_2));
-    const jg_real t539 = A_joint_i_world_7 * h_j_in_joint_i_2 - A_joint_i_world_8 * h_j_in_joint_i_1;
-    jac_phi_q_v_velocity[45] = t539;
-    jac_phi_q_v_velocity[21] = -t539;
-    const jg_real t540 = A_joint_i_world_8 * h_j_in_joint_i_0 - A_joint_i_world_6 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[46] = t540;
-    jac_phi_q_v_velocity[22] = -t540;
-    const jg_real t541 = (f_j_world_2 * h_i_dot_f_j - A_joint_i_world_8) * t80;
-    jac_phi_q_v_velocity[23] = -(A_joint_i_world_6 * s_i_in_joint_i_1 - A_joint_i_world_7 * s_i_in_joint_i_0 + t541
-        + (A_joint_i_world_6 * d_ij_in_joint_i_1 - A_joint_i_world_7 * d_ij_in_joint_i_0));
-    jac_phi_q_v_velocity[33] = s_j_in_joint_i_2 * A_joint_i_world_1 - A_joint_i_world_2 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[34] = A_joint_i_world_2 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * A_joint_i_world_0;
-    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * A_joint_i_world_0 - A_joint_i_world_1 * s_j_in_joint_i_0 + t535;
-    jac_phi_q_v_velocity[38] = A_joint_i_world_4 * s_j_in_joint_i_2 - A_joint_i_world_5 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[39] = A_joint_i_world_5 * s_j_in_joint_i_0 - A_joint_i_world_3 * s_j_in_joint_i_2;
-    jac_phi_q_v_velocity[42] = A_joint_i_world_3 * s_j_in_joint_i_1 - A_joint_i_world_4 * s_j_in_joint_i_0 + t538;
-    jac_phi_q_v_velocity[43] = A_joint_i_world_7 * s_j_in_joint_i_2 - A_joint_i_world_8 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[44] = A_joint_i_world_8 * s_j_in_joint_i_0 - A_joint_i_world_6 * s_j_in_joint_i_2;
-    jac_phi_q_v_velocity[47] = A_joint_i_world_6 * s_j_in_joint_i_1 - A_joint_i_world_7 * s_j_in_joint_i_0 + t541;
+    const jg_real t363 = t358 * h_j_in_joint_i_2;
+    const jg_real t364 = h_i_dot_omega_i * t361;
+    const jg_real t365 = t352 * h_j_in_joint_i_2;
+    jac_phi_q_v_geometry[13] = t362 + t348 * h_j_in_joint_i_0 - (t363 + f_i_dot_omega_j * t360) - (t364 + t344 *
+        h_j_in_joint_i_0 - (t365 + f_i_dot_omega_i * t360));
+    const jg_real t366 = t341 * f_j_world_0 + t342 * f_j_world_1 + t343 * f_j_world_2;
+    const jg_real t367 = h_i_dot_f_j * t366;
+    jac_phi_q_v_geometry[14] = t341 * v_j[0] + t342 * v_j[1] + t343 * v_j[2] - ((t366 * t69 - t344 + t348) * t71 +
+        (t367 + t367) * t64 * pitch * t70 + (t341 * v_i[0] + t342 * v_i[1] + t343 * v_i[2]) + (t352 *
+        r_ij_in_joint_i_1 - g_i_dot_omega_i * t354) + (t352 * s_j_in_joint_i_1 - g_i_dot_omega_i * t350) -
+        (s_j_in_joint_i_1 * t358 - t350 * g_i_dot_omega_j));
+    const jg_real t368 = f_i_world_1 * A_i[2] - A_i[1] * f_i_world_2;
+    const jg_real t369 = f_i_world_2 * A_i[0] - A_i[2] * f_i_world_0;
+    const jg_real t370 = A_i[1] * f_i_world_0 - f_i_world_1 * A_i[0];
+    const jg_real t371 = t368 * omega_i[0] + t369 * omega_i[1] + t370 * omega_i[2];
+    const jg_real t372 = t368 * s_j_world_0 + t369 * s_j_world_1 + t370 * s_j_world_2;
+    const jg_real t373 = t368 * r_ij_world_0 + t369 * r_ij_world_1 + t370 * r_ij_world_2;
+    const jg_real t374 = t368 * omega_j[0] + t369 * omega_j[1] + t370 * omega_j[2];
+    jac_phi_q_v_geometry[15] = t372 * g_i_dot_omega_j + t305 - (t303 + s_j_in_joint_i_1 * t374) - (t299 + t372 *
+        g_i_dot_omega_i - (t371 * s_j_in_joint_i_1 + t297) + (g_i_dot_omega_i * t373 + t302 - (t301 + t371 *
+        r_ij_in_joint_i_1)));
+    jac_phi_q_v_geometry[16] = t295 - (t371 * s_j_in_joint_i_0 - t372 * f_i_dot_omega_i + (t371 * r_ij_in_joint_i_0
+        - t373 * f_i_dot_omega_i + t293) - (t374 * s_j_in_joint_i_0 - t372 * f_i_dot_omega_j));
+    const jg_real t375 = t368 * h_j_world_0 + t369 * h_j_world_1 + t370 * h_j_world_2;
+    jac_phi_q_v_geometry[17] = t309 + g_i_dot_omega_j * t375 - (t374 * h_j_in_joint_i_1 + t308) - (t311 +
+        g_i_dot_omega_i * t375 - (t371 * h_j_in_joint_i_1 + t310));
+    jac_phi_q_v_geometry[18] = t374 * h_j_in_joint_i_0 - f_i_dot_omega_j * t375 - (t371 * h_j_in_joint_i_0 -
+        f_i_dot_omega_i * t375);
+    const jg_real t376 = t368 * f_j_world_0 + t369 * f_j_world_1 + t370 * f_j_world_2;
+    const jg_real t377 = h_i_dot_f_j * t376;
+    jac_phi_q_v_geometry[19] = t368 * v_j[0] + t369 * v_j[1] + t370 * v_j[2] - ((t376 * t69 - t371 + t374) * t71 +
+        (t377 + t377) * t64 * pitch * t70 + (t368 * v_i[0] + t369 * v_i[1] + t370 * v_i[2]) + (t300 *
+        f_i_dot_omega_i - t298 * r_ij_in_joint_i_0) + (t296 * f_i_dot_omega_i - t298 * s_j_in_joint_i_0) - (t296 *
+        f_i_dot_omega_j - t304 * s_j_in_joint_i_0));
+    const jg_real t378 = f_i_world_1 * A_i[5] - A_i[4] * f_i_world_2;
+    const jg_real t379 = f_i_world_2 * A_i[3] - A_i[5] * f_i_world_0;
+    const jg_real t380 = A_i[4] * f_i_world_0 - f_i_world_1 * A_i[3];
+    const jg_real t381 = t378 * omega_i[0] + t379 * omega_i[1] + t380 * omega_i[2];
+    const jg_real t382 = t378 * s_j_world_0 + t379 * s_j_world_1 + t380 * s_j_world_2;
+    const jg_real t383 = t378 * r_ij_world_0 + t379 * r_ij_world_1 + t380 * r_ij_world_2;
+    const jg_real t384 = t378 * omega_j[0] + t379 * omega_j[1] + t380 * omega_j[2];
+    jac_phi_q_v_geometry[20] = t382 * g_i_dot_omega_j + t332 - (t330 + s_j_in_joint_i_1 * t384) - (t326 + t382 *
+        g_i_dot_omega_i - (t381 * s_j_in_joint_i_1 + t324) + (g_i_dot_omega_i * t383 + t329 - (t328 + t381 *
+        r_ij_in_joint_i_1)));
+    jac_phi_q_v_geometry[21] = t322 - (t381 * s_j_in_joint_i_0 - t382 * f_i_dot_omega_i + (t381 * r_ij_in_joint_i_0
+        - t383 * f_i_dot_omega_i + t320) - (t384 * s_j_in_joint_i_0 - t382 * f_i_dot_omega_j));
+    const jg_real t385 = t378 * h_j_world_0 + t379 * h_j_world_1 + t380 * h_j_world_2;
+    jac_phi_q_v_geometry[22] = t336 + g_i_dot_omega_j * t385 - (t384 * h_j_in_joint_i_1 + t335) - (t338 +
+        g_i_dot_omega_i * t385 - (t381 * h_j_in_joint_i_1 + t337));
+    jac_phi_q_v_geometry[23] = t384 * h_j_in_joint_i_0 - f_i_dot_omega_j * t385 - (t381 * h_j_in_joint_i_0 -
+        f_i_dot_omega_i * t385);
+    const jg_real t386 = t378 * f_j_world_0 + t379 * f_j_world_1 + t380 * f_j_world_2;
+    const jg_real t387 = h_i_dot_f_j * t386;
+    jac_phi_q_v_geometry[24] = t378 * v_j[0] + t379 * v_j[1] + t380 * v_j[2] - ((t386 * t69 - t381 + t384) * t71 +
+        (t387 + t387) * t64 * pitch * t70 + (t378 * v_i[0] + t379 * v_i[1] + t380 * v_i[2]) + (t327 *
+        f_i_dot_omega_i - t325 * r_ij_in_joint_i_0) + (t323 * f_i_dot_omega_i - t325 * s_j_in_joint_i_0) - (t323 *
+        f_i_dot_omega_j - t331 * s_j_in_joint_i_0));
+    const jg_real t388 = f_i_world_1 * A_i[8] - A_i[7] * f_i_world_2;
+    const jg_real t389 = f_i_world_2 * A_i[6] - A_i[8] * f_i_world_0;
+    const jg_real t390 = A_i[7] * f_i_world_0 - f_i_world_1 * A_i[6];
+    const jg_real t391 = t388 * omega_i[0] + t389 * omega_i[1] + t390 * omega_i[2];
+    const jg_real t392 = t388 * s_j_world_0 + t389 * s_j_world_1 + t390 * s_j_world_2;
+    const jg_real t393 = t388 * r_ij_world_0 + t389 * r_ij_world_1 + t390 * r_ij_world_2;
+    const jg_real t394 = t388 * omega_j[0] + t389 * omega_j[1] + t390 * omega_j[2];
+    jac_phi_q_v_geometry[25] = t392 * g_i_dot_omega_j + t359 - (t357 + s_j_in_joint_i_1 * t394) - (t353 + t392 *
+        g_i_dot_omega_i - (t391 * s_j_in_joint_i_1 + t351) + (g_i_dot_omega_i * t393 + t356 - (t355 + t391 *
+        r_ij_in_joint_i_1)));
+    jac_phi_q_v_geometry[26] = t349 - (t391 * s_j_in_joint_i_0 - t392 * f_i_dot_omega_i + (t391 * r_ij_in_joint_i_0
+        - t393 * f_i_dot_omega_i + t347) - (t394 * s_j_in_joint_i_0 - t392 * f_i_dot_omega_j));
+    const jg_real t395 = t388 * h_j_world_0 + t389 * h_j_world_1 + t390 * h_j_world_2;
+    jac_phi_q_v_geometry[27] = t363 + g_i_dot_omega_j * t395 - (t394 * h_j_in_joint_i_1 + t362) - (t365 +
+        g_i_dot_omega_i * t395 - (t391 * h_j_in_joint_i_1 + t364));
+    jac_phi_q_v_geometry[28] = t394 * h_j_in_joint_i_0 - f_i_dot_omega_j * t395 - (t391 * h_j_in_joint_i_0 -
+        f_i_dot_omega_i * t395);
+    const jg_real t396 = t388 * f_j_world_0 + t389 * f_j_world_1 + t390 * f_j_world_2;
+    const jg_real t397 = h_i_dot_f_j * t396;
+    jac_phi_q_v_geometry[29] = t388 * v_j[0] + t389 * v_j[1] + t390 * v_j[2] - ((t396 * t69 - t391 + t394) * t71 +
+        (t397 + t397) * t64 * pitch * t70 + (t388 * v_i[0] + t389 * v_i[1] + t390 * v_i[2]) + (t354 *
+        f_i_dot_omega_i - t352 * r_ij_in_joint_i_0) + (t350 * f_i_dot_omega_i - t352 * s_j_in_joint_i_0) - (t350 *
+        f_i_dot_omega_j - t358 * s_j_in_joint_i_0));
+    const jg_real t398 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
+    const jg_real t399 = A_j[0] * g_i_world_0 + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
+    const jg_real t400 = t398 * g_i_dot_omega_j - t399 * h_i_dot_omega_j - (t398 * g_i_dot_omega_i - h_i_dot_omega_i
+        * t399);
+    jac_phi_q_v_geometry[30] = t400;
+    jac_phi_q_v_geometry[42] = t400;
+    const jg_real t401 = A_j[0] * f_i_world_0 + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real t402 = h_i_dot_omega_j * t401 - t398 * f_i_dot_omega_j - (h_i_dot_omega_i * t401 - t398 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_geometry[31] = t402;
+    jac_phi_q_v_geometry[43] = t402;
+    jac_phi_q_v_geometry[32] = t399 * f_i_dot_omega_j - g_i_dot_omega_j * t401 - (t399 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t401);
+    const jg_real t403 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
+    const jg_real t404 = A_j[3] * g_i_world_0 + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
+    const jg_real t405 = t403 * g_i_dot_omega_j - t404 * h_i_dot_omega_j - (t403 * g_i_dot_omega_i - h_i_dot_omega_i
+        * t404);
+    jac_phi_q_v_geometry[33] = t405;
+    jac_phi_q_v_geometry[44] = t405;
+    const jg_real t406 = A_j[3] * f_i_world_0 + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    const jg_real t407 = h_i_dot_omega_j * t406 - t403 * f_i_dot_omega_j - (h_i_dot_omega_i * t406 - t403 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_geometry[34] = t407;
+    jac_phi_q_v_geometry[45] = t407;
+    jac_phi_q_v_geometry[35] = t404 * f_i_dot_omega_j - g_i_dot_omega_j * t406 - (t404 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t406);
+    const jg_real t408 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
+    const jg_real t409 = A_j[6] * g_i_world_0 + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
+    const jg_real t410 = t408 * g_i_dot_omega_j - t409 * h_i_dot_omega_j - (t408 * g_i_dot_omega_i - h_i_dot_omega_i
+        * t409);
+    jac_phi_q_v_geometry[36] = t410;
+    jac_phi_q_v_geometry[46] = t410;
+    const jg_real t411 = A_j[6] * f_i_world_0 + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real t412 = h_i_dot_omega_j * t411 - t408 * f_i_dot_omega_j - (h_i_dot_omega_i * t411 - t408 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_geometry[37] = t412;
+    jac_phi_q_v_geometry[47] = t412;
+    jac_phi_q_v_geometry[38] = t409 * f_i_dot_omega_j - g_i_dot_omega_j * t411 - (t409 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t411);
+    const jg_real t413 = t398 * h_i_dot_f_j;
+    jac_phi_q_v_geometry[39] = -((t398 * t69 + h_i_dot_f_j * (A_j[0] * omega_i[0] + A_j[1] * omega_i[1] + A_j[2] *
+        omega_i[2] - (A_j[0] * omega_j[0] + A_j[1] * omega_j[1] + A_j[2] * omega_j[2]))) * t71 + (t413 + t413) * t64
+        * pitch * t70);
+    const jg_real t414 = t403 * h_i_dot_f_j;
+    jac_phi_q_v_geometry[40] = -((t403 * t69 + h_i_dot_f_j * (A_j[3] * omega_i[0] + A_j[4] * omega_i[1] + A_j[5] *
+        omega_i[2] - (A_j[3] * omega_j[0] + A_j[4] * omega_j[1] + A_j[5] * omega_j[2]))) * t71 + (t414 + t414) * t64
+        * pitch * t70);
+    const jg_real t415 = t408 * h_i_dot_f_j;
+    jac_phi_q_v_geometry[41] = -((t408 * t69 + h_i_dot_f_j * (A_j[6] * omega_i[0] + A_j[7] * omega_i[1] + A_j[8] *
+        omega_i[2] - (A_j[6] * omega_j[0] + A_j[7] * omega_j[1] + A_j[8] * omega_j[2]))) * t71 + (t415 + t415) * t64
+        * pitch * t70);
+    jac_phi_q_v_geometry[48] = -(t70 * spread);
+    jac_phi_q_v_velocity[0] = -f_i_world_0;
+    jac_phi_q_v_velocity[1] = -g_i_world_0;
+    jac_phi_q_v_velocity[2] = -h_i_world_0;
+    jac_phi_q_v_velocity[3] = -f_i_world_1;
+    jac_phi_q_v_velocity[4] = -g_i_world_1;
+    jac_phi_q_v_velocity[5] = -h_i_world_1;
+    jac_phi_q_v_velocity[6] = -f_i_world_2;
+    jac_phi_q_v_velocity[7] = -g_i_world_2;
+    jac_phi_q_v_velocity[8] = -h_i_world_2;
+    const jg_real t416 = g_i_world_0 * s_j_in_joint_i_2 - h_i_world_0 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[33] = t416;
+    jac_phi_q_v_velocity[9] = -(g_i_world_0 * r_ij_in_joint_i_2 - h_i_world_0 * r_ij_in_joint_i_1 + t416);
+    const jg_real t417 = h_i_world_0 * s_j_in_joint_i_0 - f_i_world_0 * s_j_in_joint_i_2;
+    jac_phi_q_v_velocity[34] = t417;
+    jac_phi_q_v_velocity[10] = -(h_i_world_0 * r_ij_in_joint_i_0 - f_i_world_0 * r_ij_in_joint_i_2 + t417);
+    const jg_real t418 = g_i_world_0 * h_j_in_joint_i_2 - h_i_world_0 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[35] = t418;
+    jac_phi_q_v_velocity[11] = -t418;
+    const jg_real t419 = h_i_world_0 * h_j_in_joint_i_0 - f_i_world_0 * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[36] = t419;
+    jac_phi_q_v_velocity[12] = -t419;
+    const jg_real t420 = (f_j_world_0 * h_i_dot_f_j - h_i_world_0) * t71;
+    const jg_real t421 = f_i_world_0 * s_j_in_joint_i_1 - g_i_world_0 * s_j_in_joint_i_0;
+    jac_phi_q_v_velocity[13] = -(f_i_world_0 * r_ij_in_joint_i_1 - g_i_world_0 * r_ij_in_joint_i_0 + t420 + t421);
+    const jg_real t422 = g_i_world_1 * s_j_in_joint_i_2 - h_i_world_1 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[38] = t422;
+    jac_phi_q_v_velocity[14] = -(g_i_world_1 * r_ij_in_joint_i_2 - h_i_world_1 * r_ij_in_joint_i_1 + t422);
+    const jg_real t423 = h_i_world_1 * s_j_in_joint_i_0 - f_i_world_1 * s_j_in_joint_i_2;
+    jac_phi_q_v_velocity[39] = t423;
+    jac_phi_q_v_velocity[15] = -(h_i_world_1 * r_ij_in_joint_i_0 - f_i_world_1 * r_ij_in_joint_i_2 + t423);
+    const jg_real t424 = g_i_world_1 * h_j_in_joint_i_2 - h_i_world_1 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[40] = t424;
+    jac_phi_q_v_velocity[16] = -t424;
+    const jg_real t425 = h_i_world_1 * h_j_in_joint_i_0 - f_i_world_1 * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[41] = t425;
+    jac_phi_q_v_velocity[17] = -t425;
+    const jg_real t426 = (f_j_world_1 * h_i_dot_f_j - h_i_world_1) * t71;
+    const jg_real t427 = f_i_world_1 * s_j_in_joint_i_1 - g_i_world_1 * s_j_in_joint_i_0;
+    jac_phi_q_v_velocity[18] = -(f_i_world_1 * r_ij_in_joint_i_1 - g_i_world_1 * r_ij_in_joint_i_0 + t426 + t427);
+    const jg_real t428 = g_i_world_2 * s_j_in_joint_i_2 - h_i_world_2 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[43] = t428;
+    jac_phi_q_v_velocity[19] = -(g_i_world_2 * r_ij_in_joint_i_2 - h_i_world_2 * r_ij_in_joint_i_1 + t428);
+    const jg_real t429 = h_i_world_2 * s_j_in_joint_i_0 - f_i_world_2 * s_j_in_joint_i_2;
+    jac_phi_q_v_velocity[44] = t429;
+    jac_phi_q_v_velocity[20] = -(h_i_world_2 * r_ij_in_joint_i_0 - f_i_world_2 * r_ij_in_joint_i_2 + t429);
+    const jg_real t430 = g_i_world_2 * h_j_in_joint_i_2 - h_i_world_2 * h_j_in_joint_i_1;
+    jac_phi_q_v_velocity[45] = t430;
+    jac_phi_q_v_velocity[21] = -t430;
+    const jg_real t431 = h_i_world_2 * h_j_in_joint_i_0 - f_i_world_2 * h_j_in_joint_i_2;
+    jac_phi_q_v_velocity[46] = t431;
+    jac_phi_q_v_velocity[22] = -t431;
+    const jg_real t432 = (f_j_world_2 * h_i_dot_f_j - h_i_world_2) * t71;
+    const jg_real t433 = f_i_world_2 * s_j_in_joint_i_1 - g_i_world_2 * s_j_in_joint_i_0;
+    jac_phi_q_v_velocity[23] = -(f_i_world_2 * r_ij_in_joint_i_1 - g_i_world_2 * r_ij_in_joint_i_0 + t432 + t433);
+    jac_phi_q_v_velocity[37] = t420 + t421;
+    jac_phi_q_v_velocity[42] = t426 + t427;
+    jac_phi_q_v_velocity[47] = t432 + t433;
 }
 
 static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -1435,11 +1323,11 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real t42 = t20 * s_j_world_1;
     const jg_real t43 = t35 - t38 - (t40 - t42) + (t29 * across_world_0 + t32 * (C_i[6] - f_j_world_0 * t27));
-    /* v_6_world = r_j - r_i, world axes */
-    const jg_real v_6_world_2 = r_j[2] - r_i[2];
-    const jg_real t45 = t18 * v_6_world_2;
-    const jg_real v_6_world_1 = r_j[1] - r_i[1];
-    const jg_real t47 = t20 * v_6_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real t45 = t18 * r_ij_world_2;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real t47 = t20 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[3] = t43 - (t45 - t47);
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real t49 = t15 * s_j_world_2;
@@ -1449,16 +1337,16 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t53 = t52 * h_j_world_2;
     const jg_real t54 = t29 * across_world_1 - t27 * f_j_world_1 * t32 - (t53 + t33 * h_j_world_0 + (t49 + t20 *
         s_j_world_0));
-    const jg_real v_6_world_0 = r_j[0] - r_i[0];
-    const jg_real t56 = t15 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + t20 * v_6_world_0);
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real t56 = t15 * r_ij_world_2;
+    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + t20 * r_ij_world_0);
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     const jg_real t58 = t15 * s_j_world_1;
     const jg_real t59 = t52 * h_j_world_1;
     const jg_real t60 = t59 + t36 * h_j_world_0 + (t58 + t18 * s_j_world_0) + (t29 * across_world_2 - t27 *
         f_j_world_2 * t32);
-    const jg_real t61 = t15 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[5] = t61 + t18 * v_6_world_0 + t60;
+    const jg_real t61 = t15 * r_ij_world_1;
+    jac_phi_q_t_lambda_A_i[5] = t61 + t18 * r_ij_world_0 + t60;
     const jg_real t62 = -t18;
     jac_phi_q_t_lambda_A_i[7] = t62;
     jac_phi_q_t_lambda_A_i[12] = t62;
@@ -1478,18 +1366,18 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t69 = t64 * lambda[3];
     const jg_real t70 = t53 + t69 * h_j_world_1 + (t65 * s_j_world_1 + t49) + (t68 * across_world_0 - f_j_world_0 *
         t66 * t32);
-    jac_phi_q_t_lambda_A_i[15] = t65 * v_6_world_1 + t56 + t70;
+    jac_phi_q_t_lambda_A_i[15] = t65 * r_ij_world_1 + t56 + t70;
     const jg_real t71 = t69 * h_j_world_0;
     const jg_real t72 = t65 * s_j_world_0;
     const jg_real t73 = t68 * across_world_1 + t32 * (C_i[6] - f_j_world_1 * t66) - (t38 + t71 + (t40 + t72));
-    const jg_real t74 = t65 * v_6_world_0;
+    const jg_real t74 = t65 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[16] = t73 - (t45 + t74);
     const jg_real t75 = t15 * s_j_world_0;
     const jg_real t76 = t52 * h_j_world_0;
     const jg_real t77 = t36 * h_j_world_1 - t76 - (t75 - t18 * s_j_world_1) + (t68 * across_world_2 - t66 *
         f_j_world_2 * t32);
-    const jg_real t78 = t15 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - t18 * v_6_world_1);
+    const jg_real t78 = t15 * r_ij_world_0;
+    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - t18 * r_ij_world_1);
     const jg_real t79 = -t65;
     jac_phi_q_t_lambda_A_i[20] = t79;
     jac_phi_q_t_lambda_A_i[25] = t79;
@@ -1501,10 +1389,10 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t82 = (t81 + t81) * t26 * lambda[4] * pitch;
     const jg_real t83 = t69 * h_j_world_2 - t59 - (t58 - t65 * s_j_world_2) + (t82 * across_world_0 - f_j_world_0 *
         t80 * t32);
-    jac_phi_q_t_lambda_A_i[27] = t83 - (t61 - t65 * v_6_world_2);
+    jac_phi_q_t_lambda_A_i[27] = t83 - (t61 - t65 * r_ij_world_2);
     const jg_real t84 = t76 - h_j_world_2 * t33 - (t20 * s_j_world_2 - t75) + (t82 * across_world_1 - f_j_world_1 *
         t80 * t32);
-    jac_phi_q_t_lambda_A_i[28] = t84 - (t20 * v_6_world_2 - t78);
+    jac_phi_q_t_lambda_A_i[28] = t84 - (t20 * r_ij_world_2 - t78);
     const jg_real t85 = t35 - t71 - (t72 - t42) + (t82 * across_world_2 + t32 * (C_i[6] - f_j_world_2 * t80));
     jac_phi_q_t_lambda_A_i[29] = t85 - (t74 - t47);
     jac_phi_q_t_lambda_A_i[33] = -t83;
@@ -1536,22 +1424,22 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t99 = t89 * s_j_world_2;
     const jg_real t100 = t91 * s_j_world_1;
     const jg_real t101 = t96 - t98 - (t99 - t100) + (t94 * across_world_0 + t32 * (C_i[7] - f_j_world_0 * t92));
-    const jg_real t102 = t89 * v_6_world_2;
-    const jg_real t103 = t91 * v_6_world_1;
+    const jg_real t102 = t89 * r_ij_world_2;
+    const jg_real t103 = t91 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[39] = t101 - (t102 - t103);
     const jg_real t104 = t86 * s_j_world_2;
     const jg_real t105 = C_i[1] * lambda[2];
     const jg_real t106 = t105 * h_j_world_2;
     const jg_real t107 = t94 * across_world_1 - t92 * f_j_world_1 * t32 - (t106 + t95 * h_j_world_0 + (t104 + t91 *
         s_j_world_0));
-    const jg_real t108 = t86 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + t91 * v_6_world_0);
+    const jg_real t108 = t86 * r_ij_world_2;
+    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + t91 * r_ij_world_0);
     const jg_real t109 = t86 * s_j_world_1;
     const jg_real t110 = t105 * h_j_world_1;
     const jg_real t111 = t110 + t97 * h_j_world_0 + (t109 + t89 * s_j_world_0) + (t94 * across_world_2 - t92 *
         f_j_world_2 * t32);
-    const jg_real t112 = t86 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[41] = t112 + t89 * v_6_world_0 + t111;
+    const jg_real t112 = t86 * r_ij_world_1;
+    jac_phi_q_t_lambda_A_i[41] = t112 + t89 * r_ij_world_0 + t111;
     const jg_real t113 = -t89;
     jac_phi_q_t_lambda_A_i[43] = t113;
     jac_phi_q_t_lambda_A_i[48] = t113;
@@ -1571,18 +1459,18 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t120 = t115 * lambda[3];
     const jg_real t121 = t106 + t120 * h_j_world_1 + (t116 * s_j_world_1 + t104) + (t119 * across_world_0 -
         f_j_world_0 * t117 * t32);
-    jac_phi_q_t_lambda_A_i[51] = t116 * v_6_world_1 + t108 + t121;
+    jac_phi_q_t_lambda_A_i[51] = t116 * r_ij_world_1 + t108 + t121;
     const jg_real t122 = t120 * h_j_world_0;
     const jg_real t123 = t116 * s_j_world_0;
     const jg_real t124 = t119 * across_world_1 + t32 * (C_i[7] - f_j_world_1 * t117) - (t98 + t122 + (t99 + t123));
-    const jg_real t125 = t116 * v_6_world_0;
+    const jg_real t125 = t116 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[52] = t124 - (t102 + t125);
     const jg_real t126 = t86 * s_j_world_0;
     const jg_real t127 = t105 * h_j_world_0;
     const jg_real t128 = t97 * h_j_world_1 - t127 - (t126 - t89 * s_j_world_1) + (t119 * across_world_2 - t117 *
         f_j_world_2 * t32);
-    const jg_real t129 = t86 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - t89 * v_6_world_1);
+    const jg_real t129 = t86 * r_ij_world_0;
+    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - t89 * r_ij_world_1);
     const jg_real t130 = -t116;
     jac_phi_q_t_lambda_A_i[56] = t130;
     jac_phi_q_t_lambda_A_i[61] = t130;
@@ -1594,10 +1482,10 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t133 = (t132 + t132) * t26 * lambda[4] * pitch;
     const jg_real t134 = t120 * h_j_world_2 - t110 - (t109 - t116 * s_j_world_2) + (t133 * across_world_0 -
         f_j_world_0 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - t116 * v_6_world_2);
+    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - t116 * r_ij_world_2);
     const jg_real t135 = t127 - h_j_world_2 * t95 - (t91 * s_j_world_2 - t126) + (t133 * across_world_1 -
         f_j_world_1 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[64] = t135 - (t91 * v_6_world_2 - t129);
+    jac_phi_q_t_lambda_A_i[64] = t135 - (t91 * r_ij_world_2 - t129);
     const jg_real t136 = t96 - t122 - (t123 - t100) + (t133 * across_world_2 + t32 * (C_i[7] - f_j_world_2 * t131));
     jac_phi_q_t_lambda_A_i[65] = t136 - (t125 - t103);
     jac_phi_q_t_lambda_A_i[69] = -t134;
@@ -1630,22 +1518,22 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t151 = t142 * s_j_world_1;
     const jg_real t152 = t147 - t149 - (t150 - t151) + (t145 * across_world_0 + t32 * (C_i[8] - f_j_world_0 *
         t143));
-    const jg_real t153 = t140 * v_6_world_2;
-    const jg_real t154 = t142 * v_6_world_1;
+    const jg_real t153 = t140 * r_ij_world_2;
+    const jg_real t154 = t142 * r_ij_world_1;
     jac_phi_q_t_lambda_A_i[75] = t152 - (t153 - t154);
     const jg_real t155 = t137 * s_j_world_2;
     const jg_real t156 = C_i[2] * lambda[2];
     const jg_real t157 = t156 * h_j_world_2;
     const jg_real t158 = t145 * across_world_1 - t143 * f_j_world_1 * t32 - (t157 + t146 * h_j_world_0 + (t155 +
         t142 * s_j_world_0));
-    const jg_real t159 = t137 * v_6_world_2;
-    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + t142 * v_6_world_0);
+    const jg_real t159 = t137 * r_ij_world_2;
+    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + t142 * r_ij_world_0);
     const jg_real t160 = t137 * s_j_world_1;
     const jg_real t161 = t156 * h_j_world_1;
     const jg_real t162 = t161 + t148 * h_j_world_0 + (t160 + t140 * s_j_world_0) + (t145 * across_world_2 - t143 *
         f_j_world_2 * t32);
-    const jg_real t163 = t137 * v_6_world_1;
-    jac_phi_q_t_lambda_A_i[77] = t163 + t140 * v_6_world_0 + t162;
+    const jg_real t163 = t137 * r_ij_world_1;
+    jac_phi_q_t_lambda_A_i[77] = t163 + t140 * r_ij_world_0 + t162;
     const jg_real t164 = -t140;
     jac_phi_q_t_lambda_A_i[79] = t164;
     jac_phi_q_t_lambda_A_i[84] = t164;
@@ -1665,19 +1553,19 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t171 = t166 * lambda[3];
     const jg_real t172 = t157 + t171 * h_j_world_1 + (t167 * s_j_world_1 + t155) + (t170 * across_world_0 -
         f_j_world_0 * t168 * t32);
-    jac_phi_q_t_lambda_A_i[87] = t167 * v_6_world_1 + t159 + t172;
+    jac_phi_q_t_lambda_A_i[87] = t167 * r_ij_world_1 + t159 + t172;
     const jg_real t173 = t171 * h_j_world_0;
     const jg_real t174 = t167 * s_j_world_0;
     const jg_real t175 = t170 * across_world_1 + t32 * (C_i[8] - f_j_world_1 * t168) - (t149 + t173 + (t150 +
         t174));
-    const jg_real t176 = t167 * v_6_world_0;
+    const jg_real t176 = t167 * r_ij_world_0;
     jac_phi_q_t_lambda_A_i[88] = t175 - (t153 + t176);
     const jg_real t177 = t137 * s_j_world_0;
     const jg_real t178 = t156 * h_j_world_0;
     const jg_real t179 = t148 * h_j_world_1 - t178 - (t177 - t140 * s_j_world_1) + (t170 * across_world_2 - t168 *
         f_j_world_2 * t32);
-    const jg_real t180 = t137 * v_6_world_0;
-    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - t140 * v_6_world_1);
+    const jg_real t180 = t137 * r_ij_world_0;
+    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - t140 * r_ij_world_1);
     const jg_real t181 = -t167;
     jac_phi_q_t_lambda_A_i[92] = t181;
     jac_phi_q_t_lambda_A_i[97] = t181;
@@ -1689,10 +1577,10 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t184 = (t183 + t183) * t26 * lambda[4] * pitch;
     const jg_real t185 = t171 * h_j_world_2 - t161 - (t160 - t167 * s_j_world_2) + (t184 * across_world_0 -
         f_j_world_0 * t182 * t32);
-    jac_phi_q_t_lambda_A_i[99] = t185 - (t163 - t167 * v_6_world_2);
+    jac_phi_q_t_lambda_A_i[99] = t185 - (t163 - t167 * r_ij_world_2);
     const jg_real t186 = t178 - h_j_world_2 * t146 - (t142 * s_j_world_2 - t177) + (t184 * across_world_1 -
         f_j_world_1 * t182 * t32);
-    jac_phi_q_t_lambda_A_i[100] = t186 - (t142 * v_6_world_2 - t180);
+    jac_phi_q_t_lambda_A_i[100] = t186 - (t142 * r_ij_world_2 - t180);
     const jg_real t187 = t147 - t173 - (t174 - t151) + (t184 * across_world_2 + t32 * (C_i[8] - f_j_world_2 *
         t182));
     jac_phi_q_t_lambda_A_i[101] = t187 - (t176 - t154);
@@ -1838,12 +1726,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t263 = t259 * lambda[3] + A_i[1] * lambda[2];
     const jg_real t264 = t261 * lambda[3] + A_i[2] * lambda[2];
     const jg_real t265 = t263 * h_j_world_2 - t264 * h_j_world_1 - (t262 * s_j_world_1 - t260 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[3] = t265 - (t262 * v_6_world_1 - t260 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[3] = t265 - (t262 * r_ij_world_1 - t260 * r_ij_world_2);
     const jg_real t266 = t257 * lambda[3] + A_i[0] * lambda[2];
     const jg_real t267 = t264 * h_j_world_0 - h_j_world_2 * t266 - (t258 * s_j_world_2 - t262 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[4] = t267 - (t258 * v_6_world_2 - t262 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[4] = t267 - (t258 * r_ij_world_2 - t262 * r_ij_world_0);
     const jg_real t268 = h_j_world_1 * t266 - t263 * h_j_world_0 - (t260 * s_j_world_0 - t258 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[5] = t268 - (t260 * v_6_world_0 - t258 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[5] = t268 - (t260 * r_ij_world_0 - t258 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[9] = -t265;
     jac_phi_q_t_lambda_geometry[10] = -t267;
     jac_phi_q_t_lambda_geometry[11] = -t268;
@@ -1862,12 +1750,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t275 = t271 * lambda[3] + A_i[4] * lambda[2];
     const jg_real t276 = t273 * lambda[3] + A_i[5] * lambda[2];
     const jg_real t277 = t275 * h_j_world_2 - t276 * h_j_world_1 - (t274 * s_j_world_1 - t272 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[15] = t277 - (t274 * v_6_world_1 - t272 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[15] = t277 - (t274 * r_ij_world_1 - t272 * r_ij_world_2);
     const jg_real t278 = t269 * lambda[3] + A_i[3] * lambda[2];
     const jg_real t279 = t276 * h_j_world_0 - h_j_world_2 * t278 - (t270 * s_j_world_2 - t274 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[16] = t279 - (t270 * v_6_world_2 - t274 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[16] = t279 - (t270 * r_ij_world_2 - t274 * r_ij_world_0);
     const jg_real t280 = h_j_world_1 * t278 - t275 * h_j_world_0 - (t272 * s_j_world_0 - t270 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[17] = t280 - (t272 * v_6_world_0 - t270 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[17] = t280 - (t272 * r_ij_world_0 - t270 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[21] = -t277;
     jac_phi_q_t_lambda_geometry[22] = -t279;
     jac_phi_q_t_lambda_geometry[23] = -t280;
@@ -1886,12 +1774,12 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t287 = t283 * lambda[3] + A_i[7] * lambda[2];
     const jg_real t288 = t285 * lambda[3] + A_i[8] * lambda[2];
     const jg_real t289 = t287 * h_j_world_2 - t288 * h_j_world_1 - (t286 * s_j_world_1 - t284 * s_j_world_2);
-    jac_phi_q_t_lambda_geometry[27] = t289 - (t286 * v_6_world_1 - t284 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[27] = t289 - (t286 * r_ij_world_1 - t284 * r_ij_world_2);
     const jg_real t290 = t281 * lambda[3] + A_i[6] * lambda[2];
     const jg_real t291 = t288 * h_j_world_0 - h_j_world_2 * t290 - (t282 * s_j_world_2 - t286 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[28] = t291 - (t282 * v_6_world_2 - t286 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[28] = t291 - (t282 * r_ij_world_2 - t286 * r_ij_world_0);
     const jg_real t292 = h_j_world_1 * t290 - t287 * h_j_world_0 - (t284 * s_j_world_0 - t282 * s_j_world_1);
-    jac_phi_q_t_lambda_geometry[29] = t292 - (t284 * v_6_world_0 - t282 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[29] = t292 - (t284 * r_ij_world_0 - t282 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[33] = -t289;
     jac_phi_q_t_lambda_geometry[34] = -t291;
     jac_phi_q_t_lambda_geometry[35] = -t292;
@@ -1914,14 +1802,14 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t303 = t297 * lambda[3];
     const jg_real t304 = t302 * h_j_world_2 - t303 * h_j_world_1 - (t298 * s_j_world_1 - t296 * s_j_world_2) + (t301
         * across_world_0 + t32 * (A_i[0] - f_j_world_0 * t299));
-    jac_phi_q_t_lambda_geometry[39] = t304 - (t298 * v_6_world_1 - t296 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[39] = t304 - (t298 * r_ij_world_1 - t296 * r_ij_world_2);
     const jg_real t305 = t293 * lambda[3];
     const jg_real t306 = t303 * h_j_world_0 - h_j_world_2 * t305 - (t294 * s_j_world_2 - t298 * s_j_world_0) + (t301
         * across_world_1 + t32 * (A_i[1] - f_j_world_1 * t299));
-    jac_phi_q_t_lambda_geometry[40] = t306 - (t294 * v_6_world_2 - t298 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[40] = t306 - (t294 * r_ij_world_2 - t298 * r_ij_world_0);
     const jg_real t307 = h_j_world_1 * t305 - t302 * h_j_world_0 - (t296 * s_j_world_0 - t294 * s_j_world_1) + (t301
         * across_world_2 + t32 * (A_i[2] - f_j_world_2 * t299));
-    jac_phi_q_t_lambda_geometry[41] = t307 - (t296 * v_6_world_0 - t294 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[41] = t307 - (t296 * r_ij_world_0 - t294 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[45] = -t304;
     jac_phi_q_t_lambda_geometry[46] = -t306;
     jac_phi_q_t_lambda_geometry[47] = -t307;
@@ -1944,14 +1832,14 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t318 = t312 * lambda[3];
     const jg_real t319 = t317 * h_j_world_2 - t318 * h_j_world_1 - (t313 * s_j_world_1 - t311 * s_j_world_2) + (t316
         * across_world_0 + t32 * (A_i[3] - f_j_world_0 * t314));
-    jac_phi_q_t_lambda_geometry[51] = t319 - (t313 * v_6_world_1 - t311 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[51] = t319 - (t313 * r_ij_world_1 - t311 * r_ij_world_2);
     const jg_real t320 = t308 * lambda[3];
     const jg_real t321 = t318 * h_j_world_0 - h_j_world_2 * t320 - (t309 * s_j_world_2 - t313 * s_j_world_0) + (t316
         * across_world_1 + t32 * (A_i[4] - f_j_world_1 * t314));
-    jac_phi_q_t_lambda_geometry[52] = t321 - (t309 * v_6_world_2 - t313 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[52] = t321 - (t309 * r_ij_world_2 - t313 * r_ij_world_0);
     const jg_real t322 = h_j_world_1 * t320 - t317 * h_j_world_0 - (t311 * s_j_world_0 - t309 * s_j_world_1) + (t316
         * across_world_2 + t32 * (A_i[5] - f_j_world_2 * t314));
-    jac_phi_q_t_lambda_geometry[53] = t322 - (t311 * v_6_world_0 - t309 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[53] = t322 - (t311 * r_ij_world_0 - t309 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[57] = -t319;
     jac_phi_q_t_lambda_geometry[58] = -t321;
     jac_phi_q_t_lambda_geometry[59] = -t322;
@@ -1974,14 +1862,14 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t333 = t327 * lambda[3];
     const jg_real t334 = t332 * h_j_world_2 - t333 * h_j_world_1 - (t328 * s_j_world_1 - t326 * s_j_world_2) + (t331
         * across_world_0 + t32 * (A_i[6] - f_j_world_0 * t329));
-    jac_phi_q_t_lambda_geometry[63] = t334 - (t328 * v_6_world_1 - t326 * v_6_world_2);
+    jac_phi_q_t_lambda_geometry[63] = t334 - (t328 * r_ij_world_1 - t326 * r_ij_world_2);
     const jg_real t335 = t323 * lambda[3];
     const jg_real t336 = t333 * h_j_world_0 - h_j_world_2 * t335 - (t324 * s_j_world_2 - t328 * s_j_world_0) + (t331
         * across_world_1 + t32 * (A_i[7] - f_j_world_1 * t329));
-    jac_phi_q_t_lambda_geometry[64] = t336 - (t324 * v_6_world_2 - t328 * v_6_world_0);
+    jac_phi_q_t_lambda_geometry[64] = t336 - (t324 * r_ij_world_2 - t328 * r_ij_world_0);
     const jg_real t337 = h_j_world_1 * t335 - t332 * h_j_world_0 - (t326 * s_j_world_0 - t324 * s_j_world_1) + (t331
         * across_world_2 + t32 * (A_i[8] - f_j_world_2 * t329));
-    jac_phi_q_t_lambda_geometry[65] = t337 - (t326 * v_6_world_0 - t324 * v_6_world_1);
+    jac_phi_q_t_lambda_geometry[65] = t337 - (t326 * r_ij_world_0 - t324 * r_ij_world_1);
     jac_phi_q_t_lambda_geometry[69] = -t334;
     jac_phi_q_t_lambda_geometry[70] = -t336;
     jac_phi_q_t_lambda_geometry[71] = -t337;
@@ -2089,25 +1977,25 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[2] = -f_i_world_2;
     const jg_real t377 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     jac_phi_q_t_lambda_lambda[9] = t377;
-    jac_phi_q_t_lambda_lambda[3] = -(f_i_world_2 * v_6_world_1 - f_i_world_1 * v_6_world_2 + t377);
+    jac_phi_q_t_lambda_lambda[3] = -(f_i_world_2 * r_ij_world_1 - f_i_world_1 * r_ij_world_2 + t377);
     const jg_real t378 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[10] = t378;
-    jac_phi_q_t_lambda_lambda[4] = -(f_i_world_0 * v_6_world_2 - f_i_world_2 * v_6_world_0 + t378);
+    jac_phi_q_t_lambda_lambda[4] = -(f_i_world_0 * r_ij_world_2 - f_i_world_2 * r_ij_world_0 + t378);
     const jg_real t379 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[11] = t379;
-    jac_phi_q_t_lambda_lambda[5] = -(f_i_world_1 * v_6_world_0 - f_i_world_0 * v_6_world_1 + t379);
+    jac_phi_q_t_lambda_lambda[5] = -(f_i_world_1 * r_ij_world_0 - f_i_world_0 * r_ij_world_1 + t379);
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
     jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
     const jg_real t380 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
     jac_phi_q_t_lambda_lambda[21] = t380;
-    jac_phi_q_t_lambda_lambda[15] = -(g_i_world_2 * v_6_world_1 - g_i_world_1 * v_6_world_2 + t380);
+    jac_phi_q_t_lambda_lambda[15] = -(g_i_world_2 * r_ij_world_1 - g_i_world_1 * r_ij_world_2 + t380);
     const jg_real t381 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[22] = t381;
-    jac_phi_q_t_lambda_lambda[16] = -(g_i_world_0 * v_6_world_2 - g_i_world_2 * v_6_world_0 + t381);
+    jac_phi_q_t_lambda_lambda[16] = -(g_i_world_0 * r_ij_world_2 - g_i_world_2 * r_ij_world_0 + t381);
     const jg_real t382 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[23] = t382;
-    jac_phi_q_t_lambda_lambda[17] = -(g_i_world_1 * v_6_world_0 - g_i_world_0 * v_6_world_1 + t382);
+    jac_phi_q_t_lambda_lambda[17] = -(g_i_world_1 * r_ij_world_0 - g_i_world_0 * r_ij_world_1 + t382);
     const jg_real t383 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
     jac_phi_q_t_lambda_lambda[24] = t383;
     const jg_real t384 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
@@ -2131,11 +2019,11 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
     const jg_real t389 = spread * pitch;
     const jg_real t390 = t389 * across_world_0 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
-    jac_phi_q_t_lambda_lambda[39] = t390 - (h_i_world_2 * v_6_world_1 - h_i_world_1 * v_6_world_2);
+    jac_phi_q_t_lambda_lambda[39] = t390 - (h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2);
     const jg_real t391 = t389 * across_world_1 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
-    jac_phi_q_t_lambda_lambda[40] = t391 - (h_i_world_0 * v_6_world_2 - h_i_world_2 * v_6_world_0);
+    jac_phi_q_t_lambda_lambda[40] = t391 - (h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0);
     const jg_real t392 = t389 * across_world_2 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
-    jac_phi_q_t_lambda_lambda[41] = t392 - (h_i_world_1 * v_6_world_0 - h_i_world_0 * v_6_world_1);
+    jac_phi_q_t_lambda_lambda[41] = t392 - (h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1);
     jac_phi_q_t_lambda_lambda[45] = -t390;
     jac_phi_q_t_lambda_lambda[46] = -t391;
     jac_phi_q_t_lambda_lambda[47] = -t392;
@@ -2448,10 +2336,10 @@ int jac_jg_screw_conventional_world_phi_q_v_external(const double **arg, double 
 {
     static const double zeros[27] = {0.0};
     double unwanted_0[9];
-    double unwanted_1[30];
+    double unwanted_1[45];
     double unwanted_2[9];
     double unwanted_3[45];
-    double unwanted_4[64];
+    double unwanted_4[49];
     double unwanted_5[48];
     (void)iw;
     (void)w;
@@ -2536,8 +2424,8 @@ const casadi_int *jac_jg_screw_conventional_world_phi_q_v_external_sparsity_out(
         5, 3, 0, 3, 6, 9, 0, 1, 4, 0, 1, 4, 0, 1, 4
     };
     static const casadi_int pattern_1[] = {
-        5, 9, 0, 0, 5, 10, 10, 15, 20, 20, 25, 30, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1,
-        2, 3, 4, 0, 1, 2, 3, 4
+        5, 9, 0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0,
+        1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4
     };
     static const casadi_int pattern_2[] = {
         5, 3, 0, 3, 6, 9, 0, 1, 4, 0, 1, 4, 0, 1, 4
@@ -2547,9 +2435,9 @@ const casadi_int *jac_jg_screw_conventional_world_phi_q_v_external_sparsity_out(
         1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4
     };
     static const casadi_int pattern_4[] = {
-        5, 27, 0, 0, 0, 0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 48, 51, 54, 55, 56, 57, 57, 57, 57, 59, 61, 63, 64,
-        64, 64, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2,
-        3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 4, 0, 1, 4, 0, 1, 4, 4, 4, 4, 2, 3, 2, 3, 2, 3, 4
+        5, 27, 0, 0, 0, 0, 5, 10, 15, 20, 25, 30, 30, 30, 30, 33, 36, 39, 40, 41, 42, 42, 42, 42, 44, 46, 48, 49,
+        49, 49, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 4,
+        0, 1, 4, 0, 1, 4, 4, 4, 4, 2, 3, 2, 3, 2, 3, 4
     };
     static const casadi_int pattern_5[] = {
         5, 12, 0, 3, 6, 9, 14, 19, 24, 27, 30, 33, 38, 43, 48, 0, 1, 4, 0, 1, 4, 0, 1, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3,

@@ -96,13 +96,13 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[6] = -A_i[6];
     jac_phi_geometry[7] = -A_i[7];
     jac_phi_geometry[8] = -A_i[8];
-    jac_phi_geometry[9] = (A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2]) * C_j[6] + (A_j[3] * A_i[0] + A_j[4]
-        * A_i[1] + A_j[5] * A_i[2]) * C_j[7] + (A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2]) * C_j[8];
-    jac_phi_geometry[10] = (A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5]) * C_j[6] + (A_j[3] * A_i[3] +
-        A_j[4] * A_i[4] + A_j[5] * A_i[5]) * C_j[7] + (A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5]) *
+    jac_phi_geometry[9] = (A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2]) * C_j[6] + (A_i[0] * A_j[3] + A_i[1]
+        * A_j[4] + A_i[2] * A_j[5]) * C_j[7] + (A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8]) * C_j[8];
+    jac_phi_geometry[10] = (A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2]) * C_j[6] + (A_i[3] * A_j[3] +
+        A_i[4] * A_j[4] + A_i[5] * A_j[5]) * C_j[7] + (A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8]) *
         C_j[8];
-    jac_phi_geometry[11] = (A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8]) * C_j[6] + (A_j[3] * A_i[6] +
-        A_j[4] * A_i[7] + A_j[5] * A_i[8]) * C_j[7] + (A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8]) *
+    jac_phi_geometry[11] = (A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2]) * C_j[6] + (A_i[6] * A_j[3] +
+        A_i[7] * A_j[4] + A_i[8] * A_j[5]) * C_j[7] + (A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8]) *
         C_j[8];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;

@@ -64,7 +64,7 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [3 x 12] compressed-columns, 24 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 172 (67 add, 105 mul, 3 neg); temporaries: 38.
+ * @note Operations: 172 (67 add, 105 mul, 3 neg); temporaries: 39.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -162,7 +162,7 @@ void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 248 (103 add, 145 mul, 2 neg); temporaries: 47.
+ * @note Operations: 246 (102 add, 144 mul, 2 neg); temporaries: 46.
  * @see second time derivative of S1 Table 1
  */
 void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -188,7 +188,7 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [3]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 187 (76 add, 111 mul); temporaries: 34.
+ * @note Operations: 183 (76 add, 107 mul, 1 neg); temporaries: 36.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -211,7 +211,7 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 141 (57 add, 84 mul, 6 neg); temporaries: 45.
+ * @note Operations: 144 (57 add, 87 mul, 6 neg); temporaries: 48.
  * @see S1 Eqs. (1), (5)
  */
 void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -245,7 +245,7 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 526 (207 add, 319 mul, 18 neg); temporaries: 143.
+ * @note Operations: 518 (204 add, 314 mul, 18 neg); temporaries: 139.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 526 (207 add, 319 mul, 18 neg); temporaries: 96.
+ * @note Operations: 518 (204 add, 314 mul, 18 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -432,7 +432,7 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTR
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 222 (93 add, 129 mul, 1 neg); temporaries: 40.
+ * @note Operations: 212 (88 add, 124 mul, 1 neg); temporaries: 40.
  * @see second time derivative of S1 Table 1
  */
 void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -458,7 +458,7 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [3]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 162 (66 add, 96 mul); temporaries: 29.
+ * @note Operations: 159 (66 add, 93 mul); temporaries: 32.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -481,7 +481,7 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 111 (45 add, 66 mul, 6 neg); temporaries: 39.
+ * @note Operations: 114 (45 add, 69 mul, 6 neg); temporaries: 42.
  * @see S1 Eqs. (1), (5)
  */
 void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -515,7 +515,7 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 333 (141 add, 192 mul, 24 neg); temporaries: 91.
+ * @note Operations: 321 (134 add, 187 mul, 27 neg); temporaries: 92.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -550,7 +550,7 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 333 (141 add, 192 mul, 24 neg); temporaries: 84.
+ * @note Operations: 321 (134 add, 187 mul, 27 neg); temporaries: 84.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

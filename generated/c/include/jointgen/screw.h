@@ -70,7 +70,7 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [26] revolutions [1] 1
  * @param[out] phi_q [5 x 12] compressed-columns, 48 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 261 (102 add, 158 mul, 1 div, 9 neg); temporaries: 60.
+ * @note Operations: 259 (101 add, 157 mul, 1 div, 12 neg); temporaries: 65.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -95,7 +95,7 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
  *   [26] revolutions [1] 1
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 261 (102 add, 158 mul, 1 div, 9 neg); temporaries: 48.
+ * @note Operations: 259 (101 add, 157 mul, 1 div, 12 neg); temporaries: 48.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -180,7 +180,7 @@ void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 433 (176 add, 256 mul, 1 div); temporaries: 81.
+ * @note Operations: 386 (159 add, 226 mul, 1 div); temporaries: 71.
  * @see second time derivative of S1 Table 1
  */
 void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -209,7 +209,7 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 298 (126 add, 171 mul, 1 div); temporaries: 48.
+ * @note Operations: 274 (117 add, 156 mul, 1 div); temporaries: 48.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -235,7 +235,7 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in body axes; N, N
  *   m
- * @note Operations: 196 (81 add, 114 mul, 1 div, 6 neg); temporaries: 57.
+ * @note Operations: 196 (81 add, 114 mul, 1 div, 6 neg); temporaries: 60.
  * @see S1 Eqs. (1), (5)
  */
 void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -272,7 +272,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1026 (438 add, 586 mul, 1 div, 1 atan2, 33 neg); temporaries: 252.
+ * @note Operations: 1012 (434 add, 576 mul, 1 div, 1 atan2, 33 neg); temporaries: 250.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -310,7 +310,7 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1026 (438 add, 586 mul, 1 div, 1 atan2, 33 neg); temporaries: 120.
+ * @note Operations: 1012 (434 add, 576 mul, 1 div, 1 atan2, 33 neg); temporaries: 120.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -422,7 +422,7 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 253 (115 add, 137 mul, 1 div, 18 neg); temporaries: 87.
+ * @note Operations: 249 (112 add, 136 mul, 1 div, 18 neg); temporaries: 91.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -449,7 +449,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 253 (115 add, 137 mul, 1 div, 18 neg); temporaries: 60.
+ * @note Operations: 249 (112 add, 136 mul, 1 div, 18 neg); temporaries: 60.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -480,7 +480,7 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 386 (163 add, 222 mul, 1 div, 3 neg); temporaries: 69.
+ * @note Operations: 372 (154 add, 217 mul, 1 div, 2 neg); temporaries: 65.
  * @see second time derivative of S1 Table 1
  */
 void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -509,7 +509,7 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 293 (128 add, 164 mul, 1 div); temporaries: 56.
+ * @note Operations: 270 (116 add, 153 mul, 1 div); temporaries: 46.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -572,7 +572,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 653 (286 add, 365 mul, 1 div, 1 atan2, 37 neg); temporaries: 173.
+ * @note Operations: 637 (275 add, 360 mul, 1 div, 1 atan2, 36 neg); temporaries: 162.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -610,7 +610,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 653 (286 add, 365 mul, 1 div, 1 atan2, 37 neg); temporaries: 108.
+ * @note Operations: 637 (275 add, 360 mul, 1 div, 1 atan2, 36 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1719,7 +1719,7 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 141 (54 add, 86 mul, 1 sincos, 3 neg); temporaries: 39.
+ * @note Operations: 141 (54 add, 86 mul, 1 sincos, 2 neg); temporaries: 39.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

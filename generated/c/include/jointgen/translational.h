@@ -42,7 +42,7 @@ const int *jg_translational_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 118 (52 add, 66 mul); temporaries: 26.
+ * @note Operations: 112 (49 add, 63 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -64,7 +64,7 @@ void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 220 (85 add, 135 mul, 9 neg); temporaries: 47.
+ * @note Operations: 222 (86 add, 136 mul, 6 neg); temporaries: 47.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -86,7 +86,7 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 220 (85 add, 135 mul, 9 neg); temporaries: 42.
+ * @note Operations: 222 (86 add, 136 mul, 6 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -162,7 +162,7 @@ void jg_translational_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_REST
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 313 (130 add, 183 mul, 2 neg); temporaries: 53.
+ * @note Operations: 285 (118 add, 167 mul, 2 neg); temporaries: 51.
  * @see second time derivative of S1 Table 1
  */
 void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -188,7 +188,7 @@ void jg_translational_conventional_gamma(const jg_real *JG_RESTRICT r_i, const j
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 244 (103 add, 141 mul); temporaries: 37.
+ * @note Operations: 229 (97 add, 132 mul); temporaries: 40.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_translational_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -245,7 +245,7 @@ void jg_translational_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 691 (274 add, 417 mul, 30 neg); temporaries: 177.
+ * @note Operations: 676 (270 add, 406 mul, 30 neg); temporaries: 172.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_translational_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 691 (274 add, 417 mul, 30 neg); temporaries: 114.
+ * @note Operations: 676 (270 add, 406 mul, 30 neg); temporaries: 114.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -312,7 +312,7 @@ const int *jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [5]; constraint rows; m or 1
- * @note Operations: 118 (52 add, 66 mul); temporaries: 26.
+ * @note Operations: 112 (49 add, 63 mul); temporaries: 24.
  * @see S1 Eq. (4), Table 1
  */
 void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -334,7 +334,7 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 144 (57 add, 87 mul, 15 neg); temporaries: 33.
+ * @note Operations: 144 (57 add, 87 mul, 15 neg); temporaries: 36.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -432,7 +432,7 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_dense(const jg_real *J
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 286 (121 add, 165 mul, 3 neg); temporaries: 50.
+ * @note Operations: 270 (112 add, 158 mul, 2 neg); temporaries: 48.
  * @see second time derivative of S1 Table 1
  */
 void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -458,7 +458,7 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [5]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 214 (91 add, 123 mul); temporaries: 31.
+ * @note Operations: 205 (88 add, 117 mul); temporaries: 34.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -515,7 +515,7 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 452 (191 add, 261 mul, 30 neg); temporaries: 110.
+ * @note Operations: 434 (180 add, 254 mul, 30 neg); temporaries: 113.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -550,7 +550,7 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 452 (191 add, 261 mul, 30 neg); temporaries: 102.
+ * @note Operations: 434 (180 add, 254 mul, 30 neg); temporaries: 102.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -14,8 +14,10 @@ from typing import Any
 
 from codegen.emit.declarations import declaration, views, wrapped
 from codegen.emit.environment import render
+from codegen.emit.guarded import Guard, batch_guard, guard
 from codegen.emit.routine import Parameter, Routine
 from codegen.emit.statements import Notation, Statements
+from codegen.ir.program import Program
 
 VECTORS = Notation("jg_vector", "JG_IN({array}, {index})", "JG_OUT({array}, {index})", "jg_splat({literal})", "_batch")
 
@@ -65,7 +67,13 @@ class BatchRoutine:
     text: str
 
 
-def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int, thing: str = "joint") -> BatchRoutine:
+def batch_routine(
+    routine: Routine,
+    declared: tuple[Parameter, ...],
+    lanes: int,
+    thing: str = "joint",
+    check: Program | None = None,
+) -> BatchRoutine:
     """Emit a routine for groups of ``lanes`` joints, for many such groups, and for arrays of joints.
 
     Args:
@@ -73,6 +81,7 @@ def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int,
         declared: parameters of the routine for one joint.
         lanes: joints in a group.
         thing: what there are many of.
+        check: gives the conditions on the inputs of one that are asserted in debug builds.
     """
     symbol = f"{routine.symbol}_batch{lanes}"
     functions = _entries(routine.symbol, symbol, declared, lanes, thing)
@@ -88,6 +97,8 @@ def batch_routine(routine: Routine, declared: tuple[Parameter, ...], lanes: int,
         signatures=[entry.signature for entry in functions],
         body=wrapped(_unpacking(declared, statements.used_views) + statements.lines + unused, indent=8),
         calls=_calls(symbol, declared),
+        guard="" if check is None else batch_guard(symbol, declared, check),
+        asserted={} if check is None else _assertions(symbol, guard(symbol, declared, check)),
         parameters=declared,
     )
     return BatchRoutine(functions, text)
@@ -150,16 +161,33 @@ def _calls(symbol: str, declared: Sequence[Parameter]) -> dict[str, list[str]]:
     arguments: dict[str, tuple[str, list[str]]] = {
         "group": ("kernel", ["JG_BATCH", *names]),
         "loop": ("", [f"{p.name} + {p.length} * first" for p in declared]),
+        "inside": ("kernel", ["JG_BATCH", *(f"{p.name} + {p.length} * first" for p in declared)]),
         "strided": ("kernel", ["ld", *names]),
         "few": ("", [f"{name}_group" for name in names]),
         "first": ("strided", ["ld", *(f"{name} + first" for name in names)]),
         "last": ("strided", ["ld", *(f"{name} + last" for name in names)]),
         "rest": ("few", ["count", "ld", *names]),
     }
-    return {
-        call: wrapped([f"{symbol}{f'_{function}' if function else ''}({', '.join(passed)});"], indent=12)
-        for call, (function, passed) in arguments.items()
+    return {call: _call(symbol, *called) for call, called in arguments.items()}
+
+
+def _assertions(symbol: str, made: Guard) -> dict[str, list[str]]:
+    """The calls that assert the domain, as lines."""
+    names = [p.name for p in made.inputs]
+    arguments = {
+        "group": ["JG_BATCH", "JG_BATCH", *names],
+        "loop": [
+            "left < JG_BATCH ? left : JG_BATCH",
+            "JG_BATCH",
+            *(f"{p.name} + {p.length} * first" for p in made.inputs),
+        ],
+        "strided": ["JG_BATCH", "ld", *names],
     }
+    return {place: _call(symbol, "assert", passed) for place, passed in arguments.items()}
+
+
+def _call(symbol: str, function: str, passed: Sequence[str]) -> list[str]:
+    return wrapped([f"{symbol}{f'_{function}' if function else ''}({', '.join(passed)});"], indent=12)
 
 
 def _unpacking(declared: Sequence[Parameter], used: set[str]) -> list[str]:

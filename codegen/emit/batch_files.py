@@ -11,6 +11,7 @@ from codegen.emit.batch import LAYOUTS, BatchRoutine, batch_record, batch_routin
 from codegen.emit.c import Entry
 from codegen.emit.environment import render
 from codegen.emit.unit_subject import UnitSubject
+from codegen.ir.program import Program
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +42,20 @@ class BatchUnit:
 
 
 def batch_unit(
-    subject: UnitSubject, entries: Sequence[Entry], banner: str, options: str, specification: str, lanes: int
+    subject: UnitSubject,
+    entries: Sequence[Entry],
+    banner: str,
+    options: str,
+    specification: str,
+    lanes: int,
+    checks: Mapping[str, Program],
 ) -> BatchUnit:
-    """Emit the batch routines of one source file: those of its functions that store nonzeros or vectors."""
+    """Emit the batch routines of one source file: those of its functions that store nonzeros or vectors.
+
+    ``checks`` gives, by the symbol for one, the conditions that they assert in debug builds.
+    """
     emitted = tuple(
-        batch_routine(entry.routine, entry.parameters, lanes, subject.object)
+        batch_routine(entry.routine, entry.parameters, lanes, subject.object, checks.get(entry.symbol))
         for entry in entries
         if entry.storage != "dense"
     )

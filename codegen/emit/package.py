@@ -91,8 +91,8 @@ def unit(
     options = _options_line(subject, real, fma)
     patterns = _patterns(routines)
     emitted = [entry for routine in routines for entry in entries(routine)]
-    if check is not None:
-        emitted = [e if e.storage == "dense" else guarded(e, check(e.routine)) for e in emitted]
+    checks = {e.symbol: check(e.routine) for e in emitted if e.storage != "dense"} if check is not None else {}
+    emitted = [guarded(e, checks[e.symbol]) if e.symbol in checks else e for e in emitted]
     text = render(
         "c/source.c.j2",
         file=f"{subject.file_stem}.c",
@@ -120,7 +120,7 @@ def unit(
         ""
         if real == "float" or not subject.has_externals
         else external_source(routines, f"{subject.file_stem}.c", header, banner(version), options, specification),
-        batch_unit(subject, emitted, banner(version), options, specification, batch) if batch else None,
+        batch_unit(subject, emitted, banner(version), options, specification, batch, checks) if batch else None,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,16 @@ COLUMNS = 80
 """Dimensions of the sequence; a pose of a joint takes some 60."""
 
 
+@cache
 def sobol_points(count: int, columns: int = COLUMNS) -> Points:
     """Points [poses, dimensions] of the unit cube, the same in every run."""
     from scipy.stats import qmc
 
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
-        return np.asarray(qmc.Sobol(columns, scramble=True, rng=SEED).random(count))
+        points = np.asarray(qmc.Sobol(columns, scramble=True, rng=SEED).random(count))
+    points.flags.writeable = False
+    return points
 
 
 class Draw:

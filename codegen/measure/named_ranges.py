@@ -83,6 +83,7 @@ def _lengths(joint: JointType, domain: PoseDomain) -> dict[str, float]:
         "lambda_0_1_2": root * domain.multiplier,
         "d_ij": gap,
         "e_ij": gap + domain.s,
+        "r_ij": gap + 2 * domain.s,
     }
 
 

@@ -50,7 +50,9 @@ class Arrays:
         rate = self.displacements * number
         if not self.is_planar:
             places = (("r", 3 * number), ("A", 9 * number), ("velocity", rate), ("velocity", rate + 3))
-            return {body_symbol(word, body): place for word, place in zip(BODY_SYMBOLS, places, strict=True)}
+            found = {body_symbol(word, body): place for word, place in zip(BODY_SYMBOLS, places, strict=True)}
+            coordinates = frames.components(body_symbol("r", body))
+            return found | {coordinate: ("r", 3 * number + k) for k, coordinate in enumerate(coordinates)}
         x, y = planar_symbols("r", body)
         v_x, v_y = planar_symbols("v", body)
         cosine, sine = planar_symbols("A", body)

@@ -25,7 +25,7 @@ from codegen.mechanics.basic import (
     theta_variation,
 )
 from codegen.mechanics.branch import conventional_branch, parametric_branch
-from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_ij, r_j, s_i, s_j
 from codegen.mechanics.terms import Factors, unit
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
@@ -101,11 +101,23 @@ RELATIVE_REDUCTION = {dp_ij: sympy.MatAdd(ep_ij, sympy.MatMul(-1, s_i))}
 """``d'_ij + s_i = e'_ij``: for derivatives, since it takes ``A_i^T A_i = I``."""
 
 
-def relative_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
-    """Vectors in the axes of body i: ``A_ij = A_i^T A_j`` and ``d'_ij = A_i^T d_ij`` are named."""
+TOGETHER = (r_ij,)
+"""``r_j - r_i`` as one vector: no product takes a position alone, which would lose digits far from the origin."""
+
+APART = (r_j, sympy.MatMul(-1, r_i))
+"""``r_j - r_i`` as a sum: in the parametric form virtual translations are in body axes, and products take d' whole."""
+
+
+def relative_algebra(difference: tuple[Any, ...]) -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
+    """Vectors in the axes of body i: ``A_ij = A_i^T A_j`` and ``d'_ij = A_i^T d_ij`` are named.
+
+    Args:
+        difference: terms of ``r_j - r_i``: `TOGETHER` or `APART`.
+    """
+    r_j_part, *r_i_part = difference
     stages = {
         A_ij: sympy.MatMul(sympy.Transpose(A_i), A_j),
-        e_ij: sympy.MatAdd(r_j, sympy.MatMul(A_j, s_j), sympy.MatMul(-1, r_i)),
+        e_ij: sympy.MatAdd(r_j_part, sympy.MatMul(A_j, s_j), *r_i_part),
         d_ij: sympy.MatAdd(e_ij, sympy.MatMul(-1, A_i, s_i)),
         dp_ij: sympy.MatMul(sympy.Transpose(A_i), d_ij),
         ep_ij: sympy.MatMul(sympy.Transpose(A_i), e_ij),
@@ -137,7 +149,7 @@ def world_algebra() -> tuple[Algebra, dict[Any, Any], dict[Factors, str]]:
     names |= attachments
     stages |= {symbol: sympy.MatMul(*chain) for chain, symbol in names.items()}
     s_i_world, s_j_world = attachments.values()
-    stages[e_ij] = sympy.MatAdd(r_j, s_j_world, sympy.MatMul(-1, r_i))
+    stages[e_ij] = sympy.MatAdd(r_ij, s_j_world)
     stages[d_ij] = sympy.MatAdd(e_ij, sympy.MatMul(-1, s_i_world))
     aliases = {chain: symbol.name for chain, symbol in names.items()}
     return Algebra(frozenset({A_i, A_j, C_i, C_j}), names), stages, aliases
@@ -149,7 +161,7 @@ def _world_reduction(stages: dict[Any, Any]) -> dict[Any, Any]:
 
 
 def _conventional(joint: JointType, variant: Variant, translations: str) -> Formulation:
-    algebra, stages, aliases = relative_algebra() if variant.variation == "body" else world_algebra()
+    algebra, stages, aliases = relative_algebra(TOGETHER) if variant.variation == "body" else world_algebra()
     virtual = _body_motion(frames.BODY_DISPLACEMENTS, variant.variation, translations)
     rates = _body_motion(frames.BODY_VELOCITIES, variant.variation, translations)
     if joint.is_screw:
@@ -194,6 +206,7 @@ def _body_motion(bodies: tuple[Any, ...], variation: str, translations: str) -> 
     motion: dict[Any, Any] = {r_i: move_i, r_j: move_j}
     if translations == "body":
         motion = {r_i: sympy.MatMul(A_i, move_i), r_j: sympy.MatMul(A_j, move_j)}
+    motion[r_ij] = sympy.MatAdd(motion[r_j], sympy.MatMul(-1, motion[r_i]))
     for A, turn in ((A_i, turn_i), (A_j, turn_j)):
         motion[A] = sympy.MatMul(A, Tilde(turn)) if variation == "body" else sympy.MatMul(Tilde(turn), A)
     return motion
@@ -212,7 +225,7 @@ def coordinate_count(joint: JointType, rows: str | None) -> int:
 
 
 def _parametric(joint: JointType, variant: Variant, translations: str) -> Formulation:
-    algebra, stages, aliases = relative_algebra()
+    algebra, stages, aliases = relative_algebra(APART)
     count = coordinate_count(joint, variant.rows)
     algebra = replace(algebra, displacements=frozenset((*frames.delta_alpha(count), *frames.alpha_dot(count))))
     alphas = frames.alpha(count)

@@ -25,6 +25,9 @@ def matrix(name: str) -> Any:
 
 
 r_i, r_j = vector("r_i"), vector("r_j")
+r_ij = vector("r_ij")
+"""``r_j - r_i``, m, world, taken as a whole: far from the origin the difference of neighbours is exact, and products
+with one position alone are not."""
 A_i, A_j = matrix("A_i"), matrix("A_j")
 s_i, s_j = vector("s_i"), vector("s_j")
 C_i, C_j = matrix("C_i"), matrix("C_j")
@@ -53,6 +56,17 @@ GEOMETRY = ((s_i, 0), (C_i, 3), (s_j, 12), (C_j, 15))
 """Layout of ``geometry``: symbol and offset; joint parameters follow at 24."""
 
 PARAMETERS_OFFSET = 24
+
+
+def components(symbol: Any) -> tuple[Any, Any, Any]:
+    """The components of a [3] vector symbol as scalars."""
+    x, y, z = sympy.symbols(f"{symbol.name}_0 {symbol.name}_1 {symbol.name}_2")
+    return x, y, z
+
+
+def column(symbol: Any) -> Any:
+    """A [3] vector symbol written out in its `components`."""
+    return sympy.ImmutableDenseMatrix(components(symbol))
 
 
 def alpha(count: int) -> tuple[Any, ...]:
@@ -103,6 +117,7 @@ def arguments(joint: JointType, coordinates: int, rows: int) -> tuple[Argument, 
 def inputs(coordinates: int, rows: int) -> dict[Any, tuple[str, int]]:
     """Say for each symbol which argument it is read from, and at which offset."""
     places: dict[Any, tuple[str, int]] = {symbol: (symbol.name, 0) for symbol in (r_i, A_i, r_j, A_j)}
+    places |= {part: (r.name, k) for r in (r_i, r_j) for k, part in enumerate(components(r))}
     places |= {symbol: ("geometry", offset) for symbol, offset in GEOMETRY}
     places |= {p: ("geometry", PARAMETERS_OFFSET + k) for k, p in enumerate((pitch, theta_0, revolutions))}
     places |= {symbol: ("velocity", 3 * k) for k, symbol in enumerate(BODY_VELOCITIES)}

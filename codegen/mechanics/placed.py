@@ -19,7 +19,7 @@ from codegen.mechanics import frames
 from codegen.mechanics.arrays import BODY_SYMBOLS, Arrays, body_symbol, normal_symbol
 from codegen.mechanics.derivation import is_matrix
 from codegen.mechanics.formulation import Formulation
-from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, r_i, r_ij, r_j, s_i, s_j
 from codegen.mechanics.links import Link, aligned_axes, contracted
 from codegen.mechanics.normal_turns import about_normal
 from codegen.mechanics.places import BODY_I, BODY_J, JOINT_I, JOINT_J, STAR, WORLD
@@ -88,6 +88,7 @@ class Placed:
         count = self.form.coordinates
         own = [*self.form.stages, s_i, s_j, C_i, C_j, *([H] if H in self.form.stages else [])]
         found |= {symbol: _renamed(symbol, f"{symbol.name}_{self.ends.name}") for symbol in own}
+        found[r_ij] = frames.vector("r_{}__{}".format(*self.ends.bodies))  # identifiers have single underscores
         found[A_ij] = frames.matrix(f"A_ij of {self.ends.name}")  # never written; no body "ij ..." has this name
         for series in (frames.alpha, frames.alpha_dot):
             last = series(self.ends.first_alpha + count)
@@ -180,7 +181,16 @@ class Placed:
         for body, number in zip(self.ends.bodies, self.ends.numbers, strict=True):
             still = {body_symbol(word, body): ORIGIN for word in BODY_SYMBOLS if word != "A"}
             found |= still if number is None else self.ends.arrays.components(body)
+        found[self.symbols[r_ij]] = self._position(1) - self._position(0)
         return {symbol: value for symbol, value in found.items() if symbol in known}
+
+    def _position(self, side: int) -> Any:
+        """Components of the position of body i or body j; the ground stands still at the origin."""
+        body, arrays = self.ends.bodies[side], self.ends.arrays
+        if self.ends.numbers[side] is None:
+            return ORIGIN
+        r = body_symbol("r", body)
+        return arrays.components(body).get(r, frames.column(r))
 
     def _attachment(self, side: int) -> Any:
         """Numbers, and symbols where they are read at run time."""

@@ -14,7 +14,7 @@ from codegen.ir.lower.places import Places
 from codegen.mechanics import frames
 from codegen.mechanics.basic import across
 from codegen.mechanics.formulation import Formulation
-from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_j, s_i, s_j
+from codegen.mechanics.frames import A_i, A_ij, A_j, C_i, C_j, H, d_ij, dp_ij, e_ij, ep_ij, r_i, r_ij, r_j, s_i, s_j
 from codegen.spec.request import Variant
 
 WORLD, BODY_I, BODY_J, JOINT_I, JOINT_J, STAR = "world", "i", "j", "joint i", "joint j", "star"
@@ -44,7 +44,9 @@ def places(form: Formulation, variant: Variant, is_substituted: bool, translatio
         translations: as in `codegen.mechanics.formulation.formulation`.
     """
     motion = displacement_frames(variant, translations)
-    homes: dict[Any, str] = {r_i: WORLD, r_j: WORLD, s_i: BODY_I, s_j: BODY_J}
+    is_together = form.stages[e_ij].has(r_ij)
+    positions = {r_ij: WORLD} if is_together else {r_i: WORLD, r_j: WORLD}
+    homes: dict[Any, str] = positions | {s_i: BODY_I, s_j: BODY_J}
     homes |= dict(zip(frames.BODY_VELOCITIES, motion, strict=True))
     rotations = {A_i: (WORLD, BODY_I), A_j: (WORLD, BODY_J), A_ij: (BODY_I, BODY_J)}
     has_rotation = H in form.stages and not isinstance(form.stages[H], sympy.Identity)
@@ -75,6 +77,7 @@ def places(form: Formulation, variant: Variant, is_substituted: bool, translatio
         whole=frozenset({across}),
         is_raw=variant.matrices == "raw",
         vector_names={symbol: symbol.name for symbol in (d_ij, e_ij) if symbol in form.stages},
+        constants={r_ij: frames.column(r_j) - frames.column(r_i)} if is_together else {},
     )
 
 

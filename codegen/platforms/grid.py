@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.platforms.attitudes import Array, argument_name, attitude_array
+from codegen.platforms.csv_table import table_of_csv
 from codegen.platforms.spool import pieces
 from codegen.spec.placement import IDENTITY
 from codegen.spec.platform import Platform
@@ -38,7 +40,7 @@ class Poses:
         count: how many.
         names: of the columns that tell a pose in the results.
         axes: of a grid, the values along each axis, the last one the fastest.
-        table: of a file, [poses, columns].
+        table: of a file, [poses, columns]; mapped where it is one of numbers already.
     """
 
     count: int
@@ -49,7 +51,7 @@ class Poses:
     def columns(self, first: int, last: int) -> Array:
         """The told numbers [columns, poses] of some poses."""
         if self.table is not None:
-            return np.ascontiguousarray(self.table[first:last].T)
+            return np.ascontiguousarray(self.table[first:last].T, dtype=np.float64)
         sizes = [len(axis) for axis in self.axes]
         places = np.unravel_index(np.arange(first, last), sizes)
         return np.array([axis[place] for axis, place in zip(self.axes, places, strict=True)])
@@ -112,18 +114,19 @@ def poses_of_file(file: Path, platform: Platform) -> Poses:
         what = f"has {table.shape[1] if table.ndim == 2 else 0} columns"
         remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}, column by column)"
         raise SpecificationError([Mistake(str(file), what, remedy)])
-    wrong = [
+    wrong = (
         first + k
         for first, last in pieces(len(table))
-        for k in _wrong_attitudes(name, np.asarray(table[first:last, 3:]))
+        for k in _wrong_attitudes(name, np.asarray(table[first:last, 3:], dtype=np.float64))
+    )
+    mistakes = [
+        Mistake(f"{file}: pose {k + 1}", f"{name} is no rotation", "correct it, or give more digits")
+        for k in islice(wrong, 10)
     ]
-    if wrong:
-        raise SpecificationError(
-            Mistake(f"{file}: pose {k + 1}", f"{name} is no rotation", "correct it, or give more digits")
-            for k in wrong[:10]
-        )
+    if mistakes:
+        raise SpecificationError(mistakes)
     names = ("x", "y", "z", *(f"{name}{k}" for k in range(entries)))
-    return Poses(len(table), names, table=np.ascontiguousarray(table))
+    return Poses(len(table), names, table=table)
 
 
 def _axes(text: str, mistakes: list[Mistake]) -> Iterator[tuple[str, Array]]:
@@ -166,9 +169,12 @@ def _number(text: str, is_angle: bool) -> float:
 
 def _table(file: Path) -> Array:
     try:
-        if file.suffix == ".npy":
-            return np.asarray(np.load(file, mmap_mode="r", allow_pickle=False), dtype=float)
-        return np.loadtxt(file, delimiter=",", comments=None, skiprows=1, ndmin=2)
+        if file.suffix != ".npy":
+            return table_of_csv(file)
+        table: Array = np.load(file, mmap_mode="r", allow_pickle=False)
+        if np.can_cast(table.dtype, np.float64, "same_kind"):
+            return table
+        what = f"holds {table.dtype}, no real numbers"
     except OSError as error:
         what = f"cannot be read ({error.strerror or error})"
     except ValueError as error:

@@ -134,7 +134,7 @@ def generate_scene(
         progress: told each routine as it is done.
         measure: whether the README tells what the steps of the bill take on this machine.
         loops: whether equal parts are run in loops, one of `codegen.scenes.loops.LOOPS`.
-        check: gives the conditions that a routine of straight-line code asserts in debug builds.
+        check: gives the conditions that a routine asserts in debug builds.
 
     Returns:
         Path below the package's folder -> content.
@@ -172,8 +172,7 @@ def generate_scene(
     record = scene_record(subject)
     made_of = ScenePackage(scene.name, routines, codegen.__version__, specification, real, record, casadi, first, text)
     if check is not None:
-        straight = [routine for routine in routines if isinstance(routine.program, Program)]
-        checks = {routine.output: check(routine, judged.pose) for routine in straight}
+        checks = {routine.output: check(routine, judged.pose) for routine in routines}
         made_of = replace(made_of, choices=True, checks=checks)
     return scene_files(made_of)
 

@@ -6,12 +6,14 @@ from dataclasses import replace
 
 from codegen.emit.routine import Routine
 from codegen.emit.scene_subject import SceneSubject
+from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.measure.bounds import ARITHMETICS
 from codegen.measure.constraints import Pose
 from codegen.measure.domain_check import Conditions, domain_check
 from codegen.measure.named_ranges import gap_length
 from codegen.measure.pose_domain import PoseDomain
+from codegen.passes.unroll import unroll
 from codegen.trade.specimens import SampledScene, box_over, joint_subject
 
 _ROUNDINGS = 32
@@ -37,8 +39,9 @@ def scene_check(domain: PoseDomain, real: str, routine: Routine, start: Pose) ->
     sampled = SampledScene(subject.system, subject.state, subject.row_names, None, start)
     size = subject.assembly.arrays.position
     rotations = [(("A", size * size * k), size) for k in range(len(start.r))]
-    box = box_over(replace(routine, subject=sampled), domain, real)
-    return domain_check(routine.straight, box, Conditions(rotations, _tolerance(domain, real)))
+    whole = unroll(routine.program) if isinstance(routine.program, Looped) else routine.program
+    box = box_over(replace(routine, subject=sampled, program=whole), domain, real)
+    return domain_check(whole, box, Conditions(rotations, _tolerance(domain, real)))
 
 
 def _tolerance(domain: PoseDomain, real: str) -> float:

@@ -42,6 +42,10 @@ DISTANT = (
     (Variant("ball", "parametric", "regular"), "phi"),
     (Variant("planar", "conventional", None), "phi_q_t_lambda_q"),
     (Variant("planar", "conventional", None), "phi_q_v"),
+    (Variant("screw", "conventional", None), "phi_q_v"),
+    (Variant("cylindrical", "parametric", "regular"), "phi_q_v"),
+    (Variant("translational", "conventional", None, variation="world"), "phi_q_v"),
+    (Variant("translational", "conventional", None, variation="world"), "gamma"),
 )
 ANGLED = (
     Variant("revolute", "parametric", "regular"),
@@ -77,8 +81,7 @@ def distances() -> ExtremeTable:
         tuple(rows),
         (
             "Given: against the exact value at the rounded inputs. Ideal: against geometry before rounding.",
-            "Relative position: r_j - r_i is given for r_j, and 0 for r_i. phi begins with r_j - r_i; phi_q_v of",
-            "joints that slide takes r_j and r_i apart, which is cheaper and loses digits with the distance.",
+            "Relative position: r_j - r_i is given for r_j, and 0 for r_i. Every sum begins with r_j - r_i.",
         ),
     )
 

@@ -22,8 +22,8 @@ from codegen.spec.request import Variant
 
 T = TypeVar("T")
 
-_MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "mechanics", "passes", "scenes", "spec")
-"""What programs depend on, below the package."""
+_MAKERS = ("build.py", "records.json", "errors.py", "emit", "ir", "measure", "mechanics", "passes", "scenes", "spec")
+"""What programs and the rows of scenes depend on, below the package."""
 
 _HEADERS = ("c", "measure")
 """Templates that compiled routines depend on."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Protocol
@@ -13,8 +13,10 @@ from codegen.emit.routine import Routine
 from codegen.errors import InternalError, Mistake, SpecificationError, nearest
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
+from codegen.measure.constraints import Pose
 from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.routine_builds import Build
+from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.plan import plan
 from codegen.mechanics.system import System
 from codegen.scenes.compose import compose
@@ -192,12 +194,18 @@ class SceneRequest:
 
     def _routine(self, form: str) -> Routine:
         scene = flattened(self.scene) if self.scene.motion == "planar" else self.scene
-        judged = judge(scene, form or None)
-        system = System(judged.assembly)
-        subject = SampledScene(system, layout(system, "index2"), row_names(judged.assembly), None, judged.pose, form)
+        forms, dropped, pose = kept(("rows", scene, form), lambda: _judged(scene, form))
+        system = System(Assembly(scene, forms, dropped))
+        subject = SampledScene(system, layout(system, "index2"), row_names(system.assembly), None, pose, form)
         names = QUANTITIES if self.output == "all" else (self.output,)
         found = kept(("scene", scene, form, names), lambda: _scene_program(system, names))
         return Routine(subject, self.output, found, count(found), "S1 Tables 1 to 5, for this scene")
+
+
+def _judged(scene: Scene, form: str) -> tuple[Mapping[str, Variant], frozenset[int], Pose]:
+    """The forms of a scene's joints, the rows that are left out, and the pose at t = 0."""
+    judged = judge(scene, form or None)
+    return judged.assembly.forms, judged.assembly.dropped, judged.pose
 
 
 def _scene_program(system: System, names: tuple[str, ...]) -> Program:

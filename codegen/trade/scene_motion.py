@@ -17,6 +17,7 @@ from codegen.measure.judge import by_program
 from codegen.mechanics.system import System
 from codegen.scenes.equations import quantities
 from codegen.spec.scene import COORDINATE_UNITS
+from codegen.trade.programs import kept
 
 Array = NDArray[np.float64]
 
@@ -25,11 +26,15 @@ TRAVEL = 3.0
 
 _STEPS = 8
 _CLOSED = 1e-9
+_ENOUGH = 1e-13
+"""What is left of ``phi`` where further steps in doubles gain nothing."""
+
 _LAST = 12
 """Newton steps at the end, where those on the way are `_ON_THE_WAY`."""
 
 _ON_THE_WAY = 3
-_REFINEMENTS = 3
+_SINGULAR = 1e-16
+_TINY = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,12 +69,15 @@ class SceneMotion:
     @cached_property
     def phi(self) -> Program:
         """The constraints of joints and drives, lowered in a hurry."""
-        return quantities(self.system, ("phi",))
+        return self._lowered("phi")
 
     @cached_property
     def phi_q(self) -> Program:
         """Their Jacobian."""
-        return quantities(self.system, ("phi_q",))
+        return self._lowered("phi_q")
+
+    def _lowered(self, name: str) -> Program:
+        return kept(("motion", self.system, name), lambda: quantities(self.system, (name,)))
 
     @property
     def size(self) -> int:
@@ -108,14 +116,16 @@ class SceneMotion:
         _, matrix = self.values(now)
         scaled = matrix * units
         free = direction / units
-        free = free - np.einsum("pnm,pm->pn", np.linalg.pinv(scaled, rcond=1e-8), np.einsum("pmn,pn->pm", scaled, free))
+        free = free - _least(scaled, np.einsum("pmn,pn->pm", scaled, free))
         size = np.max(np.abs(free), axis=1, keepdims=True, initial=0.0)
         return np.where(size > 1e-6, free / np.maximum(size, 1e-6), 0.0) * units
 
     def _closed(self, now: State, steps: int) -> State:
         for _ in range(steps):
             phi, matrix = self.values(now)
-            now = self._moved(now, np.einsum("pnm,pm->pn", np.linalg.pinv(matrix, rcond=1e-8), -phi))
+            if np.max(np.abs(phi), initial=0.0) < _ENOUGH:
+                break
+            now = self._moved(now, _least(matrix, -phi))
         return now
 
     def _moved(self, now: State, step: Array) -> State:
@@ -167,6 +177,19 @@ class SceneMotion:
         for (row, _), entry in zip(output.sparsity.entries(), entries, strict=True):
             found[:, row] = entry
         return found
+
+
+def _least(matrix: Array, right: Array) -> Array:
+    """The least steps x with ``matrix x = right`` of many poses, by ``J^T (J J^T)^-1``.
+
+    Rows are independent but at singular poses, where a small part of the trace keeps steps finite. What digits a step
+    lacks the next one mends.
+    """
+    square = matrix @ np.swapaxes(matrix, 1, 2)
+    diagonal = np.arange(square.shape[1])
+    square[:, diagonal, diagonal] += _SINGULAR * np.trace(square, axis1=1, axis2=2)[:, None] + _TINY
+    least: Array = np.einsum("pmn,pm->pn", matrix, np.linalg.solve(square, right[:, :, None])[:, :, 0])
+    return least
 
 
 def _rows(values: Array) -> Array:

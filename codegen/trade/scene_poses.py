@@ -8,6 +8,7 @@ many of the domain's `s`; poses that do not close or leave that box are those of
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +45,20 @@ class SceneSampler:
         return 3 * len(system.assembly.columns) + 15 * bodies + system.row_count + system.assembly.counted + 8
 
     def poses(self, domain: PoseDomain, points: Points, is_converged: bool) -> Poses:
-        """Make poses of points of the unit cube; see `codegen.measure.poses.poses_at`."""
+        """Make poses of points of the unit cube; see `codegen.measure.poses.poses_at`.
+
+        Those that were made before are kept: every candidate of a budget is judged from the same ones.
+        """
+        key = domain, points.tobytes(), is_converged
+        if key not in self._made:
+            self._made[key] = self._poses(domain, points, is_converged)
+        return self._made[key]
+
+    @cached_property
+    def _made(self) -> dict[tuple[PoseDomain, bytes, bool], Poses]:
+        return {}
+
+    def _poses(self, domain: PoseDomain, points: Points, is_converged: bool) -> Poses:
         draw = Draw(points)
         units = self.motion.units(domain.s)
         direction = np.array([draw.within(-1.0, 1.0).high for _ in units]).T

@@ -125,4 +125,4 @@ def of_symbols(model: Model, inputs: Mapping[str, Sequence[Fraction]]) -> dict[s
         length = int(shape[0]) * int(shape[1])
         entries = np.array(inputs[name][offset : offset + length], dtype=object)
         values[symbol.name] = entries if shape[1] == 1 else entries.reshape(3, 3).T
-    return values
+    return values | {"r_ij": values["r_j"] - values["r_i"]}

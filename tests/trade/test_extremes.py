@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from codegen.measure.judge import block_errors, true_values
+from codegen.measure.judge import block_errors, by_program, true_values
 from codegen.measure.pose_domain import PoseDomain
 from codegen.measure.poses import exactly
 from codegen.measure.routine_builds import NATIVE, O2, Build, built
@@ -54,6 +54,25 @@ def test_phi_has_15_digits_of_a_millimetre_at_every_distance(variant: Variant) -
     for distance in DISTANCES:
         domain = far(distance)
         assert digits_of_given(routine, poses_of(routine, domain), domain, "double") >= DOUBLE, distance
+
+
+SLIDING = ("translational", "screw", "cylindrical", "planar")
+
+
+@pytest.mark.parametrize("output", ["phi_q_v", "gamma"])
+@pytest.mark.parametrize("variation", ["body", "world"])
+def test_velocities_and_gamma_of_joints_that_slide_have_15_digits_at_every_distance(
+    variation: str, output: str
+) -> None:
+    """Of the largest value of the block: with bodies that move by 1 m/s it is no millimetre."""
+    for joint in SLIDING:
+        routine = routine_of(Variant(joint, "conventional", None, variation=variation), output)
+        for distance in (1.0, 1e12):
+            given = poses_of(routine, far(distance)).given(np.float64)
+            true = true_values(routine.straight, exactly(given))
+            (error,) = block_errors(by_program(routine.straight)(given), true, blocks_of(routine), POSES)
+            size = max(float(np.max(np.abs(value.high))) for value in true[output])
+            assert digits(float(np.max(error)), size) >= DOUBLE, (joint, distance)
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)

@@ -65,14 +65,20 @@ def _cubic(side: float = 1.0) -> Geometry:
     return Geometry(base, joints - np.array([[0], [0], [height]]), height, 0.1 * side)
 
 
-# Merlet, Parallel Robots: the INRIA "left hand".
+# The INRIA "left hand" after Merlet, Parallel Robots. From memory: no copy of the table was at hand to compare with.
 _LEFT_HAND = (
     [[-0.097, 0.097, 0.1276, 0.03, -0.03, -0.1276], [0.091, 0.091, 0.039, -0.13, -0.13, 0.039], [0.0] * 6],
     [[-0.03, 0.03, 0.07822, 0.04822, -0.04822, -0.07822], [0.073, 0.073, -0.01052, -0.06248, -0.06248, -0.01052],
      [0.0] * 6],
 )  # fmt: skip
 
-# Dietmaier 1998: the platform with 40 real assemblies.
+# The default hexapod of LinuxCNC, src/emc/kinematics/genhexkins.h: base a triangle. A tenth of its units.
+_LINUXCNC = (
+    [[-2.295, 2.295, 2.295, 0, 0, -2.295], [1.325, 1.325, 1.325, -2.65, -2.65, 1.325], [0.0] * 6],
+    [[-0.1, 0.1, 1.0459, 0.9459, -0.9459, -1.0459], [1.15, 1.15, -0.4884, -0.6616, -0.6616, -0.4884], [0.0] * 6],
+)
+
+# Dietmaier 1998: the platform with 40 real assemblies, as CuikSuite (Dietmeier.world) and Drake have it too.
 _DIETMAIER = (
     [[0, 1.107915, 0.549094, 0.735077, 0.514188, 0.590473], [0, 0, 0.756063, -0.223935, -0.526063, 0.094733],
      [0, 0, 0, 0.525991, -0.368418, -0.205018]],
@@ -84,9 +90,7 @@ SEMI_REGULAR = Geometry(_circle(1.0, _pairs(30)), _circle(0.6, _pairs(80)), 0.9,
 
 GEOMETRIES = {
     "6-6, INRIA left hand": Geometry(np.array(_LEFT_HAND[0]), np.array(_LEFT_HAND[1]), 0.5, 0.02),
-    "3-6, platform a triangle": Geometry(
-        _circle(1.0, _pairs(40)), _circle(0.5, [-0.0, 0.0, 120.0, 120.0, 240.0, 240.0]), 0.8, 0.1
-    ),
+    "3-6, LinuxCNC": Geometry(np.array(_LINUXCNC[0]), np.array(_LINUXCNC[1]), 2.5, 0.3),
     # Lee, Duffy and Hunt 1998: base side twice the platform side, height equal to it.
     "3-3, octahedral optimum": Geometry(
         _circle(2 / np.sqrt(3), [-60, 60, 60, 180, 180, 300]),

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from codegen.errors import SpecificationError
 from codegen.platforms.attitudes import attitude_array, rotations_of
+from codegen.platforms.csv_table import table_of_csv
 from codegen.platforms.generate import home_arguments
 from codegen.platforms.grid import Poses, for_grid, grid, poses_of_file
 from codegen.platforms.hexagons import conditions, hexagons
@@ -119,6 +120,41 @@ def test_poses_of_a_file_are_evaluated_where_they_stand(tmp_path: Path) -> None:
         given = poses.arguments(MATRICES, 0, 7)
         assert (given["o"] == rows[:, :3].T).all()
         assert rotations_of("matrix", given["R"]) == pytest.approx(rotations.as_matrix(), abs=1e-16)
+
+
+def test_a_csv_is_read_piece_by_piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("codegen.platforms.csv_table.CHUNK", 3)
+    rows = np.random.default_rng(2).normal(size=(8, 12)) * 10.0 ** np.arange(-6, 6)
+    file = tmp_path / "poses.csv"
+    np.savetxt(file, rows, delimiter=",", header="names", comments="", fmt="%.17g")
+    file.write_text(file.read_text() + "\n\n\n\n")
+    found = table_of_csv(file)
+    assert isinstance(found, np.memmap)
+    assert (found == rows).all()
+    file.write_text(file.read_text().replace("\n\n", "\n1,2\n"))
+    with pytest.raises(ValueError, match=r"number of columns|columns, the first"):
+        table_of_csv(file)
+
+
+@pytest.mark.parametrize("content", ["", "names\n", "names\n\n\n"])
+def test_a_csv_without_numbers_is_an_empty_table(content: str, tmp_path: Path) -> None:
+    file = tmp_path / "poses.csv"
+    file.write_text(content)
+    assert table_of_csv(file).size == 0
+
+
+def test_memory_does_not_grow_with_the_lines_of_a_csv(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("codegen.platforms.csv_table.CHUNK", 1000)
+    line = ",".join(["0.123456789012345678"] * 12) + "\n"
+    most = []
+    for count in (2_000, 8_000):
+        file = tmp_path / "poses.csv"
+        file.write_text("names\n" + line * count)
+        tracemalloc.start()
+        table_of_csv(file)
+        most.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert most[1] < 1.1 * most[0]
 
 
 def test_every_attitude_of_a_file_that_is_no_rotation_is_told(tmp_path: Path) -> None:

@@ -42,7 +42,7 @@ const int *jg_ball_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 39 (21 add, 18 mul); temporaries: 9.
+ * @note Operations: 39 (21 add, 18 mul); temporaries: 15.
  * @see S1 Eq. (4), Table 1
  */
 void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -224,7 +224,7 @@ void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 54.
+ * @note Operations: 216 (84 add, 132 mul, 9 neg); temporaries: 60.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -291,7 +291,7 @@ const int *jg_ball_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [3]; constraint rows; m or 1
- * @note Operations: 39 (21 add, 18 mul); temporaries: 9.
+ * @note Operations: 39 (21 add, 18 mul); temporaries: 15.
  * @see S1 Eq. (4), Table 1
  */
 void jg_ball_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -474,7 +474,7 @@ void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, c
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 18 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 104 (44 add, 60 mul, 15 neg); temporaries: 34.
+ * @note Operations: 104 (44 add, 60 mul, 15 neg); temporaries: 40.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -64,7 +64,7 @@ void jg_cylindrical_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 183 (72 add, 111 mul, 12 neg); temporaries: 36.
+ * @note Operations: 183 (72 add, 111 mul, 12 neg); temporaries: 39.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -162,7 +162,7 @@ void jg_cylindrical_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 274 (114 add, 160 mul); temporaries: 48.
+ * @note Operations: 266 (110 add, 156 mul); temporaries: 47.
  * @see second time derivative of S1 Table 1
  */
 void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -188,7 +188,7 @@ void jg_cylindrical_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 233 (98 add, 135 mul); temporaries: 37.
+ * @note Operations: 209 (89 add, 120 mul, 2 neg); temporaries: 37.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_cylindrical_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -334,7 +334,7 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [4 x 12] compressed-columns, 36 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in world axes; 1, m, 1/rad
- * @note Operations: 120 (48 add, 72 mul, 12 neg); temporaries: 27.
+ * @note Operations: 120 (48 add, 72 mul, 12 neg); temporaries: 30.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -432,7 +432,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 247 (105 add, 142 mul, 3 neg); temporaries: 45.
+ * @note Operations: 235 (98 add, 137 mul, 2 neg); temporaries: 41.
  * @see second time derivative of S1 Table 1
  */
 void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -458,7 +458,7 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, world axes, rad/s
  * @param[out] phi_q_v [4]; constraint rows; translations in world axes, rotations in world axes; m/s or 1/s
- * @note Operations: 188 (80 add, 108 mul); temporaries: 28.
+ * @note Operations: 179 (77 add, 102 mul); temporaries: 31.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -515,7 +515,7 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 389 (166 add, 223 mul, 27 neg); temporaries: 108.
+ * @note Operations: 375 (157 add, 218 mul, 27 neg); temporaries: 94.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -550,7 +550,7 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 389 (166 add, 223 mul, 27 neg); temporaries: 96.
+ * @note Operations: 375 (157 add, 218 mul, 27 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_cylindrical_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -224,7 +224,7 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 484 (191 add, 293 mul, 3 neg); temporaries: 102.
+ * @note Operations: 484 (191 add, 293 mul, 3 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1512,7 +1512,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 134 (51 add, 82 mul, 1 sincos, 2 neg); temporaries: 37.
+ * @note Operations: 134 (51 add, 82 mul, 1 sincos, 2 neg); temporaries: 35.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

@@ -42,7 +42,7 @@ const int *jg_rigid_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 114 (51 add, 63 mul); temporaries: 24.
+ * @note Operations: 114 (51 add, 63 mul); temporaries: 30.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -171,7 +171,7 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
  *   [6] v_j [3] velocity of body j, world axes, m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in world axes, rotations in body axes; m/s or 1/s
- * @note Operations: 207 (87 add, 120 mul); temporaries: 42.
+ * @note Operations: 201 (84 add, 117 mul); temporaries: 42.
  * @see S1 Eq. (5) along the velocity
  */
 void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -224,7 +224,7 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 601 (240 add, 361 mul, 3 neg); temporaries: 120.
+ * @note Operations: 601 (240 add, 361 mul, 3 neg); temporaries: 117.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -291,7 +291,7 @@ const int *jg_rigid_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 114 (51 add, 63 mul); temporaries: 24.
+ * @note Operations: 114 (51 add, 63 mul); temporaries: 30.
  * @see S1 Eq. (4), Table 1
  */
 void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -42,7 +42,7 @@ const int *jg_universal_conventional_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 74 (35 add, 39 mul); temporaries: 16.
+ * @note Operations: 74 (35 add, 39 mul); temporaries: 22.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -225,7 +225,7 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 415 (163 add, 252 mul, 3 neg); temporaries: 95.
+ * @note Operations: 415 (163 add, 252 mul, 3 neg); temporaries: 92.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -292,7 +292,7 @@ const int *jg_universal_conventional_world_phi_q_t_lambda_q_sparsity(void);
  *   [12] s_j [3] attachment point, body frame j, m
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi [4]; constraint rows; m or 1
- * @note Operations: 74 (35 add, 39 mul); temporaries: 16.
+ * @note Operations: 74 (35 add, 39 mul); temporaries: 22.
  * @see S1 Eq. (4), Table 1
  */
 void jg_universal_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -476,7 +476,7 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 216 (97 add, 119 mul, 18 neg); temporaries: 64.
+ * @note Operations: 216 (97 add, 119 mul, 18 neg); temporaries: 70.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -64,7 +64,7 @@ void jg_translational_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] compressed-columns, 42 nonzeros; constraint rows x virtual displacements;
  *   translations in world axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 222 (86 add, 136 mul, 6 neg); temporaries: 47.
+ * @note Operations: 220 (85 add, 135 mul, 9 neg); temporaries: 50.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -86,7 +86,7 @@ void jg_translational_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, cons
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [5 x 12] column-major; constraint rows x virtual displacements; translations in world axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 222 (86 add, 136 mul, 6 neg); temporaries: 42.
+ * @note Operations: 220 (85 add, 135 mul, 9 neg); temporaries: 42.
  * @see S1 Eqs. (5)-(8), signs of (6)-(8) corrected
  */
 void jg_translational_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

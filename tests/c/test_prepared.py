@@ -39,7 +39,7 @@ def package(joint: str, shared: Path) -> Package:
 
 
 def library(prepared: Package) -> Library:
-    return Library.build(prepared.root / "manifest.json", prepared.root.parent / "bits", flags=("-O1", *SAME_BITS))
+    return Library.build(prepared.root / "manifest.json", prepared.root.parent / "bits", flags=("-O2", *SAME_BITS))
 
 
 def by_output(entries: list[dict[str, Any]], variant: Variant) -> dict[str, dict[str, Any]]:

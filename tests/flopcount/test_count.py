@@ -35,7 +35,7 @@ EXTRAS = (
     Variant("screw", "parametric", "table4", "exact", "world"),
     Variant("screw", "conventional", None, "substituted"),
     Variant("trn3_rot3", "parametric", "table4"),
-    Variant("ball", "parametric", "quaternion", "exact", "world"),
+    Variant("trn2_rot3", "parametric", "quaternion", "exact", "world"),
 )
 
 

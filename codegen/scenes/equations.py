@@ -7,6 +7,7 @@ from collections.abc import Collection
 from codegen.dynamics.layout import layout
 from codegen.emit.scene_subject import SceneSubject
 from codegen.ir.program import Program
+from codegen.measure.constraints import Array
 from codegen.mechanics.plan import plan
 from codegen.mechanics.system import System
 from codegen.passes import simplify
@@ -19,12 +20,14 @@ from codegen.scenes.programs import estimate, program
 from codegen.simulate.compiled import Compiled, compiled
 
 
-def equations(system: System, form: str, left_out: Collection[str] = ()) -> Compiled:
+def equations(system: System, form: str, y: Array, ydot: Array, left_out: Collection[str] = ()) -> Compiled:
     """Derive and compile residual and Jacobian.
 
     Args:
         system: the scene.
         form: one of `codegen.dynamics.layout.FORMS`.
+        y: [n] a state; the Jacobian there tells good pivots.
+        ydot: [n] its rate.
         left_out: terms that the Jacobian lacks.
 
     Raises:
@@ -40,8 +43,9 @@ def equations(system: System, form: str, left_out: Collection[str] = ()) -> Comp
     planned = plan(system.assembly, is_condensed=form == "condensed")
     subject = SceneSubject(system, layout(system, form), row_names(system.assembly), planned)
     if form == "index1":  # what loops run over is laid out for index 2
-        return compiled(subject, residual(system), jacobian(system))
-    return compiled(subject, *(decided(compose(planned, lowered), "auto") for lowered in (residual, jacobian)))
+        return compiled(subject, residual(system), jacobian(system), y, ydot)
+    looped = (decided(compose(planned, lowered), "auto") for lowered in (residual, jacobian))
+    return compiled(subject, *looped, y, ydot)
 
 
 def quantities(system: System, names: tuple[str, ...]) -> Program:

@@ -145,7 +145,7 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
         state,
         values,
         inertia,
-        equations(system, form, settings.left_out),
+        equations(system, form, y, ydot, settings.left_out),
         motion,
         y,
         ydot,

@@ -15,6 +15,7 @@ from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
+from codegen.simulate.straight import Array, Straight, straight_blocks
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +29,7 @@ class Compiled:
         end: address of what gives it back.
         setup: address of the factorisation, an operation of a linear solver.
         solve: address of the solution with the factors, an operation of a linear solver.
+        straight: blocks of the Jacobian in straight-line code.
         size: entries of the state.
         nonzeros: of the Jacobian.
         library: keeps it loaded.
@@ -39,18 +41,23 @@ class Compiled:
     end: int
     setup: int
     solve: int
+    straight: Straight
     size: int
     nonzeros: int
     library: ctypes.CDLL
 
 
-def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> Compiled:
+def compiled(
+    subject: Subject, residual: Program | Looped, jacobian: Program | Looped, y: Array, ydot: Array
+) -> Compiled:
     """Compile the equations of motion.
 
     Args:
         subject: what they are of.
         residual: with the output ``residual``.
         jacobian: with the output ``jacobian``.
+        y: [n] a state; the Jacobian there tells good pivots.
+        ydot: [n] its rate.
 
     Raises:
         SpecificationError: there is no C compiler.
@@ -62,7 +69,8 @@ def compiled(subject: Subject, residual: Program | Looped, jacobian: Program | L
         for name in ("residual", "jacobian", "start", "end", "setup", "solve")
     )
     size, nonzeros = pattern.ncol, pattern.nonzeros
-    return Compiled(residual_at, jacobian_at, start, end, setup, solve, size, nonzeros, loaded)
+    straight = straight_blocks(loaded, pattern, y, ydot)
+    return Compiled(residual_at, jacobian_at, start, end, setup, solve, straight, size, nonzeros, loaded)
 
 
 def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:

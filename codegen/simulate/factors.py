@@ -54,4 +54,4 @@ def blocks(pattern: Sparsity) -> Blocks:
 def lu_headers() -> dict[str, str]:
     """Write the headers of the factorisation: name -> text; sources include ``jg_lu.h``."""
     values = {"banner": banner(codegen.__version__), "chosen": repr(CHOSEN), "kept": repr(KEPT)}
-    return {name: render(f"simulate/{name}.j2", **values) for name in ("jg_pivots.h", "jg_lu.h")}
+    return {name: render(f"simulate/{name}.j2", **values) for name in ("jg_pivots.h", "jg_straight.h", "jg_lu.h")}

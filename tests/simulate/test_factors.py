@@ -23,7 +23,7 @@ int solve(const int *sizes, const int *tables[5], int count, const double *value
 int solve(const int *sizes, const int *tables[5], int count, const double *values, const double *b, double *x)
 {
     const struct jg_pattern pattern = {sizes[0], sizes[1], tables[0], tables[1], tables[2], tables[3], tables[4]};
-    struct jg_lu *const lu = jg_lu_new(&pattern);
+    struct jg_lu *const lu = jg_lu_new(&pattern, NULL, NULL);
     int code = lu ? JG_LU_DONE : JG_LU_NO_MEMORY;
     for (int k = 0; k < count && !code; ++k) {
         code = jg_lu_factor(lu, values + k * tables[0][sizes[0]]);

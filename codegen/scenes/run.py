@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -81,6 +82,11 @@ class Prepared:
     motion: Motion
     y: Array
     ydot: Array
+
+    @cached_property
+    def identity(self) -> Array:
+        """[n] 1 where the rate of an entry is in the residual, 0 elsewhere."""
+        return np.array(self.layout.is_differential, dtype=np.float64)
 
     @property
     def dof(self) -> int:
@@ -275,7 +281,7 @@ def integrator(
     layout = prepared.layout
     tolerances = Tolerances(settings.tolerance, _absolute(layout, settings.tolerance))
     first, rate = (prepared.y if y is None else y), (prepared.ydot if ydot is None else ydot)
-    return Ida(prepared.equations, t, first, rate, layout.is_differential, tolerances)
+    return Ida(prepared.equations, t, first, rate, prepared.identity, tolerances)
 
 
 MULTIPLIERS_FREE = 1e10
@@ -283,4 +289,6 @@ MULTIPLIERS_FREE = 1e10
 
 
 def _absolute(layout: Layout, tolerance: float) -> Array:
-    return np.where(np.arange(layout.size) < layout.velocities.stop, tolerance, MULTIPLIERS_FREE)
+    found = np.full(layout.size, MULTIPLIERS_FREE)
+    found[: layout.velocities.stop] = tolerance
+    return found

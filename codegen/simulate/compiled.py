@@ -15,7 +15,11 @@ from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
+from codegen.simulate.sundials import VECTOR_OPERATIONS
 from codegen.simulate.straight import Array, Straight, straight_blocks
+
+MOST_VECTORS = 6
+"""That are combined in one pass: what a BDF of order 5 predicts from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +34,7 @@ class Compiled:
         setup: address of the factorisation, an operation of a linear solver.
         solve: address of the solution with the factors, an operation of a linear solver.
         straight: blocks of the Jacobian in straight-line code.
+        operations: addresses of operations on vectors, as `codegen.simulate.sundials.VECTOR_OPERATIONS`.
         size: entries of the state.
         nonzeros: of the Jacobian.
         library: keeps it loaded.
@@ -42,6 +47,7 @@ class Compiled:
     setup: int
     solve: int
     straight: Straight
+    operations: tuple[int, ...]
     size: int
     nonzeros: int
     library: ctypes.CDLL
@@ -62,15 +68,19 @@ def compiled(
     Raises:
         SpecificationError: there is no C compiler.
     """
-    loaded = library(ida_source(subject, residual, jacobian), lu_headers())
     pattern = jacobian.output("jacobian").sparsity
+    vector = render("simulate/jg_vector.h.j2", banner=banner(codegen.__version__), size=pattern.ncol, most=MOST_VECTORS)
+    loaded = library(ida_source(subject, residual, jacobian), {**lu_headers(), "jg_vector.h": vector})
     residual_at, jacobian_at, start, end, setup, solve = (
         ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0
         for name in ("residual", "jacobian", "start", "end", "setup", "solve")
     )
     size, nonzeros = pattern.ncol, pattern.nonzeros
     straight = straight_blocks(loaded, pattern, y, ydot)
-    return Compiled(residual_at, jacobian_at, start, end, setup, solve, straight, size, nonzeros, loaded)
+    operations = (ctypes.c_void_p * len(VECTOR_OPERATIONS)).in_dll(loaded, "jg_vector_operations")
+    return Compiled(
+        residual_at, jacobian_at, start, end, setup, solve, straight, tuple(operations), size, nonzeros, loaded
+    )
 
 
 def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref, c_double, c_void_p
+import math
+from ctypes import byref, c_double, c_long, c_void_p
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from codegen.errors import InternalError
 from codegen.simulate.compiled import Compiled
-from codegen.simulate.sundials import ADDRESSES, sundials
+from codegen.simulate.sundials import sundials
 
 Array = NDArray[np.float64]
 
@@ -77,7 +78,9 @@ class _Hooks(ctypes.Structure):
     """``struct jg_ida`` of the compiled source."""
 
     _fields_ = [
-        *((name, c_void_p) for name in ("array", "data", "revolutions", "kinds", "kind", "lu")),
+        ("data", c_void_p),
+        ("entries_word", c_long),
+        *((name, c_void_p) for name in ("revolutions", "kinds", "kind", "lu")),
     ]
 
 
@@ -93,8 +96,8 @@ class Ida:
         t: s, at the start.
         y: [n] state at the start, consistent.
         ydot: [n] its rate.
-        differential: [n] whether the rate of an entry is in the residual.
-        tolerances: of the error test; entries that are not differential are left out of it.
+        identity: [n] 1 where the rate of an entry is in the residual, 0 elsewhere.
+        tolerances: of the error test; entries whose rate is not in the residual are left out of it.
         largest_step: s; 0 for none.
         revolutions: whole turns of conventional screws.
     """
@@ -105,7 +108,7 @@ class Ida:
         t: float,
         y: Array,
         ydot: Array,
-        differential: tuple[bool, ...],
+        identity: Array,
         tolerances: Tolerances,
         largest_step: float = 0.0,
         revolutions: Array | None = None,
@@ -113,19 +116,19 @@ class Ida:
         self._library = sundials()
         self._equations = equations
         self.y, self.ydot = np.array(y, dtype=np.float64), np.array(ydot, dtype=np.float64)
-        self._identity = np.array([1.0 if is_differential else 0.0 for is_differential in differential])
+        self._identity = np.array(identity, dtype=np.float64)
         # IDA's norm is the mean of all entries, with 0 for those that are not tested.
-        share = STEP_SHARE * float(np.sqrt(np.mean(self._identity)))
+        share = STEP_SHARE * math.sqrt(self._identity.sum() / len(self._identity))
         self._absolute = share * np.array(tolerances.absolute, dtype=np.float64)
         self._turns = np.array([0.0] if revolutions is None or not len(revolutions) else revolutions, dtype=np.float64)
         straight = equations.straight
         self._hooks = _Hooks(
-            *(self._library.address(name) for name in ADDRESSES),
+            self._library.address("SUNSparseMatrix_Data"),
+            0,
             self._turns.ctypes.data,
             straight.kinds,
             straight.kind.ctypes.data,
         )
-        self._check(_START(equations.start)(ctypes.addressof(self._hooks)))
         self._context = c_void_p()
         self._create(t, share * tolerances.relative, largest_step)
 
@@ -136,6 +139,9 @@ class Ida:
         arrays = (self.y, self.ydot, self._absolute, self._identity)
         self._vectors = [library.N_VMake_Serial(size, array.ctypes.data, self._context) for array in arrays]
         y, ydot, absolute, identity = self._vectors
+        library.replace_operations(y, self._equations.operations)  # all vectors of IDA are cloned from it
+        self._hooks.entries_word = library.entries_word(y, self.y.ctypes.data)
+        self._check(_START(self._equations.start)(ctypes.addressof(self._hooks)))
         self._matrix = library.SUNSparseMatrix(size, size, self._equations.nonzeros, _CSC, self._context)
         self._solver = library.linear_solver(
             self._context, ctypes.addressof(self._hooks), self._equations.setup, self._equations.solve
@@ -161,8 +167,8 @@ class Ida:
         is four orders smaller, and some twenty steps follow until the size is right.
         """
         weights = self._identity / (relative * np.abs(self.y) + self._absolute)
-        size, rate = (float(np.sqrt(np.mean((weights * x) ** 2))) for x in (self.y, self.ydot))
-        return float(np.sqrt(size)) / rate if size and rate else 0.0
+        size, rate = (math.sqrt(x @ x / len(x)) for x in (weights * self.y, weights * self.ydot))
+        return math.sqrt(size) / rate if size and rate else 0.0
 
     def advance(self, t: float) -> tuple[float, int]:
         """Go on to a time; ``y`` and ``ydot`` are then those at the time reached.

@@ -27,6 +27,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "SUNContext_Free": (c_int, (POINTER(c_void_p),)),
     "SUNContext_ClearErrHandlers": (c_int, (c_void_p,)),
     "N_VMake_Serial": (c_void_p, (c_int, c_void_p, c_void_p)),
+    "N_VEnableLinearCombination_Serial": (c_int, (c_void_p, c_int)),
     "N_VDestroy": (None, (c_void_p,)),
     "SUNSparseMatrix": (c_void_p, (c_int, c_int, c_int, c_int, c_void_p)),
     "SUNMatDestroy": (None, (c_void_p,)),
@@ -60,16 +61,25 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "IDAGetNumStepSolveFails": (c_int, (c_void_p, POINTER(c_long))),
 }
 
-ADDRESSES = (
-    "N_VGetArrayPointer",
-    "SUNSparseMatrix_Data",
+_VECTOR_WORDS = 40
+"""Of the operations of a vector that are looked through; all versions have more."""
+
+VECTOR_OPERATIONS = (
+    "N_VLinearSum_Serial",
+    "N_VConst_Serial",
+    "N_VScale_Serial",
+    "N_VAbs_Serial",
+    "N_VInv_Serial",
+    "N_VWrmsNorm_Serial",
+    "N_VWrmsNormMask_Serial",
+    "N_VLinearCombination_Serial",
 )
-"""Functions that compiled code calls."""
+"""Operations of serial vectors that compiled code has for its own length."""
 
 
-def _words(address: int) -> Any:
-    """Words of a linear solver, or of its operations; only those are read that every version has."""
-    return (c_void_p * 12).from_address(address)
+def _words(address: int, count: int = 12) -> Any:
+    """Words of a vector or a linear solver, or of its operations; only those are read that every version has."""
+    return (c_void_p * count).from_address(address)
 
 
 class Sundials:
@@ -78,6 +88,7 @@ class Sundials:
     def __init__(self, libraries: list[ctypes.CDLL]) -> None:
         self._libraries = libraries
         self._found: tuple[int, tuple[int, ...]] | None = None
+        self._places: tuple[int, tuple[int, ...]] | None = None
         for name, (result, arguments) in _SIGNATURES.items():
             function = self._find(name)
             function.restype = result
@@ -99,6 +110,33 @@ class Sundials:
             except AttributeError:
                 continue
         raise SpecificationError([Mistake("SUNDIALS", f"its libraries have no {name}", REMEDY)])
+
+    def replace_operations(self, vector: int, operations: tuple[int, ...]) -> None:
+        """Give a serial vector, and those that are cloned from it, operations of its own.
+
+        Args:
+            vector: of ``N_VMake_Serial``.
+            operations: addresses, in the order of `VECTOR_OPERATIONS`.
+
+        Raises:
+            SpecificationError: the layout is not understood.
+        """
+        self.N_VEnableLinearCombination_Serial(vector, 1)
+        if self._places is None:
+            table = next((k for k in (1, 2) if _words(vector)[k]), 1)
+            found = list(_words(_words(vector)[table], _VECTOR_WORDS))
+            known = [self.address(name) for name in VECTOR_OPERATIONS]
+            if not set(known) <= set(found):
+                raise SpecificationError([Mistake("SUNDIALS", "its vectors have an unknown layout", REMEDY)])
+            self._places = table, tuple(found.index(address) for address in known)
+        table, places = self._places
+        words = _words(_words(vector)[table], _VECTOR_WORDS)
+        for place, operation in zip(places, operations, strict=True):
+            words[place] = operation
+
+    def entries_word(self, vector: int, entries: int) -> int:
+        """Say which word of the content of a vector points to its entries, by a vector whose entries are known."""
+        return list(_words(_words(vector)[0], 3)).index(entries)
 
     def linear_solver(self, context: c_void_p, content: int, setup: int, solve: int) -> c_void_p:
         """Make a direct linear solver of two compiled operations; `SUNLinSolFreeEmpty` gives its memory back.

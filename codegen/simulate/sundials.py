@@ -49,6 +49,8 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "IDASetMaxStep": (c_int, (c_void_p, c_double)),
     "IDASetInitStep": (c_int, (c_void_p, c_double)),
     "IDASetNonlinConvCoef": (c_int, (c_void_p, c_double)),
+    "IDASetDeltaCjLSetup": (c_int, (c_void_p, c_double)),
+    "IDASetEtaFixedStepBounds": (c_int, (c_void_p, c_double, c_double)),
     "IDASetStopTime": (c_int, (c_void_p, c_double)),
     "IDASetLinearSolver": (c_int, (c_void_p, c_void_p, c_void_p)),
     "IDASetJacFn": (c_int, (c_void_p, c_void_p)),

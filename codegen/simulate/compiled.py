@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 import codegen
 from codegen.emit.c import any_definition
@@ -15,8 +19,13 @@ from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
+from codegen.simulate.straight import Pivots, Straight, straight_blocks
 from codegen.simulate.sundials import VECTOR_OPERATIONS
-from codegen.simulate.straight import Array, Straight, straight_blocks
+
+Array = NDArray[np.float64]
+
+WEIGHT = 1e4
+"""1/s, of the rates in the Jacobian whose pivots are taken: between those of the first step and of the usual ones."""
 
 MOST_VECTORS = 6
 """That are combined in one pass: what a BDF of order 5 predicts from."""
@@ -76,11 +85,25 @@ def compiled(
         for name in ("residual", "jacobian", "start", "end", "setup", "solve")
     )
     size, nonzeros = pattern.ncol, pattern.nonzeros
-    straight = straight_blocks(loaded, pattern, y, ydot)
+    straight = straight_blocks(pattern, _pivots(loaded, pattern.nonzeros, y, ydot))
     operations = (ctypes.c_void_p * len(VECTOR_OPERATIONS)).in_dll(loaded, "jg_vector_operations")
     return Compiled(
         residual_at, jacobian_at, start, end, setup, solve, straight, tuple(operations), size, nonzeros, loaded
     )
+
+
+def _pivots(equations: ctypes.CDLL, nonzeros: int, y: Array, ydot: Array) -> Callable[[int, int], Pivots | None]:
+    """Find pivots that are good at a state, block by block."""
+    values, turns = np.zeros(max(1, nonzeros)), np.zeros(len(y))
+    addresses = [ctypes.c_void_p(array.ctypes.data) for array in (y, ydot, turns, values)]
+    equations.jg_ida_values(ctypes.c_double(0.0), ctypes.c_double(WEIGHT), *addresses)
+
+    def found(block: int, size: int) -> Pivots | None:
+        rows, columns = (ctypes.c_int * size)(), (ctypes.c_int * size)()
+        code = equations.jg_ida_pivots(ctypes.c_int(block), addresses[-1], rows, columns)
+        return None if code else (tuple(rows), tuple(columns))
+
+    return found
 
 
 def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program | Looped) -> str:

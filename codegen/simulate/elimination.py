@@ -17,6 +17,9 @@ from functools import cached_property
 
 Place = tuple[int, int]
 
+PART = 30
+"""Least number of statements of a part of an elimination."""
+
 
 @dataclass(frozen=True)
 class Elimination:
@@ -75,19 +78,29 @@ class Elimination:
         """Products of the elimination."""
         return sum(map(len, self.terms.values()))
 
-    def factor_lines(self) -> Iterator[str]:
-        """Write the elimination: ``f`` from ``values`` by the ``pointers`` of the ``columns``."""
+    def factor_parts(self) -> Iterator[list[str]]:
+        """Write the elimination: ``f`` from ``values`` by the ``pointers`` of the ``columns``, some columns a part.
+
+        Parts are for functions of their own, since compilers take more than twice as long for twice as many statements.
+        """
         by_column: dict[int, list[int]] = defaultdict(list)
         for i, j in sorted(self.terms):
             by_column[j].append(i)
-        for j, number in enumerate(self.pivot_columns):
-            given = {row: n for n, row in enumerate(self.columns[number])}
-            yield f"a = values + pointers[columns[{number}]];"
-            for i in by_column[j]:
-                n = given.get(self.pivot_rows[i])
-                products = ((self._f(i, k), f"u{k}_{j}") for k in self.terms[i, j])
-                value = _sum("0.0" if n is None else f"a[{n}]", products)
-                yield from self._entry(i, j, value)
+        part: list[str] = []
+        for j in range(self.size):
+            part += self._column(j, by_column[j])
+            if len(part) >= PART or j == self.size - 1:
+                yield part
+                part = []
+
+    def _column(self, j: int, rows: list[int]) -> Iterator[str]:
+        number = self.pivot_columns[j]
+        given = {row: n for n, row in enumerate(self.columns[number])}
+        yield f"a = values + pointers[columns[{number}]];"
+        for i in rows:
+            n = given.get(self.pivot_rows[i])
+            products = ((self._f(i, k), f"u{k}_{j}") for k in self.terms[i, j])
+            yield from self._entry(i, j, _sum("0.0" if n is None else f"a[{n}]", products))
 
     def _entry(self, i: int, j: int, value: str) -> Iterator[str]:
         if i < j:

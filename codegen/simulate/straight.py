@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator
-from ctypes import c_double, c_int, c_void_p
+from collections.abc import Callable, Iterator
+from ctypes import c_void_p
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,14 @@ from codegen.simulate.elimination import Elimination, local_columns
 from codegen.simulate.factors import Blocks, blocks, lu_headers
 from codegen.simulate.library import library
 
-Array = NDArray[np.float64]
-
-WEIGHT = 1e4
-"""1/s, of the rates in the Jacobian whose pivots are taken: a tenth of a thousandth of a second is a step between the first and the usual ones."""
+Pivots = tuple[tuple[int, ...], tuple[int, ...]]
+"""Rows and columns of a block in the order of elimination, numbered in it."""
 
 MOST_PRODUCTS = 20_000
-"""Of an elimination; the text of longer ones is too long for a compiler and for a processor's memory of instructions."""
+"""Of an elimination; longer ones do not fit a processor's memory of instructions, and compilers take seconds."""
+
+_FLAGS = ("-std=c99", "-O1")
+"""Straight-line code of sums is compiled in half the time and no slower than at -O2."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,53 +44,37 @@ class Straight:
     library: ctypes.CDLL | None
 
 
-def straight_blocks(equations: ctypes.CDLL, pattern: Sparsity, y: Array, ydot: Array) -> Straight:
-    """Write and compile the eliminations of a Jacobian.
+def straight_blocks(pattern: Sparsity, pivots: Callable[[int, int], Pivots | None]) -> Straight:
+    """Write and compile the eliminations of a matrix.
 
     Args:
-        equations: of `codegen.simulate.compiled.ida_source`.
-        pattern: of the Jacobian.
-        y: [n] a state.
-        ydot: [n] its rate.
+        pattern: of the matrix.
+        pivots: those of a block, by its number and size; None where it is singular.
     """
-    found = blocks(pattern)
-    values = _values(equations, pattern, y, ydot)
     numbers: dict[tuple[tuple[int, ...], ...], int] = {}
     kinds: list[Elimination] = []
     kind = []
-    for block, (rows, columns) in enumerate(_parts(found)):
+    for block, (rows, columns) in enumerate(_parts(blocks(pattern))):
         key = local_columns(pattern.colind, pattern.row, rows, columns)
         if key not in numbers:
-            elimination = _elimination(equations, block, key, values)
-            numbers[key] = -1 if elimination is None else len(kinds)
-            kinds += [] if elimination is None else [elimination]
+            found = pivots(block, len(rows))
+            elimination = Elimination(key, *found) if found else None
+            is_short = elimination is not None and elimination.products <= MOST_PRODUCTS
+            numbers[key] = len(kinds) if is_short else -1
+            kinds += [elimination] if elimination is not None and is_short else []
         kind.append(numbers[key])
-    if not kinds:
-        return Straight(None, np.array(kind, dtype=np.intc), None)
-    loaded = library(render("simulate/straight.c.j2", banner=banner(codegen.__version__), kinds=kinds), lu_headers())
-    loaded.jg_straight_kinds.restype = c_void_p
-    return Straight(loaded.jg_straight_kinds(), np.array(kind, dtype=np.intc), loaded)
+    return _compiled(kinds, np.array(kind, dtype=np.intc))
 
 
 def _parts(found: Blocks) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
-    for start, stop in zip(found.starts, found.starts[1:], strict=False):
+    for start, stop in pairwise(found.starts):
         yield found.rows[start:stop], found.columns[start:stop]
 
 
-def _values(equations: ctypes.CDLL, pattern: Sparsity, y: Array, ydot: Array) -> Array:
-    values, turns = np.zeros(max(1, pattern.nonzeros)), np.zeros(max(1, pattern.ncol))
-    addresses = [c_void_p(array.ctypes.data) for array in (y, ydot, turns, values)]
-    equations.jg_ida_values(c_double(0.0), c_double(WEIGHT), *addresses)
-    return values
-
-
-def _elimination(
-    equations: ctypes.CDLL, block: int, columns: tuple[tuple[int, ...], ...], values: Array
-) -> Elimination | None:
-    """The elimination of a block with pivots that are good at the state; None where it is singular there, or too long."""
-    size = len(columns)
-    pivot_rows, pivot_columns = (c_int * size)(), (c_int * size)()
-    if equations.jg_ida_pivots(c_int(block), c_void_p(values.ctypes.data), pivot_rows, pivot_columns):
-        return None
-    found = Elimination(columns, tuple(pivot_rows), tuple(pivot_columns))
-    return found if found.products <= MOST_PRODUCTS else None
+def _compiled(kinds: list[Elimination], kind: NDArray[np.intc]) -> Straight:
+    if not kinds:
+        return Straight(None, kind, None)
+    source = render("simulate/straight.c.j2", banner=banner(codegen.__version__), kinds=kinds)
+    loaded = library(source, lu_headers(), _FLAGS)
+    loaded.jg_straight_kinds.restype = c_void_p
+    return Straight(loaded.jg_straight_kinds(), kind, loaded)

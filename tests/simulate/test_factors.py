@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from codegen.ir.program import Sparsity
 from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
+from codegen.simulate.straight import Pivots, Straight, straight_blocks
 
 Array = NDArray[np.float64]
 
@@ -19,11 +20,15 @@ DONE, SINGULAR = 0, 1
 
 SOURCE = """
 #include "jg_lu.h"
-int solve(const int *sizes, const int *tables[5], int count, const double *values, const double *b, double *x);
-int solve(const int *sizes, const int *tables[5], int count, const double *values, const double *b, double *x)
+int solve(
+    const int *sizes, const int *tables[5], const struct jg_straight *kinds, const int *kind, int count,
+    const double *values, const double *b, double *x);
+int solve(
+    const int *sizes, const int *tables[5], const struct jg_straight *kinds, const int *kind, int count,
+    const double *values, const double *b, double *x)
 {
     const struct jg_pattern pattern = {sizes[0], sizes[1], tables[0], tables[1], tables[2], tables[3], tables[4]};
-    struct jg_lu *const lu = jg_lu_new(&pattern, NULL, NULL);
+    struct jg_lu *const lu = jg_lu_new(&pattern, kinds, kind);
     int code = lu ? JG_LU_DONE : JG_LU_NO_MEMORY;
     for (int k = 0; k < count && !code; ++k) {
         code = jg_lu_factor(lu, values + k * tables[0][sizes[0]]);
@@ -36,14 +41,36 @@ int solve(const int *sizes, const int *tables[5], int count, const double *value
 }
 """
 
-Solve = Callable[[Sparsity, Array, Array], tuple[int, Array]]
+Solve = Callable[..., tuple[int, Array]]
+
+
+NONE = Straight(None, np.zeros(0, dtype=np.intc), None)
+"""No straight-line code."""
+
+
+def largest_first(matrix: Array, pattern: Sparsity) -> Callable[[int, int], Pivots]:
+    """Pivots of the blocks of a matrix: always the largest entry that is left."""
+    found = blocks(pattern)
+
+    def pivots(block: int, size: int) -> Pivots:
+        part = slice(found.starts[block], found.starts[block] + size)
+        left, places = matrix[np.ix_(found.rows[part], found.columns[part])].copy(), []
+        for _ in range(size):
+            row, column = np.unravel_index(np.argmax(np.abs(left)), left.shape)
+            left -= np.outer(left[:, column], left[row]) / left[row, column]
+            left[row], left[:, column] = 0.0, 0.0
+            places.append((int(row), int(column)))
+        rows, columns = zip(*places, strict=True)
+        return rows, columns
+
+    return pivots
 
 
 @pytest.fixture(scope="module")
 def solve() -> Solve:
     function = library(SOURCE, lu_headers()).solve
 
-    def solved(pattern: Sparsity, values: Array, b: Array) -> tuple[int, Array]:
+    def solved(pattern: Sparsity, values: Array, b: Array, straight: Straight = NONE) -> tuple[int, Array]:
         """Solve with matrices [count, nonzeros] one after the other; the code and the solutions [count, n]."""
         found = blocks(pattern)
         arrays = (pattern.colind, pattern.row, found.starts, found.columns, found.rows)
@@ -52,7 +79,8 @@ def solve() -> Solve:
         sizes = (ctypes.c_int * 2)(pattern.ncol, len(found.starts) - 1)
         x = np.zeros((len(values), pattern.ncol))
         data = [ctypes.c_void_p(array.ctypes.data) for array in (values, b, x)]
-        return function(sizes, pointers, len(values), *data), x
+        kinds, kind = ctypes.c_void_p(straight.kinds), ctypes.c_void_p(straight.kind.ctypes.data)
+        return function(sizes, pointers, kinds, kind, len(values), *data), x
 
     return solved
 
@@ -92,6 +120,34 @@ def test_solutions_are_those_of_lapack(solve: Solve, sizes: tuple[int, ...]) -> 
         assert code == DONE
         residual = np.abs(matrix @ x[0] - b)
         assert np.all(residual <= 1e-12 * (np.abs(matrix) @ np.abs(x[0]) + np.abs(b)))
+
+
+def test_straight_line_code_solves_blocks_of_one_kind_with_one_routine(solve: Solve) -> None:
+    block = parts((25,), 2)
+    matrix = np.kron(np.diag((1.0, 2.0, -3.0)), block)
+    pattern = pattern_of(matrix)
+    straight = straight_blocks(pattern, largest_first(matrix, pattern))
+    assert straight.kind.tolist() == [0, 0, 0]
+    b = np.random.default_rng(3).standard_normal(75)
+    code, x = solve(pattern, values_of(pattern, matrix)[None], b, straight)
+    assert code == DONE
+    residual = np.abs(matrix @ x[0] - b)
+    assert np.all(residual <= 1e-12 * (np.abs(matrix) @ np.abs(x[0]) + np.abs(b)))
+
+
+def test_straight_line_code_gives_way_where_its_pivots_vanish(solve: Solve) -> None:
+    matrix = np.array([[3.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 4.0]])
+    pattern = pattern_of(matrix)
+    straight = straight_blocks(pattern, largest_first(matrix, pattern))
+    turned = np.array([[3.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 0.0]])
+    singular = np.array([[3.0, 1.0, 0.0], [6.0, 2.0, 0.0], [0.0, 0.0, 4.0]])
+    b = np.array([1.0, 2.0, 3.0])
+    some = [values_of(pattern, each) for each in (matrix, turned, matrix)]
+    code, x = solve(pattern, np.array(some), b, straight)
+    assert code == DONE
+    for each, solution in zip((matrix, turned, matrix), x, strict=True):
+        assert np.max(np.abs(each @ solution - b)) <= 1e-14
+    assert solve(pattern, np.array([some[0], values_of(pattern, singular)]), b, straight)[0] == SINGULAR
 
 
 def test_pivots_that_become_small_are_replaced(solve: Solve) -> None:

@@ -10,9 +10,6 @@ import click
 from benchmarks.batch.report import setting
 from benchmarks.engine import charts, compare, measure, report
 
-MOST = 20
-"""Sets in the other programs."""
-
 
 @click.command()
 @click.option("--rounds", default=5, show_default=True, help="Interleaved rounds of each timing.")
@@ -36,7 +33,7 @@ def main(rounds: int, sizes: tuple[int, ...], target: Path) -> None:
         "work_precision": precise,
         "without_terms": measure.without_terms(rounds),
         "by_size": measure.by_size(sizes, rounds),
-        "others": compare.compared([sets for sets in sizes if sets <= MOST], rounds),
+        "others": compare.compared(sizes, rounds),
     }
     (target / "piston.svg").write_text(charts.piston_chart(curves))
     (target / "work_precision.svg").write_text(charts.work_precision_chart(precise))

@@ -140,13 +140,13 @@ def _others(found: Row, sizes: Sequence[int]) -> list[str]:
         "setting",
         "error, m",
         *(f"{sets} sets, ms" for sets in sizes),
-        "to ours, 1 set",
+        "to ours",
         "least error, m",
     )
     cells = []
     for row in found["rows"]:
         times = (f"{1e3 * row['seconds'][str(n)]:.1f}" if str(n) in row["seconds"] else "" for n in sizes)
-        ratio = f"{row['seconds']['1'] / first['1']:.1f}"
+        ratio = " / ".join(f"{seconds / first[n]:.1f}" for n, seconds in row["seconds"].items())
         finest = f"{row['finest']['error']:.1e} at {row['finest']['setting']:.1e}"
         cells.append((row["program"], f"{row['setting']:.1e}", f"{row['error']:.1e}", *times, ratio, finest))
     missing = [f"Not installed: {', '.join(found['missing'])}.", ""] if found["missing"] else []

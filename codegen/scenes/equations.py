@@ -44,8 +44,8 @@ def equations(system: System, form: str, y: Array, ydot: Array, left_out: Collec
     subject = SceneSubject(system, layout(system, form), row_names(system.assembly), planned)
     if form == "index1":  # what loops run over is laid out for index 2
         return compiled(subject, residual(system), jacobian(system), y, ydot)
-    looped = (decided(compose(planned, lowered), "auto") for lowered in (residual, jacobian))
-    return compiled(subject, *looped, y, ydot)
+    rows, columns = (decided(compose(planned, lowered), "auto") for lowered in (residual, jacobian))
+    return compiled(subject, rows, columns, y, ydot)
 
 
 def quantities(system: System, names: tuple[str, ...]) -> Program:

@@ -46,7 +46,8 @@ class Elimination:
         row = {number: k for k, number in enumerate(self.pivot_rows)}
         column = {number: k for k, number in enumerate(self.pivot_columns)}
         found: dict[Place, list[int]] = {(row[i], column[j]): [] for j, rows in enumerate(self.columns) for i in rows}
-        below, right = defaultdict(set), defaultdict(set)
+        below: dict[int, set[int]] = defaultdict(set)
+        right: dict[int, set[int]] = defaultdict(set)
         for i, j in found:
             (below[j] if i > j else right[i]).add(max(i, j))
         for k in range(self.size):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
 
-from benchmarks.engine.mechanism import FILE, HOW
+from benchmarks.engine.mechanism import FILE, HOW, engine
 from codegen.measure.constraints import Array
 from codegen.scenes.motion_record import record
 from codegen.scenes.run import Prepared, Settings, prepare, run
@@ -19,6 +19,8 @@ SETTINGS = tuple(10.0 ** -(k / 4) for k in range(16, 41))
 
 @cache
 def _prepared(form: str, motion: str, sets: int) -> Prepared:
+    if motion == "spatial":
+        return engine(form, sets)
     return prepare(replace(read_scene(FILE.read_text(), FILE.name, sets), motion=motion), HOW[form])
 
 

@@ -19,6 +19,7 @@ from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import transposed
 from codegen.dynamics.state import State
 from codegen.ir.inline import Entries
+from codegen.ir.ops import Op
 from codegen.ir.program import Program
 from codegen.mechanics.system import System
 
@@ -33,6 +34,7 @@ def completed(system: System, layout: Layout, program: Program) -> State:
     """
     state = State(system, layout)
     if layout.condensed.coordinates:
+        state.inverse = _inverse(state, program)
         velocity = state.in_program_axes(state.y(state.layout.velocities))
         _know(state, _rate_places(state), _solved(state, _drift(state, program, velocity), is_transposed=False))
         acting = state.evaluated(program)["force"]
@@ -64,8 +66,54 @@ def _column(values: Iterable[int]) -> Entries:
 
 def _solved(state: State, right: Entries, is_transposed: bool) -> Entries:
     """``-P^-1 right`` or ``-P^-T right``; what is missing is zero."""
-    inverse = {(a, b): state.builder.constant(-value) for a, b, value in state.given.condensed.inverse}
+    inverse = state.matrices.negative(state.inverse)
     return state.matrices.product(transposed(inverse) if is_transposed else inverse, right)
+
+
+def _inverse(state: State, program: Program) -> Entries:
+    """``P^-1``: constants, or from the pose joint by joint, with the pivots that are right where joints are closed."""
+    condensed = state.given.condensed
+    if condensed.is_constant:
+        return {(a, b): state.builder.constant(value) for a, b, value in condensed.inverse}
+    columns = _condensing(state, program)
+    found: Entries = {}
+    for placed in state.system.assembly.placed:
+        first = placed.ends.first_alpha
+        own = range(first, first + placed.form.coordinates)
+        found |= _inverted(
+            state, columns, [k for k, coordinate in enumerate(condensed.coordinates) if coordinate in own]
+        )
+    return found
+
+
+def _condensing(state: State, program: Program) -> Entries:
+    """``P``, the columns of ``phi_q`` by the coordinates in their rows: what unit velocities are there."""
+    rows = state.given.condensed.rows
+    entries: Entries = {}
+    for column, place in enumerate(_displacements(state)):
+        unit = [state.builder.constant(int(k == place)) for k in range(state.size)]
+        found = state.evaluated(program, velocity=unit)
+        rates = found.get("phi_q_v") or state.matrices.product(found["phi_q"], _column(unit))
+        entries |= {(k, column): rates[row, 0] for k, row in enumerate(rows) if (row, 0) in rates}
+    return entries
+
+
+def _inverted(state: State, block: Entries, group: list[int]) -> Entries:
+    """The inverse of the block of some rows and columns, by Gauss and Jordan with its diagonal as pivots."""
+    emit, one = state.builder.emit, state.builder.constant(1)
+    left = {(i, k): block[i, k] for i in group for k in group if (i, k) in block}
+    right: Entries = {(k, k): one for k in group}
+    for k in group:
+        pivot = left[k, k]
+        for matrix in (left, right):
+            for i, column in [place for place in matrix if place[0] == k]:
+                matrix[i, column] = emit(Op.DIVIDE, matrix[i, column], pivot)
+        for i in (i for i in group if i != k and (i, k) in left):
+            factor = left[i, k]
+            for matrix in (left, right):
+                scaled = {(i, c): emit(Op.MULTIPLY, factor, value) for (r, c), value in matrix.items() if r == k}
+                matrix |= state.matrices.total((matrix, state.matrices.negative(scaled)))
+    return right
 
 
 def _know(state: State, places: list[int], values: Entries) -> None:

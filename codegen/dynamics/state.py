@@ -31,6 +31,7 @@ class State:
         matrices: arithmetic over it.
         given: layout of the state.
         layout: of all entries.
+        inverse: ``P^-1`` of `codegen.mechanics.condensed`, for what is left out.
     """
 
     def __init__(self, system: System, layout: Layout) -> None:
@@ -40,6 +41,7 @@ class State:
         self.given = layout
         self.layout = whole(system, layout)
         self._places = {place: k for k, place in enumerate(layout.places)}
+        self.inverse: Entries = {}
         self._known: dict[int, int] = {}
         self.arrays = system.assembly.arrays
         self.bodies = range(len(system.assembly.scene.bodies))

@@ -32,11 +32,14 @@ class Condensed:
         coordinates: numbers among those of all joints, ascending.
         rows: as many, numbers among the rows that the system has.
         inverse: nonzeros of ``P^-1``: place in ``coordinates``, place in ``rows``, value.
+        is_constant: whether ``P`` is constant; with the exact derivative it is so where the joints are closed, and
+            depends on the pose elsewhere.
     """
 
     coordinates: tuple[int, ...] = ()
     rows: tuple[int, ...] = ()
     inverse: tuple[tuple[int, int, Fraction], ...] = ()
+    is_constant: bool = True
 
 
 def condensed(placed: Sequence[Placed], blocks: Mapping[int, Sequence[Block]], rows: Sequence[int]) -> Condensed:

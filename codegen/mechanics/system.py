@@ -23,6 +23,7 @@ from codegen.mechanics.blocks import gathered
 from codegen.mechanics.condensed import Condensed, condensed
 from codegen.mechanics.forces import FORCES, Forces, scalar_places
 from codegen.mechanics.placed import rational
+from codegen.spec.request import Variant
 from codegen.spec.scene import Drive
 
 _TIME = sympy.Symbol("t")
@@ -75,9 +76,12 @@ class System:
 
     @cached_property
     def condensed(self) -> Condensed:
-        """The joint coordinates that constants tie to the rest."""
-        blocks = {placed.ends.number: self.assembly.jacobian_blocks(placed) for placed in self.assembly.placed}
-        return condensed(self.assembly.placed, blocks, self.assembly.rows)
+        """The joint coordinates that constants tie to the rest where the joints are closed."""
+        forms = {name: _substituted(variant) for name, variant in self.assembly.forms.items()}
+        if forms == dict(self.assembly.forms):
+            return _condensed(self.assembly)
+        found = _condensed(replace(self.assembly, forms=forms))
+        return replace(found, is_constant=found == _condensed(self.assembly))
 
     @cached_property
     def _forces(self) -> Forces:
@@ -158,3 +162,12 @@ class System:
 
 def _kinds(name: str) -> tuple[str, str]:
     return FORCES[name] if name in FORCES else KINDS[name]
+
+
+def _substituted(variant: Variant) -> Variant:
+    return replace(variant, derivative="substituted") if variant.form == "parametric" else variant
+
+
+def _condensed(assembly: Assembly) -> Condensed:
+    blocks = {placed.ends.number: assembly.jacobian_blocks(placed) for placed in assembly.placed}
+    return condensed(assembly.placed, blocks, assembly.rows)

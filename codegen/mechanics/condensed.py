@@ -3,6 +3,7 @@
 With ``P`` [k, k] the part of these columns in as many rows, constant too, the rates of these alpha follow from the
 velocities of the bodies by ``phi_q v = 0`` in these rows, the multipliers of these rows from what acts on the
 coordinates, ``P^T lambda = force - ...``, and the corrections of these rows likewise. An integrator need not have them.
+With the exact derivative ``P`` is that constant where the joints are closed, and depends on the pose elsewhere.
 """
 
 from __future__ import annotations

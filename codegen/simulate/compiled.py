@@ -21,14 +21,12 @@ from codegen.simulate.factors import blocks, lu_headers
 from codegen.simulate.library import library
 from codegen.simulate.straight import Pivots, Straight, straight_blocks
 from codegen.simulate.sundials import VECTOR_OPERATIONS
+from codegen.simulate.vectors import vector_headers
 
 Array = NDArray[np.float64]
 
 WEIGHT = 1e4
 """1/s, of the rates in the Jacobian whose pivots are taken: between those of the first step and of the usual ones."""
-
-MOST_VECTORS = 6
-"""That are combined in one pass: what a BDF of order 5 predicts from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +76,7 @@ def compiled(
         SpecificationError: there is no C compiler.
     """
     pattern = jacobian.output("jacobian").sparsity
-    vector = render("simulate/jg_vector.h.j2", banner=banner(codegen.__version__), size=pattern.ncol, most=MOST_VECTORS)
-    loaded = library(ida_source(subject, residual, jacobian), {**lu_headers(), "jg_vector.h": vector})
+    loaded = library(ida_source(subject, residual, jacobian), lu_headers() | vector_headers(pattern.ncol))
     residual_at, jacobian_at, start, end, setup, solve = (
         ctypes.cast(loaded[f"jg_ida_{name}"], ctypes.c_void_p).value or 0
         for name in ("residual", "jacobian", "start", "end", "setup", "solve")

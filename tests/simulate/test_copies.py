@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from codegen.scenes.motion_record import Record
-from codegen.scenes.run import Settings, prepare
+from codegen.scenes.run import Prepared, Settings, prepare, run
 from codegen.spec.scene_file import read_scene
 
 from .preparations import EXAMPLES, told
@@ -17,9 +17,14 @@ COPIES = 3
 
 
 @cache
-def engines(count: int, form: str, index: int = 2) -> Record:
+def ready(count: int, form: str, index: int = 2) -> Prepared:
     text = (EXAMPLES / "in_line_engine.toml").read_text()
-    return told(prepare(read_scene(text, "engine", count), Settings(form=form, index=index)), 0.4, outputs=40)
+    return prepare(read_scene(text, "engine", count), Settings(form=form, index=index))
+
+
+@cache
+def engines(count: int, form: str, index: int = 2) -> Record:
+    return told(ready(count, form, index), 0.4, outputs=40)
 
 
 @pytest.mark.parametrize(("form", "index"), [("conventional", 2), ("parametric", 2), ("conventional", 1)])
@@ -35,3 +40,10 @@ def test_each_of_several_engines_moves_as_one_alone(form: str, index: int) -> No
 
 def test_constraints_of_all_engines_hold() -> None:
     assert np.max(engines(COPIES, "conventional").drift) < 1e-9
+
+
+def test_steps_depend_neither_on_the_form_nor_on_the_number_of_engines() -> None:
+    settings = Settings(duration=0.4, outputs=1, tolerance=1e-6)
+    found = [ready(count, form) for count in (1, COPIES) for form in ("conventional", "parametric")]
+    statistics = {run(each, settings).statistics for each in found}
+    assert len(statistics) == 1

@@ -125,6 +125,7 @@ class Ida:
     ) -> None:
         self._library = sundials()
         self._equations = equations
+        self._start = t
         self.y, self.ydot = np.array(y, dtype=np.float64), np.array(ydot, dtype=np.float64)
         self._identity = np.array(identity, dtype=np.float64)
         # IDA's norm is the mean of all entries, with 0 for those that are not tested.
@@ -166,14 +167,14 @@ class Ida:
         self._check(library.IDASetNonlinConvCoef(self._memory, NEWTON))
         self._check(library.IDASetDeltaCjLSetup(self._memory, AGE))
         self._check(library.IDASetEtaFixedStepBounds(self._memory, 1.0, LEAST_GROWTH))
-        self._check(library.IDASetInitStep(self._memory, self._first_step(relative)))
+        self._first_step = self._meeting_test(relative)
         if largest_step:
             self._check(library.IDASetMaxStep(self._memory, largest_step))
         self._check(library.IDASetLinearSolver(self._memory, self._solver, self._matrix))
         self._check(library.IDASetJacFn(self._memory, self._equations.jacobian))
 
-    def _first_step(self, relative: float) -> float:
-        """A step of first order that meets the error test, s.
+    def _meeting_test(self, relative: float) -> float:
+        """A step of first order that meets the error test, s; 0 where nothing tells.
 
         What changes in ``tau`` has ``norm(ydot) / tau`` for a second derivative. IDA's own choice, ``1 / norm(ydot)``,
         is four orders smaller, and some twenty steps follow until the size is right.
@@ -188,6 +189,9 @@ class Ida:
         Returns:
             The time reached, and 0 or one of `FAILURES`.
         """
+        if self._first_step:  # at most as far as the first output
+            self._check(self._library.IDASetInitStep(self._memory, min(self._first_step, t - self._start)))
+            self._first_step = 0.0
         reached = c_double()
         y, ydot = self._vectors[:2]
         code = _TOO_MANY

@@ -97,7 +97,7 @@ def _pivots(equations: ctypes.CDLL, nonzeros: int, y: Array, ydot: Array) -> Cal
 
     def found(block: int, size: int) -> Pivots | None:
         rows, columns = (ctypes.c_int * size)(), (ctypes.c_int * size)()
-        code = equations.jg_ida_pivots(ctypes.c_int(block), addresses[-1], rows, columns)
+        code = equations.jg_ida_pivots(ctypes.c_int(block), ctypes.c_void_p(values.ctypes.data), rows, columns)
         return None if code else (tuple(rows), tuple(columns))
 
     return found

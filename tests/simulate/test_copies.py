@@ -47,3 +47,8 @@ def test_steps_depend_neither_on_the_form_nor_on_the_number_of_engines() -> None
     found = [ready(count, form) for count in (1, COPIES) for form in ("conventional", "parametric")]
     statistics = {run(each, settings).statistics for each in found}
     assert len(statistics) == 1
+
+
+@pytest.mark.parametrize("form", ["conventional", "parametric"])
+def test_equal_engines_share_one_elimination(form: str) -> None:
+    assert ready(COPIES, form).equations.straight.kind.tolist() == [0] * COPIES

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from codegen.chains.partition import Partition
+
+if TYPE_CHECKING:
+    from codegen.chains.rate_code import RateCode
 
 Array = NDArray[np.float64]
 
@@ -67,11 +73,14 @@ class Equations(Protocol):
     def gamma(self, q: Array, qd: Array) -> Array:
         """Evaluate gamma_R [6 nr]."""
 
+    def code(self, part: Partition, driven: Sequence[bool]) -> RateCode | None:
+        """Compile the motion by independent coordinates, [nv] of them driven; None where it is not generated."""
+
     def terms(self, q: Array, qd: Array) -> Terms:
         """Evaluate the terms of the equations of motion."""
 
-    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Evaluate tau_A [n] and f_A [6 ne], what acts at all times on coordinates and at effectors."""
+    def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
+        """Evaluate what acts on coordinates [n] and at effectors [6 ne], their axes; ``on`` is 1 for forces that act."""
 
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""

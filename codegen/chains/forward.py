@@ -40,8 +40,8 @@ def run(
         tolerance: relative, and absolute in rad, characteristic lengths and their rates.
         progress: told the time reached.
     """
-    forces, part = mechanism.forces, mechanism.part
-    found = switches(forces.conditions, [forces.coordinate(one) for one in forces.conditions])
+    part = mechanism.part
+    found = switches(mechanism.conditions.conditions, mechanism.conditions.coordinates)
     motion, free = Moving(mechanism, start, found, drives), ~drives.is_driven
     y = np.concatenate([start.q[part.v][free], qd_v[free], [0.0]])
     states: list[State] = []
@@ -61,4 +61,4 @@ def run(
     except Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
-    return Run(tuple(states), words, motion.here.iterations, motion.events_met, motion.evaluations)
+    return Run(tuple(states), words, motion.iterations, motion.events_met, motion.evaluations)

@@ -1,6 +1,11 @@
-"""A chain in motion: its integrated variables and drives give all else, on the branch that is remembered."""
+"""A chain in motion: its integrated variables and drives give all else, on the branch that is remembered.
+
+Where there is compiled code it is taken, and what it refuses is done here, step by step, so that it can be told.
+"""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +13,8 @@ from numpy.typing import NDArray
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
-from codegen.chains.path import Branch, PathEnd, follow
+from codegen.chains.path import Branch, PathEnd, branch, follow
+from codegen.chains.position import close
 from codegen.chains.reduced import Reduced, reduced
 from codegen.chains.state import State, generalised, loaded
 from codegen.chains.stop import free_words, path_words
@@ -31,17 +37,37 @@ class Moving:
     """
 
     def __init__(self, mechanism: Mechanism, start: Branch, found: tuple[Switch, ...], drives: Drives) -> None:
-        self.mechanism, self.here, self.switches, self.drives = mechanism, start, found, drives
-        self.is_on: tuple[bool, ...] = ()
+        self.mechanism, self.switches, self.drives = mechanism, found, drives
+        self.is_on: tuple[bool, ...] = (False,) * len(found)
+        self._here = start
         self._last: tuple[Array, Reduced] | None = None
+        self._code = mechanism.equations.code(mechanism.part, drives.is_driven.tolist())
+        self._has_entered = self._is_ahead = False
+        self._rates: tuple[Array, Array | None] = (np.zeros(0), None)
+        self._before = 0 if self._code is None else self._code.iterations
         self.failure = ""
         self.evaluations = 0
         self.events_met = 0
 
     @property
+    def iterations(self) -> int:
+        """Of Newton's method."""
+        return self._here.iterations + (0 if self._code is None else self._code.iterations - self._before)
+
+    @property
+    def here(self) -> Branch:
+        """The last pose."""
+        if self._is_ahead and self._code is not None:
+            found = close(self.mechanism.equations, self.mechanism.part, self._code.q)
+            last, self._is_ahead = branch(self.mechanism.part, found), False
+            done = self._here.iterations + last.iterations
+            self._here = replace(last, orientation=self._here.orientation, iterations=done)
+        return self._here
+
+    @property
     def active(self) -> tuple[bool, ...]:
         """Which conditions hold."""
-        return active(self.switches, self.is_on, len(self.mechanism.forces.conditions))
+        return active(self.switches, self.is_on, len(self.mechanism.conditions.conditions))
 
     @property
     def units(self) -> Array:
@@ -67,10 +93,24 @@ class Moving:
         q_v, qd_v = self._independent(t, y)
         where = np.concatenate([q_v, qd_v])
         if self._last is None or not np.array_equal(self._last[0], where):
-            self.here = follow(self.mechanism.equations, self.mechanism.part, self.here, q_v)
-            found = reduced(self.mechanism.equations, self.mechanism.part, self.here.q, qd_v)
-            self._last = where, found
+            self._here = follow(self.mechanism.equations, self.mechanism.part, self.here, q_v)
+            self._has_entered = False
+            self._last = where, reduced(self.mechanism.equations, self.mechanism.part, self._here.q, qd_v)
         return self._last[1]
+
+    def _compiled(self, t: float, y: Array) -> Array | None:
+        """Rates by the compiled code, which is then where they are; None if there is none, or it refuses."""
+        code = self._code
+        if code is None:
+            return None
+        where = np.array([t, *y])
+        if not np.array_equal(where, self._rates[0]):
+            self._has_entered = self._has_entered or code.enter(self.here.q, self.here.factor.A)
+            code.on[:] = self.active
+            drive = np.concatenate(self.drives.at(t))
+            self._rates = where, code.rate(y, drive) if self._has_entered else None
+            self._is_ahead = self._has_entered
+        return self._rates[1]
 
     def acceleration(self, t: float, found: Reduced) -> tuple[Array, float]:
         """Accelerations of the independent coordinates, and the power of all forces and drives."""
@@ -86,6 +126,9 @@ class Moving:
     def rate(self, t: float, y: Array) -> Array:
         """Right-hand side; what is no number makes the integrator take a smaller step."""
         self.evaluations += 1
+        compiled = self._compiled(t, y)
+        if compiled is not None:
+            return compiled
         size = len(y) // 2
         try:
             qdd_v, power = self.acceleration(t, self.at(t, y))
@@ -99,12 +142,18 @@ class Moving:
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""
-        found, switch = self.at(t, y), self.switches[k]
+        switch = self.switches[k]
+        if self._code is not None and self._compiled(t, y) is not None:
+            return switch.value(self._code.q[switch.coordinate], self._code.qd[switch.coordinate])
+        found = self.at(t, y)
         return switch.value(self.here.q[switch.coordinate], found.rates.qd[switch.coordinate])
 
     def slope(self, k: int, t: float, y: Array) -> float:
         """Its rate."""
-        found, switch = self.at(t, y), self.switches[k]
+        switch = self.switches[k]
+        if self._code is not None and self._compiled(t, y) is not None:
+            return switch.rate(self._code.qd[switch.coordinate], self._code.qdd[switch.coordinate])
+        found = self.at(t, y)
         qdd = found.rates.acceleration(self.acceleration(t, found)[0])
         return switch.rate(found.rates.qd[switch.coordinate], qdd[switch.coordinate])
 
@@ -123,6 +172,7 @@ class Moving:
 
     def state(self, t: float, y: Array) -> State:
         """The chain at an output."""
+        self._compiled(t, y)
         found = self.at(t, y)
         qdd_v, _ = self.acceleration(t, found)
         return loaded(self.mechanism, t, self.here.q, found, qdd_v, self.active, self.drives.is_driven)
@@ -131,3 +181,4 @@ class Moving:
         """Change a switch that an event told."""
         self.is_on = tuple(on != (place == k) for place, on in enumerate(self.is_on))
         self.events_met += 1
+        self._rates = np.zeros(0), None

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.spec.chain_forces import EffectorForce, JointForce, Spring, Stop, WorldForce
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce, Spring, Stop, WorldForce
 from codegen.spec.chain_motions import Independent
 from codegen.spec.scene import Matrix, Vector
 
@@ -217,8 +217,14 @@ class Chain:
     def acts_at_effectors(self) -> bool:
         """Whether forces act at effectors at all times, or springs do."""
         own = any(any((*effector.force, *effector.moment)) for effector in self.effectors)
-        lasting = any(force.when is None for force in self.effector_forces)
-        return own or lasting or bool(self.world_forces or self.springs)
+        lasting = any(force.when is None for force in (*self.effector_forces, *self.world_forces))
+        return own or lasting or bool(self.springs)
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """When the forces that switch act: those on coordinates, those at effectors, those in axes of the world."""
+        forces = (*self.joint_forces, *self.effector_forces, *self.world_forces)
+        return tuple(force.when for force in forces if force.when is not None)
 
     def index(self, name: str) -> int:
         """Place of a link's coordinate in q.

@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 _FIRST = 0.1
 """The first step takes this part of the largest."""
 
+_GROWTH, _SHRINKAGE, _SAFETY = 10.0, 0.2, 0.9
+"""By how much a step may be longer or shorter than the one before, and what is kept back: as SciPy has them."""
+
 _SAME = 1e-12
 """Part of the duration: events that are closer are one after the other at the same time."""
 
@@ -84,7 +87,7 @@ def _steps(motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, 
     """
     reach = motion.reach(t, y)
     first = min(_FIRST * reach, end - t)
-    solver = DOP853(motion.rate, t, y, end, first_step=first if np.isfinite(reach) else None, **limits)
+    solver = _Solver(motion, t, y, end, first_step=first if np.isfinite(reach) else None, **limits)
     while solver.status == "running":
         solver.max_step = motion.reach(solver.t, solver.y)
         start = solver.y
@@ -92,6 +95,34 @@ def _steps(motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, 
         if solver.status == "failed":
             raise Stopped(motion.failure or "the integrator takes no step that meets the tolerance")
         yield _Step(float(solver.t_old), start, float(solver.t), solver.y, _between(solver))
+
+
+class _Solver(DOP853):
+    """DOP853 whose steps are compiled, as far as the motion has them."""
+
+    def __init__(self, motion: Moving, t: float, y: Array, end: float, **limits: Any) -> None:
+        self._motion = motion
+        super().__init__(motion.rate, t, y, end, **limits)
+
+    def _step_impl(self) -> tuple[bool, str | None]:
+        least, most = 10 * abs(np.nextafter(self.t, np.inf) - self.t), _GROWTH
+        h = min(max(self.h_abs, least), self.max_step)
+        while h >= least:
+            t = min(self.t + h, self.t_bound)
+            h = t - self.t
+            self.K[0] = self.f
+            y = self._motion.step(self.t, self.y, h, self.K)
+            if y is None:
+                return super()._step_impl()
+            size = self.atol + self.rtol * np.maximum(np.abs(self.y), np.abs(y))
+            error = self._estimate_error_norm(self.K, h, size)
+            change = min(most, max(_SHRINKAGE, _SAFETY * error**self.error_exponent)) if error else most
+            if error < 1:
+                self.h_previous, self.h_abs, self.y_old = h, h * change, self.y
+                self.t, self.y, self.f = t, y, self.K[-1].copy()
+                return True, None
+            h, most = h * change, 1.0
+        return False, self.TOO_SMALL_STEP
 
 
 def _between(solver: DOP853) -> Callable[[float], Array]:
@@ -133,7 +164,7 @@ def _taken(motion: Moving, step: _Step, t: float, limits: Mapping[str, Any]) -> 
     """The state at a time within a step, by steps of its own."""
     if t <= step.begun:
         return step.start
-    solver = DOP853(motion.rate, step.begun, step.start, t, first_step=t - step.begun, **limits)
+    solver = _Solver(motion, step.begun, step.start, t, first_step=t - step.begun, **limits)
     while solver.status == "running":
         solver.step()
     if solver.status == "failed":

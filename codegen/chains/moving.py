@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import DOP853
 
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
@@ -24,6 +25,9 @@ Array = NDArray[np.float64]
 
 FURTHEST = 0.25
 """rad, or characteristic lengths: an independent coordinate moves by about as much in a step, at most."""
+
+NODES = np.array([*DOP853.C[1:], 1.0])
+"""Stages of a step, but the first, and its end."""
 
 
 class Moving:
@@ -139,6 +143,26 @@ class Moving:
             self.failure = f"singular pose: {free_words(self.mechanism, loss)}"
             return np.full(len(y), np.nan)
         return np.concatenate([y[size : 2 * size], qdd_v[~self.drives.is_driven], [power]])
+
+    def step(self, t: float, y: Array, h: float, rates: Array) -> Array | None:
+        """Take a step of DOP853 by the compiled code; None if there is none, or it refuses.
+
+        Args:
+            t: s.
+            y: at t.
+            h: s.
+            rates: [stages + 1, size] of which the first is given; the others are written.
+        """
+        code, times = self._code, t + h * NODES
+        if code is None or self._compiled(t, y) is None:
+            return None
+        drives = np.array([np.concatenate(self.drives.at(at)) for at in times]) if self.drives.is_driven.any() else rates
+        end = code.step(y, h, drives, rates)
+        self._is_ahead = True
+        self.evaluations += len(times)
+        if end is not None:
+            self._rates = np.array([t + h, *end]), rates[-1].copy()
+        return end
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""

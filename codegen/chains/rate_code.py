@@ -9,11 +9,12 @@ from __future__ import annotations
 import ctypes
 import textwrap
 from collections.abc import Sequence
-from ctypes import c_double, c_int
+from ctypes import c_double, c_int, c_void_p
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
+from scipy.integrate import DOP853
 
 import codegen
 from codegen.chains import path, position
@@ -35,6 +36,8 @@ _EXACT = 1e-13
 """rad, or characteristic lengths: the Jacobian before a last step that is smaller is that of the pose."""
 
 _LEAST_INERTIA = 1e-12
+
+_WEIGHTS = np.ascontiguousarray(DOP853.A)
 
 
 class RateCode:
@@ -68,10 +71,8 @@ class RateCode:
         self._rate = np.zeros(2 * sizes["F"] + 1)
         self._y, self._drive = np.zeros(2 * sizes["F"] + 1), np.zeros(3 * sizes["D"] + 1)
         self._state = state
-        self._arguments = [ctypes.addressof(state), *(a.ctypes.data for a in (self._y, self._drive, self._rate))]
-        for function in (self._library.jg_chain_enter, self._library.jg_chain_rate):
-            function.argtypes = [ctypes.c_void_p] * (1 if function is self._library.jg_chain_enter else 4)
-            function.restype = c_int
+        self._arguments = [c_void_p(a) for a in (ctypes.addressof(state), *map(_at, (self._y, self._drive, self._rate)))]
+        self._library.jg_chain_step.argtypes = [*[ctypes.c_void_p] * 4, c_double, *[ctypes.c_void_p] * 3]
 
     @property
     def iterations(self) -> int:
@@ -100,6 +101,26 @@ class RateCode:
         self._y[:] = y
         self._drive[: len(drive)] = drive
         return self._rate.copy() if self._library.jg_chain_rate(*self._arguments) else None
+
+    def step(self, y: Array, h: float, drives: Array, rates: Array) -> Array | None:
+        """Take one step of DOP853; None where a stage is not beyond doubt.
+
+        Args:
+            y: [2 nf + 1] at its start.
+            h: s.
+            drives: [stages, 3 nd] of the driven coordinates, at all stages but the first and at the end of the step.
+            rates: [stages + 1, 2 nf + 1] rates of the stages and at the end; the first is given, the others are written.
+
+        Returns:
+            What is integrated, at the end.
+        """
+        end = np.empty_like(y)
+        given = (self._arguments[0], _at(_WEIGHTS), _at(DOP853.B), _at(y), h, _at(drives), _at(rates), _at(end))
+        return end if self._library.jg_chain_step(*given) else None
+
+
+def _at(array: Array) -> int:
+    return int(array.ctypes.data)
 
 
 def _sizes(part: Partition, driven: Sequence[bool], switches: int) -> dict[str, int]:
@@ -139,7 +160,7 @@ def _source(name: str, program: Program, part: Partition, driven: Sequence[bool]
         functions=[definition(*declared(one), one, "static void")[0] for one in programs],
         motion=calls[0],
         pose=calls[1] if len(calls) > 1 else "(void)q;",
-        sizes={**sizes, "ITERATIONS": path.ITERATIONS},
+        sizes={**sizes, "Y": 2 * sizes["F"] + 1, "STAGES": DOP853.n_stages, "ITERATIONS": path.ITERATIONS},
         limits={
             "SOUND": _SOUND,
             "EXACT": _EXACT,

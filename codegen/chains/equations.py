@@ -13,6 +13,7 @@ from codegen.chains.partition import Partition
 
 if TYPE_CHECKING:
     from codegen.chains.rate_code import RateCode
+    from codegen.chains.switches import Switch
 
 Array = NDArray[np.float64]
 
@@ -73,8 +74,8 @@ class Equations(Protocol):
     def gamma(self, q: Array, qd: Array) -> Array:
         """Evaluate gamma_R [6 nr]."""
 
-    def code(self, part: Partition, driven: Sequence[bool]) -> RateCode | None:
-        """Compile the motion by independent coordinates, [nv] of them driven; None where it is not generated."""
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> RateCode | None:
+        """Compile the motion by the independent coordinates [nv]; None where it is not generated."""
 
     def terms(self, q: Array, qd: Array) -> Terms:
         """Evaluate the terms of the equations of motion."""

@@ -12,6 +12,7 @@ from codegen.chains.equations import Closure, Terms
 from codegen.chains.partition import Partition
 from codegen.chains.programs import part as quantities_of
 from codegen.chains.rate_code import RateCode
+from codegen.chains.switches import Switch
 from codegen.ir.program import Program
 from codegen.mechanics.chain.model import chain_program, kept_rows
 from codegen.simulate.callable import Evaluate, callables
@@ -90,12 +91,11 @@ class Generated:
         gamma = self._all_rows(found["gamma_R"]) if self._height else np.zeros(0)
         return Terms(gamma, found["M"].reshape(len(q), -1), found["f_C"], found["f_G"])
 
-    def code(self, part: Partition, driven: Sequence[bool]) -> RateCode:
-        """Compile the motion by independent coordinates, [nv] of them driven."""
-        key = tuple(driven)
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> RateCode:
+        """Compile the motion by the independent coordinates [nv], once."""
+        key = tuple(is_driven.tolist())
         if key not in self._codes:
-            chain = self._chain
-            self._codes[key] = RateCode(chain.name, self._program, part, key, len(chain.conditions))
+            self._codes[key] = RateCode(self._chain.name, self._program, part, is_driven, switches)
         return self._codes[key]
 
     def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -13,14 +13,12 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from codegen.chains.moving import Moving
+from codegen.chains.rate_solver import RateSolver, between
 
 Array = NDArray[np.float64]
 
 _FIRST = 0.1
 """The first step takes this part of the largest."""
-
-_GROWTH, _SHRINKAGE, _SAFETY = 10.0, 0.2, 0.9
-"""By how much a step may be longer or shorter than the one before, and what is kept back: as SciPy has them."""
 
 _SAME = 1e-12
 """Part of the duration: events that are closer are one after the other at the same time."""
@@ -44,7 +42,7 @@ def outputs(motion: Moving, y: Array, times: Array, tolerance: float) -> Iterato
     left = [float(at) for at in times[1:]]
     while left:
         begun, event = t, None
-        for step in _steps(motion, t, y, end, limits):
+        for step in _steps(motion, t, y, end, limits, left):
             event = _event(motion, step, limits)
             t, y = (event.t, event.y) if event else (step.t, step.y)
             while left and left[0] <= t:
@@ -79,50 +77,70 @@ class _Event:
     y: Array
 
 
-def _steps(motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, Any]) -> Iterator[_Step]:
+def _steps(
+    motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, Any], left: Sequence[float]
+) -> Iterator[_Step]:
     """Take steps up to the end; the first is short, since an estimate of its error knows nothing of what comes.
+
+    Compiled ones are told where the first of the times that are left is reached, or a switch changes. One that is refused
+    is taken with care.
 
     Raises:
         Stopped: no step meets the tolerance.
     """
     reach = motion.reach(t, y)
-    first = min(_FIRST * reach, end - t)
-    solver = _Solver(motion, t, y, end, first_step=first if np.isfinite(reach) else None, **limits)
+    h = _FIRST * reach if np.isfinite(reach) else None
+    while t < end:
+        solver = None if h is None else motion.solver(t, y, end, h, limits["rtol"], limits["atol"])
+        while solver is not None and t < end:
+            is_taken = solver.run(left[0])
+            motion.moved(solver)
+            if solver.t > t:
+                t, y, h = solver.t, solver.y, solver.h
+                yield _compiled(motion, solver, limits)
+            if not is_taken:
+                break
+        for step, h in _careful(motion, t, y, end, h, limits):
+            t, y = step.t, step.y
+            yield step
+            if motion.is_compiled:
+                break
+
+
+def _careful(
+    motion: Moving, t: float, y: Array, end: float, h: float | None, limits: Mapping[str, Any]
+) -> Iterator[tuple[_Step, float]]:
+    """Steps that are not compiled, with the length of the next one."""
+    if t >= end:
+        return
+    solver = DOP853(motion.rate, t, y, end, first_step=None if h is None else min(h, end - t), **limits)
     while solver.status == "running":
         solver.max_step = motion.reach(solver.t, solver.y)
         start = solver.y
         solver.step()
         if solver.status == "failed":
             raise Stopped(motion.failure or "the integrator takes no step that meets the tolerance")
-        yield _Step(float(solver.t_old), start, float(solver.t), solver.y, _between(solver))
+        yield _Step(float(solver.t_old), start, float(solver.t), solver.y, _between(solver)), float(solver.h_abs)
 
 
-class _Solver(DOP853):
-    """DOP853 whose steps are compiled, as far as the motion has them."""
+def _compiled(motion: Moving, solver: RateSolver, limits: Mapping[str, Any]) -> _Step:
+    """The last step of compiled ones; its curve is made when it is needed, and is to be before the next step."""
+    begun, start, t = solver.begun, solver.start, solver.t
 
-    def __init__(self, motion: Moving, t: float, y: Array, end: float, **limits: Any) -> None:
-        self._motion = motion
-        super().__init__(motion.rate, t, y, end, **limits)
+    @cache
+    def curve() -> Array | None:
+        found = solver.curve()
+        motion.moved(solver)
+        return found
 
-    def _step_impl(self) -> tuple[bool, str | None]:
-        least, most = 10 * abs(np.nextafter(self.t, np.inf) - self.t), _GROWTH
-        h = min(max(self.h_abs, least), self.max_step)
-        while h >= least:
-            t = min(self.t + h, self.t_bound)
-            h = t - self.t
-            self.K[0] = self.f
-            y = self._motion.step(self.t, self.y, h, self.K)
-            if y is None:
-                return super()._step_impl()
-            size = self.atol + self.rtol * np.maximum(np.abs(self.y), np.abs(y))
-            error = self._estimate_error_norm(self.K, h, size)
-            change = min(most, max(_SHRINKAGE, _SAFETY * error**self.error_exponent)) if error else most
-            if error < 1:
-                self.h_previous, self.h_abs, self.y_old = h, h * change, self.y
-                self.t, self.y, self.f = t, y, self.K[-1].copy()
-                return True, None
-            h, most = h * change, 1.0
-        return False, self.TOO_SMALL_STEP
+    def at(time: float) -> Array:
+        found = curve()
+        if found is None:
+            return _taken(motion, step, time, limits)
+        return between(found, start, (time - begun) / (t - begun))
+
+    step = _Step(begun, start, t, solver.y, at)
+    return step
 
 
 def _between(solver: DOP853) -> Callable[[float], Array]:
@@ -164,7 +182,7 @@ def _taken(motion: Moving, step: _Step, t: float, limits: Mapping[str, Any]) -> 
     """The state at a time within a step, by steps of its own."""
     if t <= step.begun:
         return step.start
-    solver = _Solver(motion, step.begun, step.start, t, first_step=t - step.begun, **limits)
+    solver = DOP853(motion.rate, step.begun, step.start, t, first_step=t - step.begun, **limits)
     while solver.status == "running":
         solver.step()
     if solver.status == "failed":

@@ -9,26 +9,20 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853
 
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
 from codegen.chains.path import Branch, PathEnd, branch, follow
 from codegen.chains.position import close
+from codegen.chains.rate_code import FURTHEST
+from codegen.chains.rate_solver import RateSolver
 from codegen.chains.reduced import Reduced, reduced
 from codegen.chains.state import State, generalised, loaded
 from codegen.chains.stop import free_words, path_words
 from codegen.chains.switches import Switch, active
 
 Array = NDArray[np.float64]
-
-FURTHEST = 0.25
-"""rad, or characteristic lengths: an independent coordinate moves by about as much in a step, at most."""
-
-NODES = np.array([*DOP853.C[1:], 1.0])
-"""Stages of a step, but the first, and its end."""
-
 
 class Moving:
     """The chain by its integrated variables ``(q_f, qd_f, work)``, f the free coordinates; remembers the branch.
@@ -45,13 +39,20 @@ class Moving:
         self.is_on: tuple[bool, ...] = (False,) * len(found)
         self._here = start
         self._last: tuple[Array, Reduced] | None = None
-        self._code = mechanism.equations.code(mechanism.part, drives.is_driven.tolist())
+        self._code = mechanism.equations.code(mechanism.part, drives.is_driven, found)
         self._has_entered = self._is_ahead = False
         self._rates: tuple[Array, Array | None] = (np.zeros(0), None)
         self._before = 0 if self._code is None else self._code.iterations
+        if self._code is not None:
+            self._code.drive(lambda t: np.concatenate(drives.at(t)), drives.longest)
         self.failure = ""
         self.evaluations = 0
         self.events_met = 0
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether there is compiled code."""
+        return self._code is not None
 
     @property
     def iterations(self) -> int:
@@ -110,9 +111,8 @@ class Moving:
         where = np.array([t, *y])
         if not np.array_equal(where, self._rates[0]):
             self._has_entered = self._has_entered or code.enter(self.here.q, self.here.factor.A)
-            code.on[:] = self.active
-            drive = np.concatenate(self.drives.at(t))
-            self._rates = where, code.rate(y, drive) if self._has_entered else None
+            code.switch(self.is_on, self.active)
+            self._rates = where, code.rate(t, y) if self._has_entered else None
             self._is_ahead = self._has_entered
         return self._rates[1]
 
@@ -144,25 +144,19 @@ class Moving:
             return np.full(len(y), np.nan)
         return np.concatenate([y[size : 2 * size], qdd_v[~self.drives.is_driven], [power]])
 
-    def step(self, t: float, y: Array, h: float, rates: Array) -> Array | None:
-        """Take a step of DOP853 by the compiled code; None if there is none, or it refuses.
-
-        Args:
-            t: s.
-            y: at t.
-            h: s.
-            rates: [stages + 1, size] of which the first is given; the others are written.
-        """
-        code, times = self._code, t + h * NODES
-        if code is None or self._compiled(t, y) is None:
+    def solver(
+        self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array
+    ) -> RateSolver | None:
+        """Begin to integrate by the compiled code; None if there is none, or it refuses."""
+        rates = self._compiled(t, y)
+        if self._code is None or rates is None:
             return None
-        drives = np.array([np.concatenate(self.drives.at(at)) for at in times]) if self.drives.is_driven.any() else rates
-        end = code.step(y, h, drives, rates)
-        self._is_ahead = True
-        self.evaluations += len(times)
-        if end is not None:
-            self._rates = np.array([t + h, *end]), rates[-1].copy()
-        return end
+        return RateSolver(self._code, t, y, rates, end, h, relative, absolute)
+
+    def moved(self, solver: RateSolver) -> None:
+        """Be where the compiled code went."""
+        self._is_ahead, self._rates = True, (np.zeros(0), None)
+        self.evaluations += solver.counted()
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""

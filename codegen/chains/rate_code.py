@@ -7,27 +7,33 @@ iterations that contract well, a Jacobian near a singular one or of the other or
 from __future__ import annotations
 
 import ctypes
+import math
 import textwrap
-from collections.abc import Sequence
-from ctypes import c_double, c_int, c_void_p
+from collections.abc import Callable, Sequence
+from ctypes import POINTER, byref, c_double, c_int, c_void_p
+from typing import Any
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
-from scipy.integrate import DOP853
 
 import codegen
 from codegen.chains import path, position
 from codegen.chains.partition import Partition
 from codegen.chains.rate_programs import motion_program, pose_program
+from codegen.chains.rate_solver import header
+from codegen.chains.switches import Switch
 from codegen.emit.c import definition
 from codegen.emit.environment import render
 from codegen.emit.package import banner
 from codegen.ir.program import Program
-from codegen.simulate.compiled import declared
+from codegen.simulate.compiled import call, declared
 from codegen.simulate.library import library
 
 Array = NDArray[np.float64]
+
+FURTHEST = 0.25
+"""rad, or characteristic lengths: an independent coordinate moves by about as much in a step, at most."""
 
 _SOUND = 1e-6
 """Part of the largest pivot below which another is in doubt."""
@@ -36,8 +42,9 @@ _EXACT = 1e-13
 """rad, or characteristic lengths: the Jacobian before a last step that is smaller is that of the pose."""
 
 _LEAST_INERTIA = 1e-12
+"""Part of the largest pivot of the inertia matrix with ones on its diagonal."""
 
-_WEIGHTS = np.ascontiguousarray(DOP853.A)
+_DRIVE = ctypes.CFUNCTYPE(None, c_double, POINTER(c_double))
 
 
 class RateCode:
@@ -47,37 +54,55 @@ class RateCode:
         name: of the chain.
         program: of the chain, with the `codegen.chains.rate_programs.QUANTITIES` that it has.
         part: its coordinates and rows.
-        driven: [nv] whether an independent coordinate is driven.
-        switches: number of forces that switch.
+        is_driven: [nv] whether an independent coordinate is driven.
+        switches: of its forces.
 
     Attributes:
-        q: [n] coordinates where the motion is; what is entered is written here.
+        q: [n] coordinates where the motion is.
         qd: [n] rates there.
         qdd: [n] accelerations there.
-        on: [ns] 1 for forces that act, else 0; to be written.
+        library: with the functions.
+        size: of what is integrated, ``(q_f, qd_f, work)`` with f the coordinates that are not driven.
 
     Raises:
         SpecificationError: there is no C compiler.
     """
 
-    def __init__(self, name: str, program: Program, part: Partition, driven: Sequence[bool], switches: int) -> None:
-        self._part = part
-        sizes = _sizes(part, driven, switches)
-        self._library = library(_source(name, program, part, driven, sizes))
-        state = _state(sizes)()
-        self.q, self.qd, self.qdd = (np.ctypeslib.as_array(getattr(state, word)) for word in ("q", "qd", "qdd"))
-        self.on = np.ctypeslib.as_array(state.on)[:switches]
-        self._rows = np.ctypeslib.as_array(state.rows)[: len(part.w)]
-        self._rate = np.zeros(2 * sizes["F"] + 1)
-        self._y, self._drive = np.zeros(2 * sizes["F"] + 1), np.zeros(3 * sizes["D"] + 1)
-        self._state = state
-        self._arguments = [c_void_p(a) for a in (ctypes.addressof(state), *map(_at, (self._y, self._drive, self._rate)))]
-        self._library.jg_chain_step.argtypes = [*[ctypes.c_void_p] * 4, c_double, *[ctypes.c_void_p] * 3]
+    def __init__(
+        self, name: str, program: Program, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]
+    ) -> None:
+        sizes = _sizes(part, is_driven, switches)
+        self.library = library(_source(name, program, part, is_driven, sizes), {"jg_dop853.h": header()})
+        self.library.jg_chain_rate.argtypes = [c_void_p, c_double, c_void_p, c_void_p]
+        self._state: Any = _state(sizes)()
+        for k, switch in enumerate(switches):
+            self._state.sense[k], self._state.asked[k] = switch.sign, switch.coordinate
+            self._state.bound[k], self._state.of_rate[k] = switch.bound or 0.0, switch.bound is None
+        self.q, self.qd, self.qdd = (np.ctypeslib.as_array(getattr(self._state, word)) for word in ("q", "qd", "qdd"))
+        self.size, self._driven, self._rows = sizes["Y"], 3 * sizes["D"], len(part.w)
+
+    @property
+    def motion(self) -> Any:
+        """``struct jg_chain``, as functions take it."""
+        return byref(self._state)
 
     @property
     def iterations(self) -> int:
         """Steps of Newton's method so far."""
         return int(self._state.iterations)
+
+    def drive(self, values: Callable[[float], Array], longest: float) -> None:
+        """Say how the driven coordinates move.
+
+        Args:
+            values: gives [3 nd] values, rates and accelerations.
+            longest: s, a step that overlooks nothing of these motions.
+        """
+
+        def driven(t: float, found: Any) -> None:
+            found[: self._driven] = values(t).tolist()
+
+        self._state.drive, self._state.longest = _DRIVE(driven), longest
 
     def enter(self, q: Array, dependent: Array) -> bool:
         """Take a closed pose; False if it is not sound.
@@ -87,50 +112,32 @@ class RateCode:
             dependent: [m, nw] Jacobian of the dependent coordinates there, without dimension.
         """
         self.q[:] = q
-        order = scipy.linalg.qr(dependent.T, mode="r", pivoting=True)[-1]
-        self._rows[:] = np.sort(order[: len(self._rows)])
-        return bool(self._library.jg_chain_enter(self._arguments[0]))
+        order = scipy.linalg.qr(dependent.T, mode="r", pivoting=True)[-1] if self._rows else []
+        self._state.rows[: self._rows] = sorted(map(int, order[: self._rows]))
+        return bool(self.library.jg_chain_enter(self.motion))
 
-    def rate(self, y: Array, drive: Array) -> Array | None:
-        """Rates of ``(q_f, qd_f, work)``; None where they are not beyond doubt.
+    def switch(self, is_on: Sequence[bool], active: Sequence[bool]) -> None:
+        """Say which switches are on, and which forces act."""
+        self._state.is_on[: len(is_on)] = is_on
+        self._state.on[: len(active)] = active
 
-        Args:
-            y: [2 nf + 1].
-            drive: [3 nd] values, rates and accelerations of the driven coordinates.
-        """
-        self._y[:] = y
-        self._drive[: len(drive)] = drive
-        return self._rate.copy() if self._library.jg_chain_rate(*self._arguments) else None
-
-    def step(self, y: Array, h: float, drives: Array, rates: Array) -> Array | None:
-        """Take one step of DOP853; None where a stage is not beyond doubt.
-
-        Args:
-            y: [2 nf + 1] at its start.
-            h: s.
-            drives: [stages, 3 nd] of the driven coordinates, at all stages but the first and at the end of the step.
-            rates: [stages + 1, 2 nf + 1] rates of the stages and at the end; the first is given, the others are written.
-
-        Returns:
-            What is integrated, at the end.
-        """
-        end = np.empty_like(y)
-        given = (self._arguments[0], _at(_WEIGHTS), _at(DOP853.B), _at(y), h, _at(drives), _at(rates), _at(end))
-        return end if self._library.jg_chain_step(*given) else None
+    def rate(self, t: float, y: Array) -> Array | None:
+        """Rates of what is integrated; None where they are not beyond doubt."""
+        found, given = np.empty(self.size), np.ascontiguousarray(y)
+        is_found = self.library.jg_chain_rate(self.motion, t, given.ctypes.data, found.ctypes.data)
+        return found if is_found else None
 
 
-def _at(array: Array) -> int:
-    return int(array.ctypes.data)
-
-
-def _sizes(part: Partition, driven: Sequence[bool], switches: int) -> dict[str, int]:
-    n, v, d = len(part.units), len(part.v), sum(driven)
-    return {"N": n, "V": v, "W": len(part.w), "F": v - d, "D": d, "R": len(part.rows), "S": switches}
+def _sizes(part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> dict[str, int]:
+    n, v, d = len(part.units), len(part.v), int(is_driven.sum())
+    conditions = len({switch.condition for switch in switches})
+    sizes = {"N": n, "V": v, "W": len(part.w), "F": v - d, "D": d, "Y": 2 * (v - d) + 1, "R": len(part.rows)}
+    return {**sizes, "S": conditions, "K": len(switches)}
 
 
 def _state(sizes: dict[str, int]) -> type[ctypes.Structure]:
     """``struct jg_chain``."""
-    n, w = sizes["N"], sizes["W"]
+    n, w, k = sizes["N"], sizes["W"], sizes["K"]
 
     class State(ctypes.Structure):
         _fields_ = [
@@ -140,19 +147,24 @@ def _state(sizes: dict[str, int]) -> type[ctypes.Structure]:
             ("lu", c_double * (w * w + 1)),
             ("sign", c_double),
             ("on", c_double * (sizes["S"] + 1)),
+            *((word, c_double * (k + 1)) for word in ("sense", "bound")),
+            ("longest", c_double),
+            ("drive", _DRIVE),
             *((word, c_int * (w + 1)) for word in ("swaps", "rows")),
+            *((word, c_int * (k + 1)) for word in ("asked", "of_rate", "is_on")),
             ("iterations", c_int),
         ]
 
     return State
 
 
-def _source(name: str, program: Program, part: Partition, driven: Sequence[bool], sizes: dict[str, int]) -> str:
+def _source(
+    name: str, program: Program, part: Partition, is_driven: NDArray[np.bool_], sizes: dict[str, int]
+) -> str:
     programs = [motion_program(program, part)]
     programs += [pose_program(program, part)] if len(part.rows) else []
-    kinds = np.array(driven, dtype=bool)
-    tables = {"v": part.v, "w": part.w, "f": np.flatnonzero(~kinds), "d": np.flatnonzero(kinds)}
-    calls = [_call(one) for one in programs]
+    tables = {"v": part.v, "w": part.w, "f": np.flatnonzero(~is_driven), "d": np.flatnonzero(is_driven)}
+    calls = [call(one) for one in programs]
     return render(
         "simulate/chain_rate.c.j2",
         banner=banner(codegen.__version__),
@@ -160,11 +172,12 @@ def _source(name: str, program: Program, part: Partition, driven: Sequence[bool]
         functions=[definition(*declared(one), one, "static void")[0] for one in programs],
         motion=calls[0],
         pose=calls[1] if len(calls) > 1 else "(void)q;",
-        sizes={**sizes, "Y": 2 * sizes["F"] + 1, "STAGES": DOP853.n_stages, "ITERATIONS": path.ITERATIONS},
+        sizes={**sizes, "ITERATIONS": path.ITERATIONS},
         limits={
             "SOUND": _SOUND,
             "EXACT": _EXACT,
             "LEAST_INERTIA": _LEAST_INERTIA,
+            "FURTHEST": FURTHEST,
             "REACH": part.reach,
             "LARGEST_STEP": position.LARGEST_STEP,
             "STEP": position.STEP,
@@ -177,11 +190,6 @@ def _source(name: str, program: Program, part: Partition, driven: Sequence[bool]
         tables={word: _lines([*numbers.tolist(), 0]) for word, numbers in tables.items()},
         units=_lines(part.units.tolist()),
     )
-
-
-def _call(program: Program) -> str:
-    symbol, parameters = declared(program)
-    return f"{symbol}({', '.join(parameter.name for parameter in parameters)});"
 
 
 def _lines(values: Sequence[float]) -> list[str]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from codegen.chains.equations import Closure, Terms
 from codegen.chains.partition import Partition
+from codegen.chains.switches import Switch
 from codegen.spec.chain import BASE, Chain, Frame, Row
 from codegen.spec.chain_forces import WorldForce
 
@@ -112,7 +113,7 @@ class TableEquations:
             [np.zeros((0, len(q))), *(part for pair in zip(closure.dp, closure.W, strict=True) for part in pair)]
         )
 
-    def code(self, part: Partition, driven: Sequence[bool]) -> None:
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> None:
         """Nothing is compiled."""
 
     def terms(self, q: Array, qd: Array) -> Terms:

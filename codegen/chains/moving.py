@@ -98,8 +98,9 @@ class Moving:
         q_v, qd_v = self._independent(t, y)
         where = np.concatenate([q_v, qd_v])
         if self._last is None or not np.array_equal(self._last[0], where):
+            before = self.here.q
             self._here = follow(self.mechanism.equations, self.mechanism.part, self.here, q_v)
-            self._has_entered = False
+            self._has_entered = self._has_entered and np.array_equal(self._here.q, before)
             self._last = where, reduced(self.mechanism.equations, self.mechanism.part, self._here.q, qd_v)
         return self._last[1]
 
@@ -190,10 +191,14 @@ class Moving:
 
     def state(self, t: float, y: Array) -> State:
         """The chain at an output."""
-        self._compiled(t, y)
-        found = self.at(t, y)
-        qdd_v, _ = self.acceleration(t, found)
-        return loaded(self.mechanism, t, self.here.q, found, qdd_v, self.active, self.drives.is_driven)
+        mechanism, v, code = self.mechanism, self.mechanism.part.v, self._code
+        if code is not None and self._compiled(t, y) is not None:
+            q, qdd_v = code.q.copy(), code.qdd[v]
+            found = reduced(mechanism.equations, mechanism.part, q, code.qd[v])
+        else:
+            found = self.at(t, y)
+            q, qdd_v = self.here.q, self.acceleration(t, found)[0]
+        return loaded(mechanism, t, q, found, qdd_v, self.active, self.drives.is_driven)
 
     def switch(self, k: int) -> None:
         """Change a switch that an event told."""

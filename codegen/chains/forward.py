@@ -47,9 +47,9 @@ def run(
     states: list[State] = []
     failure = ""
     try:
-        motion.is_on = tuple(motion.value(k, float(times[0]), y) > 0 for k in range(len(found)))
+        motion.begin(float(times[0]), y)
         states.append(motion.state(float(times[0]), y))
-        for t, now in outputs(motion, y, times, tolerance):
+        for t, now in outputs(motion, y, states[0], times, tolerance):
             states.append(motion.state(t, now))
             progress(t)
     except PathEnd as end:

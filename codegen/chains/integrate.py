@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 
 from codegen.chains.moving import Moving
 from codegen.chains.rate_solver import RateSolver, between
+from codegen.chains.state import State
 
 Array = NDArray[np.float64]
 
@@ -31,14 +32,21 @@ class Stopped(Exception):
     """The integrator cannot go on; the words say why."""
 
 
-def outputs(motion: Moving, y: Array, times: Array, tolerance: float) -> Iterator[tuple[float, Array]]:
+def outputs(motion: Moving, y: Array, first: State, times: Array, tolerance: float) -> Iterator[tuple[float, Array]]:
     """Integrated variables at the output times, the first one left out.
+
+    Args:
+        motion: the chain.
+        y: integrated variables at times[0].
+        first: the state there.
+        times: [n] s, ascending.
+        tolerance: relative, and absolute in rad, characteristic lengths and their rates.
 
     Raises:
         Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    limits = {"rtol": max(tolerance, 3e-14), "atol": _absolute(motion, t, y, tolerance, end)}
+    limits = {"rtol": max(tolerance, 3e-14), "atol": _absolute(motion, first, tolerance, end - t)}
     left = [float(at) for at in times[1:]]
     while left:
         begun, event = t, None
@@ -190,12 +198,11 @@ def _taken(motion: Moving, step: _Step, t: float, limits: Mapping[str, Any]) -> 
     return np.asarray(solver.y)
 
 
-def _absolute(motion: Moving, t: float, y: Array, tolerance: float, end: float) -> Array:
+def _absolute(motion: Moving, first: State, tolerance: float, duration: float) -> Array:
     """Absolute tolerances of angles, rates and work.
 
     The work is controlled too: one more component whose error estimate does not vanish where those of the others do.
     """
-    found = motion.at(t, y)
-    _, power = motion.acceleration(t, found)
-    energy = max(found.kinetic_energy(), abs(power) * (end - t)) or np.inf
-    return tolerance * np.concatenate([motion.units, motion.units, [energy]])
+    loads = first.loads
+    energy = 0.0 if loads is None else max(loads.kinetic, abs(loads.power) * duration)
+    return tolerance * np.concatenate([motion.units, motion.units, [energy or np.inf]])

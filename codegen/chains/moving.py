@@ -200,6 +200,11 @@ class Moving:
             q, qdd_v = self.here.q, self.acceleration(t, found)[0]
         return loaded(mechanism, t, q, found, qdd_v, self.active, self.drives.is_driven)
 
+    def begin(self, t: float, y: Array) -> None:
+        """Set the switches as they are at the start."""
+        self.is_on = tuple(self.value(k, t, y) > 0 for k in range(len(self.switches)))
+        self._rates = np.zeros(0), None
+
     def switch(self, k: int) -> None:
         """Change a switch that an event told."""
         self.is_on = tuple(on != (place == k) for place, on in enumerate(self.is_on))

@@ -100,7 +100,7 @@ class RateCode:
         """
 
         def driven(t: float, found: Any) -> None:
-            found[: self._driven] = values(t).tolist()
+            np.ctypeslib.as_array(found, (self._driven,))[:] = values(t)
 
         self._state.drive, self._state.longest = _DRIVE(driven), longest
 
@@ -118,8 +118,8 @@ class RateCode:
 
     def switch(self, is_on: Sequence[bool], active: Sequence[bool]) -> None:
         """Say which switches are on, and which forces act."""
-        self._state.is_on[: len(is_on)] = is_on
-        self._state.on[: len(active)] = active
+        self._state.is_on[: len(is_on)] = [int(on) for on in is_on]
+        self._state.on[: len(active)] = [float(one) for one in active]
 
     def rate(self, t: float, y: Array) -> Array | None:
         """Rates of what is integrated; None where they are not beyond doubt."""

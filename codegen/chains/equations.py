@@ -81,7 +81,13 @@ class Equations(Protocol):
         """Evaluate the terms of the equations of motion."""
 
     def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
-        """Evaluate what acts on coordinates [n] and at effectors [6 ne], their axes; ``on`` is 1 for forces that act."""
+        """Evaluate what acts on coordinates [n] and at effectors [6 ne], axes of these.
+
+        Args:
+            q: [n].
+            qd: [n].
+            on: 1 for each force that switches and acts, 0 for one that does not.
+        """
 
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""

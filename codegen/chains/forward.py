@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.factor import RankLoss
-from codegen.chains.integrate import Stopped, outputs
+from codegen.chains.integrate import outputs
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
 from codegen.chains.moving import Moving
@@ -14,6 +14,7 @@ from codegen.chains.path import Branch, PathEnd
 from codegen.chains.reduced import NoInertia
 from codegen.chains.run import Progress, Run
 from codegen.chains.state import State
+from codegen.chains.steps import Stopped
 from codegen.chains.stop import free_words, inertia_words, path_words
 from codegen.chains.switches import switches
 

@@ -99,7 +99,7 @@ class Generated:
         return self._codes[key]
 
     def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
-        """Evaluate what acts on coordinates [n] and at effectors [6 ne]; ``on`` is 1 for forces that act."""
+        """Evaluate what acts on coordinates [n] and at effectors [6 ne]."""
         found = self._routines["applied"](q=q, qd=qd, on=on)
         return found["tau_S"], found.get("f_S", np.zeros(0))
 

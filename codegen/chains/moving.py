@@ -24,6 +24,7 @@ from codegen.chains.switches import Switch, active
 
 Array = NDArray[np.float64]
 
+
 class Moving:
     """The chain by its integrated variables ``(q_f, qd_f, work)``, f the free coordinates; remembers the branch.
 
@@ -145,9 +146,7 @@ class Moving:
             return np.full(len(y), np.nan)
         return np.concatenate([y[size : 2 * size], qdd_v[~self.drives.is_driven], [power]])
 
-    def solver(
-        self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array
-    ) -> RateSolver | None:
+    def solver(self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array) -> RateSolver | None:
         """Begin to integrate by the compiled code; None if there is none, or it refuses."""
         rates = self._compiled(t, y)
         if self._code is None or rates is None:

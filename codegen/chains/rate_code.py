@@ -7,7 +7,6 @@ iterations that contract well, a Jacobian near a singular one or of the other or
 from __future__ import annotations
 
 import ctypes
-import math
 import textwrap
 from collections.abc import Callable, Sequence
 from ctypes import POINTER, byref, c_double, c_int, c_void_p
@@ -158,9 +157,7 @@ def _state(sizes: dict[str, int]) -> type[ctypes.Structure]:
     return State
 
 
-def _source(
-    name: str, program: Program, part: Partition, is_driven: NDArray[np.bool_], sizes: dict[str, int]
-) -> str:
+def _source(name: str, program: Program, part: Partition, is_driven: NDArray[np.bool_], sizes: dict[str, int]) -> str:
     programs = [motion_program(program, part)]
     programs += [pose_program(program, part)] if len(part.rows) else []
     tables = {"v": part.v, "w": part.w, "f": np.flatnonzero(~is_driven), "d": np.flatnonzero(is_driven)}

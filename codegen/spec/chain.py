@@ -217,14 +217,19 @@ class Chain:
     def acts_at_effectors(self) -> bool:
         """Whether forces act at effectors at all times, or springs do."""
         own = any(any((*effector.force, *effector.moment)) for effector in self.effectors)
-        lasting = any(force.when is None for force in (*self.effector_forces, *self.world_forces))
-        return own or lasting or bool(self.springs)
+        return own or bool(self.springs) or any(when is None for when in self._at_effectors)
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
         """When the forces that switch act: those on coordinates, those at effectors, those in axes of the world."""
-        forces = (*self.joint_forces, *self.effector_forces, *self.world_forces)
-        return tuple(force.when for force in forces if force.when is not None)
+        found = (*(force.when for force in self.joint_forces), *self._at_effectors)
+        return tuple(when for when in found if when is not None)
+
+    @property
+    def _at_effectors(self) -> list[Condition | None]:
+        """When the forces at effectors act."""
+        own = [force.when for force in self.effector_forces]
+        return own + [force.when for force in self.world_forces]
 
     def index(self, name: str) -> int:
         """Place of a link's coordinate in q.

@@ -5,7 +5,9 @@ Where there is compiled code it is taken, and what it refuses is done here, step
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,9 @@ from codegen.chains.stop import free_words, path_words
 from codegen.chains.switches import Switch, active
 
 Array = NDArray[np.float64]
+
+_BEYOND = 0.01
+"""rad, or characteristic lengths."""
 
 
 class Moving:
@@ -46,7 +51,7 @@ class Moving:
         self._before = 0 if self._code is None else self._code.iterations
         if self._code is not None:
             self._code.drive(lambda t: np.concatenate(drives.at(t)), drives.longest)
-        self.failure = ""
+        self._told: Callable[[], str] = str
         self.evaluations = 0
         self.events_met = 0
 
@@ -135,16 +140,36 @@ class Moving:
         compiled = self._compiled(t, y)
         if compiled is not None:
             return compiled
+        if not np.isfinite(y).all():
+            return np.full(len(y), np.nan)
         size = len(y) // 2
         try:
             qdd_v, power = self.acceleration(t, self.at(t, y))
         except PathEnd as end:
-            self.failure = path_words(self.mechanism, end)
-            return np.full(len(y), np.nan)
+            return self._failed(partial(self._end_words, t, y, end), y)
         except RankLoss as loss:
-            self.failure = f"singular pose: {free_words(self.mechanism, loss)}"
-            return np.full(len(y), np.nan)
+            return self._failed(partial(_singular_words, self.mechanism, loss), y)
         return np.concatenate([y[size : 2 * size], qdd_v[~self.drives.is_driven], [power]])
+
+    @property
+    def failure(self) -> str:
+        """Why rates were no numbers at last; empty if they always were."""
+        return self._told()
+
+    def _failed(self, told: Callable[[], str], y: Array) -> Array:
+        self._told = told
+        return np.full(len(y), np.nan)
+
+    def _end_words(self, t: float, y: Array, end: PathEnd) -> str:
+        """Tell an end by a place well beyond: a hair beyond its end every path seems to go on."""
+        mechanism, v = self.mechanism, self.mechanism.part.v
+        way = self._independent(t, y)[1]
+        size = float(np.max(np.abs(way / mechanism.part.units[v]), initial=0.0))
+        try:
+            follow(mechanism.equations, mechanism.part, end.reached, end.reached.q[v] + _BEYOND * way / (size or 1.0))
+        except PathEnd as further:
+            return path_words(mechanism, further)
+        return path_words(mechanism, end)
 
     def solver(self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array) -> RateSolver | None:
         """Begin to integrate by the compiled code; None if there is none, or it refuses."""
@@ -209,3 +234,7 @@ class Moving:
         self.is_on = tuple(on != (place == k) for place, on in enumerate(self.is_on))
         self.events_met += 1
         self._rates = np.zeros(0), None
+
+
+def _singular_words(mechanism: Mechanism, loss: RankLoss) -> str:
+    return f"singular pose: {free_words(mechanism, loss)}"

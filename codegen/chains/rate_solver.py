@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_double, c_int, c_void_p
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -117,6 +118,7 @@ def between(curve: Array, start: Array, x: float) -> Array:
     return np.asarray(start + found)
 
 
+@cache
 def _state(size: int) -> type[ctypes.Structure]:
     """``struct jg_solver``."""
 

@@ -41,7 +41,7 @@ from flopcount.count import count
 LIBRARY = Options()
 """The request for the whole committed library."""
 
-ISSUED = 4
+ISSUED = 3
 """Operations that start in a cycle of the processor for which a routine is ordered."""
 
 Check = Callable[[Routine], Program]

@@ -8,7 +8,9 @@ pieces of any length ends at a singular pose, where branches meet, or where the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,12 +50,16 @@ class PathEnd(Exception):
 
     Attributes:
         reached: the last closed pose.
-        beyond: where the cuts are most open between there and the target, at the pose that opens them least.
     """
 
-    def __init__(self, reached: Branch, beyond: Position) -> None:
+    def __init__(self, reached: Branch, look: Callable[[], Position]) -> None:
         super().__init__()
-        self.reached, self.beyond = reached, beyond
+        self.reached, self._look = reached, look
+
+    @cached_property
+    def beyond(self) -> Position:
+        """Where the cuts are most open between there and the target, at the pose that opens them least."""
+        return self._look()
 
     @property
     def is_singular(self) -> bool:
@@ -133,7 +139,7 @@ def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> 
             continue
         piece /= 2
         if piece * size < _SHORTEST:
-            raise PathEnd(here, _beyond(equations, part, here, q_v))
+            raise PathEnd(here, partial(_beyond, equations, part, here, q_v))
     return here
 
 

@@ -104,9 +104,12 @@ def reach(stages: Stages, found: Deviator, side: int) -> sympy.Expr:
     """How far the greatest (side 1) or the least (side -1) eigenvalue is from the mean, over q; positive."""
     k = closeness(stages, found, side)
     parts = [sympy.Rational(c) * (_ROOT_3 / 2) ** (i + 1) * _P for i, c in enumerate(_SECANT)]
-    polynomial = _horner([_P, *parts], k)
     place = f"{found.name}_{'up' if side > 0 else 'down'}"
-    return stages.stage(f"reach_{place}", sympy.Matrix([polynomial]), "2 cos phi over sqrt 3")[0]
+    (kk,) = stages.stage(f"square_{place}", sympy.Matrix([k * k]), "its square")
+    coefficients = [_P, *parts]
+    halves = sympy.Matrix([_horner(coefficients[parity::2], kk) for parity in (0, 1)])
+    even, odd = stages.stage(f"powers_{place}", halves, "even powers, odd powers over the first")
+    return stages.stage(f"reach_{place}", sympy.Matrix([even + k * odd]), "2 cos phi over sqrt 3")[0]
 
 
 def largest(stages: Stages, name: str, A: sympy.Matrix) -> sympy.Expr:

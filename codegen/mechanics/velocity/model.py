@@ -54,7 +54,7 @@ def velocity_program(
         real: number type, which decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
-    stages = Stages()
+    stages = Stages(is_paired=True)
     found = legs(stages, platform, is_symbolic)
     model = _Model(stages, platform, found, limits(platform, found.exponent, real))
     for name, value in model.quantities(names).items():

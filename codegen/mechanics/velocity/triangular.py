@@ -80,7 +80,9 @@ class Reflections:
 
     def _reflect(self, name: str, k: int, rows: list[int], v: list[sympy.Expr], beta: sympy.Expr) -> None:
         column = self.columns[k]
-        product = sum((a * column[row] for a, row in zip(v, rows, strict=True)), sympy.Integer(0))
+        rest = sum((a * column[row] for a, row in zip(v[1:], rows[1:], strict=True)), sympy.Integer(0))
+        rest = self.stages.stage(f"s_{name}", _one(rest), "v^T a but for the first components, which come later")[0]
+        product = v[0] * column[rows[0]] + rest
         if product == 0:
             return
         factor = self.stages.stage(f"f_{name}", _one(product), "v^T a")[0]

@@ -7,7 +7,7 @@ from codegen.emit.routine import Routine
 from codegen.ir.program import Program
 from codegen.mechanics.velocity.model import velocity_program
 from codegen.passes import simplify
-from codegen.passes.overlap import overlap
+from codegen.passes.pipelines import pipeline
 from codegen.spec.platform import Platform
 from flopcount.count import count
 
@@ -23,7 +23,7 @@ def program(platform: Platform, names: tuple[str, ...], real: str = "double", is
         real: ``double`` or ``float``: decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
-    return overlap(simplify(velocity_program(platform, names, real, is_symbolic)))
+    return pipeline(simplify(velocity_program(platform, names, real, is_symbolic)))
 
 
 def routine(platform: Platform, output: str, names: tuple[str, ...], real: str = "double") -> Routine:

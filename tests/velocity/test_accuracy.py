@@ -57,6 +57,16 @@ def test_the_four_volumes_alone_are_right_to_8_eps_kappa(name: str) -> None:
     assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
 
 
+def test_the_four_volumes_keep_their_digits_for_a_reference_point_far_away_and_near_a_singular_pose() -> None:
+    shift = np.array([[100.0], [-50.0], [20.0]])
+    far = Geometry(SEMI_REGULAR.base, SEMI_REGULAR.joints - shift, SEMI_REGULAR.height, SEMI_REGULAR.step)
+    away = [(o + R @ shift[:, 0], R) for o, R in SEMI_REGULAR.poses()]
+    for geometry, poses in ((far, away), (SEMI_REGULAR, approach(SEMI_REGULAR, [10.0**-k for k in range(1, 11)]))):
+        expected = truths(geometry, poses, "double")
+        wrong = errors(found(geometry.platform("values"), ("D",), poses), expected, ("D",))
+        assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
+
+
 def approach(geometry: Geometry, distances: Any) -> list[tuple[Any, Any]]:
     """Fichter's singular configuration, the platform turned by a quarter, from so many radians away."""
     from scipy.spatial.transform import Rotation

@@ -48,7 +48,8 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     C = stage("C_D", sympy.sqrt(first * pair + TINY), "greatest value over least, times D")
     greatest = stage("greatest", sympy.sqrt(first), "greatest value")
     both = stage("both", sympy.sqrt(pair), "product of the two greatest")
-    middle = stage("middle", both / (greatest + TINY), "middle value")
+    quotient = stage("quotient", both / (greatest + TINY), "middle value")
+    middle = stage("middle", Select(quotient, limit, 0, quotient), "0 if it is rounding")
     return Spectrum(product, (greatest, middle, stage("least", product / both, "least value")), C, lost)
 
 

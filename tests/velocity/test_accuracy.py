@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from .found import EPS, TYPES, found
+from flopcount.count import count
+
+from .found import EPS, TYPES, cached_program, found
 from .geometries import GEOMETRIES, SEMI_REGULAR, Geometry
 from .truth import Truth, error, truth
 
@@ -46,6 +49,17 @@ def test_robust_indices_and_values_are_right_to_8_eps_kappa(name: str, real: str
     wrong = errors(outputs, expected, (*INDICES, "values"))
     bounds = np.array([8 * EPS[real] * t.kappa for t in expected])
     assert (wrong <= bounds).all(), (wrong / bounds).max()
+
+
+def test_fused_products_and_sums_keep_the_bounds() -> None:
+    geometry = GEOMETRIES["3-3, octahedral optimum"]
+    poses = list(geometry.poses())
+    expected = truths(geometry, poses, "double")
+    plain = geometry.platform()
+    fused = replace(plain, wanted=replace(plain.wanted, fma=True))
+    wrong = errors(found(fused, INDICES, poses), expected, INDICES)
+    assert count(cached_program(fused, INDICES)).fma > 400
+    assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
 
 
 @pytest.mark.parametrize("name", GEOMETRIES)

@@ -11,6 +11,7 @@ from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.eigenvalues import all_three, largest
 from codegen.mechanics.velocity.triangular import TINY, Triangle
 
+
 @dataclass(frozen=True)
 class Spectrum:
     """Values of a block, in the length unit.

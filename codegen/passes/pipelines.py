@@ -1,8 +1,9 @@
 """Order the instructions for a processor that adds, multiplies and divides at the same time.
 
-As `codegen.passes.overlap` it issues, cycle by cycle, the first instruction in the given order whose operands have come;
-but of each kind only one a cycle, and a division or a root keeps the divider busy. So additions and multiplications
-alternate, and roots are spread among them. The model is a processor that works on vectors of 32 bytes in halves.
+As `codegen.passes.overlap` it issues, cycle by cycle, the first instruction in the given order whose operands have
+come; but of each kind only one a cycle, and a division or a root keeps the divider busy. So additions and
+multiplications alternate, and roots are spread among them. The model is a processor that works on vectors of 32 bytes
+in halves.
 """
 
 from __future__ import annotations

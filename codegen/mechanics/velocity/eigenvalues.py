@@ -139,4 +139,3 @@ def _horner(coefficients: list[sympy.Rational], x: sympy.Expr) -> sympy.Expr:
     for coefficient in reversed(coefficients[:-1]):
         total = coefficient + x * total
     return total
-

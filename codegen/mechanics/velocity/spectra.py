@@ -79,11 +79,10 @@ def frobenius(stages: Stages, triangle: Triangle) -> Spectrum:
     product = _product(stages, triangle)
     squares = [
         stage(f"norm_{k}", sum(x * x for x in M), "square of a norm")
-        for k, M in enumerate((triangle.T, triangle.inverse))
+        for k, M in enumerate((triangle.T, _cofactors(stages, triangle)))
     ]
-    norms = [stage(f"root_{k}", sympy.sqrt(square), "Frobenius norm") for k, square in enumerate(squares)]
-    C = stage("C", norms[0] * norms[1] / 3, "condition number of Frobenius")
-    return Spectrum(product, (), stage("C_or_inf", Select(product, TINY, 1 / product, C), "infinite if singular"))
+    norms = stage("norms", sympy.sqrt(squares[0] * squares[1] + TINY), "norms of the block and of its cofactors")
+    return Spectrum(product, (), stage("C", norms / (3 * product), "condition number of Frobenius, or infinite"))
 
 
 Stager = Callable[[str, sympy.Expr, str], sympy.Expr]
@@ -102,14 +101,16 @@ def _product(stages: Stages, triangle: Triangle) -> sympy.Expr:
     return stages.stage(f"D_{triangle.name}", sympy.Matrix([product]), "product of the diagonal of R")[0]
 
 
-def _gram_of_cofactors(stages: Stages, triangle: Triangle) -> sympy.Matrix:
-    """``K K'``, upper triangle, with K the adjugate of T but for signs that change no eigenvalue."""
+def _cofactors(stages: Stages, triangle: Triangle) -> sympy.Matrix:
+    """The adjugate of T but for signs that change neither norms nor eigenvalues of ``K K'``."""
     (a, b, c), (_, d, e), (_, _, f) = triangle.T.tolist()
-    K = stages.stage(
-        f"K_{triangle.name}",
-        sympy.Matrix([[d * f, b * f, b * e - c * d], [0, a * f, a * e], [0, 0, a * d]]),
-        "cofactors of the block, without signs",
-    )
+    K = sympy.Matrix([[d * f, b * f, b * e - c * d], [0, a * f, a * e], [0, 0, a * d]])
+    return stages.stage(f"K_{triangle.name}", K, "cofactors of the block, without signs")
+
+
+def _gram_of_cofactors(stages: Stages, triangle: Triangle) -> sympy.Matrix:
+    """``K K'``, upper triangle."""
+    K = _cofactors(stages, triangle)
     return stages.stage(f"KK_{triangle.name}", _upper(K * K.T), "K K^T")
 
 

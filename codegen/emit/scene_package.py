@@ -153,7 +153,6 @@ def _source(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[
         options=f"{package.kind} {package.name}, real {package.real}",
         specification=package.specification,
         header=f"{package.name}.h",
-        keeps_entries_apart=False,
         functions=[*patterns, *(entry.text for entry in emitted)],
     )
 
